@@ -15,7 +15,11 @@ from macroslip.cli.progress import command_progress
 def bench(
     output: Annotated[
         Path,
-        typer.Option("--output", "-o", help="The folder to write to; what it holds of an earlier run is replaced."),
+        typer.Option(
+            "--output",
+            "-o",
+            help="The folder to write to; what it holds of an earlier run is replaced.",
+        ),
     ] = Path("bench"),
     quick: Annotated[bool, typer.Option("--quick", help="A smaller set, in two minutes.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
@@ -49,14 +53,25 @@ def _rivals(summary: dict[str, Any]) -> None:
         ratio, entries = method["ratio"], method["histories"].values()
         median = ratio["median"]
         extrapolated = sum(entry["extrapolated"] for entry in entries)
-        notes = [f"{len(method['not_reached'])} of {len(entries)} not reached"] if method["not_reached"] else []
+        notes = (
+            [f"{len(method['not_reached'])} of {len(entries)} not reached"]
+            if method["not_reached"]
+            else []
+        )
         notes += [f"{extrapolated} of {len(entries)} extrapolated"] if extrapolated else []
         verdict = "-" if math.isnan(median) else ("yes" if median >= method["target"] else "NO")
         reached = [entry["seconds"] for entry in entries if entry["reached"]]
         time = f"{1e3 * sum(reached) / len(reached):.3g}" if reached else "-"
         between = f"{ratio['min']:.3g} to {ratio['max']:.3g}"
-        rows.append([method["title"], f"{median:.3g} x", between, time, target, verdict, ", ".join(notes)])
-    headings = [("rival", False), ("ahead by, median", True), ("least to most", True), ("mean time [ms]", True)]
+        rows.append(
+            [method["title"], f"{median:.3g} x", between, time, target, verdict, ", ".join(notes)]
+        )
+    headings = [
+        ("rival", False),
+        ("ahead by, median", True),
+        ("least to most", True),
+        ("mean time [ms]", True),
+    ]
     headings += [("target", True), ("reached", False), ("", False)]
     own = [entry["seconds"] for entry in methods[OWN]["histories"].values()]
     title = f"CPU time at the same accuracy, {summary['asked_accuracy']:g} in total energy and mid-coast spin, over "
@@ -73,31 +88,69 @@ def _rivals(summary: dict[str, Any]) -> None:
 def _limits(summary: dict[str, Any]) -> None:
     from macroslip.cli.printing import number, print_table
 
-    targets, evaluation, quadrature = summary["targets"], summary["evaluation"], summary["quadrature"]
+    targets, evaluation, quadrature = (
+        summary["targets"],
+        summary["evaluation"],
+        summary["quadrature"],
+    )
     speed, threads = summary["real_time"], summary["threads"]
     nanoseconds = evaluation["force_evaluation_ns"]
-    factor, share = evaluation["overhead_factor"], f"{evaluation['integration_ns']:.0f} ns per evaluation in all"
+    factor, share = (
+        evaluation["overhead_factor"],
+        f"{evaluation['integration_ns']:.0f} ns per evaluation in all",
+    )
     states = f"gripped {number(evaluation['force_evaluation_gripped_ns'])}, "
     states += f"coasting {number(evaluation['force_evaluation_coasting_ns'])}"
     patch = f"{quadrature['quadrature_ns']:.0f} ns against {quadrature['closed_form_ns']:.0f} ns"
     rows = [
-        _line("traction by 32 nodes over closed form", quadrature["ratio"], targets["quadrature_ratio"], patch),
-        _line("one force evaluation [ns]", nanoseconds, targets["force_evaluation_ns"], states, least=False),
-        _line("total time over evaluations alone", factor, targets["overhead_factor"], share, least=False),
+        _line(
+            "traction by 32 nodes over closed form",
+            quadrature["ratio"],
+            targets["quadrature_ratio"],
+            patch,
+        ),
+        _line(
+            "one force evaluation [ns]",
+            nanoseconds,
+            targets["force_evaluation_ns"],
+            states,
+            least=False,
+        ),
+        _line(
+            "total time over evaluations alone",
+            factor,
+            targets["overhead_factor"],
+            share,
+            least=False,
+        ),
     ]
     for model, one in speed.items():
         prefix = "" if model == "paper" else f"{model}_"
         errors = f"errors up to {one['largest_energy_error']:.1e} (energy), {one['largest_spin_error']:.1e} (spin); "
         name = f"{model} model, simulated over CPU time"
         rows.append(
-            _line(name, one["factor"], targets[f"{prefix}real_time_factor"], f"{errors}median {number(one['median'])}")
+            _line(
+                name,
+                one["factor"],
+                targets[f"{prefix}real_time_factor"],
+                f"{errors}median {number(one['median'])}",
+            )
         )
     slow = speed["physical"]
     note = f"with details of contacts {number(slow['slowest_detailed'])}"
-    rows.append(_line("physical model, slowest history", slow["slowest"], targets["physical_slowest"], note))
+    rows.append(
+        _line("physical model, slowest history", slow["slowest"], targets["physical_slowest"], note)
+    )
     if threads is not None:
         both = f"rollers alone {threads['rollers']:.3g}; the machine itself, by hashing, {threads['hashing']:.3g}"
-        rows.append(_line("two threads over one, simulate()", threads["simulate"], targets["thread_speedup"], both))
+        rows.append(
+            _line(
+                "two threads over one, simulate()",
+                threads["simulate"],
+                targets["thread_speedup"],
+                both,
+            )
+        )
     for kind, growth in summary["linearity"].items():
         rows.append([f"growth with {kind}, exponent", number(growth["exponent"]), "1", "", ""])
     headings = [("", False), ("measured", True), ("target", True), ("reached", False), ("", False)]
@@ -119,7 +172,11 @@ def _mechanisms(summary: dict[str, Any]) -> None:
                 number(unloaded["real_time_factor"]),
             ]
         )
-    headings = [("model", False), ("downwind roller, simulated over CPU time", True), ("force evaluations", True)]
+    headings = [
+        ("model", False),
+        ("downwind roller, simulated over CPU time", True),
+        ("force evaluations", True),
+    ]
     headings += [("time of one [us]", True), ("upwind roller", True)]
     print_table("cost of mechanisms", headings, rows)
 

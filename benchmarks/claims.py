@@ -28,7 +28,9 @@ STEADY = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=SPEED, 
 
 
 #: Raceway speed of a downwind roller without tilt at that speed of the shaft [m/s].
-_MODEL = roller_model(BEARING, OIL, AXIAL_SIGNS["downwind"], tilt=0.0, laws=Laws.physical().but(rolling="none"))
+_MODEL = roller_model(
+    BEARING, OIL, AXIAL_SIGNS["downwind"], tilt=0.0, laws=Laws.physical().but(rolling="none")
+)
 RING = -SPEED * _MODEL.orbit_ratio * _MODEL.outer_radius
 
 
@@ -53,7 +55,9 @@ def exponents() -> None:
     powers_at = {load: power(load) for load in (10e3, 50e3, 100e3)}
     for low, high in itertools.pairwise(powers_at):
         exponent = np.log(powers_at[high] / powers_at[low]) / np.log(high / low)
-        print(f"raceway power from {low / 1e3:.0f} to {high / 1e3:.0f} kN: load to the power {exponent:.1f}")
+        print(
+            f"raceway power from {low / 1e3:.0f} to {high / 1e3:.0f} kN: load to the power {exponent:.1f}"
+        )
 
 
 def compliance() -> None:
@@ -72,10 +76,14 @@ def compliance() -> None:
 
 def _strained_power(shape, side, load: float, ring: float) -> float:
     """Power of a contact by Carter's law over that without strain, each at the slip at which its force vanishes."""
-    across, along = (getattr(side.hertz, f"semi_axis_{way}") * load ** (1.0 / 3.0) for way in ("across", "along"))
+    across, along = (
+        getattr(side.hertz, f"semi_axis_{way}") * load ** (1.0 / 3.0) for way in ("across", "along")
+    )
     place = min(across, shape.half_length) * np.linspace(-1.0, 1.0, 40_001)
     root = np.sqrt(np.maximum(1.0 - (place / across) ** 2, 0.0))
-    base = ring * (shape.curvature_ratio * place**2 / (2.0 * shape.contour_radius) - shape.spin_ratio * place)
+    base = ring * (
+        shape.curvature_ratio * place**2 / (2.0 * shape.contour_radius) - shape.spin_ratio * place
+    )
     saturating = OIL.limiting_shear * abs(ring) * along * root / side.rolling_radius
 
     def strip(slip):
@@ -91,7 +99,13 @@ def asperities() -> None:
     """Share of the downwind row's sliding energy that asperities take."""
     for celsius, roughness in ((35.0, 0.3e-6), (35.0, 0.5e-6), (50.0, 0.3e-6), (50.0, 0.5e-6)):
         bearing = BEARING.replace(composite_roughness=roughness)
-        case = Case(loads=STEADY, rollers=[0], laws=Laws.physical(), bearing=bearing, temperature=celsius + 273.15)
+        case = Case(
+            loads=STEADY,
+            rollers=[0],
+            laws=Laws.physical(),
+            bearing=bearing,
+            temperature=celsius + 273.15,
+        )
         down = simulate(case).sel(row="downwind")
         raceways = down.energy.sel(interface=["inner", "outer"]).sum()
         share = float(down.asperity_energy.sum() / raceways)
@@ -104,7 +118,9 @@ def drag() -> None:
     """Drag of the oil on a roller, per orbit."""
     result = simulate(Case(loads=STEADY, laws=Laws.paper(), rollers=[0]))
     orbit = float((result.orbit_end - result.orbit_start)[0])
-    print(f"drag: {result.attrs['drag_power'] * orbit / (2 * BEARING.rollers_per_row):.2f} J an orbit a roller")
+    print(
+        f"drag: {result.attrs['drag_power'] * orbit / (2 * BEARING.rollers_per_row):.2f} J an orbit a roller"
+    )
 
 
 def rows() -> None:
@@ -173,7 +189,9 @@ def temperature() -> None:
             whole.append(float(down.sum()))
             raceways.append(float(down.sel(interface=["inner", "outer"]).sum()))
         print(
-            f"12B, {name}: " + ", ".join(f"{one:.0f}" for one in whole) + " J an orbit at 20, 35 and 50 °C, of which "
+            f"12B, {name}: "
+            + ", ".join(f"{one:.0f}" for one in whole)
+            + " J an orbit at 20, 35 and 50 °C, of which "
             "raceways " + ", ".join(f"{one:.0f}" for one in raceways),
             flush=True,
         )
@@ -187,15 +205,32 @@ def rheology() -> None:
         energies = []
         for law in ("eyring", "limiting-shear"):
             laws = Laws.physical().but(rheology=law)
-            result = simulate(Case(loads=STEADY, rollers=[0], laws=laws, lubricant=oil, temperature=celsius + 273.15))
-            energies.append(float(result.energy.sel(row="downwind", interface=["inner", "outer"]).sum()))
-        print(f"Eyring, {stress / 1e6:g} MPa, over limiting shear at {celsius:.0f} °C: {energies[0] / energies[1]:.2f}")
+            result = simulate(
+                Case(
+                    loads=STEADY,
+                    rollers=[0],
+                    laws=laws,
+                    lubricant=oil,
+                    temperature=celsius + 273.15,
+                )
+            )
+            energies.append(
+                float(result.energy.sel(row="downwind", interface=["inner", "outer"]).sum())
+            )
+        print(
+            f"Eyring, {stress / 1e6:g} MPa, over limiting shear at {celsius:.0f} °C: {energies[0] / energies[1]:.2f}"
+        )
 
 
-CLAIMS = {one.__name__: one for one in (exponents, compliance, asperities, drag, rows, thrust, temperature, rheology)}
+CLAIMS = {
+    one.__name__: one
+    for one in (exponents, compliance, asperities, drag, rows, thrust, temperature, rheology)
+}
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("which", nargs="*", metavar="CLAIM", help=", ".join(CLAIMS))
     chosen = parser.parse_args().which or list(CLAIMS)
     unknown = [name for name in chosen if name not in CLAIMS]

@@ -13,7 +13,16 @@ from benchmarks import own
 from benchmarks.histories import History
 from benchmarks.outcome import ASKED, Measurement, Reference, Setting, cheapest
 from benchmarks.quiet import silence
-from benchmarks.rivals import CVODE, CVODE_COMPILED, EULER, EULER_TOLERANCES, OWN, OWN_TITLE, RIVALS, own_settings
+from benchmarks.rivals import (
+    CVODE,
+    CVODE_COMPILED,
+    EULER,
+    EULER_TOLERANCES,
+    OWN,
+    OWN_TITLE,
+    RIVALS,
+    own_settings,
+)
 from benchmarks.scan import in_words, measure, scan, timed_again
 
 Report = Callable[[str, int, int], None]
@@ -48,7 +57,10 @@ def compare(
         Called as report(label, done, total).
     """
     report(OWN_TITLE, 0, len(histories))
-    ours = [_own_entry(history, reference) for history, reference in zip(histories, references, strict=True)]
+    ours = [
+        _own_entry(history, reference)
+        for history, reference in zip(histories, references, strict=True)
+    ]
     results: dict[str, list[Entry] | None] = {OWN: ours}
     for rival in RIVALS:
         solve = rival.load()
@@ -63,12 +75,18 @@ def compare(
             settings = rival.settings(history.edges.size > 0, quick)
             if rival.key == CVODE and results[CVODE_COMPILED]:
                 # The same library takes the same steps: what serves it best is known from its compiled callbacks.
-                settings = itertools.chain(_accurate_settings(results[CVODE_COMPILED][number]), settings)
+                settings = itertools.chain(
+                    _accurate_settings(results[CVODE_COMPILED][number]), settings
+                )
             bound = functools.partial(solve, history, reference)
             budget = (0.5 if quick else 1.0) * rival.patience * (history.end - history.start)
             with silence():
                 outcomes = scan(bound, settings, reference, budget=budget, prune=rival.prune)
-                entry = _euler_entry(bound, outcomes, reference, budget) if rival.key == EULER else _entry(outcomes)
+                entry = (
+                    _euler_entry(bound, outcomes, reference, budget)
+                    if rival.key == EULER
+                    else _entry(outcomes)
+                )
             comparable = entry.reached and ours[number].reached
             ratio = entry.best.seconds / ours[number].best.seconds if comparable else math.nan
             results[rival.key].append(entry._replace(ratio=ratio))
@@ -83,18 +101,24 @@ def _entry(outcomes: list[Measurement]) -> Entry:
 def _own_entry(history: History, reference: Reference) -> Entry:
     solve = functools.partial(own.solve, history)
     own.solve(history, **next(own_settings()))
-    outcomes = [timed_again(solve, measure(solve, setting, reference)) for setting in own_settings()]
+    outcomes = [
+        timed_again(solve, measure(solve, setting, reference)) for setting in own_settings()
+    ]
     best, reached = cheapest(outcomes)
     return Entry(best, reached, outcomes, False, 1.0)
 
 
 def _accurate_settings(entry: Entry) -> list[Setting]:
     """Settings that were accurate enough, cheap ones first."""
-    good = sorted((one for one in entry.outcomes if one.error <= ASKED), key=lambda one: one.seconds)
+    good = sorted(
+        (one for one in entry.outcomes if one.error <= ASKED), key=lambda one: one.seconds
+    )
     return [one.setting for one in good]
 
 
-def _euler_entry(solve: Callable, outcomes: list[Measurement], reference: Reference, budget: float) -> Entry:
+def _euler_entry(
+    solve: Callable, outcomes: list[Measurement], reference: Reference, budget: float
+) -> Entry:
     """Go on from the steps tried: an error of first order tells which step would have been just short enough."""
     best, reached = outcomes[0], outcomes[0].error <= ASKED
     factor = min(0.9 * ASKED / best.error, 3.0)
@@ -103,7 +127,9 @@ def _euler_entry(solve: Callable, outcomes: list[Measurement], reference: Refere
         refined = scan(solve, [setting], reference, budget=budget, prune=False)
         best, reached = cheapest([best, *refined])
         return Entry(best, reached, [*outcomes, *refined], False, math.nan)
-    guess = Measurement(setting, 0.9 * ASKED, 0.9 * ASKED, best.seconds / factor, best.evaluations / factor)
+    guess = Measurement(
+        setting, 0.9 * ASKED, 0.9 * ASKED, best.seconds / factor, best.evaluations / factor
+    )
     return Entry(guess, True, outcomes, True, math.nan)
 
 
@@ -123,7 +149,9 @@ def spread(values: list[float]) -> dict[str, float]:
 
 def as_plain(histories: list[History], results: dict[str, list[Entry] | None]) -> dict[str, Any]:
     """The results as plain data: per method its target and ratios, per history the setting, errors and times."""
-    titles = {OWN: (OWN_TITLE, math.nan)} | {rival.key: (rival.title, rival.target) for rival in RIVALS}
+    titles = {OWN: (OWN_TITLE, math.nan)} | {
+        rival.key: (rival.title, rival.target) for rival in RIVALS
+    }
     found: dict[str, Any] = {}
     for key, entries in results.items():
         title, target = titles[key]
@@ -132,10 +160,13 @@ def as_plain(histories: list[History], results: dict[str, list[Entry] | None]) -
             continue
         found[key]["ratio"] = spread([entry.ratio for entry in entries])
         found[key]["not_reached"] = [
-            history.name for history, entry in zip(histories, entries, strict=True) if not entry.reached
+            history.name
+            for history, entry in zip(histories, entries, strict=True)
+            if not entry.reached
         ]
         found[key]["histories"] = {
-            history.name: _entry_as_plain(entry) for history, entry in zip(histories, entries, strict=True)
+            history.name: _entry_as_plain(entry)
+            for history, entry in zip(histories, entries, strict=True)
         }
     return found
 
@@ -143,6 +174,15 @@ def as_plain(histories: list[History], results: dict[str, list[Entry] | None]) -
 def _entry_as_plain(entry: Entry) -> dict[str, Any]:
     best = entry.best._asdict() | {"setting": in_words(entry.best.setting)}
     # Columns, because there may be hundreds of runs.
-    runs = {name: [getattr(one, name) for one in entry.outcomes] for name in Measurement._fields if name != "setting"}
+    runs = {
+        name: [getattr(one, name) for one in entry.outcomes]
+        for name in Measurement._fields
+        if name != "setting"
+    }
     runs = {"setting": [in_words(one.setting) for one in entry.outcomes]} | runs
-    return best | {"reached": entry.reached, "extrapolated": entry.extrapolated, "ratio": entry.ratio, "runs": runs}
+    return best | {
+        "reached": entry.reached,
+        "extrapolated": entry.extrapolated,
+        "ratio": entry.ratio,
+        "runs": runs,
+    }

@@ -13,7 +13,12 @@ _MOST_STEPS, _MOST_RESTARTS = 10_000_000, 10_000
 
 
 def solve(
-    history: History, reference: Reference, stops: str, rtol: float, atol: float, longest_step: float = 0.0
+    history: History,
+    reference: Reference,
+    stops: str,
+    rtol: float,
+    atol: float,
+    longest_step: float = 0.0,
 ) -> Solution:
     """The history by CVODE's BDF with its dense linear solver.
 

@@ -27,9 +27,18 @@ def _library() -> ctypes.CDLL | None:
     """All of CVODE's functions that are used, as attributes of one object; None if the wheel does not hold them."""
     try:
         importlib.import_module("sksundae.cvode")  # loads the libraries
-        files = [file for file in importlib.metadata.files("scikit-sundae") or [] if "libsundials" in file.name]
+        files = [
+            file
+            for file in importlib.metadata.files("scikit-sundae") or []
+            if "libsundials" in file.name
+        ]
         wanted = ("core", "nvecserial", "sunmatrixdense", "sunlinsoldense", "cvode")
-        found = {part: ctypes.CDLL(str(file.locate())) for part in wanted for file in files if f"_{part}" in file.name}
+        found = {
+            part: ctypes.CDLL(str(file.locate()))
+            for part in wanted
+            for file in files
+            if f"_{part}" in file.name
+        }
     except (ImportError, OSError):
         return None
     if set(found) != set(wanted):
@@ -99,7 +108,12 @@ def _callbacks(length: int) -> tuple[int, int, tuple]:
 
 
 def solve(
-    history: History, reference: Reference, stops: str, rtol: float, atol: float, longest_step: float = 0.0
+    history: History,
+    reference: Reference,
+    stops: str,
+    rtol: float,
+    atol: float,
+    longest_step: float = 0.0,
 ) -> Solution:
     """The history by CVODE's BDF; parameters are those of `benchmarks.cvode.solve`."""
     library = _library()

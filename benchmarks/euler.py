@@ -32,7 +32,9 @@ def solve(history: History, reference: Reference, step: float, tolerance: float)
     # Asked for a little early, a step's state is found whatever rounding does to its time.
     times = history.start + step * (np.stack([lower, lower + 1.0], axis=1).ravel() - 0.01)
     times, back = np.unique(times, return_inverse=True)
-    rule = fixed_step(history.roller, history.motion, step=step, end=history.end, tolerance=tolerance)
+    rule = fixed_step(
+        history.roller, history.motion, step=step, end=history.end, tolerance=tolerance
+    )
     rule["largest_slip"] = np.inf
     outcome, measures = own.run(history, Problem(history.roller, history.motion, rule), times)
     around = measures.traces()["slip"][back].reshape(-1, 2)

@@ -38,7 +38,9 @@ def _stations_again(body, tables, motion, start_angle, times, found, rounds):
     for r in range(rounds):
         for k in range(times.size):
             interval = interval_of(motion, times[k], interval)
-            station(body, tables, start_angle + 1e-9 * r, instant(motion, interval, times[k]), found[k])
+            station(
+                body, tables, start_angle + 1e-9 * r, instant(motion, interval, times[k]), found[k]
+            )
 
 
 @jit
@@ -55,7 +57,9 @@ def _closed_form_again(exponents, heatings, rounds):
     total = 0.0
     for r in range(rounds):
         for k in range(exponents.size):
-            value, by_slip, by_pressure = patch_integral(exponents[k], heatings[k] * (1.0 + 1e-9 * r))
+            value, by_slip, by_pressure = patch_integral(
+                exponents[k], heatings[k] * (1.0 + 1e-9 * r)
+            )
             total += value + by_slip + by_pressure
     return total
 
@@ -65,7 +69,9 @@ def _quadrature_again(exponents, heatings, rounds):
     total = 0.0
     for r in range(rounds):
         for k in range(exponents.size):
-            value, by_slip, by_pressure = patch_by_quadrature(exponents[k], heatings[k] * (1.0 + 1e-9 * r))
+            value, by_slip, by_pressure = patch_by_quadrature(
+                exponents[k], heatings[k] * (1.0 + 1e-9 * r)
+            )
             total += value + by_slip + by_pressure
     return total
 
@@ -89,7 +95,11 @@ def _nanoseconds(function, *arguments, count: int) -> float:
     if count == 0:
         return float("nan")
     function(*arguments, 1)
-    return 1e9 / (count * _ROUNDS) * min(timed(lambda: function(*arguments, _ROUNDS))[1] for _ in range(_REPEATS))
+    return (
+        1e9
+        / (count * _ROUNDS)
+        * min(timed(lambda: function(*arguments, _ROUNDS))[1] for _ in range(_REPEATS))
+    )
 
 
 def evaluation_times(histories: list[History], tolerance: float) -> dict[str, float]:
@@ -117,11 +127,15 @@ def evaluation_times(histories: list[History], tolerance: float) -> dict[str, fl
         free = states.only(~pressed & (np.abs(states.slips) > _COASTING * speed))
         roller, room = _arguments(history), np.zeros(_STATES, FORCES)
         for found, chosen in ((alone, states), (gripped, held), (coasting, free)):
-            found.append(_nanoseconds(_forces_again, *roller, *chosen, room, count=chosen.slips.size))
+            found.append(
+                _nanoseconds(_forces_again, *roller, *chosen, room, count=chosen.slips.size)
+            )
         times = np.linspace(history.start, history.end, _STATES)
         place = (*roller, history.motion, history.start_angle, times, states.stations.copy())
         stations.append(_nanoseconds(_stations_again, *place, count=times.size))
-        runs = [timed(lambda: own.integrate(history, tolerance, np.empty(0))) for _ in range(_REPEATS)]  # noqa: B023
+        runs = [
+            timed(lambda: own.integrate(history, tolerance, np.empty(0))) for _ in range(_REPEATS)
+        ]
         total.append(min(seconds for _, seconds in runs))
         weights.append(float(runs[0][0][0].evaluations))
     spent = 1e9 * sum(total)
@@ -170,7 +184,10 @@ def quadrature_times(histories: list[History], tolerance: float) -> dict[str, fl
     points = np.concatenate(exponents), np.concatenate(heatings)
     closed = _nanoseconds(_closed_form_again, *points, count=points[0].size)
     summed = _nanoseconds(_quadrature_again, *points, count=points[0].size)
-    worst = max(abs(patch_by_quadrature(p, q)[0] / patch_integral(p, q)[0] - 1.0) for p, q in zip(*points, strict=True))
+    worst = max(
+        abs(patch_by_quadrature(p, q)[0] / patch_integral(p, q)[0] - 1.0)
+        for p, q in zip(*points, strict=True)
+    )
     return {
         "closed_form_ns": closed,
         "quadrature_ns": summed,

@@ -17,7 +17,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant, main_bearing_load, simulate
+from macroslip import (
+    Bearing,
+    BearingLoads,
+    Case,
+    HubLoads,
+    Laws,
+    Lubricant,
+    main_bearing_load,
+    simulate,
+)
 from macroslip.torque import palmgren_torque, skf_torque
 
 BEARING = Bearing.read("skf-240-600-bc")
@@ -52,8 +61,12 @@ def torque(case: Case, loads: BearingLoads) -> Torque:
     first, last = result.attrs["window_start"], result.attrs["window_end"]
     inside = (loads.time >= first) & (loads.time <= last)
     force, speed = loads.force[inside], loads.shaft_speed[inside]
-    scale = BEARING.rollers_per_row / result.sizes["roller"] / (last - first) / float(np.mean(speed))
-    energy, rolling = (result[name].sum(("row", "roller")) * scale for name in ("energy", "rolling_energy"))
+    scale = (
+        BEARING.rollers_per_row / result.sizes["roller"] / (last - first) / float(np.mean(speed))
+    )
+    energy, rolling = (
+        result[name].sum(("row", "roller")) * scale for name in ("energy", "rolling_energy")
+    )
     raceways = ["inner", "outer"]
     given = BEARING, case.oil, np.hypot(force[:, 0], force[:, 1]), force[:, 2], speed
     skf, palmgren = skf_torque(*given), palmgren_torque(*given)
@@ -62,7 +75,10 @@ def torque(case: Case, loads: BearingLoads) -> Torque:
         float(rolling.sel(interface=raceways).sum()),
         float(energy.sel(interface="cage") + rolling.sel(interface="cage")),
         result.attrs["drag_power"] / float(np.mean(speed)),
-        *(float(np.mean(part)) for part in (skf.sliding, skf.rolling, skf.drag, skf.total, palmgren.total)),
+        *(
+            float(np.mean(part))
+            for part in (skf.sliding, skf.rolling, skf.drag, skf.total, palmgren.total)
+        ),
     )
 
 
@@ -70,7 +86,9 @@ def steady(radial=RADIAL, thrust=THRUST, speed=SPEED, temperature=TEMPERATURE, *
     """Torque under a steady load over an orbit."""
     orbit = 2.0 * np.pi / (0.455 * speed)
     loads = BearingLoads.constant([0.0, -radial, thrust], speed, 2.2 * orbit)
-    case = Case(loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**laws), temperature=temperature)
+    case = Case(
+        loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**laws), temperature=temperature
+    )
     return torque(case, loads)
 
 
@@ -85,15 +103,24 @@ SWEEPS = {
 
 def curves(output: str | None) -> None:
     """Print and draw the four curves."""
-    found = {key: [steady(**{key: float(value)}) for value in values] for key, (_, values, _, _) in SWEEPS.items()}
-    print("| | | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | M_drag | all | Palmgren |")
+    found = {
+        key: [steady(**{key: float(value)}) for value in values]
+        for key, (_, values, _, _) in SWEEPS.items()
+    }
+    print(
+        "| | | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | M_drag | all | Palmgren |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for key, (name, values, unit, factor) in SWEEPS.items():
         for value, one in zip(values, found[key], strict=True):
             shown = value - 273.15 if unit == "degC" else value * factor
             own = (one.sliding, one.rolling, one.cage, one.drag, one.total)
             others = (one.skf_sliding, one.skf_rolling, one.skf_drag, one.skf, one.palmgren)
-            print(f"| {name} | {shown:g} {unit} | " + " | ".join(f"{part:.0f}" for part in (*own, *others)) + " |")
+            print(
+                f"| {name} | {shown:g} {unit} | "
+                + " | ".join(f"{part:.0f}" for part in (*own, *others))
+                + " |"
+            )
     if output:
         _draw(found, output)
 
@@ -113,9 +140,13 @@ def _draw(found: dict[str, list[Torque]], output: str) -> None:
         )  # fmt: skip
         for part, colour, style in lines:
             label = (
-                part.replace("skf_sliding", "SKF M_sl").replace("skf_rolling", "SKF M_rr").replace("skf", "SKF, all")
+                part.replace("skf_sliding", "SKF M_sl")
+                .replace("skf_rolling", "SKF M_rr")
+                .replace("skf", "SKF, all")
             )
-            axis.plot(place, [getattr(one, part) for one in found[key]], style, color=colour, label=label)
+            axis.plot(
+                place, [getattr(one, part) for one in found[key]], style, color=colour, label=label
+            )
         axis.set_xlabel(f"{name} [{unit.replace('degC', '°C')}]")
     axes[0].set_ylabel("friction torque [N m]")
     axes[0].legend(fontsize="x-small")
@@ -139,7 +170,9 @@ def over_wind(oil_supply: str | float) -> Iterator[OverWind]:
             case = Case(loads=hub, rollers=ROLLERS, laws=Laws.physical(), oil_supply=oil_supply)
             loads = main_bearing_load(hub, case.drivetrain)
             one = torque(case, loads)
-            yield OverWind(f"{speed}{turbulence}", speed, one, one.total * float(np.mean(loads.shaft_speed)))
+            yield OverWind(
+                f"{speed}{turbulence}", speed, one, one.total * float(np.mean(loads.shaft_speed))
+            )
 
 
 def print_ratios(every: list[OverWind]) -> None:
@@ -153,14 +186,21 @@ def print_ratios(every: list[OverWind]) -> None:
         print(f"{name}: {ratio.mean():.2f}, {ratio.min():.2f} to {ratio.max():.2f}")
     speeds = sorted({one.speed for one in every})
     mean = [float(np.mean([one.power for one in every if one.speed == speed])) for speed in speeds]
-    print("power [W] over wind speed: " + ", ".join(f"{v} m/s {p:.0f}" for v, p in zip(speeds, mean, strict=True)))
+    print(
+        "power [W] over wind speed: "
+        + ", ".join(f"{v} m/s {p:.0f}" for v, p in zip(speeds, mean, strict=True))
+    )
     at = {speed: float(np.interp(speed, speeds, mean)) for speed in (12, 13, 15)}
-    print(f"12 over 15 m/s: {at[12] / at[15]:.2f}; 12 over 13 m/s: {at[12] / at[13]:.2f}", flush=True)
+    print(
+        f"12 over 15 m/s: {at[12] / at[15]:.2f}; 12 over 13 m/s: {at[12] / at[13]:.2f}", flush=True
+    )
 
 
 def wind() -> None:
     """Print the 21 cases, and means over turbulence classes by wind speed."""
-    print("| case | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | all | Palmgren | power [W] |")
+    print(
+        "| case | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | all | Palmgren | power [W] |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     every = []
     for found in over_wind("skf"):
@@ -168,7 +208,10 @@ def wind() -> None:
         one = found.torque
         parts = (one.sliding, one.rolling, one.cage, one.drag, one.total)
         others = (one.skf_sliding, one.skf_rolling, one.skf, one.palmgren, found.power)
-        print(f"| {found.name} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |", flush=True)
+        print(
+            f"| {found.name} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |",
+            flush=True,
+        )
     print_ratios(every)
 
 
@@ -185,7 +228,10 @@ def compare_inlets() -> None:
     orbit = 2.0 * np.pi / (0.455 * SPEED)
     loads = BearingLoads.constant([0.0, -RADIAL, THRUST], SPEED, 2.2 * orbit)
     for name, lubricant, supply, changes in (
-        *((f"oil supply {supply}", oil, supply, {}) for supply in (0.3, 0.5, 0.7, 0.9, "skf", "flooded")),
+        *(
+            (f"oil supply {supply}", oil, supply, {})
+            for supply in (0.3, 0.5, 0.7, 0.9, "skf", "flooded")
+        ),
         *(
             (f"oil supply {supply}, {celsius} °C", oil.at(f"{celsius} degC"), supply, {})
             for supply in (0.5, 0.7, "skf", "flooded")
@@ -196,7 +242,10 @@ def compare_inlets() -> None:
         ("`skf`, limiting shear", oil, "skf", {"rheology": "limiting-shear"}),
     ):
         laws = Laws.physical().but(**changes)
-        one = torque(Case(loads=loads, rollers=ROLLERS, laws=laws, lubricant=lubricant, oil_supply=supply), loads)
+        one = torque(
+            Case(loads=loads, rollers=ROLLERS, laws=laws, lubricant=lubricant, oil_supply=supply),
+            loads,
+        )
         print(
             f"| {name} | {one.sliding:.0f} | {one.rolling:.0f} | {one.cage:.0f} | {one.total:.0f} | "
             f"{one.rolling / one.skf_rolling:.2f} | {one.total / one.skf:.2f} |",
@@ -205,7 +254,9 @@ def compare_inlets() -> None:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("what", choices=("curves", "wind", "inlets", "supplies"))
     parser.add_argument("-o", "--output", help="picture of the curves")
     given = parser.parse_args()

@@ -57,12 +57,18 @@ def stations(kappa: float, reach: float, cells: int) -> Array:
     """Faces of the cells over Z from 0 to 1, finer in the middle where κ is large and towards the roller's end."""
     fine = np.linspace(0.0, 1.0, 20001) ** 2
     fine = np.unique(np.concatenate([fine, 1.0 - fine]))
-    density = 1.0 + 1.0 / np.sqrt(fine**2 + 1.0 / (1.0 + kappa)) + 0.5 / (1.0 - fine + 0.02 * min(1.0, reach) + 1e-4)
+    density = (
+        1.0
+        + 1.0 / np.sqrt(fine**2 + 1.0 / (1.0 + kappa))
+        + 0.5 / (1.0 - fine + 0.02 * min(1.0, reach) + 1e-4)
+    )
     share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(fine))])
     return np.interp(np.linspace(0.0, share[-1], cells + 1), share, fine)
 
 
-def solve_gap(kappa: float, aspect: float, cells: tuple[int, int] = (160, 40), far: float = 1e4) -> GapSolution:
+def solve_gap(
+    kappa: float, aspect: float, cells: tuple[int, int] = (160, 40), far: float = 1e4
+) -> GapSolution:
     """The film at κ ≥ 0 and λ = `aspect` > 0.
 
     Parameters
@@ -98,7 +104,9 @@ def solve_gap(kappa: float, aspect: float, cells: tuple[int, int] = (160, 40), f
     beside[:, -1] = 0.0
     ahead = along[1:-1].ravel()
     matrix = diags(
-        [centre, -beside.ravel()[:-1], -beside.ravel()[:-1], -ahead, -ahead], [0, 1, -1, n, -n], format="csr"
+        [centre, -beside.ravel()[:-1], -beside.ravel()[:-1], -ahead, -ahead],
+        [0, 1, -1, n, -n],
+        format="csr",
     )
     # ∫ H_X over a cell is exact between its faces.
     source = ((faces[1:] ** 2 - faces[:-1] ** 2)[:, None] * depth[None, :]).ravel()

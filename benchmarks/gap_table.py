@@ -48,7 +48,9 @@ def entry(place: tuple[float, float]) -> tuple[float, ...]:
         return log_curvature, root_aspect, 1.0, 1.0, 1.0, 0.0
     kappa = math.expm1(log_curvature)
     aspect = root_aspect**2 / math.sqrt(1.0 + kappa)
-    coarse, fine = (np.array(solve_gap(kappa, aspect, cells)[:3]) / slices(kappa) for cells in (COARSE, FINE))
+    coarse, fine = (
+        np.array(solve_gap(kappa, aspect, cells)[:3]) / slices(kappa) for cells in (COARSE, FINE)
+    )
     change = (fine - coarse) / 3.0
     return log_curvature, root_aspect, *(fine + change), float(np.max(np.abs(change / fine)))
 
@@ -61,7 +63,9 @@ def main(workers: int) -> None:
     with TABLE.open("w", encoding="utf-8") as file:
         file.write("log_curvature,root_aspect,load,rolling,shear,error\n")
         file.writelines(",".join(f"{value:.7g}" for value in line) + "\n" for line in lines)
-    print(f"{TABLE}: {len(lines)} solutions, largest change by extrapolation {max(line[-1] for line in lines):.2e}")
+    print(
+        f"{TABLE}: {len(lines)} solutions, largest change by extrapolation {max(line[-1] for line in lines):.2e}"
+    )
 
 
 if __name__ == "__main__":

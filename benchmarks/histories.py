@@ -80,11 +80,19 @@ def long_histories(*, quick: bool, laws: Laws = Laws.paper()) -> list[History]:
     """All 21 cases over their 600 s, one roller of each row; in the quick run the one case of the comparison."""
     names = bundled_cases()
     chosen = [(number, name) for number, name in enumerate(names) if not quick or name in QUICK[0]]
-    return [history for number, name in chosen for history in histories_of(name, None, None, [7 * number % 28], laws)]
+    return [
+        history
+        for number, name in chosen
+        for history in histories_of(name, None, None, [7 * number % 28], laws)
+    ]
 
 
 def histories_of(
-    name: str, start: float | None, end: float | None, rollers: Sequence[int], laws: Laws = Laws.paper()
+    name: str,
+    start: float | None,
+    end: float | None,
+    rollers: Sequence[int],
+    laws: Laws = Laws.paper(),
 ) -> list[History]:
     """Some rollers of each row under part of a bundled case.
 
@@ -129,7 +137,9 @@ def histories_of(
             edges = load_edges(roller, motion, angle)
             marks = _coast_middles(roller, motion, angle, edges)
             title = f"{name} {row}, roller {number}, {length:g} s"
-            found.append(History(title, ready.models[row], roller, motion, angle, limits, edges, marks))
+            found.append(
+                History(title, ready.models[row], roller, motion, angle, limits, edges, marks)
+            )
     return found
 
 
@@ -154,7 +164,9 @@ def load_edges(roller: Roller, motion: Motion, start_angle: float) -> np.ndarray
     return np.array(found)
 
 
-def _coast_middles(roller: Roller, motion: Motion, start_angle: float, edges: np.ndarray) -> np.ndarray:
+def _coast_middles(
+    roller: Roller, motion: Motion, start_angle: float, edges: np.ndarray
+) -> np.ndarray:
     bounds = np.concatenate([[motion.time[0]], edges, [motion.time[-1]]])
     found = []
     for low, high in itertools.pairwise(bounds):

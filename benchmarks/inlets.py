@@ -32,22 +32,36 @@ def idle() -> None:
     for name, case in cases.items():
         result = simulate(case)
         spin, energy = result.min_spin_ratio.values, result.energy.sum("interface")
-        print(f"{name}: spin {spin[0].min():.3f} {spin[1].min():.3f}, energy {energy[1].mean():.3g} J", flush=True)
+        print(
+            f"{name}: spin {spin[0].min():.3f} {spin[1].min():.3f}, energy {energy[1].mean():.3g} J",
+            flush=True,
+        )
 
 
 def main() -> None:
     """Print the table."""
     loads = HubLoads.bundled("14B")
-    print("oil_supply, degC: replenishment, gap [um], S, film, rolling; idle: film [um] of [um], resistance")
+    print(
+        "oil_supply, degC: replenishment, gap [um], S, film, rolling; idle: film [um] of [um], resistance"
+    )
     for supply in ("skf", 0.9, 0.7, 0.5, 0.3):
         for celsius in (10, 20, 35, 50, 65):
-            case = Case(loads=loads, laws=Laws.physical(), oil_supply=supply, temperature=273.15 + celsius)
-            flooded = Case(loads=loads, laws=Laws.physical(), oil_supply="flooded", temperature=273.15 + celsius)
+            case = Case(
+                loads=loads, laws=Laws.physical(), oil_supply=supply, temperature=273.15 + celsius
+            )
+            flooded = Case(
+                loads=loads,
+                laws=Laws.physical(),
+                oil_supply="flooded",
+                temperature=273.15 + celsius,
+            )
             oil, speed = case.oil, float(abs(loads.shaft_speed).mean())
             here, full = contacts(case).inner, contacts(flooded).inner
             film, height = here.film_thickness(*LOADED), full.film_thickness(*LOADED)
             rolling, most = (light_contact(one.rolling, *LOADED)[1] for one in (here, full))
-            (_, held, thin), (_, flood, thick) = (light_contact(one.rolling, *IDLE) for one in (here, full))
+            (_, held, thin), (_, flood, thick) = (
+                light_contact(one.rolling, *IDLE) for one in (here, full)
+            )
             bore, outside = case.bearing.bore_diameter, case.bearing.outside_diameter
             filled = replenishment(oil.viscosity / oil.density, speed, bore, outside)
             print(

@@ -37,7 +37,9 @@ def study(count: int) -> Study:
     """A study of at least `count` runs."""
     tilts = [round(2.0 + 1e-5 * number, 5) for number in range(-(-count // len(_LOADS)))]
     grid = {"drivetrain.tilt": {"values": tilts, "unit": "deg"}}
-    return study_of({"case": {"rollers": [0]}, "loads": {"bundled": _LOADS}, "variations": {"grid": grid}})
+    return study_of(
+        {"case": {"rollers": [0]}, "loads": {"bundled": _LOADS}, "variations": {"grid": grid}}
+    )
 
 
 def example() -> Any:
@@ -47,8 +49,14 @@ def example() -> Any:
     about = {"units": "1", "long_name": "an example"}
     dims = {"energy": ("row", "roller", "interface"), "status": ("row", "roller")}
     sizes = {"row": 2, "roller": 1, "interface": 3}
-    values = {name: (some, np.ones([sizes[dim] for dim in some]), about) for name, some in dims.items()}
-    coordinates = {"row": list(ROWS), "roller": ("roller", [0], about), "orbit": ("orbit", np.arange(2), about)}
+    values = {
+        name: (some, np.ones([sizes[dim] for dim in some]), about) for name, some in dims.items()
+    }
+    coordinates = {
+        "row": list(ROWS),
+        "roller": ("roller", [0], about),
+        "orbit": ("orbit", np.arange(2), about),
+    }
     return xr.Dataset(values, coordinates | {"interface": ["inner", "outer", "cage"]})
 
 
@@ -72,7 +80,9 @@ def write_study(directory: Path, work: Study) -> None:
                 for run in batch
             )  # fmt: skip
             key = hashlib.sha256(batch[-1].name.encode()).hexdigest()
-    write_durably(case_path(directory, key), content)  # the reader opens the last one of each layout
+    write_durably(
+        case_path(directory, key), content
+    )  # the reader opens the last one of each layout
     write_summary(directory, {name: units for name, (units, _) in work.labels.items()})
 
 
@@ -90,7 +100,9 @@ def aggregate_it(directory: Path) -> None:
     from macroslip.study.reader import open_study
     from macroslip.study.weights import Weibull
 
-    found = tables(open_study(directory), Weibull(9.5, 2.0), years=20.0, field="wind_speed", width=2.0, by=())
+    found = tables(
+        open_study(directory), Weibull(9.5, 2.0), years=20.0, field="wind_speed", width=2.0, by=()
+    )
     write_tables(found, directory.parent / "tables", "parquet")
 
 
@@ -122,9 +134,19 @@ def main(arguments: list[str] | None = None) -> None:
         work, start = study(given.cases), time.perf_counter()
         write_study(directory, work)
         size = sum(path.stat().st_size for path in directory.rglob("*") if path.is_file())
-        print(f"{len(work)} cases written in {time.perf_counter() - start:.1f} s, {size / 1e6:.0f} MB")
+        print(
+            f"{len(work)} cases written in {time.perf_counter() - start:.1f} s, {size / 1e6:.0f} MB"
+        )
         for step in STEPS:
-            command = [sys.executable, "-m", "benchmarks.large_study", "--step", step, "--directory", str(directory)]
+            command = [
+                sys.executable,
+                "-m",
+                "benchmarks.large_study",
+                "--step",
+                step,
+                "--directory",
+                str(directory),
+            ]
             print(
                 f"{step}: {subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()}",
                 flush=True,

@@ -149,7 +149,9 @@ def solve_line(
     else:
         p = np.interp(x, start.place, start.pressure)
         p *= 0.5 * math.pi / (weight @ p)
-        offset = float(np.min(start.gap + deformation(start.place) @ start.pressure - start.place**2))
+        offset = float(
+            np.min(start.gap + deformation(start.place) @ start.pressure - start.place**2)
+        )
 
     def evaluate(p, offset):
         gap = offset + x * x - kernel @ p
@@ -302,8 +304,12 @@ def main() -> None:
     doubled = 2.0 * oil.viscosity * speed / (contact.modulus * contact.rolling_radius)
     material = oil.pressure_viscosity * contact.modulus * doubled**0.25
     exponent = oil.pressure_viscosity * 1.962e8 / (math.log(oil.viscosity) + 9.67)
-    print(f"middle slice of the inner raceway contact, L = {material:.2f}; N_F of solutions, and laws over them")
-    print("    Q [N]       M   Barus  inlet  Roelands, compressible | whole-film  inlet/inlet  inlet/whole")
+    print(
+        f"middle slice of the inner raceway contact, L = {material:.2f}; N_F of solutions, and laws over them"
+    )
+    print(
+        "    Q [N]       M   Barus  inlet  Roelands, compressible | whole-film  inlet/inlet  inlet/whole"
+    )
     for force in (30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5):
         line = 0.75 * force ** (2.0 / 3.0) / contact.hertz.semi_axis_across
         load = line / (contact.modulus * contact.rolling_radius) / math.sqrt(doubled)
@@ -320,7 +326,9 @@ def main() -> None:
             f"{whole / solution.rolling:20.3f} {published / inlet:12.3f} {published / solution.rolling:12.3f}",
             flush=True,
         )
-    print("whole-film over solutions with Barus' law; rows M, columns L = 0, 1, 2, 4, 7, 10, 13.4, 18")
+    print(
+        "whole-film over solutions with Barus' law; rows M, columns L = 0, 1, 2, 4, 7, 10, 13.4, 18"
+    )
     materials = [1.0, 2.0, 4.0, 7.0, 10.0, 13.4, 18.0]
     for load in (0.1, 0.3, 0.6, 1.5, 3.0, 6.0, 11.0, 20.0, 32.0, 60.0):
         found = [solve_line(load, 0.0, 500), *climb(load, materials, 500)]

@@ -42,7 +42,9 @@ def _pieces(address, bounds, marks, data, rtol, atol, slip):
     return state
 
 
-def solve(history: History, reference: Reference, stops: bool, rtol: float, atol: float) -> Solution:
+def solve(
+    history: History, reference: Reference, stops: bool, rtol: float, atol: float
+) -> Solution:
     """The history by LSODA.
 
     Parameters

@@ -52,7 +52,12 @@ def timed_study(folder: Path, work, skip: int, **options) -> dict[str, float]:
     shutil.rmtree(out, ignore_errors=True)
     marks: list[tuple[float, int]] = []
     started = time.perf_counter()
-    run_study(work, out, progress=lambda progress: marks.append((time.perf_counter(), progress.done)), **options)
+    run_study(
+        work,
+        out,
+        progress=lambda progress: marks.append((time.perf_counter(), progress.done)),
+        **options,
+    )
     wall = time.perf_counter() - started
     found = open_study(out)
     assert (found.outcome == "completed").all()
@@ -72,7 +77,11 @@ def hashing(threads: int) -> float:
     """Wall time of work that has nothing to do with rollers."""
     started = time.perf_counter()
     with ThreadPoolExecutor(threads) as pool:
-        list(pool.map(lambda _: hashlib.pbkdf2_hmac("sha256", b"macroslip", b"study", 400_000), range(8)))
+        list(
+            pool.map(
+                lambda _: hashlib.pbkdf2_hmac("sha256", b"macroslip", b"study", 400_000), range(8)
+            )
+        )
     return time.perf_counter() - started
 
 
@@ -95,11 +104,13 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
     return {
         "two_threads_over_one": best["two threads"] / best["one thread"],
         "two_threads_over_one_best_round": max(
-            b["rate"] / a["rate"] for a, b in zip(found["one thread"], found["two threads"], strict=False)
+            b["rate"] / a["rate"]
+            for a, b in zip(found["one thread"], found["two threads"], strict=False)
         ),
         "two_workers_over_one": best["two workers"] / best["one worker"],
         "two_workers_over_one_best_round": max(
-            b["rate"] / a["rate"] for a, b in zip(found["one worker"], found["two workers"], strict=False)
+            b["rate"] / a["rate"]
+            for a, b in zip(found["one worker"], found["two workers"], strict=False)
         ),
         "one_worker_over_this_process": best["one worker"] / best["one thread"],
         "hashing_two_over_one": max(found["hashing"]),
@@ -120,7 +131,11 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
 def peak_memory(code: str) -> dict:
     """The numbers that a process prints as JSON."""
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=Path(__file__).parent
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=Path(__file__).parent,
     )
     return json.loads(done.stdout.splitlines()[-1])
 
@@ -165,7 +180,9 @@ def memory(quick: bool) -> dict[str, dict]:
 
     def measured(runs: int, seconds: float | None, rollers: object, options: dict) -> dict:
         text = (
-            MEMORY.replace("{count}", str(runs)).replace("{seconds}", repr(seconds)).replace("{rollers}", repr(rollers))
+            MEMORY.replace("{count}", str(runs))
+            .replace("{seconds}", repr(seconds))
+            .replace("{rollers}", repr(rollers))
         )
         return peak_memory(text.replace("{options}", repr(options)))
 
@@ -179,7 +196,10 @@ def memory(quick: bool) -> dict[str, dict]:
 
 def nothing(tasks: list) -> list:
     """A task that does nothing but send back what a run sends back."""
-    values = {name: [0.1, 0.2] for name in "abcdefghijklmn"} | {"simulate_seconds": 1.0, "other_seconds": 0.01}
+    values = {name: [0.1, 0.2] for name in "abcdefghijklmn"} | {
+        "simulate_seconds": 1.0,
+        "other_seconds": 0.01,
+    }
     return [dict(task, values=values, outcome="completed") for task in tasks]
 
 
@@ -189,11 +209,18 @@ def scheduler(quick: bool) -> dict[str, float]:
 
     from macroslip.study import workers
 
-    count, task = (500 if quick else 3000), {"run": "0" * 32, "load": "x" * 120, "settings": [["a.b", 1.0, "mm"]] * 3}
+    count, task = (
+        (500 if quick else 3000),
+        {"run": "0" * 32, "load": "x" * 120, "settings": [["a.b", 1.0, "mm"]] * 3},
+    )
     found = {}
     with (
         LocalCluster(
-            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", security=True
+            n_workers=2,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+            security=True,
         ) as local,
         Client(local) as client,
     ):
@@ -288,7 +315,8 @@ def main() -> None:
                 for key, value in found[name].items():
                     if key != "rounds":
                         print(
-                            f"  {key}: {json.dumps(value) if isinstance(value, dict) else f'{value:.4g}'}", flush=True
+                            f"  {key}: {json.dumps(value) if isinstance(value, dict) else f'{value:.4g}'}",
+                            flush=True,
                         )
                 given.output.write_text(json.dumps(found, indent=1), encoding="utf-8")
 

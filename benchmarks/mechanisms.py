@@ -30,7 +30,9 @@ def ladder() -> dict[str, Laws]:
     }
 
 
-def mechanism_costs(tolerance: float, *, quick: bool, report: Callable[[int, int], None]) -> dict[str, Any]:
+def mechanism_costs(
+    tolerance: float, *, quick: bool, report: Callable[[int, int], None]
+) -> dict[str, Any]:
     """CPU time under each step of the ladder, of one roller of either row.
 
     Parameters

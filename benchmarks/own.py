@@ -20,7 +20,12 @@ def integrate(
     """Integrate and measure the whole history, as `simulate` does; a step ends at each trace time [s]."""
     limits = history.limits.copy()
     limits["tolerance"] = tolerance
-    problem = Problem(history.roller, history.motion, limits, np.unique(np.concatenate([trace_time, [history.end]])))
+    problem = Problem(
+        history.roller,
+        history.motion,
+        limits,
+        np.unique(np.concatenate([trace_time, [history.end]])),
+    )
     return run(history, problem, trace_time, details=details)
 
 
@@ -30,7 +35,9 @@ def run(
     """Outcome and measures of a history by the integrator and the bounds of `problem`."""
     edges = np.array([history.start, history.end])
     wanted = Wanted(edges, float(history.limits["speed_scale"][0]), trace_time, details)
-    measures = RollerMeasures(Row(history.model, history.roller, history.motion, wanted), history.start_angle)
+    measures = RollerMeasures(
+        Row(history.model, history.roller, history.motion, wanted), history.start_angle
+    )
     outcome = Outcome()
     for steps in steps_of(problem, history.start_angle, outcome):
         measures.add(steps, 0)

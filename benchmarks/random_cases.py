@@ -46,7 +46,15 @@ _WIDENED, _CHAOTIC = 1e-9, 1.0 / 3.0
 _FIRST, _CLEAR = 5e-5, 0.3
 #: Energies [J] and powers [W] below which only the absolute error counts: a millionth of what a roller dissipates.
 SMALL_ENERGY, SMALL_POWER = 1e-6, 1e-4
-HISTORIES = ("constant", "waves", "bundled", "thrust reversal", "load through zero", "stop and go", "shaft reversal")
+HISTORIES = (
+    "constant",
+    "waves",
+    "bundled",
+    "thrust reversal",
+    "load through zero",
+    "stop and go",
+    "shaft reversal",
+)
 #: Kinds of speed and of force that wide cases combine, with samples of 1 ms to 1 s, and oil of -10 to 140 degC.
 SPEEDS = (
     "constant", "backwards", "turbulent", "ramp", "start", "stop", "stop and go", "reversal", "jumps", "square",
@@ -81,11 +89,15 @@ def _waves(random: np.random.Generator, time_s: np.ndarray, size: float) -> np.n
     """A sum of waves of wind and rotor, 0.05 to 2 Hz, with a standard deviation of `size`."""
     frequencies = np.exp(random.uniform(np.log(0.05), np.log(2.0), 6))
     phases, sizes = random.uniform(0, 2 * np.pi, 6), 1.0 / frequencies**0.5
-    wave = (sizes[:, None] * np.sin(2 * np.pi * frequencies[:, None] * time_s + phases[:, None])).sum(axis=0)
+    wave = (
+        sizes[:, None] * np.sin(2 * np.pi * frequencies[:, None] * time_s + phases[:, None])
+    ).sum(axis=0)
     return size * wave / np.sqrt(0.5 * (sizes**2).sum())
 
 
-def _history(random: np.random.Generator, kind: str, heavy: float, speed: float, period: float) -> BearingLoads:
+def _history(
+    random: np.random.Generator, kind: str, heavy: float, speed: float, period: float
+) -> BearingLoads:
     """Loads of a kind: `heavy` [N] is what the bearing bears, `speed` [rad/s], `period` [s] of an orbit."""
     seconds = float(random.uniform(1.3, 2.4)) * period
     t = np.arange(int(seconds / _STEP) + 1) * _STEP
@@ -94,7 +106,9 @@ def _history(random: np.random.Generator, kind: str, heavy: float, speed: float,
     turn = np.full(t.size, speed)
     slow = 2 * np.pi * t / random.uniform(2.0, 20.0) + random.uniform(0, 2 * np.pi)
     if kind != "constant":
-        force += np.column_stack([_waves(random, t, abs(down) * random.uniform(0.02, 0.2)) for _ in range(3)])
+        force += np.column_stack(
+            [_waves(random, t, abs(down) * random.uniform(0.02, 0.2)) for _ in range(3)]
+        )
         turn = speed * (1.0 + _waves(random, t, random.uniform(0.0, 0.05)))
     if kind == "thrust reversal":
         force[:, 2] = max(abs(thrust), 0.02 * heavy) * np.sin(slow)
@@ -114,7 +128,9 @@ def _levels(random: np.random.Generator, x: np.ndarray, low: float) -> np.ndarra
     return random.uniform(low, 1.0, jumps.size + 1)[np.searchsorted(jumps, x)]
 
 
-def _wide_history(random: np.random.Generator, heavy: float, speed: float, period: float) -> BearingLoads:
+def _wide_history(
+    random: np.random.Generator, heavy: float, speed: float, period: float
+) -> BearingLoads:
     """Any kind of speed with any kind of force, from a thousandth of what the bearing bears on."""
     way, kind = str(random.choice(SPEEDS)), str(random.choice(FORCES))
     step = float(np.exp(random.uniform(np.log(1e-3), 0.0)))
@@ -148,7 +164,9 @@ def _wide_history(random: np.random.Generator, heavy: float, speed: float, perio
 def _borne(loads: BearingLoads, case: Case) -> BearingLoads:
     """The loads, made smaller by the part needed for no contact to reach the rollers' ends: such a case is refused."""
     allowed = highest_load(case.bearing, case.oil, case.laws)
-    ring = ring_geometry(case.bearing, roller_model(case.bearing, case.oil, 1, tilt=case.drivetrain.tilt))
+    ring = ring_geometry(
+        case.bearing, roller_model(case.bearing, case.oil, 1, tilt=case.drivetrain.tilt)
+    )
     while (largest := ring_motion(loads, case.bearing, ring, np.inf)[1]) > allowed:
         loads = replace(loads, force=loads.force * 0.9 * allowed / largest)
     return loads
@@ -156,9 +174,19 @@ def _borne(loads: BearingLoads, case: Case) -> BearingLoads:
 
 def _laws(random: np.random.Generator, physical: float) -> Laws:
     if random.random() < physical:
-        return Laws.physical() if random.random() < 0.7 else Laws.physical().but(rheology="limiting-shear")
+        return (
+            Laws.physical()
+            if random.random() < 0.7
+            else Laws.physical().but(rheology="limiting-shear")
+        )
     changes: dict[str, Any] = random.choice(
-        [{}, {}, {}, {"film": "masjedi-khonsari-moes", "inlet_heating": True, "starvation": True}, {"heating": False}]
+        [
+            {},
+            {},
+            {},
+            {"film": "masjedi-khonsari-moes", "inlet_heating": True, "starvation": True},
+            {"heating": False},
+        ]
     )
     return Laws.paper().but(**changes)
 
@@ -193,7 +221,9 @@ def random_case(
     elif kind == "bundled":
         start = float(random.uniform(0.0, 500.0))
         cases = [f"{wind}{letter}" for wind in range(12, 26, 2) for letter in "ABC"]
-        loads = HubLoads.bundled(str(random.choice(cases))).window(start, start + float(random.uniform(8.0, 16.0)))
+        loads = HubLoads.bundled(str(random.choice(cases))).window(
+            start, start + float(random.uniform(8.0, 16.0))
+        )
         loads = main_bearing_load(loads, Drivetrain())
     else:
         loads = _history(random, kind, heavy, speed, period)
@@ -202,7 +232,9 @@ def random_case(
         loads=loads,
         bearing=bearing,
         lubricant=lubricant,
-        temperature=None if random.random() < 0.5 else _temperature(random, lubricant, wide=is_wide),
+        temperature=None
+        if random.random() < 0.5
+        else _temperature(random, lubricant, wide=is_wide),
         laws=laws,
         dynamics=dynamics,
         gravity=bool(random.random() < 0.9),
@@ -230,7 +262,10 @@ def _judged(result: Any, dynamics: str) -> tuple[np.ndarray, np.ndarray]:
     energy = result.energy.sum("interface")
     # An orbit need not be complete for its peak to be right.
     peak = np.concatenate(
-        [result.peak_power.transpose("row", "roller", ..., "interface"), result.window_peak_power.values[:, :, None]],
+        [
+            result.peak_power.transpose("row", "roller", ..., "interface"),
+            result.window_peak_power.values[:, :, None],
+        ],
         axis=2,
     ).max(axis=-1)
     if dynamics == WHOLE_BEARING:
@@ -277,11 +312,17 @@ def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -
             verdict = "warned: books do not close"
         elif energy_error > ROW_ENERGY:
             wider, _ = timed(tight, cage=replace(case.cage, gap=case.cage.gap * (1.0 + _WIDENED)))
-            scatter, _ = _largest(_judged(wider, case.dynamics)[0] - reference, reference, SMALL_ENERGY)
+            scatter, _ = _largest(
+                _judged(wider, case.dynamics)[0] - reference, reference, SMALL_ENERGY
+            )
             verdict = f"chaotic: {scatter:.1e}" if scatter > _CHAOTIC * energy_error else verdict
-        return Outcome(*about, verdict, energy_error, at, peak_error, peak_at, seconds, tight_seconds)
+        return Outcome(
+            *about, verdict, energy_error, at, peak_error, peak_at, seconds, tight_seconds
+        )
     wrong = [
-        name for name, error, most in (("energy", energy_error, ENERGY), ("peak", peak_error, PEAK)) if error > most
+        name
+        for name, error, most in (("energy", energy_error, ENERGY), ("peak", peak_error, PEAK))
+        if error > most
     ]
     verdict = f"off: {' and '.join(wrong)}" if wrong else "agrees"
     return Outcome(*about, verdict, energy_error, at, peak_error, peak_at, seconds, tight_seconds)
@@ -291,11 +332,19 @@ def table(outcomes: list[Outcome]) -> Iterator[str]:
     """Lines of a table by kind of loads, with the outliers below."""
     words = "agrees", "failed", "refused", "warned", "chaotic", "off"
     yield f"{'loads':<18}{'cases':>6}{''.join(f'{word:>8}' for word in words)}{'energy error':>14}{'peak error':>12}"
-    kinds = *HISTORIES, *([WIDE] if any(one.history.startswith(WIDE) for one in outcomes) else []), "all"
+    kinds = (
+        *HISTORIES,
+        *([WIDE] if any(one.history.startswith(WIDE) for one in outcomes) else []),
+        "all",
+    )
     for kind in kinds:
         some = [one for one in outcomes if kind in (one.history.split(":")[0], "all")]
-        counts = "".join(f"{sum(one.verdict.startswith(word) for one in some):>8}" for word in words)
-        energy = max((one.energy_error for one in some if np.isfinite(one.energy_error)), default=0.0)
+        counts = "".join(
+            f"{sum(one.verdict.startswith(word) for one in some):>8}" for word in words
+        )
+        energy = max(
+            (one.energy_error for one in some if np.isfinite(one.energy_error)), default=0.0
+        )
         peak = max((one.peak_error for one in some if np.isfinite(one.peak_error)), default=0.0)
         yield f"{kind:<18}{len(some):>6}{counts}{energy:>14.1e}{peak:>12.1e}"
     for one in outcomes:
@@ -313,10 +362,17 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tight", type=float, default=TIGHT, help="tolerance of the reference")
-    parser.add_argument("--physical", type=float, default=0.1, help="share of cases with the set physical")
-    parser.add_argument("--whole", type=float, default=0.0, help="share of cases in which the whole bearing moves")
     parser.add_argument(
-        "--wide", type=float, default=0.0, help="share of cases with any kind of speed, force and sample"
+        "--physical", type=float, default=0.1, help="share of cases with the set physical"
+    )
+    parser.add_argument(
+        "--whole", type=float, default=0.0, help="share of cases in which the whole bearing moves"
+    )
+    parser.add_argument(
+        "--wide",
+        type=float,
+        default=0.0,
+        help="share of cases with any kind of speed, force and sample",
     )
     parser.add_argument("-o", "--output", type=Path, default=Path("random_cases.csv"))
     given = parser.parse_args(arguments)
@@ -325,7 +381,14 @@ def main(arguments: list[str] | None = None) -> None:
         writer = csv.writer(file)
         writer.writerow(Outcome._fields)
         for number in range(given.first, given.first + given.cases):
-            one = compare(number, given.seed, given.tight, physical=given.physical, whole=given.whole, wide=given.wide)
+            one = compare(
+                number,
+                given.seed,
+                given.tight,
+                physical=given.physical,
+                whole=given.whole,
+                wide=given.wide,
+            )
             outcomes.append(one)
             writer.writerow(one)
             file.flush()

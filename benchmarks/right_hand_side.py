@@ -31,7 +31,11 @@ def pack(history: History, energy_unit: float = 1.0) -> np.ndarray:
     """All numbers of a history in one array, for `rates` and `jacobian`."""
     motion = history.motion
     work = np.zeros(1, WORK)
-    work["samples"], work["energy_unit"], work["start_angle"] = motion.time.size, energy_unit, history.start_angle
+    work["samples"], work["energy_unit"], work["start_angle"] = (
+        motion.time.size,
+        energy_unit,
+        history.start_angle,
+    )
     work["body"] = history.roller.body
     series = (motion.time, motion.shaft_speed, motion.shaft_angle, motion.displacement.ravel())
     return np.concatenate([work.view(np.float64), *series, history.roller.tables])
@@ -45,7 +49,12 @@ def evaluations(d: np.ndarray) -> float:
 @jit_inline
 def _motion(d, samples):
     k, n = _SIZE, samples
-    return Motion(d[k : k + n], d[k + n : k + 2 * n], d[k + 2 * n : k + 3 * n], d[k + 3 * n : k + 6 * n].reshape(n, 3))
+    return Motion(
+        d[k : k + n],
+        d[k + n : k + 2 * n],
+        d[k + 2 * n : k + 3 * n],
+        d[k + 3 * n : k + 6 * n].reshape(n, 3),
+    )
 
 
 @jit_inline
@@ -58,7 +67,9 @@ def _evaluate(time, slip, d, work):
     tables = d[_SIZE + 6 * work.samples :]
     station(body, tables, work.start_angle, instant(motion, k, time), work.at)
     slip_forces(body, tables, work.at, slip, work.forces)
-    acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+    acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
+        motion.time[k + 1] - motion.time[k]
+    )
     return -body.orbit_ratio * body.outer_radius * acceleration
 
 
@@ -102,8 +113,12 @@ def jacobian(time, state, matrix, d):
     cage_slope = forces.slope - forces.inner_slope - forces.outer_slope
     by_slip = cage_slope * surface_speed - forces.cage
     matrix[0, 0] = -work.body.mobility * forces.slope
-    matrix[1, 0] = np.sign(forces.inner * slip) * (forces.inner_slope * slip + forces.inner) / work.energy_unit
-    matrix[2, 0] = np.sign(forces.outer * slip) * (forces.outer_slope * slip + forces.outer) / work.energy_unit
+    matrix[1, 0] = (
+        np.sign(forces.inner * slip) * (forces.inner_slope * slip + forces.inner) / work.energy_unit
+    )
+    matrix[2, 0] = (
+        np.sign(forces.outer * slip) * (forces.outer_slope * slip + forces.outer) / work.energy_unit
+    )
     matrix[3, 0] = np.sign(forces.cage * surface_speed) * by_slip / work.energy_unit
 
 

@@ -85,7 +85,12 @@ def _scipy_settings(edges: bool, quick: bool) -> Iterator[Setting]:
     # middle of the range outward: there the settings lie that suit most histories.
     steps = [0.05] if quick else [0.05, float("inf")]
     found = _grid(_decades(4, 8), _decades(6, 10), stops=[True], longest_step=steps)
-    return iter(sorted(found, key=lambda one: abs(math.log10(one["rtol"]) + 5.5) + abs(math.log10(one["atol"]) + 7.5)))
+    return iter(
+        sorted(
+            found,
+            key=lambda one: abs(math.log10(one["rtol"]) + 5.5) + abs(math.log10(one["atol"]) + 7.5),
+        )
+    )
 
 
 def _cvode_settings(edges: bool, quick: bool) -> Iterator[Setting]:
@@ -106,7 +111,11 @@ def _lsoda_settings(edges: bool, quick: bool) -> Iterator[Setting]:
 
 
 def _euler_settings(edges: bool, quick: bool) -> Iterator[Setting]:
-    steps = [1e-2, 3e-3, 1e-3, 3e-4] if quick else [2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5]
+    steps = (
+        [1e-2, 3e-3, 1e-3, 3e-4]
+        if quick
+        else [2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5]
+    )
     for step in steps:
         for tolerance in EULER_TOLERANCES:
             yield {"step": step, "tolerance": tolerance}
@@ -119,10 +128,47 @@ def own_settings() -> Iterator[Setting]:
 
 
 RIVALS = (
-    Rival("scipy_radau", "SciPy solve_ivp, Radau", 200.0, lambda: scipy_solver("Radau"), _scipy_settings, 0.3, True),
-    Rival("scipy_bdf", "SciPy solve_ivp, BDF", 200.0, lambda: scipy_solver("BDF"), _scipy_settings, 0.3, True),
-    Rival(CVODE_COMPILED, "SUNDIALS CVODE, compiled callbacks", 14.0, _cvode_compiled, _cvode_settings, 1.0),
-    Rival(CVODE, "SUNDIALS CVODE, through scikit-sundae", 14.0, lambda: _room("cvode"), _cvode_python_settings, 0.15),
+    Rival(
+        "scipy_radau",
+        "SciPy solve_ivp, Radau",
+        200.0,
+        lambda: scipy_solver("Radau"),
+        _scipy_settings,
+        0.3,
+        True,
+    ),
+    Rival(
+        "scipy_bdf",
+        "SciPy solve_ivp, BDF",
+        200.0,
+        lambda: scipy_solver("BDF"),
+        _scipy_settings,
+        0.3,
+        True,
+    ),
+    Rival(
+        CVODE_COMPILED,
+        "SUNDIALS CVODE, compiled callbacks",
+        14.0,
+        _cvode_compiled,
+        _cvode_settings,
+        1.0,
+    ),
+    Rival(
+        CVODE,
+        "SUNDIALS CVODE, through scikit-sundae",
+        14.0,
+        lambda: _room("cvode"),
+        _cvode_python_settings,
+        0.15,
+    ),
     Rival("lsoda", "LSODA (numbalsoda)", 10.0, lambda: _room("lsoda"), _lsoda_settings, 1.0),
-    Rival(EULER, "the paper's backward Euler, fixed step", 20.0, lambda: _room("euler"), _euler_settings, 0.3),
+    Rival(
+        EULER,
+        "the paper's backward Euler, fixed step",
+        20.0,
+        lambda: _room("euler"),
+        _euler_settings,
+        0.3,
+    ),
 )

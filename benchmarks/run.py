@@ -37,7 +37,9 @@ TARGETS = {
 }
 
 
-def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, int, int], None] | None = None) -> dict:
+def run_bench(
+    directory: Path, *, quick: bool = False, progress: Callable[[str, int, int], None] | None = None
+) -> dict:
     """Measure everything and write `bench.json`, `work_precision.png` and `work_precision.svg`.
 
     Parameters
@@ -79,15 +81,25 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
         long = long_histories(quick=quick)
         growth = linearity(long, tolerance, quick=quick)
         speed = {
-            model: real_time(found, tolerance, lambda done, total: report("speed over real time", done, total))
-            for model, found in (("paper", long), ("physical", long_histories(quick=quick, laws=Laws.physical())))
+            model: real_time(
+                found, tolerance, lambda done, total: report("speed over real time", done, total)
+            )
+            for model, found in (
+                ("paper", long),
+                ("physical", long_histories(quick=quick, laws=Laws.physical())),
+            )
         }
         report("one force evaluation", 0, 1)
         # The first and the last two histories of the study, calm and rough; one case in the quick run.
         sample = long[:2] + long[-2:] if len(long) > 2 else long
-        evaluation, quadrature = evaluation_times(sample, tolerance), quadrature_times(sample, tolerance)
+        evaluation, quadrature = (
+            evaluation_times(sample, tolerance),
+            quadrature_times(sample, tolerance),
+        )
         costs = mechanism_costs(
-            tolerance, quick=quick, report=lambda done, total: report("cost of mechanisms", done, total)
+            tolerance,
+            quick=quick,
+            report=lambda done, total: report("cost of mechanisms", done, total),
         )
         report("reference", 0, 1)
         histories = fixed_histories(quick=quick)
@@ -99,7 +111,11 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
             "quick": quick,
             "asked_accuracy": ASKED,
             "default_tolerance": tolerance,
-            "reference": {"tolerance": own.REFERENCE_TOLERANCE, "agreement_asked": AGREEMENT, **verified},
+            "reference": {
+                "tolerance": own.REFERENCE_TOLERANCE,
+                "agreement_asked": AGREEMENT,
+                **verified,
+            },
             "targets": TARGETS,
             "methods": as_plain(histories, results),
             "evaluation": evaluation,
@@ -109,13 +125,23 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
             "linearity": growth,
             "mechanisms": costs,
         }
-        _draw(folder, results, histories, {key: one["title"] for key, one in summary["methods"].items()})
-        (folder / SUMMARY).write_text(json.dumps(finite(summary), indent=1) + "\n", encoding="utf-8")
+        _draw(
+            folder,
+            results,
+            histories,
+            {key: one["title"] for key, one in summary["methods"].items()},
+        )
+        (folder / SUMMARY).write_text(
+            json.dumps(finite(summary), indent=1) + "\n", encoding="utf-8"
+        )
     return summary
 
 
 def _draw(
-    folder: Path, results: dict[str, list[Entry] | None], histories: list[History], titles: dict[str, str]
+    folder: Path,
+    results: dict[str, list[Entry] | None],
+    histories: list[History],
+    titles: dict[str, str],
 ) -> None:
     from benchmarks.work_precision import plot_work_precision
     from macroslip.report.style import new_figure, save

@@ -36,7 +36,9 @@ def cpu_seconds(histories: list[History], tolerance: float, *, details: bool = F
     return min(timed(run)[1] for _ in range(_REPEATS))
 
 
-def real_time(histories: list[History], tolerance: float, report: Callable[[int, int], None]) -> dict[str, Any]:
+def real_time(
+    histories: list[History], tolerance: float, report: Callable[[int, int], None]
+) -> dict[str, Any]:
     """Simulated over CPU time for one roller on one core, and the errors at that tolerance.
 
     Returns
@@ -93,13 +95,27 @@ def two_threads(*, quick: bool) -> dict[str, float] | None:
 
     def alone(threads: int) -> None:
         with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(lambda history: own.integrate(history, case.integrator.tolerance, np.empty(0)), rollers))
+            list(
+                pool.map(
+                    lambda history: own.integrate(history, case.integrator.tolerance, np.empty(0)),
+                    rollers,
+                )
+            )
 
     def hashing(threads: int) -> None:
         with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(lambda _: hashlib.pbkdf2_hmac("sha256", b"macroslip", b"bench", _HASHES), range(8)))
+            list(
+                pool.map(
+                    lambda _: hashlib.pbkdf2_hmac("sha256", b"macroslip", b"bench", _HASHES),
+                    range(8),
+                )
+            )
 
-    runs = {"simulate": lambda threads: simulate(case, threads=threads), "rollers": alone, "hashing": hashing}
+    runs = {
+        "simulate": lambda threads: simulate(case, threads=threads),
+        "rollers": alone,
+        "hashing": hashing,
+    }
     walls = {name: {1: [], 2: []} for name in runs}
     simulate(case, threads=2)
     for _ in range(_REPEATS):
@@ -108,10 +124,16 @@ def two_threads(*, quick: bool) -> dict[str, float] | None:
                 start = time.perf_counter()
                 run(threads)
                 walls[name][threads].append(time.perf_counter() - start)
-    least = {name: {threads: min(times) for threads, times in by.items()} for name, by in walls.items()}
+    least = {
+        name: {threads: min(times) for threads, times in by.items()} for name, by in walls.items()
+    }
     return {
         **{name: by[1] / by[2] for name, by in least.items()},
-        **{f"{name}_{threads}_thread_s": by[threads] for name, by in least.items() for threads in (1, 2)},
+        **{
+            f"{name}_{threads}_thread_s": by[threads]
+            for name, by in least.items()
+            for threads in (1, 2)
+        },
     }
 
 
@@ -132,7 +154,9 @@ def linearity(histories: list[History], tolerance: float, *, quick: bool) -> dic
         Per kind `size`, `cpu_seconds` and `exponent`; 1 is linear growth, NaN with less than three sizes.
     """
     durations = [50.0, 100.0, 200.0] if quick else [70.0, 140.0, 280.0, 560.0]
-    by_duration = [cpu_seconds(histories_of(_CASE, None, duration, [0]), tolerance) for duration in durations]
+    by_duration = [
+        cpu_seconds(histories_of(_CASE, None, duration, [0]), tolerance) for duration in durations
+    ]
     rollers = histories_of(_CASE, None, durations[0], range(28))
     numbers = [7, 14, 28, 56]
     by_roller = [cpu_seconds(rollers[:: len(rollers) // number], tolerance) for number in numbers]
@@ -149,5 +173,7 @@ def linearity(histories: list[History], tolerance: float, *, quick: bool) -> dic
 
 
 def _growth(sizes: list[float], seconds: list[float]) -> dict[str, Any]:
-    exponent = float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0]) if len(sizes) > 2 else float("nan")
+    exponent = (
+        float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0]) if len(sizes) > 2 else float("nan")
+    )
     return {"size": sizes, "cpu_seconds": seconds, "exponent": exponent}

@@ -27,7 +27,9 @@ def timed(run: Callable[[], Solution]) -> tuple[Solution, float]:
             gc.enable()
 
 
-def measure(solve: Callable[..., Solution], setting: Setting, reference: Reference, **limit: float) -> Measurement:
+def measure(
+    solve: Callable[..., Solution], setting: Setting, reference: Reference, **limit: float
+) -> Measurement:
     """Run `solve(**setting, **limit)` once and compare with the reference."""
     solution, seconds = timed(lambda: solve(**setting, **limit))
     return Measurement(setting, *errors(solution, reference), seconds, solution.evaluations)
@@ -45,7 +47,12 @@ def timed_again(solve: Callable[..., Solution], outcome: Measurement) -> Measure
 
 
 def scan(
-    solve: Callable[..., Solution], settings: Iterable[Setting], reference: Reference, *, budget: float, prune: bool
+    solve: Callable[..., Solution],
+    settings: Iterable[Setting],
+    reference: Reference,
+    *,
+    budget: float,
+    prune: bool,
 ) -> list[Measurement]:
     """Try settings on one history; the cheapest accurate one, or else the most accurate one, is timed again.
 
@@ -100,7 +107,11 @@ def in_words(setting: Setting) -> str:
     >>> in_words({"rtol": 1e-6, "atol": 1e-9, "longest_step": 0.05, "stops": True})
     'rtol 1e-06, atol 1e-09 m/s, steps up to 0.05 s, restart at load edges'
     """
-    stops = {True: "restart at load edges", "restart": "restart at load edges", "stop": "stop at load edges"}
+    stops = {
+        True: "restart at load edges",
+        "restart": "restart at load edges",
+        "stop": "stop at load edges",
+    }
     parts = []
     for key, value in setting.items():
         if key == "stops":

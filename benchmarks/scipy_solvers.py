@@ -74,7 +74,9 @@ def solve(
     for low, high in itertools.pairwise(bounds):
         inside = (history.marks > low) & (history.marks < high)
         try:
-            found = solve_ivp(rate, (low, high), state, t_eval=[*history.marks[inside], high], **options)
+            found = solve_ivp(
+                rate, (low, high), state, t_eval=[*history.marks[inside], high], **options
+            )
         except _TooDearError:
             return Solution(np.full(3, np.nan), slip, evaluations(data))
         if not found.success:

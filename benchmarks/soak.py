@@ -63,7 +63,9 @@ class Found(NamedTuple):
 
 def content(runs: int = _RUNS) -> dict[str, Any]:
     """A study of ten seconds of the bundled loads: the paper's laws for all rollers, those of `physical` for a few."""
-    tilts = [round(2.0 + 1e-4 * number, 4) for number in range(-(-runs // (2 * len(bundled_cases()))))]
+    tilts = [
+        round(2.0 + 1e-4 * number, 4) for number in range(-(-runs // (2 * len(bundled_cases()))))
+    ]
     return {
         "case": {"loads": {"start": "100 s", "end": "110 s"}},
         "loads": {"bundled": ["all"]},
@@ -77,7 +79,11 @@ def started(folder: Path, name: str, *command: str) -> Iterator[subprocess.Popen
     """A Python process with its output in a file, for the length of the block."""
     with (folder / f"{name}.log").open("w", encoding="utf-8") as log:
         process = subprocess.Popen(
-            [sys.executable, *command], stdout=log, stderr=log, cwd=folder, preexec_fn=_hear_interrupts
+            [sys.executable, *command],
+            stdout=log,
+            stderr=log,
+            cwd=folder,
+            preexec_fn=_hear_interrupts,
         )
     try:
         yield process
@@ -95,7 +101,10 @@ def _end(process: subprocess.Popen) -> None:
     import psutil
 
     try:
-        family = [psutil.Process(process.pid), *psutil.Process(process.pid).children(recursive=True)]
+        family = [
+            psutil.Process(process.pid),
+            *psutil.Process(process.pid).children(recursive=True),
+        ]
     except psutil.NoSuchProcess:
         family = []
     for one in family:
@@ -124,11 +133,33 @@ def soak(folder: Path, seconds: float, every: float, check: int) -> Found:
     dask, common = "distributed.cli.dask_", ("--host", "127.0.0.1", "--no-dashboard")
     scheduler_file, out = folder / "scheduler.json", folder / "out"
     with started(
-        folder, "scheduler", "-m", f"{dask}scheduler", "--port", "0", "--scheduler-file", str(scheduler_file), *common
+        folder,
+        "scheduler",
+        "-m",
+        f"{dask}scheduler",
+        "--port",
+        "0",
+        "--scheduler-file",
+        str(scheduler_file),
+        *common,
     ) as scheduler:
         address = json.loads(waited_for(scheduler_file, "}"))["address"]
-        workers = ("-m", f"{dask}worker", address, "--nworkers", str(WORKERS), "--nthreads", "1", *common)
-        command = ("-c", "from macroslip.cli import main; main()", "study", str(folder / "study.yaml"))
+        workers = (
+            "-m",
+            f"{dask}worker",
+            address,
+            "--nworkers",
+            str(WORKERS),
+            "--nthreads",
+            "1",
+            *common,
+        )
+        command = (
+            "-c",
+            "from macroslip.cli import main; main()",
+            "study",
+            str(folder / "study.yaml"),
+        )
         with (
             started(folder, "workers", *workers) as nannies,
             started(folder, "study", *command, "-o", str(out), "--scheduler", address) as study,
@@ -137,7 +168,9 @@ def soak(folder: Path, seconds: float, every: float, check: int) -> Found:
             study.send_signal(signal.SIGINT)
             try:
                 if study.wait(_END) != 130:
-                    problems.append(f"the interrupted study ended with exit code {study.returncode}")
+                    problems.append(
+                        f"the interrupted study ended with exit code {study.returncode}"
+                    )
             except subprocess.TimeoutExpired:
                 problems.append(f"the interrupted study had not ended after {_END:g} s")
     recorded, wrong = looked_through(folder, out, samples[-1].runs if samples else 0, check)
@@ -167,7 +200,11 @@ def _watched(
     limit = time.monotonic() + seconds + _ANSWER
     while begun is None or time.monotonic() < begun + seconds:
         if study.poll() is not None or scheduler.poll() is not None or nannies.poll() is not None:
-            return samples, kills, ["a process that should run to the end has ended; its log has the reason"]
+            return (
+                samples,
+                kills,
+                ["a process that should run to the end has ended; its log has the reason"],
+            )
         if begun is None and time.monotonic() > limit:
             return samples, kills, ["no result came"]
         lines = len(_recorded(out))
@@ -177,7 +214,9 @@ def _watched(
         if begun is not None:
             largest = max((resident(one) for one in workers), default=0)
             memory = [resident(psutil.Process(process.pid)) for process in (scheduler, study)]
-            samples.append(Sample(time.monotonic() - begun, memory[0], memory[1], largest, lines, kills))
+            samples.append(
+                Sample(time.monotonic() - begun, memory[0], memory[1], largest, lines, kills)
+            )
             if time.monotonic() - killed >= every and len(workers) == WORKERS:
                 workers[kills % WORKERS].kill()
                 killed, kills = time.monotonic(), kills + 1
@@ -236,7 +275,11 @@ def looked_through(folder: Path, out: Path, seen: int, check: int) -> tuple[int,
     failed = [run for run, _, outcome, _ in found if outcome not in (None, "completed")]
     if failed:
         problems.append(f"{len(failed)} runs failed")
-    damaged = [run for run, key, _, detail in found if detail and checksum(case_path(out, key).read_bytes()) != detail]
+    damaged = [
+        run
+        for run, key, _, detail in found
+        if detail and checksum(case_path(out, key).read_bytes()) != detail
+    ]
     if damaged:
         problems.append(f"{len(damaged)} results do not have their checksum")
     runs = {run for run, *_ in found}
@@ -254,13 +297,17 @@ def _computed_again(folder: Path, out: Path, done: set[str], check: int) -> list
         alone = content(1)
         alone["loads"] = {"bundled": [stored.loads.item()]}
         alone["models"] = {stored.model.item(): alone["models"][stored.model.item()]}
-        alone["variations"]["grid"]["drivetrain.tilt"]["values"] = [float(stored["drivetrain.tilt"])]
+        alone["variations"]["grid"]["drivetrain.tilt"]["values"] = [
+            float(stored["drivetrain.tilt"])
+        ]
         with tempfile.TemporaryDirectory(dir=folder) as name:
             run_study(study_of(alone), Path(name) / "out", threads=1)
             computed = open_study(Path(name) / "out").isel(case=0).load()
         same = all(
             np.array_equal(
-                stored[variable].sel(roller=computed.roller).values, computed[variable].values, equal_nan=True
+                stored[variable].sel(roller=computed.roller).values,
+                computed[variable].values,
+                equal_nan=True,
             )
             for variable in ("energy", "orbit_energy", "peak_power", "end_slip")
         )
@@ -275,13 +322,19 @@ def table(found: Found, parts: int = 12) -> Iterator[str]:
     last = found.samples[-1].time
     marks = [
         found.samples[0],
-        *(min(found.samples, key=lambda s: abs(s.time - last * k / parts)) for k in range(1, parts + 1)),
+        *(
+            min(found.samples, key=lambda s: abs(s.time - last * k / parts))
+            for k in range(1, parts + 1)
+        ),
     ]
     for one in marks:
         sizes = [f"{size / 1e6:.1f}" for size in (one.scheduler, one.study, one.worker)]
         yield f"{one.time / 60:>6.1f}{one.runs:>9}{one.kills:>7}{sizes[0]:>14}{sizes[1]:>10}{sizes[2]:>19}"
     yield f"{found.recorded} runs recorded, {found.kills} workers killed"
-    yield from (found.problems or ["every record has its result, every run one record, those computed again agree"])
+    yield from (
+        found.problems
+        or ["every record has its result, every run one record, those computed again agree"]
+    )
 
 
 def growth(samples: list[Sample], name: str) -> float:
@@ -296,13 +349,17 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=60.0)
     parser.add_argument("--every", type=float, default=60.0, help="time between kills [s]")
-    parser.add_argument("--check", type=int, default=200, help="number of cases computed again in the end")
+    parser.add_argument(
+        "--check", type=int, default=200, help="number of cases computed again in the end"
+    )
     parser.add_argument("-o", "--output", type=Path, help="file for all samples, as JSON")
     given = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory() as name:
         found = soak(Path(name), 60.0 * given.minutes, given.every, given.check)
         if given.output:
-            text = json.dumps({**found._asdict(), "samples": [one._asdict() for one in found.samples]})
+            text = json.dumps(
+                {**found._asdict(), "samples": [one._asdict() for one in found.samples]}
+            )
             given.output.write_text(text, encoding="utf-8")
         if found.problems:
             for log in sorted(Path(name).glob("*.log")):

@@ -32,7 +32,9 @@ def verify(histories: list[History], references: list[Reference]) -> dict[str, A
     except ImportError:
         solve = scipy_solver("Radau")
         method, setting = "SciPy solve_ivp, Radau", _TIGHT | {"rtol": 1e-10, "longest_step": 0.05}
-    chosen = sorted(zip(histories, references, strict=True), key=lambda pair: -pair[0].edges.size)[:_HOW_MANY]
+    chosen = sorted(zip(histories, references, strict=True), key=lambda pair: -pair[0].edges.size)[
+        :_HOW_MANY
+    ]
     found = {}
     for history, reference in chosen:
         with silence():

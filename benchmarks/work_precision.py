@@ -31,7 +31,9 @@ _LOOKS = MappingProxyType(
 _LEVELS = tuple(10.0 ** (-0.5 * k) for k in range(4, 17))
 
 
-def least_cost(entries: list[Entry], histories: list[History], quantity: str) -> list[tuple[float, float]]:
+def least_cost(
+    entries: list[Entry], histories: list[History], quantity: str
+) -> list[tuple[float, float]]:
     """Pairs (error, CPU time over simulated time) of one method: the least cost at which an error is not exceeded.
 
     Parameters
@@ -57,7 +59,9 @@ def least_cost(entries: list[Entry], histories: list[History], quantity: str) ->
     for level in _LEVELS:
         costs = []
         for entry, length in chosen:
-            good = [one.seconds / length for one in entry.outcomes if getattr(one, quantity) <= level]
+            good = [
+                one.seconds / length for one in entry.outcomes if getattr(one, quantity) <= level
+            ]
             costs.append(min(good, default=math.nan))
         if not costs or any(math.isnan(cost) for cost in costs):
             break
@@ -69,7 +73,11 @@ def least_cost(entries: list[Entry], histories: list[History], quantity: str) ->
 
 
 def plot_work_precision(
-    axes: Axes, results: dict[str, list[Entry] | None], histories: list[History], quantity: str, titles: dict[str, str]
+    axes: Axes,
+    results: dict[str, list[Entry] | None],
+    histories: list[History],
+    quantity: str,
+    titles: dict[str, str],
 ) -> Axes:
     """Error against CPU time per second of history, one line a method; `quantity` as in `least_cost`."""
     for key, look in _LOOKS.items():
@@ -78,7 +86,14 @@ def plot_work_precision(
         points = least_cost(results[key], histories, quantity)
         if points:
             error, cost = zip(*points, strict=True)
-            axes.plot(cost, error, label=titles[key], markersize=6, zorder=3 if key == "own" else 2, **look)
+            axes.plot(
+                cost,
+                error,
+                label=titles[key],
+                markersize=6,
+                zorder=3 if key == "own" else 2,
+                **look,
+            )
     axes.axhline(ASKED, color=GREY, linewidth=1.0, zorder=0, label=f"accuracy asked, {ASKED:g}")
     axes.set_xscale("log")
     axes.set_yscale("log")

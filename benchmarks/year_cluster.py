@@ -34,7 +34,11 @@ def content(seconds: float, rollers: list[int], designs: int, samples: int) -> d
     }
     clearances = [round(0.1 + 0.05 * k, 2) for k in range(designs)]
     return {
-        "case": {"rollers": rollers, "laws": {"model": "physical"}, "loads": {"end": f"{seconds} s"}},
+        "case": {
+            "rollers": rollers,
+            "laws": {"model": "physical"},
+            "loads": {"end": f"{seconds} s"},
+        },
         "loads": {"bundled": ["year"]},
         "variations": {
             "grid": {"bearing.diametral_clearance": {"values": clearances, "unit": "mm"}},
@@ -61,11 +65,35 @@ def main() -> None:
         dask, common = "distributed.cli.dask_", ("--host", "127.0.0.1", "--no-dashboard")
         place = folder / "scheduler.json"
         with started(
-            folder, "scheduler", "-m", f"{dask}scheduler", "--port", "0", "--scheduler-file", str(place), *common
+            folder,
+            "scheduler",
+            "-m",
+            f"{dask}scheduler",
+            "--port",
+            "0",
+            "--scheduler-file",
+            str(place),
+            *common,
         ) as scheduler:
             address = json.loads(waited_for(place, "}"))["address"]
-            nanny = ("-m", f"{dask}worker", address, "--nworkers", str(WORKERS), "--nthreads", "1", *common)
-            command = ("-c", "from macroslip.cli import main; main()", "study", "study.yaml", "-o", "out")
+            nanny = (
+                "-m",
+                f"{dask}worker",
+                address,
+                "--nworkers",
+                str(WORKERS),
+                "--nthreads",
+                "1",
+                *common,
+            )
+            command = (
+                "-c",
+                "from macroslip.cli import main; main()",
+                "study",
+                "study.yaml",
+                "-o",
+                "out",
+            )
             begun = killed = time.monotonic()
             with (
                 started(folder, "workers", *nanny) as nannies,
@@ -75,7 +103,9 @@ def main() -> None:
                     time.sleep(1.0)
                     workers = workers_of(nannies)
                     sizes = [resident(psutil.Process(one.pid)) for one in (scheduler, study)]
-                    for who, size in zip(most, (*sizes, max(map(resident, workers), default=0)), strict=True):
+                    for who, size in zip(
+                        most, (*sizes, max(map(resident, workers), default=0)), strict=True
+                    ):
                         most[who] = max(most[who], size)
                     if time.monotonic() - killed >= given.every and len(workers) == WORKERS:
                         workers[kills % WORKERS].kill()
@@ -87,13 +117,23 @@ def main() -> None:
         recorded, problems = looked_through(folder, folder / "out", 0, 0)
         found = open_study(folder / "out")
         if recorded != found.sizes["case"] or study.returncode:
-            problems.append(f"{recorded} of {found.sizes['case']} runs are recorded, exit code {study.returncode}")
+            problems.append(
+                f"{recorded} of {found.sizes['case']} runs are recorded, exit code {study.returncode}"
+            )
         parts = {one: float(found[one].sum()) for one in ("simulate_seconds", "other_seconds")}
         disk = sum(path.stat().st_size for path in (folder / "out").rglob("*") if path.is_file())
-    print(f"{recorded} runs in {wall:.0f} s, {kills} workers killed, {disk / recorded / 1e3:.0f} kB a run")
-    print(*(f"{one} {1e3 * value / recorded:.0f} ms a run" for one, value in parts.items()), sep=", ")
+    print(
+        f"{recorded} runs in {wall:.0f} s, {kills} workers killed, {disk / recorded / 1e3:.0f} kB a run"
+    )
+    print(
+        *(f"{one} {1e3 * value / recorded:.0f} ms a run" for one, value in parts.items()), sep=", "
+    )
     print(*(f"{who} {size / 1e6:.0f} MB" for who, size in most.items()), sep=", ")
-    print(*(problems or ["every run has one record and its result"]), log[-2000:] if problems else "", sep="\n")
+    print(
+        *(problems or ["every run has one record and its result"]),
+        log[-2000:] if problems else "",
+        sep="\n",
+    )
     sys.exit(bool(problems))
 
 

@@ -13,7 +13,11 @@ PICTURE = Path(__file__).parent / "figures" / "bearing_slip.svg"
 
 
 def main() -> None:
-    case = Case(loads=HubLoads.bundled("14B").window(0.0, 60.0), temperature=308.15, traces=Traces(step=0.05))
+    case = Case(
+        loads=HubLoads.bundled("14B").window(0.0, 60.0),
+        temperature=308.15,
+        traces=Traces(step=0.05),
+    )
     figure, (axes,) = new_figure(7.2, 4.0)
     plot_bearing(axes, still(simulate(case)), case.bearing)
     figure.savefig(PICTURE, metadata={"Date": None})

@@ -35,16 +35,29 @@ def main(temperature: float, oil_supply: str | float = "skf", *, skew: bool = Fa
         entries.append((found.entry_rate * YEAR).values)
         wear.append((found.wear_time.sel(depth=1e-5) / YEAR).min(("row", "place")).values)
         print(
-            name, *(f"{one}={value:.3g}" for one, value in zip(names, values[-1], strict=True)), entries[-1], flush=True
+            name,
+            *(f"{one}={value:.3g}" for one, value in zip(names, values[-1], strict=True)),
+            entries[-1],
+            flush=True,
         )
     values = np.array(values)
     print(f"{temperature:g} degC, oil_supply {oil_supply}")
     for k, one in enumerate(names):
         if np.isnan(values[:, k]).all():
             continue
-        low, middle, high = np.nanmin(values[:, k]), np.nanmedian(values[:, k]), np.nanmax(values[:, k])
-        print(f"{one:26s} {low:10.3g} {middle:10.3g} {high:10.3g}  {bundled_cases()[int(np.nanargmax(values[:, k]))]}")
-    print("entries a year, downwind and upwind, least and most:", np.min(entries, axis=0), np.max(entries, axis=0))
+        low, middle, high = (
+            np.nanmin(values[:, k]),
+            np.nanmedian(values[:, k]),
+            np.nanmax(values[:, k]),
+        )
+        print(
+            f"{one:26s} {low:10.3g} {middle:10.3g} {high:10.3g}  {bundled_cases()[int(np.nanargmax(values[:, k]))]}"
+        )
+    print(
+        "entries a year, downwind and upwind, least and most:",
+        np.min(entries, axis=0),
+        np.max(entries, axis=0),
+    )
     print("years to 10 um, least of the cases, by k:", np.min(wear, axis=0))
 
 

@@ -23,7 +23,9 @@ from macroslip.report.bearing_drawing import draw_bearing
 SHAFT, BEARING, FORCE, MOTION, PALE = "#1f5a96", "#b3261e", "#7a4b00", "#1b7a3d", "#e6e6e6"
 
 
-def new_figure(width: float, height: float, x: tuple[float, float], y: tuple[float, float]) -> tuple:
+def new_figure(
+    width: float, height: float, x: tuple[float, float], y: tuple[float, float]
+) -> tuple:
     """A figure [inches] with one frameless axes of equal scales."""
     figure = Figure(figsize=(width, height))
     axes = figure.add_axes((0, 0, 1, 1))
@@ -66,13 +68,18 @@ def side_view() -> Figure:
     """Hub, main bearing and gearbox, seen along +X0: the wind comes from the left."""
     figure, axes = new_figure(9.4, 4.7, (-2.1, 7.3), (-2.75, 1.95))
     tilt = math.radians(9.0)
-    along, up = np.array([math.cos(tilt), -math.sin(tilt)]), np.array([math.sin(tilt), math.cos(tilt)])
+    along, up = (
+        np.array([math.cos(tilt), -math.sin(tilt)]),
+        np.array([math.sin(tilt), math.cos(tilt)]),
+    )
 
     def at(x: float, z: float) -> np.ndarray:
         return x * along + z * up
 
     def box(x0, x1, z0, z1, **style) -> None:
-        axes.add_patch(Polygon([at(x0, z0), at(x1, z0), at(x1, z1), at(x0, z1)], closed=True, **style))
+        axes.add_patch(
+            Polygon([at(x0, z0), at(x1, z0), at(x1, z1), at(x0, z1)], closed=True, **style)
+        )
 
     hub, bearing, gearbox = 0.0, 2.1, 5.3
     box(hub, gearbox - 0.35, -0.16, 0.16, fc=PALE, ec="black", lw=1.0)
@@ -80,7 +87,12 @@ def side_view() -> Figure:
     for sign in (1, -1):
         axes.add_patch(
             Polygon(
-                [at(-0.16, sign * 0.38), at(0.16, sign * 0.38), at(0.06, sign * 1.75), at(-0.06, sign * 1.75)],
+                [
+                    at(-0.16, sign * 0.38),
+                    at(0.16, sign * 0.38),
+                    at(0.06, sign * 1.75),
+                    at(-0.06, sign * 1.75),
+                ],
                 closed=True,
                 fc="white",
                 ec="black",
@@ -88,12 +100,37 @@ def side_view() -> Figure:
             )
         )
     for sign in (1, -1):
-        box(bearing - 0.42, bearing + 0.42, sign * 0.16, sign * 0.28, fc="#cfcfcf", ec="black", lw=0.8)
-        box(bearing - 0.42, bearing + 0.42, sign * 0.58, sign * 0.72, fc="#cfcfcf", ec="black", lw=0.8)
+        box(
+            bearing - 0.42,
+            bearing + 0.42,
+            sign * 0.16,
+            sign * 0.28,
+            fc="#cfcfcf",
+            ec="black",
+            lw=0.8,
+        )
+        box(
+            bearing - 0.42,
+            bearing + 0.42,
+            sign * 0.58,
+            sign * 0.72,
+            fc="#cfcfcf",
+            ec="black",
+            lw=0.8,
+        )
         for side, colour in ((-1, "white"), (1, "#bcd3ea")):
-            centre, lean = at(bearing + side * 0.2, sign * 0.43), -sign * side * math.radians(11.2) - tilt
-            a, b = np.array([math.cos(lean), math.sin(lean)]), np.array([-math.sin(lean), math.cos(lean)])
-            corners = [centre + p * 0.15 * a + q * 0.13 * b for p, q in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            centre, lean = (
+                at(bearing + side * 0.2, sign * 0.43),
+                -sign * side * math.radians(11.2) - tilt,
+            )
+            a, b = (
+                np.array([math.cos(lean), math.sin(lean)]),
+                np.array([-math.sin(lean), math.cos(lean)]),
+            )
+            corners = [
+                centre + p * 0.15 * a + q * 0.13 * b
+                for p, q in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+            ]
             axes.add_patch(Polygon(corners, closed=True, fc=colour, ec="black", lw=1.0, zorder=3))
     box(gearbox - 0.35, gearbox + 0.9, -0.75, 0.75, fc=PALE, ec="black", lw=1.0)
     text(axes, *at(gearbox + 0.28, 0.45), "gearbox")
@@ -115,7 +152,10 @@ def side_view() -> Figure:
         text(axes, *at(origin[0] + 0.22, 1.3), names[1], colour, size=13)
         text(axes, *at(origin[0] - 0.3, 0.02), names[2], colour, size=13)
     # Distances, along the shaft.
-    for x0, x1, name in ((hub, bearing, "$L_h$  hub_to_bearing"), (bearing, gearbox, "$L_g$  bearing_to_gearbox")):
+    for x0, x1, name in (
+        (hub, bearing, "$L_h$  hub_to_bearing"),
+        (bearing, gearbox, "$L_g$  bearing_to_gearbox"),
+    ):
         arrow(axes, at(x0, -1.15), at(x1, -1.15), "black", style="<|-|>", width=1.0)
         text(axes, *at(0.5 * (x0 + x1), -1.37), name)
     for x in (hub, bearing, gearbox):
@@ -154,7 +194,9 @@ def axial_view() -> Figure:
     """Both rings and the rollers of the downwind row, seen along +Z0."""
     bearing = Bearing.read("skf-240-600-bc")
     pitch, radius = bearing.pitch_radius * 1e3, bearing.roller_diameter * 500.0
-    inner, outer = (f(bearing) * 1e3 for f in (geometry.inner_contact_radius, geometry.outer_contact_radius))
+    inner, outer = (
+        f(bearing) * 1e3 for f in (geometry.inner_contact_radius, geometry.outer_contact_radius)
+    )
     figure, axes = new_figure(9.4, 6.9, (-775, 795), (-590, 562))
 
     # Looking along +Z0 with Y0 up, +X0 points to the left.
@@ -197,7 +239,11 @@ def axial_view() -> Figure:
     axes.add_patch(Arc((0, 0), 280, 280, theta1=180 - math.degrees(phi), theta2=180, lw=1.2))
     arrow(axes, page(phi - 0.12, 140), page(phi, 140), "black", width=1.2)
     text(axes, *page(phi / 2 + 0.03, 165), r"$\varphi$", size=14)
-    origin, outward, along = page(phi, pitch), (-math.cos(phi), math.sin(phi)), (math.sin(phi), math.cos(phi))
+    origin, outward, along = (
+        page(phi, pitch),
+        (-math.cos(phi), math.sin(phi)),
+        (math.sin(phi), math.cos(phi)),
+    )
     tip_y = (origin[0] + 135 * outward[0], origin[1] + 135 * outward[1])
     tip_x = (origin[0] - 135 * along[0], origin[1] - 135 * along[1])
     arrow(axes, origin, tip_y, SHAFT, width=2.0)
@@ -211,7 +257,9 @@ def axial_view() -> Figure:
     text(axes, *page(math.radians(112), 495), r"orbit  $\Omega>0$", MOTION, size=12)
     x, y = page(-math.pi / 2 + 2 * math.pi * 21 / count, pitch)
     angles = np.radians(np.linspace(-150, 60, 40))
-    axes.plot(x + 25 * np.cos(angles[:-4]), y + 25 * np.sin(angles[:-4]), color=MOTION, lw=1.5, zorder=5)
+    axes.plot(
+        x + 25 * np.cos(angles[:-4]), y + 25 * np.sin(angles[:-4]), color=MOTION, lw=1.5, zorder=5
+    )
     ends = [(x + 25 * math.cos(a), y + 25 * math.sin(a)) for a in (angles[-7], angles[-1])]
     arrow(axes, *ends, MOTION, width=1.5)
     axes.annotate(
@@ -242,7 +290,14 @@ def axial_view() -> Figure:
         FORCE,
         ha="left",
     )
-    text(axes, 450, -440, "load zone at the bottom:\nthe redder, the more load\n(343.5 kN downward)", FORCE, ha="left")
+    text(
+        axes,
+        450,
+        -440,
+        "load zone at the bottom:\nthe redder, the more load\n(343.5 kN downward)",
+        FORCE,
+        ha="left",
+    )
     text(
         axes,
         -755,
@@ -283,9 +338,18 @@ def one_roller() -> Figure:
     )
     text(axes, 0.33, -0.6, r"$\omega<0$", MOTION, size=11)
     arrow(axes, (-1.0, -1.52), (1.0, -1.52), MOTION)
-    text(axes, 0.0, -1.85, "inner surface:  $u_{2,in}=-(\\Omega_{in}-\\Omega)\\,\\tilde r_{in}<0$", MOTION, size=10)
+    text(
+        axes,
+        0.0,
+        -1.85,
+        "inner surface:  $u_{2,in}=-(\\Omega_{in}-\\Omega)\\,\\tilde r_{in}<0$",
+        MOTION,
+        size=10,
+    )
     arrow(axes, (1.0, 1.5), (-1.0, 1.5), MOTION)
-    text(axes, 0.0, 1.84, "outer surface:  $u_{2,out}=-\\Omega\\,\\tilde r_{out}<0$", MOTION, size=10)
+    text(
+        axes, 0.0, 1.84, "outer surface:  $u_{2,out}=-\\Omega\\,\\tilde r_{out}<0$", MOTION, size=10
+    )
     arrow(axes, (2.1, 2.45), (3.8, 2.45), MOTION)
     text(axes, 2.95, 2.75, r"the roller travels this way  ($\Omega>0$)", MOTION, size=10)
     # Forces on the roller in their positive directions.

@@ -23,7 +23,9 @@ class Support:
 
 def three_point() -> Figure:
     """One main bearing and the gearbox."""
-    figure, axes = _canvas("Three-point mount: one main bearing, and the gearbox on its torque arms")
+    figure, axes = _canvas(
+        "Three-point mount: one main bearing, and the gearbox on its torque arms"
+    )
     _rotor(axes)
     _gearbox(axes, 6.0, "gearbox:\ntorque and forces\nacross the shaft", supported=True)
     _support(axes, Support(2.2, "main bearing", "$F_{Y0}$", "$F_{Z0} = f_x + W\\,\\sin(tilt)$"))
@@ -43,7 +45,13 @@ def four_point() -> Figure:
     _gearbox(axes, 7.0, "gearbox:\ntorque only", supported=False)
     _support(axes, Support(1.8, "front\nfloats along the shaft", "$F_{Y0}$, front"))
     _support(
-        axes, Support(5.2, "rear\nlocating", "$f_z - W\\,\\cos(tilt) - F_{Y0}$", "$F_{Z0} = f_x + W\\,\\sin(tilt)$")
+        axes,
+        Support(
+            5.2,
+            "rear\nlocating",
+            "$f_z - W\\,\\cos(tilt) - F_{Y0}$",
+            "$F_{Z0} = f_x + W\\,\\sin(tilt)$",
+        ),
     )
     _weight(axes, 3.3)
     _length(axes, 0.0, 1.8, "$h$  hub_to_bearing")
@@ -68,21 +76,47 @@ def _canvas(title: str) -> tuple[Figure, Axes]:
     return figure, axes
 
 
-def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], colour: str, style: str = "-|>") -> None:
+def _arrow(
+    axes: Axes,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    colour: str,
+    style: str = "-|>",
+) -> None:
     axes.add_patch(
         FancyArrowPatch(
-            start, end, arrowstyle=style, mutation_scale=13, color=colour, lw=2.0, shrinkA=0, shrinkB=0, zorder=5
+            start,
+            end,
+            arrowstyle=style,
+            mutation_scale=13,
+            color=colour,
+            lw=2.0,
+            shrinkA=0,
+            shrinkB=0,
+            zorder=5,
         )
     )
 
 
-def _text(axes: Axes, x: float, y: float, words: str, colour: str = "black", **style: str | float) -> None:
+def _text(
+    axes: Axes, x: float, y: float, words: str, colour: str = "black", **style: str | float
+) -> None:
     box = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.85}
-    axes.text(x, y, words, color=colour, zorder=6, bbox=box, **{"ha": "center", "va": "center", "size": 10} | style)
+    axes.text(
+        x,
+        y,
+        words,
+        color=colour,
+        zorder=6,
+        bbox=box,
+        **{"ha": "center", "va": "center", "size": 10} | style,
+    )
 
 
 def _rotor(axes: Axes) -> None:
-    axes.add_patch(Rectangle((-0.28, -0.38), 0.56, 0.76, fc="#cfcfcf", ec="black", lw=1.0, zorder=3))
+    axes.add_patch(
+        Rectangle((-0.28, -0.38), 0.56, 0.76, fc="#cfcfcf", ec="black", lw=1.0, zorder=3)
+    )
     _arrow(axes, (-1.7, 0.0), (-0.32, 0.0), SHAFT)
     _text(axes, -1.1, 0.27, "$f_x$", SHAFT, size=13)
     _arrow(axes, (0.0, 0.42), (0.0, 1.25), SHAFT)
@@ -98,7 +132,11 @@ def _rotor(axes: Axes) -> None:
 
 def _support(axes: Axes, support: Support) -> None:
     for side in (1, -1):
-        axes.add_patch(Rectangle((support.x - 0.2, side * 0.29 - 0.13), 0.4, 0.26, fc="#bcd3ea", ec="black", zorder=3))
+        axes.add_patch(
+            Rectangle(
+                (support.x - 0.2, side * 0.29 - 0.13), 0.4, 0.26, fc="#bcd3ea", ec="black", zorder=3
+            )
+        )
     foot = [(support.x, -0.42), (support.x - 0.28, -0.8), (support.x + 0.28, -0.8)]
     axes.add_patch(Polygon(foot, closed=True, fc="white", ec="black", lw=1.2))
     axes.plot([support.x - 0.42, support.x + 0.42], [-0.8, -0.8], color="black", lw=1.6)

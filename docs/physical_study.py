@@ -39,17 +39,28 @@ def study_tables(physical: Path, paper: Path | None) -> None:
     print("|---" * (6 if paper else 5) + "|")
     for speed in energy.wind_speed.values:
         one = energy.sel(wind_speed=speed)
-        cells = [f"{speed:g}", f"{1e-3 * thrust.sel(wind_speed=speed):.0f}", f"{1e-3 * load.sel(wind_speed=speed):.1f}"]
+        cells = [
+            f"{speed:g}",
+            f"{1e-3 * thrust.sel(wind_speed=speed):.0f}",
+            f"{1e-3 * load.sel(wind_speed=speed):.1f}",
+        ]
         cells += [
-            ", ".join(f"{value:.3g}" for value in one.sel(row=row, interface=["inner", "outer", "cage"]).values)
+            ", ".join(
+                f"{value:.3g}"
+                for value in one.sel(row=row, interface=["inner", "outer", "cage"]).values
+            )
             for row in ROWS
         ]
         if other is not None:
             per_orbit = by_speed(other.energy.mean("roller").sum("interface") / other.orbits)
-            cells.append(", ".join(f"{per_orbit.sel(wind_speed=speed, row=row):.3f}" for row in ROWS))
+            cells.append(
+                ", ".join(f"{per_orbit.sel(wind_speed=speed, row=row):.3f}" for row in ROWS)
+            )
         print("| " + " | ".join(cells) + " |")
     total = energy.sum("interface")
-    print(f"energy of both rows over 12C: {[round(float(v), 3) for v in by_speed(numbers.both_rows_normalised)]}")
+    print(
+        f"energy of both rows over 12C: {[round(float(v), 3) for v in by_speed(numbers.both_rows_normalised)]}"
+    )
     down = total.sel(row="downwind")
     print(f"downwind energy an orbit, 12 over 24 m/s: {float(down[0] / down[-1]):.2f}")
     print(
@@ -67,25 +78,43 @@ def study_tables(physical: Path, paper: Path | None) -> None:
     for row in ROWS:
         all_of = study.energy.sel(row=row).sum("roller")
         share = 100.0 * all_of.sel(interface="cage") / all_of.sum("interface")
-        print(f"cage, {row}: {float(share.min()):.2g} to {float(share.max()):.2g} % of the sliding energy")
+        print(
+            f"cage, {row}: {float(share.min()):.2g} to {float(share.max()):.2g} % of the sliding energy"
+        )
     shares = (parts.part_energy / parts.part_energy.sum("part")).sel(row="downwind").mean("case")
     print(
         "downwind parts: "
-        + ", ".join(f"{name} {100 * float(shares.sel(part=name)):.1f} %" for name in shares.part.values)
+        + ", ".join(
+            f"{name} {100 * float(shares.sel(part=name)):.1f} %" for name in shares.part.values
+        )
     )
-    print(f"asperities downwind: {100 * float(parts.asperity_share.sel(row='downwind').mean()):.2g} %")
-    print(f"energy over mean load, downwind: to the power {float(parts.load_exponent.sel(row='downwind')):.2f}")
+    print(
+        f"asperities downwind: {100 * float(parts.asperity_share.sel(row='downwind').mean()):.2g} %"
+    )
+    print(
+        f"energy over mean load, downwind: to the power {float(parts.load_exponent.sel(row='downwind')):.2f}"
+    )
     line = np.polyfit(np.log(study.roller_load.sel(row="downwind")), np.log(per_orbit_of(study)), 1)
-    off = np.exp(np.log(per_orbit_of(study)) - np.polyval(line, np.log(study.roller_load.sel(row="downwind"))))
+    off = np.exp(
+        np.log(per_orbit_of(study))
+        - np.polyval(line, np.log(study.roller_load.sel(row="downwind")))
+    )
     print(f"  each case over that fit: {float(off.min()):.2f} to {float(off.max()):.2f}")
     loaded = 100.0 * study.loaded_share.sel(row="upwind")
-    print(f"upwind rollers under load: {float(loaded.min()):.2g} to {float(loaded.max()):.2g} % of the time")
+    print(
+        f"upwind rollers under load: {float(loaded.min()):.2g} to {float(loaded.max()):.2g} % of the time"
+    )
     for row in ROWS:
         for raceway in ("inner", "outer"):
             at = study.sel(row=row, interface=raceway)
-            largest = (float(at[name].max()) for name in ("flash_temperature", "power_density", "slide_roll_ratio"))
+            largest = (
+                float(at[name].max())
+                for name in ("flash_temperature", "power_density", "slide_roll_ratio")
+            )
             print(
-                "{}, {}: flash {:.3g} K, power {:.3g} W/m2, slide-roll ratio {:.2g}, ".format(row, raceway, *largest)
+                "{}, {}: flash {:.3g} K, power {:.3g} W/m2, slide-roll ratio {:.2g}, ".format(
+                    row, raceway, *largest
+                )
                 + f"least film ratio {float(at.min_film_ratio.min()):.2g}"
             )
 
@@ -102,15 +131,20 @@ def uncertainty_tables(folder: Path) -> None:
     print("| value | range | why |\n|---|---|---|")
     for one in VALUES:
         print(f"| {one.name} | {one.range_text} | {one.reason} |")
-    print("| result | base | median | 5 to 95 % | rank correlation | Sobol' index of first order (total) | predicted |")
+    print(
+        "| result | base | median | 5 to 95 % | rank correlation | Sobol' index of first order (total) | predicted |"
+    )
     print("|---|---|---|---|---|---|---|")
     for k, name in enumerate(summary.quantity.values.tolist()):
         one = summary.isel(quantity=k)
         unit = "" if str(one.units.values) == "1" else f" {one.units.values}"
         low, middle, high = (f"{value:.3g}" for value in one.range.values)
-        driven = ", ".join(f"{parameter} {value:+.2f}" for parameter, value in drivers(summary, name))
+        driven = ", ".join(
+            f"{parameter} {value:+.2f}" for parameter, value in drivers(summary, name)
+        )
         indices = ", ".join(
-            f"{parameter} {first:.2f} ({total:.2f})" for parameter, first, total in strongest(summary, name)
+            f"{parameter} {first:.2f} ({total:.2f})"
+            for parameter, first, total in strongest(summary, name)
         )
         print(
             f"| {name} | {float(one.base):.3g}{unit} | {middle} | {low} to {high}{unit} | {driven or '–'} | {indices or '–'} | "
@@ -122,7 +156,9 @@ def uncertainty_tables(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("results", type=Path, help="folder that make reproduce has written")
     folder = parser.parse_args().results / STUDIES
     paper = folder / "study_paper"

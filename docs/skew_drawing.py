@@ -19,7 +19,14 @@ def skewed_rollers() -> Figure:
     axes.axis("off")
 
     def arrow(start, end, colour, curve=0.0) -> None:
-        style = {"arrowstyle": "-|>", "mutation_scale": 13, "color": colour, "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
+        style = {
+            "arrowstyle": "-|>",
+            "mutation_scale": 13,
+            "color": colour,
+            "lw": 1.6,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        }
         axes.add_patch(FancyArrowPatch(start, end, connectionstyle=f"arc3,rad={curve}", **style))
 
     for place, sign, row in ((4.6, -1.0, "upwind row"), (12.4, 1.0, "downwind row")):
@@ -30,14 +37,20 @@ def skewed_rollers() -> Figure:
         outline = np.concatenate([np.stack([ends, bulge], 1), np.stack([ends, -bulge], 1)[::-1]])
         axes.add_patch(Polygon(outline @ turn.T + (place, 0.0), fc="#dce7f3", ec=ROLLER, lw=1.6))
         tip = turn @ np.array([2.5, 0.0])
-        axes.plot([place - tip[0], place + tip[0]], [-tip[1], tip[1]], color=ROLLER, lw=1.0, ls="-.")
+        axes.plot(
+            [place - tip[0], place + tip[0]], [-tip[1], tip[1]], color=ROLLER, lw=1.0, ls="-."
+        )
         axes.plot([place - 2.6, place + 2.6], [0.0, 0.0], color="0.5", lw=0.9)
         arrow((place + 2.5, 0.0), (place + tip[0], tip[1]), ROLLER, sign * 0.2)
-        axes.text(place + 2.75, sign * 0.33, "ψ > 0" if sign > 0 else "ψ < 0", color=ROLLER, va="center")
+        axes.text(
+            place + 2.75, sign * 0.33, "ψ > 0" if sign > 0 else "ψ < 0", color=ROLLER, va="center"
+        )
         arrow((place, -1.2), (place, -2.5), MOTION)
         axes.text(place + 0.2, -2.0, "travel", color=MOTION, va="center")
         arrow((place, 1.6), (place + sign * 1.8, 1.6), FORCE)
-        axes.text(place + sign * 0.9, 1.95, "axial force on the inner ring", color=FORCE, ha="center")
+        axes.text(
+            place + sign * 0.9, 1.95, "axial force on the inner ring", color=FORCE, ha="center"
+        )
         axes.text(place, 2.9, row, ha="center", weight="bold")
     arrow((16.2, -2.6), (17.5, -2.6), "black")
     arrow((16.2, -2.6), (16.2, -1.3), "black")

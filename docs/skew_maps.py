@@ -75,12 +75,22 @@ def over_osculation(laws: Laws, celsius: float) -> Rest:
     """Over outer and inner osculation."""
     lines = [
         [
-            rest(BASE.replace(osculation_inner=float(i), osculation_outer=float(o)), laws, celsius, np.array([LOAD]))
+            rest(
+                BASE.replace(osculation_inner=float(i), osculation_outer=float(o)),
+                laws,
+                celsius,
+                np.array([LOAD]),
+            )
             for i in INNER
         ]
         for o in OUTER
     ]
-    return Rest(*(np.array([[getattr(one, name)[0] for one in line] for line in lines]) for name in Rest._fields))
+    return Rest(
+        *(
+            np.array([[getattr(one, name)[0] for one in line] for line in lines])
+            for name in Rest._fields
+        )
+    )
 
 
 def over_load() -> Rest:
@@ -96,13 +106,26 @@ def over_thrust() -> Rest:
         speed = rpm * np.pi / 30.0
         line = []
         for ratio in RATIOS:
-            loads = BearingLoads.constant([0.0, -RADIAL, ratio * RADIAL], speed, 3.0 * 2.0 * np.pi / (0.454 * speed))
+            loads = BearingLoads.constant(
+                [0.0, -RADIAL, ratio * RADIAL], speed, 3.0 * 2.0 * np.pi / (0.454 * speed)
+            )
             found = simulate(
-                Case(loads=loads, rollers=[0], laws=PHYSICAL.but(skew="quasi-static"), contact_details=False),
+                Case(
+                    loads=loads,
+                    rollers=[0],
+                    laws=PHYSICAL.but(skew="quasi-static"),
+                    contact_details=False,
+                ),
             ).sel(row="downwind")
             energy, added = float(found.energy[0, :2].sum()), float(found.skew_energy.sum())
             thrust = float(found.frictional_thrust) / (ratio * RADIAL)
-            line.append((1e3 * float(found.skew_by_position.mean()), energy / (energy - added), 100.0 * thrust))
+            line.append(
+                (
+                    1e3 * float(found.skew_by_position.mean()),
+                    energy / (energy - added),
+                    100.0 * thrust,
+                )
+            )
         lines.append(line)
     return Rest(*np.moveaxis(np.array(lines), -1, 0))
 
@@ -117,7 +140,13 @@ def draw(axes, x, y, found: Rest, labels: tuple[str, str]) -> None:
         for (j, i), value in np.ndenumerate(values):
             dark = abs(float(norm(value)) - 0.5) > 0.3
             one.text(
-                x[i], y[j], text % value, ha="center", va="center", fontsize=6.5, color="white" if dark else "black"
+                x[i],
+                y[j],
+                text % value,
+                ha="center",
+                va="center",
+                fontsize=6.5,
+                color="white" if dark else "black",
             )
         one.set_xlabel(labels[0], fontsize=8)
         one.set_ylabel(labels[1], fontsize=8)
@@ -134,7 +163,13 @@ def main() -> None:
         draw(line, INNER, OUTER, found, ("inner osculation", f"{name}\nouter osculation"))
         print(name, np.round(found.skew, 2).tolist(), flush=True)
     found = over_load()
-    draw(axes[3], LOADS / 1e3, TEMPERATURES, found, ("load [kN]", "Eyring, .98/.98\ntemperature [°C]"))
+    draw(
+        axes[3],
+        LOADS / 1e3,
+        TEMPERATURES,
+        found,
+        ("load [kN]", "Eyring, .98/.98\ntemperature [°C]"),
+    )
     for one in axes[3]:
         one.set_xscale("log")
     print("over load", np.round(found.skew, 2).tolist())
@@ -146,7 +181,9 @@ def main() -> None:
         one.set_yticks(np.arange(SPEEDS.size), [f"{x:.3g}" for x in SPEEDS])
     print("over thrust", *(np.round(values, 3).tolist() for values in found), sep="\n")
     for one, title in zip(
-        axes[0], ("skew at rest [mrad]", "power / power without skew", "axial force / load [%]"), strict=True
+        axes[0],
+        ("skew at rest [mrad]", "power / power without skew", "axial force / load [%]"),
+        strict=True,
     ):
         one.set_title(title, fontsize=9)
     figure.savefig(Path(__file__).with_name("skew-maps.svg"), metadata={"Date": None})

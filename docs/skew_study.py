@@ -55,16 +55,28 @@ def main(names: list[str]) -> None:
             traces=Traces(step=0.1),
         )  # fmt: skip
         for variant, changes in VARIANTS.items():
-            straight = simulate(replace(base, **changes | {"laws": changes["laws"].but(skew="none")}))
+            straight = simulate(
+                replace(base, **changes | {"laws": changes["laws"].but(skew="none")})
+            )
             for cage, described in CAGES.items():
                 found = simulate(replace(base, cage=described, **changes))
-                energy = found.energy.sel(interface=["inner", "outer"]).sum(("interface", "roller")).values
+                energy = (
+                    found.energy.sel(interface=["inner", "outer"])
+                    .sum(("interface", "roller"))
+                    .values
+                )
                 added = found.skew_energy.sum(("raceway", "roller")).values
                 skew = 1e3 * found.skew_by_position.values
-                on_ring, (start, end) = base.bearing_loads, (found.attrs[f"window_{one}"] for one in ("start", "end"))
+                on_ring, (start, end) = (
+                    base.bearing_loads,
+                    (found.attrs[f"window_{one}"] for one in ("start", "end")),
+                )
                 inside = (on_ring.time >= start) & (on_ring.time <= end)
                 low, high = np.fmin.reduce(skew, axis=1), np.fmax.reduce(skew, axis=1)
-                thrust, axial = found.frictional_thrust.values, float(on_ring.force[inside, 2].mean())
+                thrust, axial = (
+                    found.frictional_thrust.values,
+                    float(on_ring.force[inside, 2].mean()),
+                )
                 print(
                     f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)}  skew "
                     + " ".join(f"{a:.2f}..{b:.2f}" for a, b in zip(low, high, strict=True))
@@ -77,15 +89,23 @@ def main(names: list[str]) -> None:
 
 def torque(found, case: Case) -> float:
     """Mean torque that friction and rolling resistance of all rollers ask of the shaft [N m]."""
-    spent = float((found.energy + found.rolling_energy).sum()) * case.bearing.rollers_per_row / found.sizes["roller"]
+    spent = (
+        float((found.energy + found.rolling_energy).sum())
+        * case.bearing.rollers_per_row
+        / found.sizes["roller"]
+    )
     time = np.linspace(found.attrs["window_start"], found.attrs["window_end"], 4001)
-    turn = np.trapezoid(np.interp(time, case.bearing_loads.time, case.bearing_loads.shaft_speed), time)
+    turn = np.trapezoid(
+        np.interp(time, case.bearing_loads.time, case.bearing_loads.shaft_speed), time
+    )
     return spent / float(turn)
 
 
 def loads_of_rows(found) -> str:
     """Mean load of a roller of either row [kN]."""
-    return ", ".join(f"{1e-3 * one:.2f}" for one in found.roller_load.mean(("roller", "time")).values)
+    return ", ".join(
+        f"{1e-3 * one:.2f}" for one in found.roller_load.mean(("roller", "time")).values
+    )
 
 
 def speed(name: str) -> None:
@@ -108,7 +128,11 @@ def check(name: str) -> None:
     What the cage and inertia make of a roller's slip beside the equilibrium is taken over from the result.
     """
     case = Case(
-        loads=HubLoads.bundled(name), rollers=ROLLERS, window=Window(end=END), laws=SKEWED, traces=Traces(step=0.71)
+        loads=HubLoads.bundled(name),
+        rollers=ROLLERS,
+        window=Window(end=END),
+        laws=SKEWED,
+        traces=Traces(step=0.71),
     )
     bearing = case.bearing
     found = simulate(case).sel(row="downwind").stack(state=("roller", "time"))
@@ -121,12 +145,20 @@ def check(name: str) -> None:
     tilt, _, middles = placed(pair, load, turned.tractions)
     off = slip - straight.slip
     exact = np.array(
-        [resultants(one, load, speed, turned.slip + off, skew, middles[i], tilt).power for i, one in enumerate(pair)]
+        [
+            resultants(one, load, speed, turned.slip + off, skew, middles[i], tilt).power
+            for i, one in enumerate(pair)
+        ]
     )
     used = found.power.sel(interface=["inner", "outer"]).transpose("interface", "state").values
-    print(f"{name}: {load.size} states, power with skew {used.mean(axis=1)} W, by the contacts {exact.mean(axis=1)} W")
     print(
-        "sum is off by", used.sum() / exact.sum() - 1.0, "single states, median", np.median(np.abs(used / exact - 1.0))
+        f"{name}: {load.size} states, power with skew {used.mean(axis=1)} W, by the contacts {exact.mean(axis=1)} W"
+    )
+    print(
+        "sum is off by",
+        used.sum() / exact.sum() - 1.0,
+        "single states, median",
+        np.median(np.abs(used / exact - 1.0)),
     )
     print(
         "slip over speed of the rings, straight and skewed, mean:",
@@ -151,7 +183,10 @@ def coupled(names: list[str]) -> None:
                 pressed = one.roller_load.values > 1e3
                 if not pressed.any():
                     continue
-                push, skew = np.abs(one.cage_force.values[pressed]), 1e3 * np.abs(one.skew_angle.values[pressed])
+                push, skew = (
+                    np.abs(one.cage_force.values[pressed]),
+                    1e3 * np.abs(one.skew_angle.values[pressed]),
+                )
                 inner, outer, cage = one.energy.sum("roller").values
                 ends, raceways = float(one.stop_energy.sum()), inner + outer
                 print(
@@ -170,7 +205,10 @@ def ends(name: str) -> None:
         case = Case(loads=HubLoads.bundled(name), laws=SKEWED, temperature=celsius + ZERO_CELSIUS)
         ready = prepare_case(case)
         roller = with_tables(ready.models, ready.box)[0]["downwind"]
-        pair, stop = raceways(ready.model.laws, case.bearing, 1), pocket(case.bearing, "conforming-pocket", 0.5e-3)
+        pair, stop = (
+            raceways(ready.model.laws, case.bearing, 1),
+            pocket(case.bearing, "conforming-pocket", 0.5e-3),
+        )
         for load in (5e3, 1e4, 2e4, 3.5e4, 5e4):
             at = equilibrium(pair, ready.model.laws, load, SPEED, stop.largest)
             force = abs(float(at.moment)) / stop.arm
@@ -181,7 +219,9 @@ def ends(name: str) -> None:
             more = np.array([0.0, 1e-6])
             inner, outer = contacts(pair, load, at.slip + more, stop.largest, middles, tilt)
             slope = np.diff(inner.spin + outer.spin)[0] / 1e-6
-            inner, outer = contacts(pair, load, at.slip - np.array([0.0, brake / slope]), stop.largest, middles, tilt)
+            inner, outer = contacts(
+                pair, load, at.slip - np.array([0.0, brake / slope]), stop.largest, middles, tilt
+            )
             moment = inner.moment + inner.pressure_moment + outer.moment + outer.pressure_moment
             raceway = inner.power + outer.power
             print(
@@ -195,7 +235,10 @@ def ends(name: str) -> None:
 def contacts(pair, load, slip, skew, middles, tilt) -> list:
     """Resultants of both raceways at several slips [m/s]."""
     load, speed = np.full(slip.shape, load), np.full(slip.shape, SPEED)
-    return [resultants(one, load, speed, slip, skew, middle, tilt) for one, middle in zip(pair, middles, strict=True)]
+    return [
+        resultants(one, load, speed, slip, skew, middle, tilt)
+        for one, middle in zip(pair, middles, strict=True)
+    ]
 
 
 @jit
@@ -213,15 +256,25 @@ def damage(names: list[str]) -> None:
             laws = Laws.physical() if described == "straight" else SKEWED
             found = simulate(replace(base, laws=laws, cage=cage))
             told, down = criteria(found), found.sel(row="downwind")
-            sums = [down[one].sel(interface=["inner", "outer"]).sum() for one in ("energy", "asperity_energy")]
+            sums = [
+                down[one].sel(interface=["inner", "outer"]).sum()
+                for one in ("energy", "asperity_energy")
+            ]
             worst = [
-                told[one].sel(row="downwind").max("station") for one in ("pressure_slip_rate", "asperity_work_rate")
+                told[one].sel(row="downwind").max("station")
+                for one in ("pressure_slip_rate", "asperity_work_rate")
             ]
             least = [
-                told.asperity_work_rate.sel(row="downwind", place=one)[10:14].min() / worst[1].sel(place=one)
+                told.asperity_work_rate.sel(row="downwind", place=one)[10:14].min()
+                / worst[1].sel(place=one)
                 for one in ("inner", "outer")
             ]
-            values = [*sums, down.surface_work.sum(), *(one.max() for one in worst), told.wear_time[0, :, 1, 1].min()]
+            values = [
+                *sums,
+                down.surface_work.sum(),
+                *(one.max() for one in worst),
+                told.wear_time[0, :, 1, 1].min(),
+            ]
             values = np.array([float(one) for one in values])
             straight = values if straight is None else straight
             print(
@@ -230,7 +283,10 @@ def damage(names: list[str]) -> None:
                 "energy, asperities, work, most p|v|, most wear, time to 10 um x",
                 (values / straight).round(3),
             )
-            print("  least wear of the four middle stations over the most, inner and outer:", np.round(least, 3))
+            print(
+                "  least wear of the four middle stations over the most, inner and outer:",
+                np.round(least, 3),
+            )
             for one in told.criterion.values:
                 print(f"  {one:26s} {float(told.value.sel(criterion=one)):.4g}")
 

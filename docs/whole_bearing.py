@@ -40,7 +40,11 @@ def energies(result) -> np.ndarray:
 
 def cells(*values: object) -> str:
     """A row of a table."""
-    return "| " + " | ".join(f"{value:.3g}" if isinstance(value, float) else str(value) for value in values) + " |"
+    return (
+        "| "
+        + " | ".join(f"{value:.3g}" if isinstance(value, float) else str(value) for value in values)
+        + " |"
+    )
 
 
 def heading(*names: str) -> None:
@@ -77,8 +81,15 @@ def cases(laws: Laws) -> None:
         before, after = energies(imposed), energies(whole)
         rolling = [float(one.rolling_energy.sum()) for one in (whole, imposed)]
         force = whole.largest_pocket_force.max(("roller", "side")).values
-        top = whole.largest_force_by_position.where(abs(whole.position - np.pi / 2) < np.radians(30)).max()
-        pairs = [x for i in (0, 1) for k in (0, 1) for x in (float(before[i, k]), share(after[i, k], before[i, k]))]
+        top = whole.largest_force_by_position.where(
+            abs(whole.position - np.pi / 2) < np.radians(30)
+        ).max()
+        pairs = [
+            x
+            for i in (0, 1)
+            for k in (0, 1)
+            for x in (float(before[i, k]), share(after[i, k], before[i, k]))
+        ]
         print(cells(
             name, *pairs, share(*rolling), share(*before.sum(axis=1)), share(*after.sum(axis=1)),
             f"{100 * float(whole.cage_slip[0]):.3g}",
@@ -89,7 +100,11 @@ def cases(laws: Laws) -> None:
 
 def choices(laws: Laws) -> None:
     """What the choices for the cage change under 14B."""
-    case = Case(loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + SPAN), laws=laws, dynamics="whole-bearing")
+    case = Case(
+        loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + SPAN),
+        laws=laws,
+        dynamics="whole-bearing",
+    )
     described = {
         "default": Cage(),
         "gap 0.2 mm": Cage(gap=2e-4),
@@ -113,7 +128,9 @@ def choices(laws: Laws) -> None:
     for name, one in changed.items():
         result = simulate(one)
         force = result.largest_pocket_force.max(("roller", "side")).values
-        top = result.largest_force_by_position.where(abs(result.position - np.pi / 2) < np.radians(30)).max()
+        top = result.largest_force_by_position.where(
+            abs(result.position - np.pi / 2) < np.radians(30)
+        ).max()
         slip = ", ".join(f"{100 * part:.3g}" for part in result.cage_slip.values)
         print(
             cells(
@@ -129,7 +146,13 @@ def choices(laws: Laws) -> None:
 
 def supply() -> None:
     """The cage of 14B on imposed orbits and in the whole bearing by the supply of oil."""
-    heading("oil_supply", "downwind cage, imposed [J]", "whole/imposed", "upwind cage, imposed [J]", "whole/imposed")
+    heading(
+        "oil_supply",
+        "downwind cage, imposed [J]",
+        "whole/imposed",
+        "upwind cage, imposed [J]",
+        "whole/imposed",
+    )
     loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + SPAN)
     for name in ("flooded", "skf", 0.7):
         case = Case(loads=loads, laws=PHYSICAL, oil_supply=name)
@@ -137,7 +160,12 @@ def supply() -> None:
             energies(simulate(case))[:, 1],
             energies(simulate(replace(case, dynamics="whole-bearing")))[:, 1],
         )
-        print(cells(name, *(x for k in (0, 1) for x in (float(imposed[k]), share(whole[k], imposed[k])))), flush=True)
+        print(
+            cells(
+                name, *(x for k in (0, 1) for x in (float(imposed[k]), share(whole[k], imposed[k])))
+            ),
+            flush=True,
+        )
 
 
 def radial(laws: Laws, duration: float = 30.0, cage: Cage = Cage()) -> Case:
@@ -153,18 +181,26 @@ def places(laws: Laws) -> None:
     for row in result.row.values:
         force = result.largest_force_by_position.sel(row=row).values
         # Sectors of 30° about 0°, 30° …
-        print(cells(row, *(f"{x:.3g}" for x in np.roll(force, 3).reshape(12, 6).max(axis=1))), flush=True)
+        print(
+            cells(row, *(f"{x:.3g}" for x in np.roll(force, 3).reshape(12, 6).max(axis=1))),
+            flush=True,
+        )
 
 
 def dry() -> None:
     """Dry impacts: energies and cost."""
-    case = Case(loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + 10.0), laws=PAPER, dynamics="whole-bearing")
+    case = Case(
+        loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + 10.0),
+        laws=PAPER,
+        dynamics="whole-bearing",
+    )
     heading(
         "spars", "downwind cage [J]", "upwind cage [J]", "impacts and films take [J]", "largest force [N]", "steps a second",
         "times real time",
     )  # fmt: skip
     described = {"squeeze film": Cage()} | {
-        f"dry, D {damping:g} s/m": Cage(impact="dry", damping=damping) for damping in (10.0, 50.0, 250.0)
+        f"dry, D {damping:g} s/m": Cage(impact="dry", damping=damping)
+        for damping in (10.0, 50.0, 250.0)
     }
     for name, cage in described.items():
         result, spent = timed(replace(case, cage=cage))
@@ -173,7 +209,16 @@ def dry() -> None:
         force = float(result.largest_pocket_force.max())
         lost = float(result.pocket_loss[-1])
         print(
-            cells(name, float(found[0, 1]), float(found[1, 1]), lost, force, f"{steps:.0f}", 10.0 / spent), flush=True
+            cells(
+                name,
+                float(found[0, 1]),
+                float(found[1, 1]),
+                lost,
+                force,
+                f"{steps:.0f}",
+                10.0 / spent,
+            ),
+            flush=True,
         )
 
 
@@ -186,7 +231,13 @@ def tolerance() -> None:
     loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + 30.0)
     for name, cage in (("default", Cage()), ("without weight", Cage(weight=False))):
         for value in (2e-3, 2e-4, 2e-5):
-            case = Case(loads=loads, laws=PAPER, dynamics="whole-bearing", cage=cage, integrator=Radau(tolerance=value))
+            case = Case(
+                loads=loads,
+                laws=PAPER,
+                dynamics="whole-bearing",
+                cage=cage,
+                integrator=Radau(tolerance=value),
+            )
             result = simulate(case)
             found = [f"{x:.5g}" for x in energies(result).ravel()]
             print(cells(name, value, *found, float(result.energy_residual[-1])), flush=True)
@@ -206,10 +257,18 @@ def scatter() -> None:
         found = []
         for seed in range(1, 6):
             cage = Cage(offsets="random", seed=seed)
-            case = Case(loads=loads, laws=PAPER, dynamics="whole-bearing", cage=cage, integrator=Radau(tolerance=value))
+            case = Case(
+                loads=loads,
+                laws=PAPER,
+                dynamics="whole-bearing",
+                cage=cage,
+                integrator=Radau(tolerance=value),
+            )
             found.append(energies(simulate(case))[:, 1])
         mean, deviation = np.mean(found, axis=0), np.std(found, axis=0, ddof=1)
-        print(cells(value, *(f"{x:.4g}" for k in (0, 1) for x in (mean[k], deviation[k]))), flush=True)
+        print(
+            cells(value, *(f"{x:.4g}" for k in (0, 1) for x in (mean[k], deviation[k]))), flush=True
+        )
 
 
 def operation(laws: Laws) -> None:
@@ -221,11 +280,15 @@ def operation(laws: Laws) -> None:
         "idling at a tenth of the speed, 60 s": ([0.0, 60.0], [0.1 * RATED, 0.1 * RATED]),
         "emergency stop in 2 s": ([0.0, 10.0, 12.0, 20.0], [RATED, RATED, 0.0, 0.0]),
     }
-    heading("", "raceways, imposed / whole [J]", "cage, imposed / whole [J]", "largest spar force [N]")
+    heading(
+        "", "raceways, imposed / whole [J]", "cage, imposed / whole [J]", "largest spar force [N]"
+    )
     for name, (times, speeds) in series.items():
         when = np.arange(0.0, times[-1] + 0.025, 0.05)
         force = np.tile([0.0, -343e3, 0.0], (when.size, 1))
-        loads = BearingLoads(time=when, shaft_speed=np.interp(when, times, speeds), force=force, source=name)
+        loads = BearingLoads(
+            time=when, shaft_speed=np.interp(when, times, speeds), force=force, source=name
+        )
         case = Case(loads=loads, laws=laws)
         imposed, whole = simulate(case), simulate(replace(case, dynamics="whole-bearing"))
         before, after = energies(imposed).sum(axis=0), energies(whole).sum(axis=0)
@@ -263,7 +326,14 @@ def long() -> None:
 
 def speed(laws: Laws) -> None:
     """Time of one core for all 600 s of load case 14B, after a first run that compiles."""
-    heading("spars", "simulated [s]", "time of one core [s]", "times real time", "steps", "contact evaluations")
+    heading(
+        "spars",
+        "simulated [s]",
+        "time of one core [s]",
+        "times real time",
+        "steps",
+        "contact evaluations",
+    )
     for name, cage in (("squeeze film", Cage()), ("dry", Cage(impact="dry"))):
         loads = HubLoads.bundled("14B")
         case = Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
@@ -271,7 +341,10 @@ def speed(laws: Laws) -> None:
         result, spent = timed(case)
         steps = int((result.steps + result.rejections).max())
         span = float(loads.time[-1] - loads.time[0])
-        print(cells(name, span, spent, span / spent, steps, int(result.force_evaluations.max())), flush=True)
+        print(
+            cells(name, span, spent, span / spent, steps, int(result.force_evaluations.max())),
+            flush=True,
+        )
 
 
 def accuracy(laws: Laws) -> None:
@@ -309,7 +382,10 @@ def rollers(laws: Laws) -> None:
         case = Case(loads=loads, laws=laws, bearing=bearing, dynamics="whole-bearing", cage=cage)
         result, spent = min((timed(case) for _ in range(3)), key=lambda one: one[1])
         steps = int((result.steps + result.rejections).max())
-        print(cells(2 * count, 1e3 * spent / 60.0, steps / 60.0, 1e6 * spent / (steps * 2 * count)), flush=True)
+        print(
+            cells(2 * count, 1e3 * spent / 60.0, steps / 60.0, 1e6 * spent / (steps * 2 * count)),
+            flush=True,
+        )
 
 
 BY_LAWS = {

@@ -24,7 +24,14 @@ from macroslip.study.year import coverage, year
 #: Of energy and entries both rows count, of wear the row and place with most.
 QUANTITIES = {"energy": BLUE, "wear": ORANGE, "entries": GREEN}
 NAMES = {"energy": "energy", "wear": "wear", "entries": "entries under slip"}
-VARIANTS = ["as it is", "oil_supply flooded", "oil_supply 0.7", "oil_supply 0.5", "oil at 25 °C", "oil at 50 °C"]
+VARIANTS = [
+    "as it is",
+    "oil_supply flooded",
+    "oil_supply 0.7",
+    "oil_supply 0.5",
+    "oil at 25 °C",
+    "oil at 50 °C",
+]
 MODELS = {"straight rollers": {"marker": "o", "mfc": "white"}, "skewed rollers": {"marker": "o"}}
 
 
@@ -36,7 +43,11 @@ def of_a_year(folder: str) -> tuple[xr.Dataset, xr.DataArray, np.ndarray]:
     worse = found.wear.sum("bin", skipna=False).fillna(0.0).idxmax("row")
     # Entries are counted by orbits, of which idling and parked rotors complete none.
     entries = found.entries.where(~found.event.isin(["idle-6", "idle-25", "parked-12"]), 0.0)
-    drawn = [found.energy.sum("row", skipna=False), found.wear.sel(row=worse), entries.sum("row", skipna=False)]
+    drawn = [
+        found.energy.sum("row", skipna=False),
+        found.wear.sel(row=worse),
+        entries.sum("row", skipna=False),
+    ]
     values = xr.concat(drawn, "quantity", coords="minimal")
     wind = [f"{speed:g}" for speed in found.bin.values]
     names = np.where(found.event.values == "", wind, found.event.values)
@@ -57,15 +68,21 @@ def parts_figure(values: xr.DataArray, names: np.ndarray, parts: dict[str, np.nd
     for k, (name, colour) in enumerate(QUANTITIES.items()):
         one = shares.sel(quantity=name).values
         heights = np.append(one[windy], one[~windy].sum())
-        axes.bar(np.arange(heights.size) + 0.27 * (k - 1), heights, 0.25, color=colour, label=NAMES[name])
+        axes.bar(
+            np.arange(heights.size) + 0.27 * (k - 1), heights, 0.25, color=colour, label=NAMES[name]
+        )
     axes.set_xticks(np.arange(heights.size), [*names[windy], "events"])
-    axes.axvspan(3.5, 10.5, color=GREY, alpha=0.12, linewidth=0, zorder=0, label="the paper's range")
+    axes.axvspan(
+        3.5, 10.5, color=GREY, alpha=0.12, linewidth=0, zorder=0, label="the paper's range"
+    )
     axes.legend(frameon=False)
     finish(axes, "wind speed [m/s]", "share of a year [%]")
     return figure
 
 
-def events_figure(found: xr.Dataset, values: xr.DataArray, names: np.ndarray, parts: dict[str, np.ndarray]) -> Figure:
+def events_figure(
+    found: xr.Dataset, values: xr.DataArray, names: np.ndarray, parts: dict[str, np.ndarray]
+) -> Figure:
     """Share of a year of every event, and what an hour of it does over an hour of the mean wind speed."""
     figure, (left, right) = new_figure(8.4, 3.8, columns=2, sharey=True)
     one = values.isel(group=0)
@@ -73,7 +90,10 @@ def events_figure(found: xr.Dataset, values: xr.DataArray, names: np.ndarray, pa
     share = 100.0 * one / one.sum("bin")
     hourly = (one / found.hours) / (one.isel(bin=windy).sum("bin") / found.hours[windy].sum())
     order = np.flatnonzero(some)[np.argsort(found.energy.isel(group=0).sum("row").values[some])]
-    for axes, shown, label in ((left, share, "share of a year [%]"), (right, hourly, "an hour over one of production")):
+    for axes, shown, label in (
+        (left, share, "share of a year [%]"),
+        (right, hourly, "an hour over one of production"),
+    ):
         for k, (name, colour) in enumerate(QUANTITIES.items()):
             at = shown.sel(quantity=name).values[order]
             places = np.arange(order.size) + 0.2 * (1 - k)
@@ -102,7 +122,14 @@ def variants_figure(table: pd.DataFrame) -> Figure:
     figure, panels = new_figure(8.4, 3.2, columns=3, sharey=True)
     for axes, (name, colour) in zip(panels, QUANTITIES.items(), strict=True):
         for model, style in MODELS.items():
-            axes.plot(table.loc[model, name], VARIANTS, color=colour, linestyle="none", label=model, **style)
+            axes.plot(
+                table.loc[model, name],
+                VARIANTS,
+                color=colour,
+                linestyle="none",
+                label=model,
+                **style,
+            )
         axes.axvline(1.0, color=GREY, linewidth=0.8)
         axes.grid(axis="y", color=GREY, alpha=0.2)
         finish(axes, "over the base turbine [1]", "", NAMES[name])
@@ -121,7 +148,11 @@ def variants_table(folder: str) -> tuple[pd.DataFrame, pd.DataFrame]:
         for s, t in zip(supply.astype(str), at, strict=True)
     ]
     index = pd.MultiIndex.from_arrays([found.model.values, names])
-    table = pd.DataFrame(values.sum("bin", skipna=False).transpose("group", "quantity").values, index, list(QUANTITIES))
+    table = pd.DataFrame(
+        values.sum("bin", skipna=False).transpose("group", "quantity").values,
+        index,
+        list(QUANTITIES),
+    )
     for name in ("peak", "entry_slip"):
         table[name] = found[name].max(("bin", "row")).values
     shares = {
@@ -140,10 +171,17 @@ def main(base: str, variants: str) -> None:
     table = pd.DataFrame(one.transpose("bin", "quantity").values, names, list(QUANTITIES))
     hours = pd.Series(found.hours.values, names)
     for name, part in parts.items():
-        table.loc[name], hours[name] = table[: names.size][part].sum(), hours[: names.size][part].sum()
+        table.loc[name], hours[name] = (
+            table[: names.size][part].sum(),
+            hours[: names.size][part].sum(),
+        )
     whole = one.sum("bin", skipna=False).to_series()
     print(coverage(found), whole.to_string(), sep="\n")
-    shown = (100.0 * table / whole).join(table.div(hours, axis=0).add_suffix(" an hour")).assign(hours=hours)
+    shown = (
+        (100.0 * table / whole)
+        .join(table.div(hours, axis=0).add_suffix(" an hour"))
+        .assign(hours=hours)
+    )
     every, shares = variants_table(variants)
     over = every / every.loc["straight rollers", "as it is"]
     for one in (shown, every, over, shares):
@@ -154,7 +192,9 @@ def main(base: str, variants: str) -> None:
         ("events", events_figure(found, values, names, parts)),
         ("variants", variants_figure(over)),
     ):
-        figure.savefig(Path(__file__).parent / "figures" / f"year_{name}.svg", metadata={"Date": None})
+        figure.savefig(
+            Path(__file__).parent / "figures" / f"year_{name}.svg", metadata={"Date": None}
+        )
 
 
 if __name__ == "__main__":

@@ -18,7 +18,9 @@ hub = hub.window(hub.time[0], hub.time[0] + 30.0)
 # Distances and tilt of your own drivetrain belong here; these are the defaults.
 drivetrain = Drivetrain(hub_to_bearing=1.26, bearing_to_gearbox=2.2)
 mean = main_bearing_load(hub, drivetrain).force.mean(axis=0) / 1e3
-print(f"mean load on the main bearing: X0 {mean[0]:.1f} kN, Y0 {mean[1]:.1f} kN, Z0 {mean[2]:.1f} kN")
+print(
+    f"mean load on the main bearing: X0 {mean[0]:.1f} kN, Y0 {mean[1]:.1f} kN, Z0 {mean[2]:.1f} kN"
+)
 
 result = simulate(Case(loads=hub, drivetrain=drivetrain))
 print(f"failed rollers: {int((result.status != 0).sum())} of {result.status.size}")

@@ -16,7 +16,12 @@ base = Bearing.read("skf-240-600-bc")
 # A file of one's own: as_dict gives the content of the shipped one, in which two entries are replaced. YAML reads JSON.
 entries = base.as_dict()
 entries["name"] = "my-bearing"
-entries["diametral_clearance"] = {"value": 0.1, "unit": "mm", "tag": "E", "note": "warm, by our thermal model"}
+entries["diametral_clearance"] = {
+    "value": 0.1,
+    "unit": "mm",
+    "tag": "E",
+    "note": "warm, by our thermal model",
+}
 entries["composite_roughness"] = {"value": 0.25, "unit": "um"}  # without a tag it is U, the user's
 with tempfile.TemporaryDirectory() as folder:
     path = Path(folder) / "my-bearing.yaml"
@@ -34,4 +39,6 @@ loads = BearingLoads.constant([0.0, -343.5e3, 0.0], shaft_speed=20.463 * np.pi /
 for bearing in (base, own, tight):
     result = simulate(Case(loads=loads, bearing=bearing, rollers=[0])).isel(roller=0)
     lowest = float(result.min_spin_ratio.sel(row="downwind"))
-    print(f"{bearing.name}: clearance {1e3 * bearing.diametral_clearance:.2f} mm, lowest spin {100 * lowest:.1f} %")
+    print(
+        f"{bearing.name}: clearance {1e3 * bearing.diametral_clearance:.2f} mm, lowest spin {100 * lowest:.1f} %"
+    )

@@ -17,4 +17,6 @@ for factor in (0.5, 1.0, 2.0):
     energy = result.energy.sum("interface", skipna=False).mean("roller", skipna=False)
     lowest = 100.0 * result.min_spin_ratio.min("roller", skipna=False)
     values = [float(one.sel(row=row)) for one in (energy, lowest) for row in ("downwind", "upwind")]
-    print(f"{lubricant.viscosity:<8g} {values[0]:10.3f} {values[1]:10.3f} {values[2]:12.1f} {values[3]:10.1f}")
+    print(
+        f"{lubricant.viscosity:<8g} {values[0]:10.3f} {values[1]:10.3f} {values[2]:12.1f} {values[3]:10.1f}"
+    )

@@ -11,9 +11,13 @@ import own_law  # noqa: F401  registers "isothermal-barus"
 from macroslip import BearingLoads, Case, Laws, simulate
 
 loads = BearingLoads.constant([0.0, -343.5e3, 0.0], shaft_speed=20.463 * np.pi / 30, duration=20.0)
-result = simulate(Case(loads=loads, rollers=[0], laws=Laws.paper().but(traction="isothermal-barus")))
+result = simulate(
+    Case(loads=loads, rollers=[0], laws=Laws.paper().but(traction="isothermal-barus"))
+)
 roller = result.sel(row="downwind").isel(roller=0)
-print(f"completed: {int(roller.status) == 0}, lowest spin {100 * float(roller.min_spin_ratio):.1f} % of pure rolling")
+print(
+    f"completed: {int(roller.status) == 0}, lowest spin {100 * float(roller.min_spin_ratio):.1f} % of pure rolling"
+)
 for name in ("inner", "outer", "cage"):
     energy = float(roller.orbit_energy.sel(interface=name).mean())
     peak = float(roller.peak_power.sel(interface=name).max())

@@ -12,11 +12,17 @@ loads = BearingLoads.constant([0.0, -343.5e3, 0.0], shaft_speed=20.463 * np.pi /
 result = simulate(Case(loads=loads, rollers=[0, 14], traces=Traces(step=0.01)))
 
 angles = np.degrees(result.start_angle)
-assert np.allclose(angles.sel(row="downwind"), [-90.0, 90.0])  # roller 0 at the bottom, roller 14 at the top
-assert np.allclose(angles.sel(row="upwind"), [-90.0 + 180.0 / 28, 90.0 + 180.0 / 28])  # half a pitch on
+assert np.allclose(
+    angles.sel(row="downwind"), [-90.0, 90.0]
+)  # roller 0 at the bottom, roller 14 at the top
+assert np.allclose(
+    angles.sel(row="upwind"), [-90.0 + 180.0 / 28, 90.0 + 180.0 / 28]
+)  # half a pitch on
 
 start = result.sel(row="downwind").isel(time=0)
-assert start.roller_load.sel(roller=0) > 0 and start.roller_load.sel(roller=14) == 0  # weight: loaded at the bottom
+assert (
+    start.roller_load.sel(roller=0) > 0 and start.roller_load.sel(roller=14) == 0
+)  # weight: loaded at the bottom
 assert (result.spin < 0).all()  # the shaft turns forward, the rollers backward
 lagging = result.spin > 0.99 * result.spin_pure  # less negative than in pure rolling
 assert (result.slip.where(lagging) <= 0).sum() == lagging.sum()  # lagging rollers slip negatively
@@ -30,5 +36,7 @@ assert cage.sel(time=quarter, method="nearest") > 0 > cage.sel(time=3 * quarter,
 # Thrust goes to the downwind row.
 loads = BearingLoads.constant([0.0, 0.0, 164e3], shaft_speed=2.14, duration=0.1)
 result = simulate(Case(loads=loads, traces=Traces(step=0.1)))
-assert (result.roller_load.sel(row="downwind") > 0).all() and (result.roller_load.sel(row="upwind") == 0).all()
+assert (result.roller_load.sel(row="downwind") > 0).all() and (
+    result.roller_load.sel(row="upwind") == 0
+).all()
 print("loads, numbers, spin, slip and cage force have the signs of docs/frames.md")

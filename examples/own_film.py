@@ -31,9 +31,14 @@ def in_range(interface, load, speed):
 
 
 register_film(
-    "dowson-higginson", thickness, reference="Dowson, Proc. Inst. Mech. Engrs. 182 (1967) 151", in_range=in_range
+    "dowson-higginson",
+    thickness,
+    reference="Dowson, Proc. Inst. Mech. Engrs. 182 (1967) 151",
+    in_range=in_range,
 )
 
 if __name__ == "__main__":
     for interface in interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")):
-        print(f"{interface.name:5}: h = {1e6 * thickness(interface, 20e3, 0.4):.3f} um at 20 kN and 0.4 m/s")
+        print(
+            f"{interface.name:5}: h = {1e6 * thickness(interface, 20e3, 0.4):.3f} um at 20 kN and 0.4 m/s"
+        )

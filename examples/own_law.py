@@ -19,7 +19,13 @@ def traction(interface, load, film_thickness, slip):
     hertz, oil = interface.hertz, interface.lubricant
     root = load ** (1 / 3)
     area = 2 * math.pi * hertz.semi_axis_across * hertz.semi_axis_along * root**2
-    return area * oil.viscosity * slip / film_thickness * patch(oil.pressure_viscosity * hertz.pressure * root)
+    return (
+        area
+        * oil.viscosity
+        * slip
+        / film_thickness
+        * patch(oil.pressure_viscosity * hertz.pressure * root)
+    )
 
 
 def patch(p):
@@ -29,8 +35,12 @@ def patch(p):
     return np.where(p < 0.01, series, (np.exp(large) * (large - 1) + 1) / large**2)
 
 
-register_traction("isothermal-barus", traction, reference="Barus, American Journal of Science 45 (1893) 87")
+register_traction(
+    "isothermal-barus", traction, reference="Barus, American Journal of Science 45 (1893) 87"
+)
 
 if __name__ == "__main__":
     for interface in interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")):
-        print(f"{interface.name:5}: F = {traction(interface, 2e3, 1e-6, 1e-4):.4g} N at 2 kN, 1 um and 0.1 mm/s")
+        print(
+            f"{interface.name:5}: F = {traction(interface, 2e3, 1e-6, 1e-4):.4g} N at 2 kN, 1 um and 0.1 mm/s"
+        )

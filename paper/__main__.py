@@ -14,7 +14,9 @@ from paper.reproduce import REPORT, reproduce
 def main() -> int:
     """Exit code 0; 2 for bad input; 3 if an integration failed."""
     parser = argparse.ArgumentParser(prog="python -m paper", description=__doc__)
-    parser.add_argument("-o", "--output", type=Path, default=Path("results"), help="folder to write to")
+    parser.add_argument(
+        "-o", "--output", type=Path, default=Path("results"), help="folder to write to"
+    )
     parser.add_argument("--threads", type=int, help="threads; all processors if not given")
     given = parser.parse_args()
     try:
@@ -23,8 +25,14 @@ def main() -> int:
     except MacroslipError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    print(*summary["headline"], f"written: {given.output}; the report: {given.output / REPORT}", sep="\n")
-    failed = [summary["failed_rollers"][part] for part in ("study", "single_rollers", "detailed_case")]
+    print(
+        *summary["headline"],
+        f"written: {given.output}; the report: {given.output / REPORT}",
+        sep="\n",
+    )
+    failed = [
+        summary["failed_rollers"][part] for part in ("study", "single_rollers", "detailed_case")
+    ]
     return 3 if any(failed) else 0
 
 

@@ -42,7 +42,11 @@ def _program() -> Iterator[Path]:
     yield from (path for path in ROOT.iterdir() if path.is_file())
     for folder in _FOLDERS:
         paths = (path for path in (ROOT / folder).rglob("*") if path.is_file())
-        yield from (path for path in paths if not {"__pycache__", "build"} & set(path.parts[len(ROOT.parts) :]))
+        yield from (
+            path
+            for path in paths
+            if not {"__pycache__", "build"} & set(path.parts[len(ROOT.parts) :])
+        )
 
 
 def _environment() -> str:
@@ -72,10 +76,17 @@ def archive(results: Path, target: Path) -> None:
             allowed="the folder that `make reproduce` has written to the end",
             remedy="Run make reproduce first.",
         )
-    made = {"README.md": _README.format(version=macroslip.__version__), "environment.txt": _environment()}
+    made = {
+        "README.md": _README.format(version=macroslip.__version__),
+        "environment.txt": _environment(),
+    }
     content = {name: text.encode() for name, text in made.items()}
     files = {f"program/{path.relative_to(ROOT).as_posix()}": path for path in _program()}
-    files |= {f"results/{path.relative_to(results).as_posix()}": path for path in results.rglob("*") if path.is_file()}
+    files |= {
+        f"results/{path.relative_to(results).as_posix()}": path
+        for path in results.rglob("*")
+        if path.is_file()
+    }
     check_new_file(target, force=False)
     with (
         new_file(target, force=False) as aside,
@@ -102,9 +113,15 @@ def main() -> int:
     """Exit code 0; 2 for a study that is not complete."""
     parser = argparse.ArgumentParser(prog="python -m paper.archive", description=__doc__)
     parser.add_argument(
-        "results", type=Path, nargs="?", default=Path("results"), help="folder that make reproduce has written"
+        "results",
+        type=Path,
+        nargs="?",
+        default=Path("results"),
+        help="folder that make reproduce has written",
     )
-    parser.add_argument("-o", "--output", type=Path, default=Path("macroslip-study.tar.gz"), help="file to write")
+    parser.add_argument(
+        "-o", "--output", type=Path, default=Path("macroslip-study.tar.gz"), help="file to write"
+    )
     given = parser.parse_args()
     try:
         archive(given.results, given.output)

@@ -52,10 +52,14 @@ def static_load(variable: BearingLoads, *, thrust: bool, duration: float) -> Bea
     (0, mean F_Y0, mean F_Z0).
     """
     _, down, axial = variable.force.mean(axis=0)
-    return BearingLoads.constant([0.0, down, axial if thrust else 0.0], float(variable.shaft_speed.mean()), duration)
+    return BearingLoads.constant(
+        [0.0, down, axial if thrust else 0.0], float(variable.shaft_speed.mean()), duration
+    )
 
 
-def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: Laws = _PAPER) -> xr.Dataset:
+def trace_turn(
+    loads: BearingLoads, row: str, roller: int, time: float, laws: Laws = _PAPER
+) -> xr.Dataset:
     """Spin and cumulative frictional energy of one roller of a row over the turn from the bottom that holds a time [s].
 
     The history is integrated from its start, so the roller arrives with its own past. The shaft must not stop or turn back.
@@ -75,7 +79,9 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
     """
     case = ms.Case(loads=loads, rollers=[roller], laws=laws)
     if loads.shaft_speed.min() <= 0.0:
-        raise ms.InputError("the shaft stops or turns back", where=loads.source, allowed="speeds above 0")
+        raise ms.InputError(
+            "the shaft stops or turns back", where=loads.source, allowed="speeds above 0"
+        )
     # Angle from the bottom at the load samples, rising without wrap [rad].
     begin = initial_angles(row, case.bearing.rollers_per_row)[roller] + 0.5 * np.pi
     turned = begin + travel(loads.time, loads.shaft_speed, geometry.orbit_ratio(case.bearing))
@@ -85,11 +91,15 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
     step = (end - start) / (_POINTS * _FINE)
     # Rounding may put the last trace time past the end of the turn by one unit in the last place.
     traces = ms.Traces(step=step * (1.0 - 1e-12), start=start, end=end)
-    result = ms.simulate(replace(case, loads=until, window=ms.Window(start=start, end=end), traces=traces), threads=1)
+    result = ms.simulate(
+        replace(case, loads=until, window=ms.Window(start=start, end=end), traces=traces), threads=1
+    )
     result = result.sel(row=row).isel(roller=0)
     power = result.power.values.sum(axis=1)
     seconds = result.time.values
-    cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(seconds))])
+    cumulative = np.concatenate(
+        [[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(seconds))]
+    )
     angle = np.degrees(np.interp(seconds, loads.time, turned))
     angle -= 360.0 * np.round(angle[0] / 360.0)
     ratio = result.spin.values / result.spin_pure.values
@@ -97,7 +107,12 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
     for name, values, units, words in (
         ("spin_speed", np.abs(result.spin.values), "rad/s", "spin speed"),
         ("spin_speed_pure", np.abs(result.spin_pure.values), "rad/s", "spin speed in pure rolling"),
-        ("energy_fraction", cumulative / cumulative[-1], "1", "energy so far over that of the turn"),
+        (
+            "energy_fraction",
+            cumulative / cumulative[-1],
+            "1",
+            "energy so far over that of the turn",
+        ),
         ("roller_load", result.roller_load.values, "N", "load of the roller"),
     ):
         put(turn, name, ("angle", values[::_FINE]), units, words)
@@ -124,7 +139,9 @@ def _turn(loads: BearingLoads, angle: np.ndarray, time: float) -> tuple[float, f
     turns = np.floor(np.interp(time, loads.time, angle) / (2.0 * np.pi) + 1e-9)
     marks = 2.0 * np.pi * np.array([turns, turns + 1.0])
     if marks[0] < angle[0] - 1e-9 or marks[1] > angle[-1]:
-        raise ms.InputError(f"no whole turn holds t = {time:g} s", where=loads.source, remedy="Choose another time.")
+        raise ms.InputError(
+            f"no whole turn holds t = {time:g} s", where=loads.source, remedy="Choose another time."
+        )
     start, end = np.interp(marks, angle, loads.time)
     return float(start), float(end)
 
@@ -137,7 +154,9 @@ def _recovery_time(seconds: np.ndarray, ratio: np.ndarray) -> float:
     return float(seconds[lowest + recovered[0]] - seconds[lowest])
 
 
-def static_turn(variable: BearingLoads, row: str, *, thrust: bool, laws: Laws = _PAPER) -> xr.Dataset:
+def static_turn(
+    variable: BearingLoads, row: str, *, thrust: bool, laws: Laws = _PAPER
+) -> xr.Dataset:
     """The ninth turn of the row's first roller under the `static_load` of a history; by then spin is periodic."""
     period = (
         2.0
@@ -147,7 +166,9 @@ def static_turn(variable: BearingLoads, row: str, *, thrust: bool, laws: Laws = 
             * float(variable.shaft_speed.mean())
         )
     )
-    return trace_turn(static_load(variable, thrust=thrust, duration=9.5 * period), row, 0, 8.5 * period, laws)
+    return trace_turn(
+        static_load(variable, thrust=thrust, duration=9.5 * period), row, 0, 8.5 * period, laws
+    )
 
 
 def typical_turn(loads: BearingLoads, result: xr.Dataset, row: str, laws: Laws) -> xr.Dataset:
@@ -156,7 +177,9 @@ def typical_turn(loads: BearingLoads, result: xr.Dataset, row: str, laws: Laws) 
     `result` is the result of simulating these loads. Its orbits are counted from the roller's place at the start, which
     for the first roller is the bottom or half a pitch past it.
     """
-    energy = result.orbit_energy.sel(row=row).isel(orbit=slice(None, -1)).sum("interface", skipna=False)
+    energy = (
+        result.orbit_energy.sel(row=row).isel(orbit=slice(None, -1)).sum("interface", skipna=False)
+    )
     orbit = int(np.argmin(np.abs(energy.isel(roller=0).values - np.median(energy.values))))
     middle = 0.5 * (result.orbit_start.values[orbit] + result.orbit_end.values[orbit])
     return trace_turn(loads, row, int(result.roller.values[0]), float(middle), laws)
@@ -178,7 +201,10 @@ def peak_turn(loads: BearingLoads, result: xr.Dataset, row: str, laws: Laws) -> 
     roller, orbit = largest_peak(result, row)
     # An orbit counted from the roller's place at the start lies in two turns from the bottom.
     ends = float(result.orbit_start.values[orbit]), float(result.orbit_end.values[orbit]) - 1e-6
-    return max((trace_turn(loads, row, roller, end, laws) for end in ends), key=lambda turn: turn.peak_power_W)
+    return max(
+        (trace_turn(loads, row, roller, end, laws) for end in ends),
+        key=lambda turn: turn.peak_power_W,
+    )
 
 
 def turns(
@@ -232,7 +258,12 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
         (NaN: never); largest deviations and statuses of the methods.
     """
     bearing = ms.Case(loads=static, laws=Laws.paper()).bearing
-    case = ms.Case(loads=static, laws=Laws.paper(), rollers=[bearing.rollers_per_row // 2], traces=ms.Traces(step=step))
+    case = ms.Case(
+        loads=static,
+        laws=Laws.paper(),
+        rollers=[bearing.rollers_per_row // 2],
+        traces=ms.Traces(step=step),
+    )
     methods = {
         "explicit": ms.ExplicitEuler(step=step),
         "backward": ms.BackwardEuler(step=step),
@@ -252,10 +283,15 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
     load = converged.roller_load.values[kept]
     ring_speed = abs(float(converged.spin_pure[0])) * model.radius
     rates = np.array(
-        [relaxation_rate(roller.body[0], roller.tables, one, ring_speed) if one > 0.0 else 0.0 for one in load]
+        [
+            relaxation_rate(roller.body[0], roller.tables, one, ring_speed) if one > 0.0 else 0.0
+            for one in load
+        ]
     )
     relaxation = np.divide(1.0, rates, out=np.full_like(rates, np.nan), where=rates > 0.0)
-    deviations = {name: np.abs(ratios[name] - ratios["converged"]) for name in ("explicit", "backward")}
+    deviations = {
+        name: np.abs(ratios[name] - ratios["converged"]) for name in ("explicit", "backward")
+    }
     beyond = np.flatnonzero(step * np.maximum(rates, 0.0) > 2.0)
     lost = np.flatnonzero(deviations["explicit"] > _LOST)
 
@@ -264,12 +300,24 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
 
     stability = _over_angle(angle)
     for name, values in ratios.items():
-        put(stability, f"spin_ratio_{name}", ("angle", values), "1", f"spin over pure rolling, {name}")
+        put(
+            stability,
+            f"spin_ratio_{name}",
+            ("angle", values),
+            "1",
+            f"spin over pure rolling, {name}",
+        )
     for name, values in deviations.items():
         words = f"|spin - converged spin| over pure rolling, {name}"
         put(stability, f"deviation_{name}", ("angle", values), "1", words)
     put(stability, "roller_load", ("angle", load), "N", "load of the roller")
-    put(stability, "relaxation_time", ("angle", relaxation), "s", "relaxation time of a gripped roller's slip")
+    put(
+        stability,
+        "relaxation_time",
+        ("angle", relaxation),
+        "s",
+        "relaxation time of a gripped roller's slip",
+    )
     return stability.assign_attrs(
         step_s=step,
         limit_angle_deg=at(angle, beyond),
@@ -277,7 +325,10 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
         limit_relaxation_time_s=at(relaxation, beyond),
         lost_angle_deg=at(angle, lost),
         lost_load_N=at(load, lost),
-        **{f"largest_deviation_{name}": float(np.nanmax(values)) for name, values in deviations.items()},
+        **{
+            f"largest_deviation_{name}": float(np.nanmax(values))
+            for name, values in deviations.items()
+        },
         **{f"status_{name}": int(run.status) for name, run in runs.items()},
     )
 
@@ -301,7 +352,10 @@ def nonlinear_tolerance(
         Over (stopping_tolerance, row): energy and cage_energy per orbit [J] under time-varying load, static_energy per
         orbit [J] under static load, ratio of the means [1]; the same over (row), converged.
     """
-    loads = {"varying": variable, "static": static_load(variable, thrust=False, duration=_STATIC_DURATION)}
+    loads = {
+        "varying": variable,
+        "static": static_load(variable, thrust=False, duration=_STATIC_DURATION),
+    }
 
     def per_orbit(integrator: ms.BackwardEuler | ms.Radau) -> xr.Dataset:
         runs = {
@@ -324,7 +378,10 @@ def nonlinear_tolerance(
             put(values, name, one, units, words)
         return values.drop_vars(["roller", "start_angle"], errors="ignore")
 
-    methods = [_CONVERGED, *(ms.BackwardEuler(step=step, tolerance=tolerance) for tolerance in tolerances)]
+    methods = [
+        _CONVERGED,
+        *(ms.BackwardEuler(step=step, tolerance=tolerance) for tolerance in tolerances),
+    ]
     with ThreadPoolExecutor(threads or usable_processors()) as pool:
         converged, *runs = pool.map(per_orbit, methods)
     about = ("stopping_tolerance", "1", "relative change of spin at which the iteration stops")
@@ -356,12 +413,21 @@ def step_size(
 
     def peaks(integrator: ms.BackwardEuler | ms.Radau) -> xr.Dataset:
         run = ms.simulate(
-            ms.Case(loads=loads, laws=Laws.paper(), rollers=rollers, integrator=integrator), threads=threads
+            ms.Case(loads=loads, laws=Laws.paper(), rollers=rollers, integrator=integrator),
+            threads=threads,
         )
         peak, samples = run.peak_power.max("interface", skipna=False), ("roller", "orbit")
         values = xr.Dataset()
-        put(values, "mean_peak_power", peak.mean(samples, skipna=False), "W", "mean P_max per orbit")
-        put(values, "largest_peak_power", peak.max(samples, skipna=False), "W", "largest P_max of all orbits")
+        put(
+            values, "mean_peak_power", peak.mean(samples, skipna=False), "W", "mean P_max per orbit"
+        )
+        put(
+            values,
+            "largest_peak_power",
+            peak.max(samples, skipna=False),
+            "W",
+            "largest P_max of all orbits",
+        )
         put(values, "failed", (run.status != 0).sum("roller"), "1", "failed integrations")
         return values
 
@@ -369,22 +435,36 @@ def step_size(
         {step: peaks(ms.BackwardEuler(step=step, tolerance=_TIGHT)) for step in steps},
         peaks(_CONVERGED),
         ("step", "s", "fixed step"),
-        {"tolerance": _TIGHT, "start_s": float(loads.time[0]), "end_s": float(loads.time[-1]), "load": loads.source},
+        {
+            "tolerance": _TIGHT,
+            "start_s": float(loads.time[0]),
+            "end_s": float(loads.time[-1]),
+            "load": loads.source,
+        },
     )
 
 
 def _beside_converged(
-    runs: Mapping[float, xr.Dataset], converged: xr.Dataset, dimension: tuple[str, str, str], attributes: Mapping
+    runs: Mapping[float, xr.Dataset],
+    converged: xr.Dataset,
+    dimension: tuple[str, str, str],
+    attributes: Mapping,
 ) -> xr.Dataset:
     """Runs along a new dimension, and the converged values with `_converged` appended to their names."""
     name, units, long_name = dimension
-    values = xr.DataArray(np.array(list(runs)), dims=name, name=name, attrs={"units": units, "long_name": long_name})
+    values = xr.DataArray(
+        np.array(list(runs)), dims=name, name=name, attrs={"units": units, "long_name": long_name}
+    )
     found = xr.concat(list(runs.values()), values, combine_attrs="override")
     found = found.merge(converged.rename({one: f"{one}_converged" for one in converged.data_vars}))
-    return found.assign_attrs(attributes, converged_method="Radau", converged_tolerance=_CONVERGED.tolerance)
+    return found.assign_attrs(
+        attributes, converged_method="Radau", converged_tolerance=_CONVERGED.tolerance
+    )
 
 
-def experiments(result: xr.Dataset, threads: int | None, report: Callable[[int, int], None]) -> dict[str, xr.Dataset]:
+def experiments(
+    result: xr.Dataset, threads: int | None, report: Callable[[int, int], None]
+) -> dict[str, xr.Dataset]:
     """Figure A1 and the two experiments, under the paper's model; `result` is the detailed case under it."""
     varying = varying_load()
     _, orbit = largest_peak(result, "upwind")

@@ -10,7 +10,18 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from macroslip.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, ROW, finish, legend_above, log_ticks, new_figure
+from macroslip.report.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    ROW,
+    finish,
+    legend_above,
+    log_ticks,
+    new_figure,
+)
 from macroslip.torque import TorqueHistory
 from paper.studies import PARTS
 from paper.uncertainty import DRIVER_LEVEL, TOLD_INDEX
@@ -25,7 +36,11 @@ _TURBULENCE: Mapping[str, tuple[dict[str, Any], float]] = {
 }
 #: Colour and hatching of `PARTS`: colour for mechanisms, hatching for the outer raceway.
 _PART = dict(
-    zip(PARTS, ((BLUE, ""), (ORANGE, ""), (BLUE, "///"), (ORANGE, "///"), (GREY, "..."), (GREEN, "xx")), strict=True)
+    zip(
+        PARTS,
+        ((BLUE, ""), (ORANGE, ""), (BLUE, "///"), (ORANGE, "///"), (GREY, "..."), (GREEN, "xx")),
+        strict=True,
+    )
 )
 _LINES = ("-", "--", "-.", ":", "-")
 _WIND_SPEED, _ANGLE = "mean wind speed [m/s]", "angle from the bottom [°]"
@@ -47,13 +62,25 @@ def mark_level(axes: Axes, low: float, high: float, words: str) -> Axes:
 def mark_wind_speeds(axes: Axes, low: float, high: float, words: str) -> Axes:
     """Shade the wind speeds [m/s] at which a statement puts something, and write its words at the foot."""
     axes.axvspan(low - 0.8, high + 0.8, color=BLUE, alpha=0.10, linewidth=0.0, zorder=-1)
-    axes.text(low - 0.6, 0.02, words, transform=axes.get_xaxis_transform(), va="bottom", fontsize=9, color=BLUE)
+    axes.text(
+        low - 0.6,
+        0.02,
+        words,
+        transform=axes.get_xaxis_transform(),
+        va="bottom",
+        fontsize=9,
+        color=BLUE,
+    )
     return axes
 
 
-def _note(axes: Axes, words: str, place: tuple[float, float], shift: tuple[float, float], **options: Any) -> None:
+def _note(
+    axes: Axes, words: str, place: tuple[float, float], shift: tuple[float, float], **options: Any
+) -> None:
     """Words beside a place, `shift` points away from it."""
-    axes.annotate(words, place, xytext=shift, textcoords="offset points", **{"fontsize": 9} | options)
+    axes.annotate(
+        words, place, xytext=shift, textcoords="offset points", **{"fontsize": 9} | options
+    )
 
 
 def plot_spin(axes: Axes, turn: xr.Dataset, title: str = "") -> Axes:
@@ -78,7 +105,12 @@ def plot_cumulative_energy(axes: Axes, turn: xr.Dataset) -> Axes:
 
 
 def _shade_loaded(axes: Axes, turn: xr.Dataset) -> None:
-    band = {"transform": axes.get_xaxis_transform(), "color": "0.88", "linewidth": 0.0, "label": "loaded"}
+    band = {
+        "transform": axes.get_xaxis_transform(),
+        "color": "0.88",
+        "linewidth": 0.0,
+        "label": "loaded",
+    }
     axes.fill_between(turn.angle.values, 0.0, 1.0, where=turn.roller_load.values > 0.0, **band)
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks([0, 90, 180, 270, 360])
@@ -88,14 +120,19 @@ def turns_figure(turns: Mapping[str, xr.Dataset]) -> Figure:
     """Figure 3: spin above and cumulative energy below, a column for each turn under its title."""
     figure, axes = new_figure(7.2, 5.2, 2, len(turns), sharex=True, sharey="row")
     for column, (title, turn) in enumerate(turns.items()):
-        for one in (plot_spin(axes[column], turn, title), plot_cumulative_energy(axes[column + len(turns)], turn)):
+        for one in (
+            plot_spin(axes[column], turn, title),
+            plot_cumulative_energy(axes[column + len(turns)], turn),
+        ):
             if column:
                 one.set_ylabel("")
     legend_above(figure, axes[0])
     return figure
 
 
-def plot_by_class(axes: Axes, numbers: xr.Dataset, name: str, label: str, row: str | None = None) -> Axes:
+def plot_by_class(
+    axes: Axes, numbers: xr.Dataset, name: str, label: str, row: str | None = None
+) -> Axes:
     """A variable of `paper_numbers` over mean wind speed, a line for each turbulence class, of one row or of both."""
     for turbulence in sorted(set(numbers.turbulence.values.tolist())):
         part = numbers.isel(case=numbers.turbulence.values == turbulence).sortby("wind_speed")
@@ -103,11 +140,21 @@ def plot_by_class(axes: Axes, numbers: xr.Dataset, name: str, label: str, row: s
         one = part if row is None else part.sel(row=row)
         middle, bars = one[name].values, None
         if row and name == "energy_normalised":
-            bars = np.abs(np.array([one.energy_min_normalised.values, one.energy_max_normalised.values]) - middle)
+            bars = np.abs(
+                np.array([one.energy_min_normalised.values, one.energy_max_normalised.values])
+                - middle
+            )
         elif row:
             bars = one.peak_power_std_normalised.values
         options = {"markersize": 5, "label": turbulence, **style}
-        axes.errorbar(part.wind_speed.values + offset, middle, yerr=bars, capsize=2.5, elinewidth=1.0, **options)
+        axes.errorbar(
+            part.wind_speed.values + offset,
+            middle,
+            yerr=bars,
+            capsize=2.5,
+            elinewidth=1.0,
+            **options,
+        )
     axes.set_xticks(np.unique(numbers.wind_speed.values))
     return finish(axes, _WIND_SPEED, label, f"{row} row" if row else "")
 
@@ -117,7 +164,9 @@ def energy_figure(numbers: xr.Dataset) -> Figure:
     figure, axes = new_figure(7.2, 3.5, 1, 3, sharey=True)
     for one, row in zip(axes, ("downwind", "upwind", None), strict=True):
         name = "energy_normalised" if row else "both_rows_normalised"
-        plot_by_class(one, numbers, name, "" if one is not axes[0] else "energy over that in 12C [–]", row)
+        plot_by_class(
+            one, numbers, name, "" if one is not axes[0] else "energy over that in 12C [–]", row
+        )
         mark_wind_speeds(one, 12.0, 14.0, "paper: highest" if row is None else "")
     finish(axes[2], _WIND_SPEED, "", "both rows")
     legend_above(figure, axes[0], title="turbulence class; bars: range over the rollers of the row")
@@ -143,7 +192,12 @@ def ratio_figure(numbers: xr.Dataset, name: str) -> Figure:
         mark_level(axes[0], 5.0, 20.0, "paper: about 10")
     else:
         axes[0].axhline(1.0, color=GREY, linewidth=0.8)
-        mark_level(mark_wind_speeds(axes[0], 12.0, 12.0, ""), 2.5, 10.0, "paper: up to 5, highest at 12 m/s")
+        mark_level(
+            mark_wind_speeds(axes[0], 12.0, 12.0, ""),
+            2.5,
+            10.0,
+            "paper: up to 5, highest at 12 m/s",
+        )
     legend_above(figure, axes[0], title="turbulence class")
     return figure
 
@@ -154,10 +208,18 @@ def plot_models(axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, la
         values = one[quantity]
         for row in values.row.values.tolist() if "row" in values.dims else [None]:
             by_speed = (values.sel(row=row) if row else values).groupby("wind_speed")
-            mean, low, high = (getattr(by_speed, name)(skipna=False) for name in ("mean", "min", "max"))
+            mean, low, high = (
+                getattr(by_speed, name)(skipna=False) for name in ("mean", "min", "max")
+            )
             style = ROW[row] if row else {"color": BLACK, "marker": "o"}
             name = f"{model}, {row}" if row else model
-            axes.plot(mean.wind_speed.values, mean.values, markersize=4, label=name, **{**style, "linestyle": line})
+            axes.plot(
+                mean.wind_speed.values,
+                mean.values,
+                markersize=4,
+                label=name,
+                **{**style, "linestyle": line},
+            )
             band = {"alpha": 0.15, "linewidth": 0.0, "color": style["color"]}
             axes.fill_between(mean.wind_speed.values, low.values, high.values, **band)
             axes.set_xticks(mean.wind_speed.values)
@@ -170,7 +232,9 @@ def models_figure(numbers: Mapping[str, xr.Dataset]) -> Figure:
     plot_models(axes[0], numbers, "both_rows_normalised", "energy, both rows, over that in 12C [–]")
     plot_models(log_ticks(axes[1]), numbers, "energy_ratio", "energy, downwind / upwind [–]")
     plot_models(log_ticks(axes[2]), numbers, "peak_power_mean", f"mean {_PEAK} of an orbit [W]")
-    plot_models(log_ticks(axes[3]), numbers, "peak_power_ratio", f"mean {_PEAK}, downwind / upwind [–]")
+    plot_models(
+        log_ticks(axes[3]), numbers, "peak_power_ratio", f"mean {_PEAK}, downwind / upwind [–]"
+    )
     axes[0].legend(frameon=False, fontsize=8)
     # Bands fill the panel.
     legend_above(figure, axes[2])
@@ -185,9 +249,21 @@ def stability_figure(stability: xr.Dataset) -> Figure:
     limit, step = stability.attrs["limit_angle_deg"], stability.attrs["step_s"]
     figure, axes = new_figure(7.2, 3.6, 1, 2, sharex=True)
     angle, explicit = stability.angle.values, stability.spin_ratio_explicit.values
-    squares = {"color": ORANGE, "linewidth": 0.9, "marker": "s", "markersize": 2.5, "label": "explicit Euler"}
+    squares = {
+        "color": ORANGE,
+        "linewidth": 0.9,
+        "marker": "s",
+        "markersize": 2.5,
+        "label": "explicit Euler",
+    }
     axes[0].plot(angle, explicit, **squares)
-    axes[0].plot(angle, stability.spin_ratio_backward.values, color=BLUE, linewidth=2.4, label="backward Euler")
+    axes[0].plot(
+        angle,
+        stability.spin_ratio_backward.values,
+        color=BLUE,
+        linewidth=2.4,
+        label="backward Euler",
+    )
     converged = {"color": BLACK, "linestyle": "--", "linewidth": 1.2, "label": "converged (Radau)"}
     axes[0].plot(angle, stability.spin_ratio_converged.values, **converged)
     axes[0].set_ylim(0.0, 2.2)
@@ -207,7 +283,15 @@ def stability_figure(stability: xr.Dataset) -> Figure:
     if np.isfinite(limit):
         axes[0].set_xlim(limit - 6.0, limit + 6.0)
         words = f"step ({1e3 * step:g} ms) above\n2 × relaxation time"
-        _note(axes[1], words, (limit, 0.02), (4, 0), xycoords=axes[1].get_xaxis_transform(), va="bottom", color=GREY)
+        _note(
+            axes[1],
+            words,
+            (limit, 0.02),
+            (4, 0),
+            xycoords=axes[1].get_xaxis_transform(),
+            va="bottom",
+            color=GREY,
+        )
     legend_above(figure, axes[0])
     return figure
 
@@ -236,9 +320,17 @@ def nonlinear_tolerance_figure(experiment: xr.Dataset) -> Figure:
     figure, axes = new_figure(7.2, 4.0, 1, 2, sharey=True)
     axes[0].set_yscale("log")
     plot_tolerance(axes[0], experiment, "energy", "energy per orbit [J]")
-    static = {"color": BLACK, "marker": "D", "markersize": 7, "markerfacecolor": "none", "linestyle": ":"}
+    static = {
+        "color": BLACK,
+        "marker": "D",
+        "markersize": 7,
+        "markerfacecolor": "none",
+        "linestyle": ":",
+    }
     values = experiment.static_energy.sel(row="downwind").values
-    axes[0].plot(experiment.stopping_tolerance.values, values, label="downwind, static load", **static)
+    axes[0].plot(
+        experiment.stopping_tolerance.values, values, label="downwind, static load", **static
+    )
     plot_tolerance(axes[1], experiment, "cage_energy", "cage energy per orbit [J]")
     legend_above(figure, axes[0])
     return figure
@@ -251,7 +343,13 @@ def step_size_figure(experiment: xr.Dataset) -> Figure:
         one, color = experiment.sel(row=row), ROW[row]["color"]
         level = float(one.mean_peak_power_converged)
         axes[0].axhline(level, color=color, linewidth=0.8, zorder=0)
-        axes[0].plot(experiment.step.values, one.mean_peak_power.values, markersize=5, label=f"{row} row", **ROW[row])
+        axes[0].plot(
+            experiment.step.values,
+            one.mean_peak_power.values,
+            markersize=5,
+            label=f"{row} row",
+            **ROW[row],
+        )
         across = axes[0].get_yaxis_transform()
         _note(axes[0], "converged", (0.6, level), (0, 3), xycoords=across, ha="center", color=color)
     axes[0].set_xscale("log")
@@ -268,7 +366,16 @@ def plot_parts(axes: Axes, parts: xr.DataArray, row: str) -> Axes:
     for name, (color, hatch) in _PART.items():
         values = mean.sel(part=name).values
         bottom = np.where(values >= 0.0, above, below)
-        axes.bar(speeds, values, 1.3, bottom=bottom, color=color, hatch=hatch, edgecolor="white", label=name)
+        axes.bar(
+            speeds,
+            values,
+            1.3,
+            bottom=bottom,
+            color=color,
+            hatch=hatch,
+            edgecolor="white",
+            label=name,
+        )
         above = above + np.maximum(np.nan_to_num(values), 0.0)
         below = below + np.minimum(np.nan_to_num(values), 0.0)
     axes.set_xticks(speeds)
@@ -290,9 +397,17 @@ def plot_stations(axes: Axes, along: xr.DataArray, row: str, cases: list[str]) -
     for case, color in zip(cases, (BLUE, ORANGE, GREEN), strict=False):
         for raceway, line in (("inner", "-"), ("outer", "--")):
             one = along.sel(case=case, row=row, raceway=raceway)
-            axes.plot(1e3 * one.station.values, one.values, color=color, linestyle=line, label=f"{case}, {raceway}")
+            axes.plot(
+                1e3 * one.station.values,
+                one.values,
+                color=color,
+                linestyle=line,
+                label=f"{case}, {raceway}",
+            )
     axes.set_ylim(bottom=0.0)
-    return finish(axes, "place along the roller [mm]", "energy per orbit and length [J/m]", f"{row} row")
+    return finish(
+        axes, "place along the roller [mm]", "energy per orbit and length [J/m]", f"{row} row"
+    )
 
 
 def mechanisms_figure(parts: xr.Dataset) -> Figure:
@@ -309,10 +424,19 @@ def mechanisms_figure(parts: xr.Dataset) -> Figure:
 def torque_figure(histories: Mapping[str, TorqueHistory], start: float, end: float) -> Figure:
     """Friction torques [N m] between two times [s], the legend with the means over all of the time."""
     figure, axes = new_figure(7.2, 4.2)
-    for (name, one), color, line in zip(histories.items(), (BLUE, ORANGE, GREEN, BLACK, GREY), _LINES, strict=False):
+    for (name, one), color, line in zip(
+        histories.items(), (BLUE, ORANGE, GREEN, BLACK, GREY), _LINES, strict=False
+    ):
         inside = (one.time >= start) & (one.time <= end)
         label = f"{name} (mean {np.nanmean(one.torque):.3g} N m)"
-        axes[0].plot(one.time[inside], one.torque[inside], color=color, linestyle=line, linewidth=1.3, label=label)
+        axes[0].plot(
+            one.time[inside],
+            one.torque[inside],
+            color=color,
+            linestyle=line,
+            linewidth=1.3,
+            label=label,
+        )
     finish(log_ticks(axes[0]), "time [s]", "friction torque [N m]")
     legend_above(figure, axes[0], ncols=2)
     return figure
@@ -326,10 +450,27 @@ def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
         low, middle, high = one.range.values
         ratios = one.range.values / float(one.base)
         if np.isfinite(ratios).all():
-            axes.plot(ratios[[0, 2]], [place, place], color=BLUE, linewidth=3.0, solid_capstyle="butt", zorder=1)
-            axes.plot(ratios[1], place, color=BLACK, marker="|", markersize=11, markeredgewidth=2.0, zorder=2)
+            axes.plot(
+                ratios[[0, 2]],
+                [place, place],
+                color=BLUE,
+                linewidth=3.0,
+                solid_capstyle="butt",
+                zorder=1,
+            )
+            axes.plot(
+                ratios[1],
+                place,
+                color=BLACK,
+                marker="|",
+                markersize=11,
+                markeredgewidth=2.0,
+                zorder=2,
+            )
         unit = "" if str(one.units.values) == "1" else f" {one.units.values}"
-        names.append(f"{one.quantity.values}\n{number(middle)}{unit} ({number(low)} to {number(high)})")
+        names.append(
+            f"{one.quantity.values}\n{number(middle)}{unit} ({number(low)} to {number(high)})"
+        )
     axes.set_yticks(places, names, fontsize=8)
     axes.axvline(1.0, color=BLACK, linewidth=0.8)
     return finish(log_ticks(axes, "x"), "over the value with the base values [–]", "")
@@ -346,22 +487,37 @@ def plot_squares(axes: Axes, summary: xr.Dataset, name: str) -> Axes:
     for q, p in np.argwhere(np.abs(values) >= (0.0 if rank else TOLD_INDEX)):
         value, place = values[q, p], (p, values.shape[0] - 1 - q)
         color = ORANGE if rank and value > 0.0 else BLUE
-        full = value * (summary.probability.values[q, p] < DRIVER_LEVEL) if rank else summary.first_order.values[q, p]
+        full = (
+            value * (summary.probability.values[q, p] < DRIVER_LEVEL)
+            if rank
+            else summary.first_order.values[q, p]
+        )
         edge = {"marker": "s", "edgecolor": color, "linewidth": 0.8}
         axes.scatter(*place, s=330.0 * abs(value), facecolor="none", **edge)
         axes.scatter(*place, s=330.0 * abs(full), facecolor=color, marker="s", linewidth=0.0)
         if rank and full:
-            axes.annotate("+" if value > 0.0 else "−", place, ha="center", va="center", color="white", fontsize=9)
+            axes.annotate(
+                "+" if value > 0.0 else "−",
+                place,
+                ha="center",
+                va="center",
+                color="white",
+                fontsize=9,
+            )
     if not rank:
         for q, known in enumerate(summary.explained.values):
             place = values.shape[1] - 0.2, values.shape[0] - 1 - q
-            axes.annotate(f"{known:.2f}" if np.isfinite(known) else "–", place, va="center", fontsize=8)
+            axes.annotate(
+                f"{known:.2f}" if np.isfinite(known) else "–", place, va="center", fontsize=8
+            )
     names = summary.parameter.values.tolist()
     axes.set_xticks(np.arange(len(names)), names, rotation=60, ha="right", rotation_mode="anchor")
     axes.set_yticks([])
     axes.set_xlim(-0.6, len(names) + (-0.4 if rank else 1.6))
     axes.set_ylim(-0.6, summary.sizes["quantity"] - 0.4)
-    return finish(axes, "varied value", "", "rank correlation" if rank else "Sobol' index, and part predicted")
+    return finish(
+        axes, "varied value", "", "rank correlation" if rank else "Sobol' index, and part predicted"
+    )
 
 
 def uncertainty_figure(summary: xr.Dataset) -> Figure:

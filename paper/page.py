@@ -45,7 +45,9 @@ def page(
         undefined=jinja2.StrictUndefined,
     )
     environment.filters["number"] = number
-    of_uncertainty = {name: run.uncertainty for name, run in runs.items() if run.uncertainty is not None}
+    of_uncertainty = {
+        name: run.uncertainty for name, run in runs.items() if run.uncertainty is not None
+    }
     return environment.get_template("report.html").render(
         runs=runs,
         judged=judged,
@@ -75,13 +77,19 @@ def page(
 def _counts(found: Mapping[str, Statement]) -> dict[str, int]:
     """How many statements have each verdict."""
     verdicts = [one.verdict for one in found.values()]
-    return {verdict: verdicts.count(verdict) for verdict in dict.fromkeys((AGREES, PARTLY, DIFFERS, *verdicts))}
+    return {
+        verdict: verdicts.count(verdict)
+        for verdict in dict.fromkeys((AGREES, PARTLY, DIFFERS, *verdicts))
+    }
 
 
 def _picture(path: Path) -> dict[str, Any]:
     """A figure for the page: without what it does not show, outlines to a hundredth of a point, sizes in pixels."""
     svg = path.read_text(encoding="utf-8")
-    width, height = (round(float(one) * 96.0 / 72.0) for one in re.findall(r'(?:width|height)="([\d.]+)pt"', svg)[:2])
+    width, height = (
+        round(float(one) * 96.0 / 72.0)
+        for one in re.findall(r'(?:width|height)="([\d.]+)pt"', svg)[:2]
+    )
     svg = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r' d="[^"]*"', lambda outline: re.sub(r"(\.\d\d)\d+", r"\1", outline[0]), svg)
     encoded = base64.b64encode(svg.encode()).decode("ascii")
@@ -90,7 +98,10 @@ def _picture(path: Path) -> dict[str, Any]:
 
 def _parts(parts: xr.Dataset) -> dict[str, Any]:
     """Energy per orbit by wind speed, of every row and part, and what of it is at asperities [%]."""
-    energy, asperities = by_wind_speed(parts.part_energy), by_wind_speed(100.0 * parts.asperity_share)
+    energy, asperities = (
+        by_wind_speed(parts.part_energy),
+        by_wind_speed(100.0 * parts.asperity_share),
+    )
     return {
         "speeds": energy.wind_speed.values.tolist(),
         "rows": [
@@ -98,7 +109,10 @@ def _parts(parts: xr.Dataset) -> dict[str, Any]:
             for row in parts.row.values.tolist()
             for part in parts.part.values.tolist()
         ]
-        + [(row, "of it at asperities [%]", asperities.sel(row=row).values) for row in parts.row.values.tolist()],
+        + [
+            (row, "of it at asperities [%]", asperities.sel(row=row).values)
+            for row in parts.row.values.tolist()
+        ],
     }
 
 
@@ -109,10 +123,16 @@ def _uncertainty(summary: xr.Dataset) -> dict[str, Any]:
         rows.append(
             {
                 "name": name if str(one.units.values) == "1" else f"{name} [{one.units.values}]",
-                "values": [float(value) for value in (one.base, *one.range.sel(quantile=[0.5, 0.05, 0.95]).values)],
-                "drivers": [f"{parameter} ({value:+.2f})" for parameter, value in drivers(summary, name)],
+                "values": [
+                    float(value)
+                    for value in (one.base, *one.range.sel(quantile=[0.5, 0.05, 0.95]).values)
+                ],
+                "drivers": [
+                    f"{parameter} ({value:+.2f})" for parameter, value in drivers(summary, name)
+                ],
                 "indices": [
-                    f"{parameter} {first:.2f} ({total:.2f})" for parameter, first, total in strongest(summary, name)
+                    f"{parameter} {first:.2f} ({total:.2f})"
+                    for parameter, first, total in strongest(summary, name)
                 ],
                 "explained": float(one.explained),
             }
@@ -124,7 +144,9 @@ def _provenance(studies: Mapping[str, xr.Dataset]) -> dict[str, Any]:
     """Program, machine, inputs, how integrations ended, and works cited."""
     inputs = {name: json.loads(study.attrs["input"]) for name, study in studies.items()}
     first = next(iter(inputs.values()))
-    cited = dict.fromkeys(line for one in studies.values() for line in one.attrs["citations"].splitlines())
+    cited = dict.fromkeys(
+        line for one in studies.values() for line in one.attrs["citations"].splitlines()
+    )
     return {
         "source": ", ".join(sorted({one.attrs["source"] for one in studies.values()})),
         "machine": {key: value for key, value in machine().items() if value is not None},

@@ -32,7 +32,9 @@ def published_together(directory: Path, last: str) -> Iterator[Path]:
         If `directory` is a file.
     """
     if directory.exists() and not directory.is_dir():
-        raise InputError("it is not a folder", where=str(directory), remedy="Name a folder, new or existing.")
+        raise InputError(
+            "it is not a folder", where=str(directory), remedy="Name a folder, new or existing."
+        )
     directory = directory.absolute()
     directory.parent.mkdir(parents=True, exist_ok=True)
     aside = directory.parent / f".{directory.name}.unfinished-{os.getpid()}"

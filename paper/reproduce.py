@@ -52,7 +52,9 @@ class ModelRun:
         """Failed integrations by place."""
         return {
             "study": int((self.study.status != 0).sum()),
-            "single_rollers": sum(turn.status != 0 for group in self.turns.values() for turn in group.values()),
+            "single_rollers": sum(
+                turn.status != 0 for group in self.turns.values() for turn in group.values()
+            ),
             "detailed_case": self.detail_failed,
             "uncertainty": self.uncertainty.attrs["failed"] if self.uncertainty is not None else 0,
         }
@@ -63,14 +65,18 @@ def of_model(name: str, model: str) -> str:
     return name if model == PAPER else f"{name}_{model}"
 
 
-def compute_model(name: str, directory: Path, threads: int | None, report: Report, reused: list[str]) -> ModelRun:
+def compute_model(
+    name: str, directory: Path, threads: int | None, report: Report, reused: list[str]
+) -> ModelRun:
     """Compute one model; studies go on from what is there of them, and `reused` takes the names of those that were whole."""
     laws, found = MODELS[name], {}
 
     def results(prefix: str, stage: str, *, may_fail: bool = False) -> Path:
         study, folder = study_of(studies.content(prefix, name)), directory / f"{prefix}_{name}"
         progress = partial(report, f"{stage} ({name})")
-        if not studies.compute(study, folder, may_fail=may_fail, threads=threads, progress=progress):
+        if not studies.compute(
+            study, folder, may_fail=may_fail, threads=threads, progress=progress
+        ):
             reused.append(folder.name)
         return folder
 
@@ -98,18 +104,26 @@ def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
 
 
 def all_figures(
-    runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset], torques: Mapping[str, TorqueHistory]
+    runs: Mapping[str, ModelRun],
+    made: Mapping[str, xr.Dataset],
+    torques: Mapping[str, TorqueHistory],
 ) -> dict[str, Callable[[], Figure]]:
     """How each figure is drawn, by file name; `made` has the experiments."""
     found: dict[str, Callable[[], Figure]] = {
         "figure_A1": partial(draw.stability_figure, made["A1"]),
-        "nonlinear_tolerance": partial(draw.nonlinear_tolerance_figure, made["nonlinear_tolerance"]),
+        "nonlinear_tolerance": partial(
+            draw.nonlinear_tolerance_figure, made["nonlinear_tolerance"]
+        ),
         "step_size": partial(draw.step_size_figure, made["step_size"]),
         "friction_torque": partial(draw.torque_figure, torques, *draw.TORQUE_WINDOW),
-        "figures_4_5_models": partial(draw.models_figure, {name: run.numbers for name, run in runs.items()}),
+        "figures_4_5_models": partial(
+            draw.models_figure, {name: run.numbers for name, run in runs.items()}
+        ),
     }
     for name, run in runs.items():
-        static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
+        static = {
+            f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS
+        }
         of_run = {
             "figure_3a": partial(draw.turns_figure, static),
             "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
@@ -127,23 +141,38 @@ def all_figures(
     return found
 
 
-def failed_integrations(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dict[str, int]:
+def failed_integrations(
+    runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]
+) -> dict[str, int]:
     """Failed integrations by place, all models together. Explicit Euler may fail in A1: it is there to show that."""
     counts = [run.failures for run in runs.values()]
     beside = sum(made["A1"].attrs[f"status_{name}"] != 0 for name in ("backward", "converged"))
     for name in ("nonlinear_tolerance", "step_size"):
-        beside += sum(int(one.sum()) for key, one in made[name].data_vars.items() if str(key).startswith("failed"))
-    return {place: sum(count[place] for count in counts) for place in counts[0]} | {"experiments": beside}
+        beside += sum(
+            int(one.sum())
+            for key, one in made[name].data_vars.items()
+            if str(key).startswith("failed")
+        )
+    return {place: sum(count[place] for count in counts) for place in counts[0]} | {
+        "experiments": beside
+    }
 
 
-def headline(judged: Mapping[str, Mapping[str, Statement]], failed: Mapping[str, int], total: int) -> list[str]:
+def headline(
+    judged: Mapping[str, Mapping[str, Statement]], failed: Mapping[str, int], total: int
+) -> list[str]:
     """What failed, and each statement with what every model gives, a line each."""
-    counts = ", ".join(f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count)
+    counts = ", ".join(
+        f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count
+    )
     lines = [
         f"{f'FAILED INTEGRATIONS: {counts}' if counts else 'No integration failed, explicit Euler in A1 not counted'} (the study has {total} rollers)."
     ]
     for subject, first in next(iter(judged.values())).items():
-        found = "; ".join(f"{model}: {one[subject].verdict} ({one[subject].found})" for model, one in judged.items())
+        found = "; ".join(
+            f"{model}: {one[subject].verdict} ({one[subject].found})"
+            for model, one in judged.items()
+        )
         lines.append(f"Paper: {first.paper}. {found}.")
     return lines
 
@@ -154,7 +183,10 @@ def told(judged: Mapping[str, Mapping[str, Statement]]) -> list[dict[str, Any]]:
         {
             "paper": first.paper,
             "models": {
-                model: {name: getattr(one[subject], name) for name in ("verdict", "found", "because", "numbers")}
+                model: {
+                    name: getattr(one[subject], name)
+                    for name in ("verdict", "found", "because", "numbers")
+                }
                 for model, one in judged.items()
             },
         }
@@ -170,13 +202,24 @@ def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dic
             name: {title: turn.to_dict(data="list") for title, turn in run.turns[group].items()}
             for name, group in (("3a", "static"), ("3b", "typical"), ("3b_peak", "peak"))
         }
-        for name, shown in (("4a", "energy$|energy_(?!ratio)|both"), ("5a", "peak_power_(mean|std)")):
-            of_run[name] = run.numbers[[one for one in run.numbers if re.match(shown, str(one))]].to_dict(data="list")
+        for name, shown in (
+            ("4a", "energy$|energy_(?!ratio)|both"),
+            ("5a", "peak_power_(mean|std)"),
+        ):
+            of_run[name] = run.numbers[
+                [one for one in run.numbers if re.match(shown, str(one))]
+            ].to_dict(data="list")
         for name, shown in (("4b", "energy_ratio"), ("5b", "peak_power_ratio")):
             of_run[name] = run.numbers[[shown]].to_dict(data="list")
         torque = run.torque.mean("time", keep_attrs=True)
-        tables = {"friction_torque": torque, "mechanisms": run.parts, "uncertainty": run.uncertainty}
-        of_run |= {name: one.to_dict(data="list") for name, one in tables.items() if one is not None}
+        tables = {
+            "friction_torque": torque,
+            "mechanisms": run.parts,
+            "uncertainty": run.uncertainty,
+        }
+        of_run |= {
+            name: one.to_dict(data="list") for name, one in tables.items() if one is not None
+        }
         found |= {of_model(name, model): value for name, value in of_run.items()}
     return found | {name: one.to_dict(data="list") for name, one in made.items()}
 
@@ -195,10 +238,14 @@ def plain(value: Any) -> Any:
 def as_json(summary: dict[str, Any]) -> str:
     """Indented, with every list of numbers on one line."""
     text = json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False)
-    return re.sub(r"\[[\s\d.eE+\-,nul]+\]", lambda found: " ".join(found.group().split()), text) + "\n"
+    return (
+        re.sub(r"\[[\s\d.eE+\-,nul]+\]", lambda found: " ".join(found.group().split()), text) + "\n"
+    )
 
 
-def reproduce(directory: Path, *, threads: int | None = None, progress: Report | None = None) -> dict[str, Any]:
+def reproduce(
+    directory: Path, *, threads: int | None = None, progress: Report | None = None
+) -> dict[str, Any]:
     """Compute, judge and draw the paper's study; return what `summary.json` holds, where NaN is None.
 
     Its studies are computed as any study is: a run that was stopped goes on where it ended, and what an earlier run into
@@ -218,17 +265,29 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
     directory = Path(directory)
     reused: list[str] = []
     with published_together(directory, SUMMARY) as folder:
-        runs = {name: compute_model(name, directory / STUDIES, threads, report, reused) for name in MODELS}
+        runs = {
+            name: compute_model(name, directory / STUDIES, threads, report, reused)
+            for name in MODELS
+        }
         _, detail = next(stored_results(directory / STUDIES / f"detail_{PAPER}"))
         made = experiments(detail, threads, partial(report, "experiments"))
         judged = {
-            name: statements(name, run.study, run.numbers, run.turns["static"], made["A1"] if name == PAPER else None)
+            name: statements(
+                name,
+                run.study,
+                run.numbers,
+                run.turns["static"],
+                made["A1"] if name == PAPER else None,
+            )
             for name, run in runs.items()
         }
         for name, run in runs.items():
             # In memory first: the HDF5 library may bring the whole process down when the disk is full.
             (folder / f"{of_model('study', name)}.nc").write_bytes(to_netcdf(run.study))
-        failed, total = failed_integrations(runs, made), sum(run.study.status.size for run in runs.values())
+        failed, total = (
+            failed_integrations(runs, made),
+            sum(run.study.status.size for run in runs.values()),
+        )
         by_case = {}
         for name, run in runs.items():
             counts = (run.study.status != 0).sum(("row", "roller"))
@@ -239,7 +298,9 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
                 "headline": headline(judged, failed, total),
                 "statements": told(judged),
                 "failed_rollers": failed | {"study_by_case": by_case, "study_total": total},
-                "conventions": (Path(__file__).parent / "conventions.txt").read_text(encoding="utf-8").splitlines(),
+                "conventions": (Path(__file__).parent / "conventions.txt")
+                .read_text(encoding="utf-8")
+                .splitlines(),
                 "seconds": seconds,
                 "reused": reused,
                 "figures": plotted(runs, made),
@@ -252,7 +313,9 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
             save(figure(), folder, name)
             report("figures", done, len(jobs))
         summary["seconds"] = dict(seconds)
-        (folder / REPORT).write_text(page(folder, runs, made, judged, torques, summary), encoding="utf-8")
+        (folder / REPORT).write_text(
+            page(folder, runs, made, judged, torques, summary), encoding="utf-8"
+        )
         report("report", 1, 1)
         summary["seconds"] = dict(seconds)
         (folder / SUMMARY).write_text(as_json(summary), encoding="utf-8")

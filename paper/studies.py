@@ -22,7 +22,9 @@ from paper.values import sample_points
 #: Mechanisms by model.
 MODELS: Mapping[str, Laws] = {"paper": Laws.paper(), "physical": Laws.physical()}
 PAPER = "paper"  # the model of the paper, under which the numerical experiments are computed
-DETAILED_CASE = "14B"  # the case of the single rollers and the torque; its means are the static load
+DETAILED_CASE = (
+    "14B"  # the case of the single rollers and the torque; its means are the static load
+)
 #: Cases to which the paper refers energy (figure 4) and peak power (figure 5).
 ENERGY_REFERENCE, PEAK_REFERENCE = "12C", "14A"
 #: Of the sample, whose results spread by factors: ten times the default one, with tables an eighth as large. Of 17 points
@@ -68,11 +70,21 @@ def compute(
     A run that fails is an error, unless it may because its refusal is a result.
     """
     ended = run_study(
-        study, directory, threads=threads, resume=True, progress=lambda now: progress(now.done, now.total)
+        study,
+        directory,
+        threads=threads,
+        resume=True,
+        progress=lambda now: progress(now.done, now.total),
     )
-    lost = [(labels["loads"], reason) for labels, outcome, reason in ended.failures if outcome == Outcome.FAILED]
+    lost = [
+        (labels["loads"], reason)
+        for labels, outcome, reason in ended.failures
+        if outcome == Outcome.FAILED
+    ]
     if lost and not may_fail:
-        raise MacroslipError(f"{len(lost)} cases of '{study.title}' failed, case {lost[0][0]} first: {lost[0][1]}")
+        raise MacroslipError(
+            f"{len(lost)} cases of '{study.title}' failed, case {lost[0][0]} first: {lost[0][1]}"
+        )
     return ended.progress.computed > 0 or len(ended.failures) > len(lost)
 
 
@@ -81,16 +93,33 @@ _OF_ROLLERS = (
     "energy", "min_spin_ratio", "outside_film_range", "status",
     "mechanism_energy", "asperity_energy", "station_energy", "quadrature_error",
 )  # fmt: skip
-_COORDINATES = ("row", "roller", "interface", "start_angle", "mechanism", "station", "raceway", "case")
+_COORDINATES = (
+    "row",
+    "roller",
+    "interface",
+    "start_angle",
+    "mechanism",
+    "station",
+    "raceway",
+    "case",
+)
 #: Quantities of every orbit of which the study keeps the extreme of the window.
-_EXTREMES = {"flash_temperature": "max", "power_density": "max", "slide_roll_ratio": "max", "min_film_ratio": "min"}
+_EXTREMES = {
+    "flash_temperature": "max",
+    "power_density": "max",
+    "slide_roll_ratio": "max",
+    "min_film_ratio": "min",
+}
 _PEAK = "largest power at any interface per orbit, over all rollers and orbits"
 #: Numbers of the study's summary by their names here, with their meaning.
 _OF_SUMMARY = {
     "peak_power_mean": ("peak_power_mean", f"mean of the {_PEAK}"),
     "peak_power_std": ("peak_power_std", f"standard deviation of the {_PEAK}"),
     "peak_power_max": ("peak_power_max", f"largest of the {_PEAK}"),
-    "orbit_energy": ("orbit_energy_mean", "energy per orbit of a roller, mean over all rollers and orbits"),
+    "orbit_energy": (
+        "orbit_energy_mean",
+        "energy per orbit of a roller, mean over all rollers and orbits",
+    ),
     "orbits": ("orbits", "complete orbits in the window"),
     "window_length": ("window_length", "length of the window"),
 }
@@ -114,16 +143,24 @@ def paper_study(directory: Path) -> xr.Dataset:
         run = opened.isel(case=number)
         if not result.sizes["orbit"]:
             raise InputError(
-                "the window holds no complete orbit", where=f"case {run.loads.item()}", allowed="one orbit or more"
+                "the window holds no complete orbit",
+                where=f"case {run.loads.item()}",
+                allowed="one orbit or more",
             )
         kept = result[[name for name in _OF_ROLLERS if name in result]]
         for name, extreme in _EXTREMES.items():
             if name in result:
                 # A contact without load in an orbit (NaN) has no extreme to compare.
                 kept[name] = getattr(result[name], extreme)("orbit", keep_attrs=True)
-                kept[name].attrs["long_name"] = result[name].attrs["long_name"].replace("per orbit", "in the window")
+                kept[name].attrs["long_name"] = (
+                    result[name].attrs["long_name"].replace("per orbit", "in the window")
+                )
         for name, (source, long_name) in _OF_SUMMARY.items():
-            kept[name] = (run[source].dims, run[source].values, {"units": run[source].units, "long_name": long_name})
+            kept[name] = (
+                run[source].dims,
+                run[source].values,
+                {"units": run[source].units, "long_name": long_name},
+            )
         window = float(result.attrs["window_start"]), float(result.attrs["window_end"])
         parts.append(kept.merge(_loads(run.loads.item(), *window)))
         attributes = dict(result.attrs)
@@ -136,12 +173,22 @@ def paper_study(directory: Path) -> xr.Dataset:
         {name: study[name].variable for name in _COORDINATES if name in study.coords},
     )
     study = study.assign_coords(
-        wind_speed=("case", opened.wind_speed.values, {"units": "m/s", "long_name": "mean wind speed"}),
-        turbulence=("case", opened.turbulence.values.tolist(), {"units": "1", "long_name": "IEC turbulence class"}),
+        wind_speed=(
+            "case",
+            opened.wind_speed.values,
+            {"units": "m/s", "long_name": "mean wind speed"},
+        ),
+        turbulence=(
+            "case",
+            opened.turbulence.values.tolist(),
+            {"units": "1", "long_name": "IEC turbulence class"},
+        ),
     )
     study.attrs = {
         "title": opened.attrs["title"],
-        "input": json.dumps({**inputs[-1], "loads": [one["loads"] for one in inputs]}, ensure_ascii=False),
+        "input": json.dumps(
+            {**inputs[-1], "loads": [one["loads"] for one in inputs]}, ensure_ascii=False
+        ),
         **{name: attributes[name] for name in ("source", "model", "film_range_notes", "citations")},
     }
     return study
@@ -154,11 +201,22 @@ def row_loads(case: Case, start: float, end: float) -> xr.Dataset:
     found = {
         "radial_load": ((), float(np.hypot(x, y).mean()), "N", "mean radial load of the bearing"),
         "thrust": ((), float(axial.mean()), "N", "mean thrust on the bearing, positive downwind"),
-        "roller_load": ("row", by_row.mean(axis=(0, 2)), "N", "elastic load, mean over rollers and samples"),
-        "loaded_share": ("row", (by_row > 0.0).mean(axis=(0, 2)), "1", "share of rollers and time under load"),
+        "roller_load": (
+            "row",
+            by_row.mean(axis=(0, 2)),
+            "N",
+            "elastic load, mean over rollers and samples",
+        ),
+        "loaded_share": (
+            "row",
+            (by_row > 0.0).mean(axis=(0, 2)),
+            "1",
+            "share of rollers and time under load",
+        ),
     }
     about = {
-        name: (dims, one, {"units": units, "long_name": words}) for name, (dims, one, units, words) in found.items()
+        name: (dims, one, {"units": units, "long_name": words})
+        for name, (dims, one, units, words) in found.items()
     }
     return xr.Dataset(about, {"row": list(ROWS)})
 
@@ -182,9 +240,9 @@ def paper_numbers(study: xr.Dataset) -> xr.Dataset:
     are over all (roller, orbit) samples of a row. A row is normalised by its own value in the reference case. NaN
     wherever a roller failed.
     """
-    numbers = study[["peak_power_mean", "peak_power_std", "peak_power_max", "orbit_energy"]].drop_vars(
-        ["roller", "interface", "start_angle"], errors="ignore"
-    )
+    numbers = study[
+        ["peak_power_mean", "peak_power_std", "peak_power_max", "orbit_energy"]
+    ].drop_vars(["roller", "interface", "start_angle"], errors="ignore")
     numbers.attrs = {}
     total = study.energy.sum("interface", skipna=False)
     for name, statistic, words in (
@@ -195,9 +253,21 @@ def paper_numbers(study: xr.Dataset) -> xr.Dataset:
     ):
         put(numbers, name, getattr(total, statistic)("roller", skipna=False), "J", words)
     by_interface = study.energy.mean("roller", skipna=False)
-    put(numbers, "energy_by_interface", by_interface, "J", "energy at each interface, mean over the rollers of the row")
+    put(
+        numbers,
+        "energy_by_interface",
+        by_interface,
+        "J",
+        "energy at each interface, mean over the rollers of the row",
+    )
     both = numbers.energy.sum("row", skipna=False)
-    put(numbers, "both_rows", both, "J", "energy of a mean downwind and a mean upwind roller together")
+    put(
+        numbers,
+        "both_rows",
+        both,
+        "J",
+        "energy of a mean downwind and a mean upwind roller together",
+    )
     for names, reference, base in (
         (("energy", "energy_min", "energy_max"), ENERGY_REFERENCE, numbers.energy),
         (("both_rows",), ENERGY_REFERENCE, both),
@@ -205,8 +275,20 @@ def paper_numbers(study: xr.Dataset) -> xr.Dataset:
     ):
         for name in names:
             words = f"{numbers[name].long_name}, over the mean in case {reference}"
-            put(numbers, f"{name}_normalised", numbers[name] / base.sel(case=reference, drop=True), "1", words)
-    put(numbers, "energy_ratio", between_rows(numbers.energy), "1", "energy of the downwind over the upwind row")
+            put(
+                numbers,
+                f"{name}_normalised",
+                numbers[name] / base.sel(case=reference, drop=True),
+                "1",
+                words,
+            )
+    put(
+        numbers,
+        "energy_ratio",
+        between_rows(numbers.energy),
+        "1",
+        "energy of the downwind over the upwind row",
+    )
     ratio = between_rows(numbers.peak_power_mean)
     put(numbers, "peak_power_ratio", ratio, "1", "mean P_max of the downwind over the upwind row")
     return numbers
@@ -244,18 +326,33 @@ def dissipation(study: xr.Dataset) -> xr.Dataset:
     sliding = mechanisms.sel(interface=["inner", "outer"], mechanism="sliding", drop=True)
     parts += [sliding.sum("interface", skipna=False), energy.sel(interface="cage", drop=True)]
     part = xr.DataArray(list(PARTS), dims="part", name="part")
-    part_energy = xr.concat(parts, part, coords="minimal", compat="override").transpose("case", "row", "part")
+    part_energy = xr.concat(parts, part, coords="minimal", compat="override").transpose(
+        "case", "row", "part"
+    )
     total = energy.sum("interface", skipna=False)
     along = per_orbit(study.station_energy) / float(np.diff(study.station.values).mean())
-    exponents = [_exponent(study.roller_load.sel(row=row).values, total.sel(row=row).values) for row in study.row]
+    exponents = [
+        _exponent(study.roller_load.sel(row=row).values, total.sel(row=row).values)
+        for row in study.row
+    ]
     found = xr.Dataset()
-    put(found, "part_energy", part_energy, "J", "energy per orbit of a mean roller by interface and mechanism")
+    put(
+        found,
+        "part_energy",
+        part_energy,
+        "J",
+        "energy per orbit of a mean roller by interface and mechanism",
+    )
     asperity = per_orbit(study.asperity_energy.sum("interface", skipna=False)) / total
     put(found, "asperity_share", asperity, "1", "share of the energy that asperities dissipate")
     along = along.transpose("case", "row", "raceway", "station")
     put(found, "station_energy", along, "J/m", "energy per orbit and length of roller, by raceway")
     put(
-        found, "load_exponent", ("row", exponents), "1", "exponent of energy per orbit over mean roller load, all cases"
+        found,
+        "load_exponent",
+        ("row", exponents),
+        "1",
+        "exponent of energy per orbit over mean roller load, all cases",
     )
     return found.drop_vars(("start_angle", "roller"), errors="ignore")
 

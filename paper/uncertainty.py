@@ -42,15 +42,22 @@ def uncertainty(directory: Path) -> xr.Dataset:
     # All loads have the same points in the same order.
     parts = [np.flatnonzero(study.loads.values == name) for name in names]
     refused = np.any([~stored[part] for part in parts], axis=0)
-    outcomes = np.where(refused, 2, np.any([failed[part] for part in parts], axis=0)).astype(np.int8)
+    outcomes = np.where(refused, 2, np.any([failed[part] for part in parts], axis=0)).astype(
+        np.int8
+    )
     reasons = [
-        " ".join(filter(None, words)) for words in zip(*(study.reason.values[part] for part in parts), strict=True)
+        " ".join(filter(None, words))
+        for words in zip(*(study.reason.values[part] for part in parts), strict=True)
     ]
 
     def gathered(name: str) -> xr.DataArray:
         """A variable over (sample, case, ...); NaN for samples that did not complete."""
         found = [
-            study[name].isel(case=part).reset_coords(drop=True).drop_vars("case").rename(case="sample")
+            study[name]
+            .isel(case=part)
+            .reset_coords(drop=True)
+            .drop_vars("case")
+            .rename(case="sample")
             for part in parts
         ]
         found = xr.concat(found, xr.DataArray(names, dims="case", name="case"))
@@ -59,7 +66,9 @@ def uncertainty(directory: Path) -> xr.Dataset:
     interfaces = xr.DataArray(["inner", "outer", "cage"], dims="interface", name="interface")
     found = xr.Dataset(
         {
-            "orbit_energy": xr.concat([gathered(f"orbit_energy_{name}") for name in interfaces.values], interfaces),
+            "orbit_energy": xr.concat(
+                [gathered(f"orbit_energy_{name}") for name in interfaces.values], interfaces
+            ),
             "peak_power": gathered("peak_power_mean"),
             "window_energy": gathered("energy_mean").sum("row", skipna=False),
             "torque": gathered("contact_torque"),
@@ -114,7 +123,9 @@ def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
     """
     unit = np.eye(places.shape[1], dtype=int)
     pairs = [unit[i] + unit[k] for i, k in combinations(range(len(unit)), 2)]
-    degrees = np.concatenate([0 * unit[:1], unit, 2 * unit, np.array(pairs, dtype=int).reshape(-1, len(unit))])
+    degrees = np.concatenate(
+        [0 * unit[:1], unit, 2 * unit, np.array(pairs, dtype=int).reshape(-1, len(unit))]
+    )
     columns = _columns(places, degrees)
     chosen, best, least = [0], [0], math.inf
     norms = np.linalg.norm(columns, axis=0)
@@ -145,7 +156,9 @@ def explained_variance(places: NDArray[np.float64], values: NDArray[np.float64])
     error = 0.0
     for part in np.array_split(order, _PARTS):
         others = np.setdiff1d(order, part)
-        error += float(((fit(places[others], values[others])(places[part]) - values[part]) ** 2).sum())
+        error += float(
+            ((fit(places[others], values[others])(places[part]) - values[part]) ** 2).sum()
+        )
     return 1.0 - error / float(((values - values.mean()) ** 2).sum())
 
 
@@ -185,18 +198,32 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
     names = sample.case.values.tolist()
     first, last = names[0], names[-1]
     window, power = sample.window_energy, sample.friction_power
-    found = {f"energy per orbit, downwind, {name}": (down.sel(case=name), "J") for name in (first, last)}
+    found = {
+        f"energy per orbit, downwind, {name}": (down.sel(case=name), "J") for name in (first, last)
+    }
     found[f"energy in {first} / {last}"] = window.sel(case=first) / window.sel(case=last), "1"
     found |= {f"energy, downwind / upwind, {name}": (ratio.sel(case=name), "1") for name in names}
     found[f"share of the inner raceway, downwind, {first}"] = inner.sel(case=first), "1"
-    found |= {f"mean P_max, downwind / upwind, {name}": (peak.sel(case=name), "1") for name in names}
+    found |= {
+        f"mean P_max, downwind / upwind, {name}": (peak.sel(case=name), "1") for name in names
+    }
     found[f"sliding torque, {first}"] = sample.torque.sel(case=first), "N m"
     found[f"friction power of the bearing, {first}"] = power.sel(case=first), "W"
     found[f"friction power in {first} / {last}"] = power.sel(case=first) / power.sel(case=last), "1"
     values = np.stack([one.values for one, _ in found.values()], axis=1)
     return xr.Dataset(
-        {"result": (("sample", "quantity"), values, {"units": "1", "long_name": "result, in its quantity's unit"})},
-        {"sample": sample.sample, "quantity": list(found), "units": ("quantity", [one for _, one in found.values()])},
+        {
+            "result": (
+                ("sample", "quantity"),
+                values,
+                {"units": "1", "long_name": "result, in its quantity's unit"},
+            )
+        },
+        {
+            "sample": sample.sample,
+            "quantity": list(found),
+            "units": ("quantity", [one for _, one in found.values()]),
+        },
     )
 
 
@@ -222,10 +249,16 @@ def trends(sample: xr.Dataset) -> dict[str, xr.DataArray]:
         "downwind row spends more than the upwind row, every case": (ratio > 1.0).all("case"),
         "energy ratio within a factor of 2 of 10, any case": about(ratio, 10.0),
         f"ratio of peak powers highest in {first}": highest(peak),
-        f"ratio of peak powers falls from case to case of {cases}": (peak.diff("case") < 0.0).all("case"),
+        f"ratio of peak powers falls from case to case of {cases}": (peak.diff("case") < 0.0).all(
+            "case"
+        ),
         "ratio of peak powers within a factor of 2 of 5, any case": about(peak, 5.0),
-        "cage takes at least half of the energy of both rows, any case": (cage >= DOMINANT).any("case"),
-        "raceways take at least half of the downwind row's energy, every case": (below < DOMINANT).all("case"),
+        "cage takes at least half of the energy of both rows, any case": (cage >= DOMINANT).any(
+            "case"
+        ),
+        "raceways take at least half of the downwind row's energy, every case": (
+            below < DOMINANT
+        ).all("case"),
         f"friction power of the bearing highest in {first}": highest(power),
     }
 
@@ -257,7 +290,9 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
             explained[q] = explained_variance(places, np.log(one))
     shown = {name: flags.values for name, flags in trends(sample).items()}
     shares = [float(flags[good].mean()) if good.any() else np.nan for flags in shown.values()]
-    quantile = np.quantile(result, QUANTILES, axis=0).T if len(result) else np.full((shape[0], 3), np.nan)
+    quantile = (
+        np.quantile(result, QUANTILES, axis=0).T if len(result) else np.full((shape[0], 3), np.nan)
+    )
     counts = {name: int(((sample.outcome == k) & drawn).sum()) for k, name in enumerate(OUTCOMES)}
     summary = xr.Dataset(
         coords={
@@ -274,12 +309,32 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
         ("base", "quantity", found.result.values[0], "with the base values"),
         ("range", ("quantity", "quantile"), quantile, "quantiles over the samples"),
         ("rank_correlation", ("quantity", "parameter"), ranks, "Spearman's rank correlation"),
-        ("probability", ("quantity", "parameter"), chance, "probability of such a correlation by chance"),
-        ("first_order", ("quantity", "parameter"), first, "Sobol' index of first order, of the logarithm"),
+        (
+            "probability",
+            ("quantity", "parameter"),
+            chance,
+            "probability of such a correlation by chance",
+        ),
+        (
+            "first_order",
+            ("quantity", "parameter"),
+            first,
+            "Sobol' index of first order, of the logarithm",
+        ),
         ("total_order", ("quantity", "parameter"), total, "total Sobol' index, of the logarithm"),
-        ("explained", "quantity", explained, "part of the variance that the polynomial behind the indices predicts"),
+        (
+            "explained",
+            "quantity",
+            explained,
+            "part of the variance that the polynomial behind the indices predicts",
+        ),
         ("trend_share", "trend", shares, "share of the samples that show it"),
-        ("trend_base", "trend", [int(flags[0]) for flags in shown.values()], "whether the base values show it"),
+        (
+            "trend_base",
+            "trend",
+            [int(flags[0]) for flags in shown.values()],
+            "whether the base values show it",
+        ),
     ):
         put(summary, name, (dims, one), "1", words)
     return summary
@@ -288,14 +343,20 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
 def robust(summary: xr.Dataset) -> list[tuple[str, str]]:
     """Every trend with the word for it: robust, where all samples show it; robustly not, where none does; or not robust."""
     shares = zip(summary.trend.values.tolist(), summary.trend_share.values.tolist(), strict=True)
-    return [(name, {1.0: "robust", 0.0: "robustly not so"}.get(share, "not robust")) for name, share in shares]
+    return [
+        (name, {1.0: "robust", 0.0: "robustly not so"}.get(share, "not robust"))
+        for name, share in shares
+    ]
 
 
 def strongest(summary: xr.Dataset, quantity: str) -> list[tuple[str, float, float]]:
     """Parameters with a total Sobol' index worth telling, the largest first: name, first order, total."""
     one = summary.sel(quantity=quantity)
     found = zip(
-        one.parameter.values.tolist(), one.first_order.values.tolist(), one.total_order.values.tolist(), strict=True
+        one.parameter.values.tolist(),
+        one.first_order.values.tolist(),
+        one.total_order.values.tolist(),
+        strict=True,
     )
     return sorted((each for each in found if each[2] >= TOLD_INDEX), key=lambda each: -each[2])
 

@@ -53,7 +53,9 @@ class UncertainValue:
     @property
     def range_text(self) -> str:
         """The range in words."""
-        return " or ".join(map(str, self.choices)) or f"{self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
+        return " or ".join(
+            map(str, self.choices)
+        ) or f"{self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
 
 
 def _read() -> tuple[UncertainValue, ...]:
@@ -104,7 +106,10 @@ def sample_points() -> list[dict[str, Any]]:
     points: list[dict[str, Any]] = [{}]
     for places in sample_places():
         drawn = {one.key: one.at(float(place)) for one, place in zip(VALUES, places, strict=True)}
-        point = {one.key: drawn[one.key] if one.unit == "1" else f"{drawn[one.key]:.12g} {one.unit}" for one in VALUES}
+        point = {
+            one.key: drawn[one.key] if one.unit == "1" else f"{drawn[one.key]:.12g} {one.unit}"
+            for one in VALUES
+        }
         centre = sphere - 0.5e-3 * drawn["bearing.roller_diameter"]
         angle = math.radians(drawn["bearing.contact_angle"])
         points.append(

@@ -127,7 +127,10 @@ def about(key: str, name: str, value: float, stated: float, words: str = "") -> 
 
 def ends(values: xr.DataArray) -> dict[str, float]:
     """Least and most over all cases; NaN if any is."""
-    return {name: float(getattr(values, find)(skipna=False)) for name, find in (("lowest", "min"), ("highest", "max"))}
+    return {
+        name: float(getattr(values, find)(skipna=False))
+        for name, find in (("lowest", "min"), ("highest", "max"))
+    }
 
 
 def by_wind_speed(values: xr.DataArray) -> xr.DataArray:
@@ -146,7 +149,9 @@ def energy_over_wind_speed(numbers: xr.Dataset, study: xr.Dataset) -> tuple[Row,
     energy = by_wind_speed(numbers.both_rows_normalised)
     # Of failed rollers there is no order. Two of the study's speeds are both up to 14 m/s only if they are 12 and 14 m/s.
     speed = (
-        float(energy.wind_speed.values[np.argsort(-energy.values)[:2]].max()) if energy.notnull().all() else math.nan
+        float(energy.wind_speed.values[np.argsort(-energy.values)[:2]].max())
+        if energy.notnull().all()
+        else math.nan
     )
     return (
         Row(
@@ -158,9 +163,17 @@ def energy_over_wind_speed(numbers: xr.Dataset, study: xr.Dataset) -> tuple[Row,
             12.0,
             14.0,
         ),
-        Row("spread", "energy of both rows: change over wind speed", _change(numbers.both_rows_normalised)),
+        Row(
+            "spread",
+            "energy of both rows: change over wind speed",
+            _change(numbers.both_rows_normalised),
+        ),
         *(
-            Row(f"per_orbit_{row}", f"energy per orbit {row}: change", _change(study.orbit_energy.sel(row=row)))
+            Row(
+                f"per_orbit_{row}",
+                f"energy per orbit {row}: change",
+                _change(study.orbit_energy.sel(row=row)),
+            )
             for row in study.row.values.tolist()
         ),
         Row("orbits", "number of orbits: change", _change(study.orbits)),
@@ -205,10 +218,20 @@ def peak_power_between_rows(numbers: xr.Dataset) -> tuple[Row, ...]:
     """Mean peak power of the downwind over the upwind row."""
     ratio = ends(numbers.peak_power_ratio)
     mean = by_wind_speed(numbers.peak_power_ratio)
-    speed = float(mean.wind_speed[int(np.argmax(mean.values))]) if mean.notnull().all() else math.nan
+    speed = (
+        float(mean.wind_speed[int(np.argmax(mean.values))]) if mean.notnull().all() else math.nan
+    )
     return (
         about("highest", "largest ratio", ratio["highest"], 5.0, "up to 5"),
-        Row("highest_at_mps", "wind speed of the largest mean ratio", speed, "m/s", "12 m/s", 12.0, 12.0),
+        Row(
+            "highest_at_mps",
+            "wind speed of the largest mean ratio",
+            speed,
+            "m/s",
+            "12 m/s",
+            12.0,
+            12.0,
+        ),
         Row("lowest", "least ratio", ratio["lowest"]),
     )
 
@@ -231,11 +254,18 @@ def unloaded_roller(turn: xr.Dataset, inflexion: float) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
-def varying_over_static(numbers: xr.Dataset, static: Mapping[str, Mapping[str, float]]) -> tuple[Row, ...]:
+def varying_over_static(
+    numbers: xr.Dataset, static: Mapping[str, Mapping[str, float]]
+) -> tuple[Row, ...]:
     """Energy per orbit in the detailed case, over that under its mean load; `static` has it [J] by load and row."""
     varying = numbers.orbit_energy.sel(case=DETAILED_CASE)
     return tuple(
-        about(f"{name}_{row}", f"{row}, over static load {name}", float(varying.sel(row=row)) / energy, 100.0)
+        about(
+            f"{name}_{row}",
+            f"{row}, over static load {name}",
+            float(varying.sel(row=row)) / energy,
+            100.0,
+        )
         for name, by_row in static.items()
         for row, energy in by_row.items()
     )
@@ -249,7 +279,17 @@ def cage_dominates(study: xr.Dataset) -> tuple[Row, ...]:
     for row in study.row.values.tolist():
         one = ends(share.sel(row=row))
         stated = f"at least {DOMINANT:g}"
-        rows.append(Row(f"least_{row}", f"{row}: least share of the cage", one["lowest"], "", stated, DOMINANT, 1.0))
+        rows.append(
+            Row(
+                f"least_{row}",
+                f"{row}: least share of the cage",
+                one["lowest"],
+                "",
+                stated,
+                DOMINANT,
+                1.0,
+            )
+        )
         rows.append(Row(f"most_{row}", f"{row}: largest share of the cage", one["highest"]))
     return tuple(rows)
 
@@ -282,7 +322,10 @@ def statements(
 ) -> dict[str, Statement]:
     """The paper's statements by subject under one model; `static` has the turns under static load by title."""
     rows = study.row.values.tolist()
-    energies = {name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in rows} for name in STATIC_LOADS}
+    energies = {
+        name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in rows}
+        for name in STATIC_LOADS
+    }
     downward = static["downward, downwind"]
     found = {
         "energy": energy_over_wind_speed(numbers, study),

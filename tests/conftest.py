@@ -57,7 +57,9 @@ def pytest_collection_modifyitems(items):
     slow = {item.path for item in items if item.get_closest_marker("slow")}
 
     def rank(item):
-        place = next((k for k, name in enumerate(FIRST) if item.nodeid.startswith(name)), len(FIRST))
+        place = next(
+            (k for k, name in enumerate(FIRST) if item.nodeid.startswith(name)), len(FIRST)
+        )
         return item.path not in slow, place
 
     items.sort(key=rank)
@@ -89,4 +91,6 @@ def lubricant():
 @pytest.fixture(scope="session")
 def models(bearing, lubricant):
     """Rollers of both rows by axial sign, tilt 5°."""
-    return {sign: roller_model(bearing, lubricant, sign, tilt=math.radians(5.0)) for sign in (1, -1)}
+    return {
+        sign: roller_model(bearing, lubricant, sign, tilt=math.radians(5.0)) for sign in (1, -1)
+    }

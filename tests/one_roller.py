@@ -29,11 +29,18 @@ TILT = math.radians(5.0)
 
 def models(laws: Laws, oil: Lubricant = OIL, **choices) -> dict[str, RollerModel]:
     """Rollers of both rows."""
-    return {row: roller_model(BEARING, oil, AXIAL_SIGNS[row], laws=laws, **{"tilt": TILT} | choices) for row in ROWS}
+    return {
+        row: roller_model(BEARING, oil, AXIAL_SIGNS[row], laws=laws, **{"tilt": TILT} | choices)
+        for row in ROWS
+    }
 
 
 def rollers(
-    made: dict[str, RollerModel], *, load: float = 1.2e5, speeds=(-0.4, 0.4), tolerance: float = 2e-4
+    made: dict[str, RollerModel],
+    *,
+    load: float = 1.2e5,
+    speeds=(-0.4, 0.4),
+    tolerance: float = 2e-4,
 ) -> dict[str, Roller]:
     """The same with tables for loads [N] and raceway speeds [m/s] up to the given ones."""
     return with_tables(made, table_box(np.asarray(speeds, float), load, tolerance))[0]
@@ -46,7 +53,9 @@ def station_of(roller: Roller, angle: float, now: Instant) -> np.void:
     return found[0]
 
 
-def a_station(load: float, extra_outer: float = 0.0, tangential: float = -25.0, ring_speed: float = RING_SPEED):
+def a_station(
+    load: float, extra_outer: float = 0.0, tangential: float = -25.0, ring_speed: float = RING_SPEED
+):
     """A station made up [N], [m/s]."""
     found = np.zeros(1, STATION)
     found[0] = (ring_speed, 1e-5, load, load, load + extra_outer, tangential, 0.0)
@@ -77,20 +86,46 @@ def motion_of(time, speed, displacement) -> Motion:
     time = np.asarray(time, float)
     speed = np.broadcast_to(np.asarray(speed, float), time.shape).copy()
     return Motion(
-        time, speed, shaft_angle(time, speed), np.broadcast_to(np.asarray(displacement, float), (time.size, 3)).copy()
+        time,
+        speed,
+        shaft_angle(time, speed),
+        np.broadcast_to(np.asarray(displacement, float), (time.size, 3)).copy(),
     )
 
 
-def limits_of(roller: Roller, motion: Motion, tolerance: float, *, heaviest: float = 1e5, max_steps: int = 10**6):
+def limits_of(
+    roller: Roller,
+    motion: Motion,
+    tolerance: float,
+    *,
+    heaviest: float = 1e5,
+    max_steps: int = 10**6,
+):
     """Bounds of the Radau integrator; its window is the whole history."""
     return radau_limits(
-        roller, motion, tolerance=tolerance, max_steps=max_steps, heaviest=heaviest, window=float(motion.time[0])
+        roller,
+        motion,
+        tolerance=tolerance,
+        max_steps=max_steps,
+        heaviest=heaviest,
+        window=float(motion.time[0]),
     )
 
 
-def walk(roller: Roller, motion: Motion, limits, stops, angle: float, *, slip: float = 0.0, rows: int = 1000):
+def walk(
+    roller: Roller,
+    motion: Motion,
+    limits,
+    stops,
+    angle: float,
+    *,
+    slip: float = 0.0,
+    rows: int = 1000,
+):
     """All steps of the roller from a slip [m/s] on, in buffers of so many rows, and its status and record of work."""
-    path = Path(roller.body[0], roller.tables.ctypes.data, roller.tables, motion, float(angle), limits[0])
+    path = Path(
+        roller.body[0], roller.tables.ctypes.data, roller.tables, motion, float(angle), limits[0]
+    )
     work, classes, found = np.zeros(1, WORK), np.zeros(motion.time.size - 1, np.int8), []
     work["slip"], buffer, status = slip, np.zeros(rows, STEP), UNDER_WAY
     if limits.dtype == LIMITS:

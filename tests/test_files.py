@@ -35,7 +35,9 @@ def test_the_files_of_a_study_are_never_replaced(tmp_path):
     files.check_new_file(tmp_path / "lock", force=True)
     (tmp_path / "study.sqlite").touch()
     for name in ("lock", "study.sqlite", "manifest.json", "summary.parquet"):
-        with pytest.raises(InputError, match=f"{name} is a file of the study in this folder. Choose another name"):
+        with pytest.raises(
+            InputError, match=f"{name} is a file of the study in this folder. Choose another name"
+        ):
             files.check_new_file(tmp_path / name, force=True)
     files.check_new_file(tmp_path / "case.nc", force=False)
 
@@ -46,7 +48,10 @@ def test_a_name_may_be_as_long_as_the_system_allows(tmp_path):
     with files.new_file(tmp_path / ("n" * longest), force=False) as temporary:
         temporary.touch()
     files.write_durably(tmp_path / ("é" * (longest // 2)), b"")
-    assert {len(os.fsencode(path.name)) for path in tmp_path.iterdir()} == {longest, longest // 2 * 2}
+    assert {len(os.fsencode(path.name)) for path in tmp_path.iterdir()} == {
+        longest,
+        longest // 2 * 2,
+    }
 
 
 def test_a_zero_byte_in_a_name_is_refused_in_words(tmp_path):
@@ -81,7 +86,10 @@ def test_of_two_commands_with_one_new_output_one_succeeds(tmp_path):
 
 def test_what_fails_leaves_the_old_file_and_nothing_else(tmp_path):
     (tmp_path / "out.nc").write_text("old")
-    with pytest.raises(ZeroDivisionError), files.new_file(tmp_path / "out.nc", force=True) as temporary:
+    with (
+        pytest.raises(ZeroDivisionError),
+        files.new_file(tmp_path / "out.nc", force=True) as temporary,
+    ):
         temporary.write_text("half")
         raise ZeroDivisionError
     assert [(one.name, one.read_text()) for one in tmp_path.iterdir()] == [("out.nc", "old")]

@@ -16,7 +16,9 @@ LOADS = BearingLoads.constant([0.0, -300e3, 10e3], 2.0, 10.0)
 def test_every_part_of_the_package_is_in_exactly_one_list():
     listed = [*KERNEL_PARTS, *RESULT_PARTS, *OTHER_PARTS]
     modules = {path.stem for path in ROOT.glob("*.py")}
-    folders = {path.parent.relative_to(ROOT).parts[0] for path in ROOT.rglob("*.py") if path.parent != ROOT}
+    folders = {
+        path.parent.relative_to(ROOT).parts[0] for path in ROOT.rglob("*.py") if path.parent != ROOT
+    }
     assert sorted(listed) == sorted(modules | folders)
     assert len(listed) == len(set(listed))
 
@@ -25,7 +27,11 @@ def test_every_part_of_the_package_is_in_exactly_one_list():
 def copy(tmp_path, monkeypatch):
     """A copy of the package, of which the fingerprint is taken."""
     place = tmp_path / "macroslip"
-    shutil.copytree(ROOT, place, ignore=lambda _, names: [name for name in names if "." in name and name[-3:] != ".py"])
+    shutil.copytree(
+        ROOT,
+        place,
+        ignore=lambda _, names: [name for name in names if "." in name and name[-3:] != ".py"],
+    )
     monkeypatch.setattr(fingerprint, "_ROOT", place)
     fingerprint.fingerprint.cache_clear()
     yield place

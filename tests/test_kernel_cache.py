@@ -38,15 +38,24 @@ class Copy:
 
     def __init__(self, folder: Path):
         source = Path(macroslip.__file__).parent
-        shutil.copytree(source, folder / "src" / "macroslip", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(
+            source, folder / "src" / "macroslip", ignore=shutil.ignore_patterns("__pycache__")
+        )
         (folder / "src/macroslip/contact/kernels.py").write_text(KERNELS, encoding="utf-8")
         self._kernels = folder / "kernels"
-        self._environment = os.environ | {"PYTHONPATH": str(folder / "src"), "NUMBA_CACHE_DIR": str(self._kernels)}
+        self._environment = os.environ | {
+            "PYTHONPATH": str(folder / "src"),
+            "NUMBA_CACHE_DIR": str(self._kernels),
+        }
 
     def start(self) -> subprocess.Popen:
         command = [sys.executable, "-W", "error", "-c", ASK]
         return subprocess.Popen(
-            command, env=self._environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            command,
+            env=self._environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
         )
 
     def ask(self) -> tuple[str, str]:
@@ -98,14 +107,18 @@ def test_a_damaged_file_is_compiled_again(stored, name, damage):
     assert stored.ask() == (STORED, "")
 
 
-@pytest.mark.parametrize(("one", "other"), [("kernel-*.nbc", "other-*.1.nbc"), ("other-*.1.nbc", "other-*.2.nbc")])
+@pytest.mark.parametrize(
+    ("one", "other"), [("kernel-*.nbc", "other-*.1.nbc"), ("other-*.1.nbc", "other-*.2.nbc")]
+)
 def test_files_exchanged(stored, one, other):
     one, other = stored.file(one), stored.file(other)
     content = one.read_bytes()
     one.write_bytes(other.read_bytes())
     other.write_bytes(content)
     numbers, said = stored.ask()
-    assert numbers.startswith("2.0 3.0 3.0 ") and numbers != STORED and said.startswith("note: 2 of ")
+    assert (
+        numbers.startswith("2.0 3.0 3.0 ") and numbers != STORED and said.startswith("note: 2 of ")
+    )
     assert stored.ask() == (STORED, "")
 
 

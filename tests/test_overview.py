@@ -17,14 +17,25 @@ OBJECTS = {
 @pytest.mark.parametrize("name", OBJECTS)
 def test_one_line_and_one_table(name):
     one = OBJECTS[name]
-    assert repr(one).startswith(f"<{type(one).__name__}") and "\n" not in repr(one) and len(repr(one)) < 300
+    assert (
+        repr(one).startswith(f"<{type(one).__name__}")
+        and "\n" not in repr(one)
+        and len(repr(one)) < 300
+    )
     html = one._repr_html_()
     assert html.count("<table>") == html.count("</table>") == 1 and len(html) < 8000
 
 
 def test_a_case_names_what_it_is_made_of():
     case = Case(loads=LOADS, laws=Laws.paper(), rollers=[0, 3])
-    for word in ("constant load", "skf-240-600-bc", "vg460-pao", "model paper", "Radau", "2 rollers of each row"):
+    for word in (
+        "constant load",
+        "skf-240-600-bc",
+        "vg460-pao",
+        "model paper",
+        "Radau",
+        "2 rollers of each row",
+    ):
         assert word in repr(case) and word in case._repr_html_()
 
 

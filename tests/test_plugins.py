@@ -111,7 +111,9 @@ def test_a_file_that_was_wrong_can_be_mended_and_read_again(reported, tmp_path):
         assert load_laws(tmp_path / "my_laws.py") is found
         # Its name is taken now, by whatever else the file may become.
         (tmp_path / "my_laws.py").write_text(FILM + "\n# changed\n", encoding="utf-8")
-        with pytest.raises(InputError, match="'dowson-higginson' cannot be registered: the name is taken"):
+        with pytest.raises(
+            InputError, match="'dowson-higginson' cannot be registered: the name is taken"
+        ):
             load_laws("my_laws.py")
         assert "dowson-higginson" in FILM_LAWS.names()
     finally:

@@ -17,10 +17,14 @@ def test_the_bar_counts_the_rollers(monkeypatch):
     monkeypatch.setenv("TERM", "xterm")
     screen = Terminal()
     monkeypatch.setattr(sys, "stderr", screen)
-    case = Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 0.0, 1.0), laws=Laws.paper(), rollers=[0, 5])
+    case = Case(
+        loads=BearingLoads.constant([0.0, -300e3, 0.0], 0.0, 1.0), laws=Laws.paper(), rollers=[0, 5]
+    )
     with progress_bar() as progress:
         seen = []
-        result = simulate(case, progress=lambda done, total: (seen.append((done, total)), progress(done, total)))
+        result = simulate(
+            case, progress=lambda done, total: (seen.append((done, total)), progress(done, total))
+        )
     # Twice a second, and whenever rollers are done.
     assert (result.status == 0).all() and seen == sorted(seen) and seen[-1] == (4, 4)
     assert {total for _, total in seen} == {4}

@@ -51,7 +51,9 @@ def anti_alias_filter() -> NDArray[np.float64]:
     from scipy.signal import firwin, kaiserord
 
     taps, beta = kaiserord(80.0, (STOP_BAND - PASS_BAND) / SOURCE_RATE)
-    return np.asarray(firwin(taps | 1, 0.5 * (PASS_BAND + STOP_BAND), window=("kaiser", beta), fs=2 * SOURCE_RATE))
+    return np.asarray(
+        firwin(taps | 1, 0.5 * (PASS_BAND + STOP_BAND), window=("kaiser", beta), fs=2 * SOURCE_RATE)
+    )
 
 
 def decimate(values: NDArray) -> NDArray[np.float64]:
@@ -59,11 +61,18 @@ def decimate(values: NDArray) -> NDArray[np.float64]:
     from scipy.signal import resample_poly
 
     return resample_poly(
-        np.asarray(values, dtype=np.float64), 2, 5, axis=0, window=anti_alias_filter(), padtype="antireflect"
+        np.asarray(values, dtype=np.float64),
+        2,
+        5,
+        axis=0,
+        window=anti_alias_filter(),
+        padtype="antireflect",
     )
 
 
-def write_case(case: str, columns: Mapping[str, NDArray], provenance: Mapping[str, str], target: Path) -> None:
+def write_case(
+    case: str, columns: Mapping[str, NDArray], provenance: Mapping[str, str], target: Path
+) -> None:
     """Decimate the 50 Hz `columns` of one case and write ``<case>.parquet`` into the folder `target`."""
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -112,27 +121,47 @@ def main(arguments: list[str] | None = None) -> None:
     """Convert every bundled case found in a folder of 50 Hz records, and report the size."""
     import pyarrow.parquet as pq
 
-    parser = argparse.ArgumentParser(description="Make the bundled load cases from 50 Hz simulation records.")
-    parser.add_argument("sources", type=Path, nargs="+", help="folders of windpact1.5_....parquet files")
+    parser = argparse.ArgumentParser(
+        description="Make the bundled load cases from 50 Hz simulation records."
+    )
+    parser.add_argument(
+        "sources", type=Path, nargs="+", help="folders of windpact1.5_....parquet files"
+    )
     folders = parser.parse_args(arguments).sources
     target = Path(macroslip.loads.__path__[0]) / "cases"
     names = bundled_cases("year" if len(folders) > 1 else "paper")
     for case in map(bundled_case, names):
-        found = [path for folder in folders if (path := folder / f"windpact1.5_{record_of(case)}.parquet").is_file()]
+        found = [
+            path
+            for folder in folders
+            if (path := folder / f"windpact1.5_{record_of(case)}.parquet").is_file()
+        ]
         if not found:
             where = str(folders[0] / f"windpact1.5_{record_of(case)}.parquet")
-            raise InputError("no such file", where=where, remedy="Give the folders that hold all records.")
+            raise InputError(
+                "no such file", where=where, remedy="Give the folders that hold all records."
+            )
         table = pq.read_table(found[0])
         stored = {key.decode(): text.decode() for key, text in table.schema.metadata.items()}
         if stored["sample_rate_Hz"] != str(SOURCE_RATE):
             raise InputError(
-                f"sampled at {stored['sample_rate_Hz']} Hz", where=str(found[0]), allowed=f"{SOURCE_RATE} Hz"
+                f"sampled at {stored['sample_rate_Hz']} Hz",
+                where=str(found[0]),
+                allowed=f"{SOURCE_RATE} Hz",
             )
-        provenance = {"source": stored["code"], "wind": stored["case"], "turbsim_seeds": stored["seeds"]}
+        provenance = {
+            "source": stored["code"],
+            "wind": stored["case"],
+            "turbsim_seeds": stored["seeds"],
+        }
         if case.event:
             provenance["time"] = "0 s is after the discarded start of the simulation"
-            provenance["control"] = f"{ASSUMED}: rates, speeds and delays are usual magnitudes, see README.md"
-        write_case(case.name, {name: table[name].to_numpy() for name in COLUMNS}, provenance, target)
+            provenance["control"] = (
+                f"{ASSUMED}: rates, speeds and delays are usual magnitudes, see README.md"
+            )
+        write_case(
+            case.name, {name: table[name].to_numpy() for name in COLUMNS}, provenance, target
+        )
     total = sum(path.stat().st_size for path in target.glob("*.parquet"))
     print(f"{len(names)} cases, {total / 1e6:.2f} MB in {target}")
 

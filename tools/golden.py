@@ -24,17 +24,33 @@ FILE = Path(__file__).parents[1] / "tests" / "golden" / "numbers.json"
 VERDICTS = FILE.with_name("verdicts.json")
 MODELS = {"paper": Laws.paper, "physical": Laws.physical}
 #: Bundled histories with their first and last time [s], and rollers of both rows.
-HISTORIES = {"12A": (300.0, 340.0), "14B": (100.0, 140.0), "18C": (300.0, 340.0), "24A": (60.0, 100.0)}
+HISTORIES = {
+    "12A": (300.0, 340.0),
+    "14B": (100.0, 140.0),
+    "18C": (300.0, 340.0),
+    "24A": (60.0, 100.0),
+}
 ROLLERS = [0, 9]
 #: Tolerances of numbers and of checks, by kind of case.
 TIGHT = {"imposed": 1e-7, "short": 1e-7, "film": 1e-7, "dry": 1e-6}
 LOOSE = {"imposed": 1e-5, "short": 1e-5, "film": 2e-6, "dry": 2e-6}
 #: Nominal bounds, relative to a variable's scale, which `errors` has.
-ENERGIES = ("energy", "rolling_energy", "asperity_energy", "mechanism_energy", "orbit_energy", "energy of rows")
+ENERGIES = (
+    "energy",
+    "rolling_energy",
+    "asperity_energy",
+    "mechanism_energy",
+    "orbit_energy",
+    "energy of rows",
+)
 PEAKS = ("peak_power", "flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio",
          "surface_power_density by angle", "surface_power_density by station")  # fmt: skip
 NOMINAL = {
-    "imposed": {**dict.fromkeys(ENERGIES, 1e-4), **dict.fromkeys(PEAKS, 1e-2), "min_spin_ratio": 1e-4},
+    "imposed": {
+        **dict.fromkeys(ENERGIES, 1e-4),
+        **dict.fromkeys(PEAKS, 1e-2),
+        "min_spin_ratio": 1e-4,
+    },
     "film": {**dict.fromkeys(ENERGIES, 5e-4), **dict.fromkeys(PEAKS, 1e-2), "min_spin_ratio": 2e-3},
     "dry": {**dict.fromkeys(ENERGIES, 2e-2), **dict.fromkeys(PEAKS, 2e-2), "min_spin_ratio": 1e-2},
 }
@@ -72,13 +88,23 @@ def cases() -> dict[str, tuple[str, dict]]:
     found = {}
     for model, laws in MODELS.items():
         for name, (start, end) in HISTORIES.items():
-            given = {"loads": lambda n=name, s=start, e=end: HubLoads.bundled(n).window(s, e), "laws": laws()}
+            given = {
+                "loads": lambda n=name, s=start, e=end: HubLoads.bundled(n).window(s, e),
+                "laws": laws(),
+            }
             found[f"imposed-{model}-{name}"] = "imposed", {**given, "rollers": ROLLERS}
         for name, loads in SHORT.items():
-            given = {"loads": loads, "laws": laws(), "rollers": ROLLERS, "window": Window(start=0.0)}
+            given = {
+                "loads": loads,
+                "laws": laws(),
+                "rollers": ROLLERS,
+                "window": Window(start=0.0),
+            }
             found[f"short-{model}-{name}"] = "short", given
         for kind, name, last in (("film", "14B", 10.0), ("film", "24A", 10.0), ("dry", "14B", 4.0)):
-            last = last if model == "paper" else 0.4 * last  # by the laws it takes some ten times as long
+            last = (
+                last if model == "paper" else 0.4 * last
+            )  # by the laws it takes some ten times as long
             start = HISTORIES[name][0]
             given = {
                 "loads": lambda n=name, s=start, e=start + last: HubLoads.bundled(n).window(s, e), "laws": laws(),
@@ -96,7 +122,9 @@ def compute(kind: str, given: dict, tolerance: float) -> dict[str, np.ndarray]:
     speed = settings["loads"].shaft_speed
     if speed.min() < 0.0 < speed.max():
         # Both spins and the entrainment speed pass zero: the least of these ratios means nothing there.
-        result = result.drop_vars(["min_spin_ratio", "slide_roll_ratio", "min_film_ratio"], errors="ignore")
+        result = result.drop_vars(
+            ["min_spin_ratio", "slide_roll_ratio", "min_film_ratio"], errors="ignore"
+        )
     kept = {name: values for name, values in result.data_vars.items() if name not in LEFT_OUT}
     if "surface_energy" in kept:
         energy = kept.pop("surface_energy")
@@ -157,8 +185,14 @@ def write(only: str) -> None:
             spread, promised = errors(kind, loose[name], values, name), nominal(kind, name)
             bounds[name] = promised if 1.5 * spread <= promised else float(f"{3.0 * spread:.2g}")
             if spread > promised:
-                print(f"{case:26} {name:24} promised {promised:.1e}, today's spread {spread:.1e}", flush=True)
-        plain = {name: np.vectorize(lambda x: float(f"{x:.7g}"))(values).tolist() for name, values in right.items()}
+                print(
+                    f"{case:26} {name:24} promised {promised:.1e}, today's spread {spread:.1e}",
+                    flush=True,
+                )
+        plain = {
+            name: np.vectorize(lambda x: float(f"{x:.7g}"))(values).tolist()
+            for name, values in right.items()
+        }
         stored = json.loads(FILE.read_text()) if FILE.exists() else {}
         stored[case] = {"bounds": bounds, "values": plain}
         print(f"{case:26} {time.process_time() - began:6.1f} s of CPU", flush=True)
@@ -175,7 +209,11 @@ def check(only: str) -> dict[str, tuple[float, str]]:
             continue
         found, ratios = compute(kind, given, LOOSE[kind]), {}
         for name, values in stored[case]["values"].items():
-            error = errors(kind, found[name], np.array(values, float), name) if name in found else np.inf
+            error = (
+                errors(kind, found[name], np.array(values, float), name)
+                if name in found
+                else np.inf
+            )
             bound = stored[case]["bounds"][name]
             ratios[name] = error / bound if bound else (0.0 if error == 0.0 else np.inf)
         name = max(ratios, key=lambda each: ratios[each])
@@ -196,11 +234,17 @@ def check_verdicts(summary: Path) -> list[str]:
 
 def main() -> int:
     """Write or check; 1 where a number is out of its bound."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--write", action="store_true", help="compute the numbers anew")
     parser.add_argument("--check", action="store_true", help="compare with the stored numbers")
-    parser.add_argument("--only", default="", help="part of the name of the cases to take, such as imposed-paper")
-    parser.add_argument("--verdicts", type=Path, help="compare the summary.json that `make reproduce` has written")
+    parser.add_argument(
+        "--only", default="", help="part of the name of the cases to take, such as imposed-paper"
+    )
+    parser.add_argument(
+        "--verdicts", type=Path, help="compare the summary.json that `make reproduce` has written"
+    )
     chosen = parser.parse_args()
     if chosen.verdicts:
         changed = check_verdicts(chosen.verdicts)

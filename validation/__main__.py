@@ -16,7 +16,9 @@ def main() -> None:
     """Print the lines of every comparison, and draw it."""
     parser = argparse.ArgumentParser(prog="python -m validation", description=__doc__)
     parser.add_argument("name", nargs="?", choices=NAMES, help="one comparison; all if not given")
-    parser.add_argument("-o", "--output", type=Path, default=Path("docs/figures"), help="folder of the figures")
+    parser.add_argument(
+        "-o", "--output", type=Path, default=Path("docs/figures"), help="folder of the figures"
+    )
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
     rows = []

@@ -29,7 +29,14 @@ BEARING = Bearing.read(Path(__file__).with_name("data") / "cylindrical-160.yaml"
 OIL = Lubricant.read("vg320-mineral")
 #: Speed of the shaft [rad/s].
 SPEED = 1500.0 * math.pi / 30.0
-CAGE = Cage(gap=3e-4, mass=4.0, guided_by="outer-ring", land_diameter=0.244, land_width=0.016, land_clearance=6e-4)
+CAGE = Cage(
+    gap=3e-4,
+    mass=4.0,
+    guided_by="outer-ring",
+    land_diameter=0.244,
+    land_width=0.016,
+    land_clearance=6e-4,
+)
 CELSIUS, LOADS = (20.0, 40.0, 60.0, 80.0), (2e3, 8e3, 20e3, 40e3)
 #: Part of the largest roller load above which a roller is in the loaded zone.
 LOADED = 0.05
@@ -53,18 +60,28 @@ def _case(loads: BearingLoads, celsius: float, **choices) -> Case:
         "contact_details": False,
         "rating": False,
     }
-    return Case(bearing=BEARING, lubricant=OIL, temperature=celsius + 273.15, loads=loads, **given | choices)
+    return Case(
+        bearing=BEARING, lubricant=OIL, temperature=celsius + 273.15, loads=loads, **given | choices
+    )
 
 
 def steady(load: float, celsius: float, **choices) -> Slip:
     """Under a constant radial load [N]; the first 0.7 s, in which rollers leave pure rolling, are left out."""
     loads = BearingLoads.constant([0.0, -load, 0.0], SPEED, 1.0)
-    found = simulate(_case(loads, celsius, window=Window(start=0.7), traces=Traces(step=2e-3, start=0.7), **choices))
+    found = simulate(
+        _case(
+            loads, celsius, window=Window(start=0.7), traces=Traces(step=2e-3, start=0.7), **choices
+        )
+    )
     if found.status.any():
         raise RuntimeError(f"{load} N, {celsius} °C: status {int(found.status.max())}")
     slip = 1.0 - found.spin / found.spin_pure
     inside = found.roller_load > LOADED * found.roller_load.max()
-    return Slip(-float(found.cage_slip[0]), float(slip.where(inside).mean()), float(slip.where(~inside).mean()))
+    return Slip(
+        -float(found.cage_slip[0]),
+        float(slip.where(inside).mean()),
+        float(slip.where(~inside).mean()),
+    )
 
 
 def ramp(laws: Laws) -> xr.Dataset:
@@ -81,18 +98,27 @@ def ramp(laws: Laws) -> xr.Dataset:
     slip = 1.0 - found.cage_speed.values[0] / (orbit_ratio(BEARING) * SPEED)
     down = slice(0, found.time.size // 2 + 1)
     over = np.interp(found.time.values[down], time, load)
-    return xr.Dataset({"falling": ("load", slip[down]), "rising": ("load", slip[::-1][down])}, {"load": over})
+    return xr.Dataset(
+        {"falling": ("load", slip[down]), "rising": ("load", slip[::-1][down])}, {"load": over}
+    )
 
 
 def jumps(found: xr.Dataset, slip: float = 0.2) -> tuple[float, float]:
     """Loads [N] at which the cage's slip passes a value while the load falls, and while it rises."""
-    lost, held = (float(found["load"][np.flatnonzero(found[name].values > slip)[0]]) for name in ("falling", "rising"))
+    lost, held = (
+        float(found["load"][np.flatnonzero(found[name].values > slip)[0]])
+        for name in ("falling", "rising")
+    )
     return lost, held
 
 
 def compare() -> list[Comparison]:
     """The lines of the table."""
-    cold, warm, loaded = steady(LOADS[0], CELSIUS[0]), steady(LOADS[2], CELSIUS[3]), steady(LOADS[3], CELSIUS[2])
+    cold, warm, loaded = (
+        steady(LOADS[0], CELSIUS[0]),
+        steady(LOADS[2], CELSIUS[3]),
+        steady(LOADS[3], CELSIUS[2]),
+    )
     about = "trend: falls with temperature and load; level: bearing, load, oil and cage are assumed"
     rows = []
     for zone, measured in (("loaded", 0.6), ("unloaded", 0.8)):
@@ -121,15 +147,35 @@ def draw(path: Path) -> None:
     colours = dict(zip(LOADS, ("#0072B2", "#009E73", "#D55E00", "#6E6E6E"), strict=True))
     for load, colour in colours.items():
         found = [steady(load, celsius) for celsius in CELSIUS]
-        left.plot(CELSIUS, [100.0 * one.loaded for one in found], "o-", color=colour, label=f"{1e-3 * load:.0f} kN")
+        left.plot(
+            CELSIUS,
+            [100.0 * one.loaded for one in found],
+            "o-",
+            color=colour,
+            label=f"{1e-3 * load:.0f} kN",
+        )
         left.plot(CELSIUS, [100.0 * one.unloaded for one in found], "s--", color=colour)
     left.set(xlabel="oil temperature [°C]", ylabel="slip of rollers [%]", ylim=(0.0, 100.0))
     left.set_title("loaded zone (lines), unloaded zone (dashes)", fontsize=9, loc="left")
     left.legend(frameon=False, fontsize="small")
     for laws, colour in ((Laws.paper(), "#D55E00"), (Laws.physical(), "#0072B2")):
         found = ramp(laws)
-        right.plot(1e-3 * found["load"], 100.0 * found.falling, "-", color=colour, label=f"{laws.name}, load falls")
-        right.plot(1e-3 * found["load"], 100.0 * found.rising, "--", color=colour, label=f"{laws.name}, load rises")
-    right.set(xlabel="radial load [kN]", ylabel="slip of the cage [%]", xscale="log", ylim=(0.0, 100.0))
+        right.plot(
+            1e-3 * found["load"],
+            100.0 * found.falling,
+            "-",
+            color=colour,
+            label=f"{laws.name}, load falls",
+        )
+        right.plot(
+            1e-3 * found["load"],
+            100.0 * found.rising,
+            "--",
+            color=colour,
+            label=f"{laws.name}, load rises",
+        )
+    right.set(
+        xlabel="radial load [kN]", ylabel="slip of the cage [%]", xscale="log", ylim=(0.0, 100.0)
+    )
     right.legend(frameon=False, fontsize="small")
     figure.savefig(path, dpi=110)

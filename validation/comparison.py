@@ -46,6 +46,9 @@ class Comparison(NamedTuple):
 
 def table(rows: list[Comparison]) -> str:
     """The rows as a table in Markdown."""
-    lines = ["| quantity | measured | computed | ratio | what it decides |", "|---|---|---|---|---|"]
+    lines = [
+        "| quantity | measured | computed | ratio | what it decides |",
+        "|---|---|---|---|---|",
+    ]
     lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
     return "\n".join(lines)

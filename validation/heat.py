@@ -16,7 +16,15 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.friction_torque import ROLLERS, SPEED, torque
-from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Laws, bundled_cases, main_bearing_load
+from macroslip import (
+    BearingLoads,
+    Case,
+    Drivetrain,
+    HubLoads,
+    Laws,
+    bundled_cases,
+    main_bearing_load,
+)
 from validation.comparison import Comparison, Range
 
 DATA = Path(__file__).parent / "data" / "main_bearing_heat.csv"
@@ -45,13 +53,21 @@ def wind_cases() -> dict[int, list[str]]:
 
 
 @lru_cache
-def heat(name: str, speed: float | None = None, oil_supply: str | None = None, every: bool = False) -> Heat:
+def heat(
+    name: str, speed: float | None = None, oil_supply: str | None = None, every: bool = False
+) -> Heat:
     """Heat of a load case, at its own speed or at a constant one [rad/s]; with `every` of all rollers."""
     loads = main_bearing_load(HubLoads.bundled(name), Drivetrain())
     if speed is not None:
-        loads = BearingLoads(loads.time, np.full_like(loads.time, speed), loads.force, source=loads.source)
+        loads = BearingLoads(
+            loads.time, np.full_like(loads.time, speed), loads.force, source=loads.source
+        )
     case = Case(
-        loads=loads, rollers="all" if every else ROLLERS, laws=Laws.physical(), oil_supply=oil_supply, rating=False
+        loads=loads,
+        rollers="all" if every else ROLLERS,
+        laws=Laws.physical(),
+        oil_supply=oil_supply,
+        rating=False,
     )
     found, mean = torque(case, loads), float(np.mean(loads.shaft_speed))
     return Heat(found.total * mean, found.skf * mean, found.palmgren * mean, mean)
@@ -61,7 +77,9 @@ def over_wind(speed: float | None = None, oil_supply: str | None = None) -> pd.D
     """Heat [W] by model over wind speed [m/s]: mean of all cases; at another speed or supply turbulence class B, first seed."""
     changed = speed is not None or oil_supply is not None
     rows = {
-        wind: np.mean([heat(name, speed, oil_supply) for name in ([f"{wind}B"] if changed else names)], axis=0)
+        wind: np.mean(
+            [heat(name, speed, oil_supply) for name in ([f"{wind}B"] if changed else names)], axis=0
+        )
         for wind, names in wind_cases().items()
     }
     return pd.DataFrame.from_dict(rows, orient="index", columns=list(Heat._fields))
@@ -161,8 +179,16 @@ def draw(path: Path) -> None:
         level.plot(table.index, table[model], color=colour, label=labels[model])
         trend.plot(rated.index, rated[model] / rated[model][12], color=colour, label=labels[model])
         speeds = (4.0, 8.7, 11.4, 14.8, RATED_RPM)
-        slow.plot(speeds, [speed_ratio(model, one) for one in speeds], color=colour, label=labels[model])
-    level.plot(table.index, over_wind(oil_supply="flooded").own, "--", color="C0", label="this program, flooded")
+        slow.plot(
+            speeds, [speed_ratio(model, one) for one in speeds], color=colour, label=labels[model]
+        )
+    level.plot(
+        table.index,
+        over_wind(oil_supply="flooded").own,
+        "--",
+        color="C0",
+        label="this program, flooded",
+    )
     for wind, names in wind_cases().items():
         level.plot([wind] * len(names), [heat(name).own for name in names], ".", color="C0", ms=4)
     found = measured()
@@ -172,10 +198,26 @@ def draw(path: Path) -> None:
         (slow, found[found.wind_mps.isna() | (found.wind_mps == 8.0)], None, float(full[full.wind_mps == 8.0].q_K_per_h.iloc[0])),
     ):  # fmt: skip
         where = rows.rotor_speed_rpm if place is None else place
-        axis.errorbar(where, rows.q_K_per_h / unit, rows.error / unit, fmt="ko", ms=4, capsize=2, label="measured")
+        axis.errorbar(
+            where,
+            rows.q_K_per_h / unit,
+            rows.error / unit,
+            fmt="ko",
+            ms=4,
+            capsize=2,
+            label="measured",
+        )
     level.set(xlabel="mean wind speed [m/s]", ylabel="friction power [W]", ylim=(0.0, None))
-    trend.set(xlabel="wind speed [m/s]", ylabel="heat at rated speed, over that at 12 m/s", ylim=(0.0, None))
-    slow.set(xlabel="rotor speed [r/min]", ylabel="heat, over that at 17 r/min and 8 m/s", ylim=(0.0, None))
+    trend.set(
+        xlabel="wind speed [m/s]",
+        ylabel="heat at rated speed, over that at 12 m/s",
+        ylim=(0.0, None),
+    )
+    slow.set(
+        xlabel="rotor speed [r/min]",
+        ylabel="heat, over that at 17 r/min and 8 m/s",
+        ylim=(0.0, None),
+    )
     for axis in (level, trend, slow):
         axis.legend(fontsize="x-small")
     figure.savefig(path, dpi=110)

@@ -45,7 +45,9 @@ def film_ratio(load: np.ndarray, speed: np.ndarray, celsius: float, supply: floa
     """Λ at the inner raceway, by the film of `laws: {model: physical}` with an oil supply."""
     contact = interfaces(BEARING, OIL.at(273.15 + celsius))[0]
     warming = inlet_heating_factor(thermal_loading(contact) * speed**2)
-    return supply * masjedi_khonsari_moes(contact, load, speed) * warming / BEARING.composite_roughness
+    return (
+        supply * masjedi_khonsari_moes(contact, load, speed) * warming / BEARING.composite_roughness
+    )
 
 
 def mixed_share(case: str, celsius: float, supply: float, below: float = MIXED) -> float:
@@ -57,7 +59,10 @@ def mixed_share(case: str, celsius: float, supply: float, below: float = MIXED) 
 def shares() -> np.ndarray:
     """`mixed_share` of every case, shape (supplies, temperatures, cases)."""
     return np.array(
-        [[[mixed_share(case, celsius, supply) for case in CASES] for celsius in TEMPERATURES] for supply in SUPPLIES]
+        [
+            [[mixed_share(case, celsius, supply) for case in CASES] for celsius in TEMPERATURES]
+            for supply in SUPPLIES
+        ]
     )
 
 
@@ -71,7 +76,9 @@ def change(supply: float = 0.7, case: str = "12B") -> float:
 def half_load() -> float:
     """Film under half the load over the film, at the mean load of a loaded roller and rated speed."""
     load, speed = (float(np.mean(one)) for one in states("12B"))
-    thick, thin = (float(film_ratio(np.array(one), np.array(speed), 35.0, 1.0)) for one in (0.5 * load, load))
+    thick, thin = (
+        float(film_ratio(np.array(one), np.array(speed), 35.0, 1.0)) for one in (0.5 * load, load)
+    )
     return thick / thin
 
 
@@ -103,15 +110,24 @@ def draw(path: Path) -> None:
     figure = Figure(figsize=(9, 3.4), layout="constrained")
     left, right = figure.subplots(1, 2)
     for supply, share, colour in zip(SUPPLIES, shares(), ("C0", "C1", "C3"), strict=True):
-        left.fill_between(TEMPERATURES, share.min(axis=1), share.max(axis=1), alpha=0.25, color=colour)
+        left.fill_between(
+            TEMPERATURES, share.min(axis=1), share.max(axis=1), alpha=0.25, color=colour
+        )
         left.plot(TEMPERATURES, share.mean(axis=1), color=colour, label=f"oil supply {supply:g}")
     left.plot([35.0], [0.9], "k*", ms=10, label="film study of the turbine")
-    left.set(xlabel="temperature [°C]", ylabel="share of loaded time with Λ < 3", ylim=(-0.03, 1.03))
-    left.legend(fontsize="x-small", loc="upper left", bbox_to_anchor=(0.0, 1.2), ncols=2, frameon=False)
+    left.set(
+        xlabel="temperature [°C]", ylabel="share of loaded time with Λ < 3", ylim=(-0.03, 1.03)
+    )
+    left.legend(
+        fontsize="x-small", loc="upper left", bbox_to_anchor=(0.0, 1.2), ncols=2, frameon=False
+    )
     load, speed = np.geomspace(1e3, 6e4, 60), float(np.mean(states("12B")[1]))
     for celsius, colour in ((25.0, "C0"), (35.0, "C1"), (45.0, "C3")):
         right.plot(
-            1e-3 * load, film_ratio(load, np.full(60, speed), celsius, 0.7), color=colour, label=f"{celsius:g} °C"
+            1e-3 * load,
+            film_ratio(load, np.full(60, speed), celsius, 0.7),
+            color=colour,
+            label=f"{celsius:g} °C",
         )
     right.axhline(MIXED, color="0.7", lw=0.8)
     right.set(xlabel="roller load [kN]", ylabel="Λ, inner raceway, supply 0.7", ylim=(0.0, None))

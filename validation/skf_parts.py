@@ -12,7 +12,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.friction_torque import BEARING, RADIAL, ROLLERS, SPEED, SWEEPS, TEMPERATURE, THRUST, torque
+from benchmarks.friction_torque import (
+    BEARING,
+    RADIAL,
+    ROLLERS,
+    SPEED,
+    SWEEPS,
+    TEMPERATURE,
+    THRUST,
+    torque,
+)
 from macroslip import BearingLoads, Case, Laws, Lubricant
 from macroslip.contact.rolling import replenishment
 from validation.comparison import Comparison, Range
@@ -45,11 +54,24 @@ class Parts(NamedTuple):
 @lru_cache
 def parts(rolling: str = "whole-film", **changed: float) -> Parts:
     """Torques under a steady load, the mean load of a turbine at rated speed but for what is changed [N, rad/s, K]."""
-    given = {"radial": RADIAL, "thrust": THRUST, "speed": SPEED, "temperature": TEMPERATURE} | changed
+    given = {
+        "radial": RADIAL,
+        "thrust": THRUST,
+        "speed": SPEED,
+        "temperature": TEMPERATURE,
+    } | changed
     orbit = 2.0 * np.pi / (0.455 * given["speed"])
-    loads = BearingLoads.constant([0.0, -given["radial"], given["thrust"]], given["speed"], 2.2 * orbit)
+    loads = BearingLoads.constant(
+        [0.0, -given["radial"], given["thrust"]], given["speed"], 2.2 * orbit
+    )
     laws = Laws.physical().but(rolling=rolling)
-    case = Case(loads=loads, rollers=ROLLERS, laws=laws, oil_supply="flooded", temperature=given["temperature"])
+    case = Case(
+        loads=loads,
+        rollers=ROLLERS,
+        laws=laws,
+        oil_supply="flooded",
+        temperature=given["temperature"],
+    )
     found, oil = torque(case, loads), OIL.at(given["temperature"])
     filled = replenishment(
         oil.viscosity / oil.density, given["speed"], BEARING.bore_diameter, BEARING.outside_diameter
@@ -77,7 +99,9 @@ def compare() -> list[Comparison]:
         ratio = np.array(own) / np.array(skf)
         rows.append(Comparison(quantity, Range.of(skf), Range.of(own), Range.of(ratio), decides))
 
-    level = "level of rolling resistance: nothing fitted, full inlets, φ_rs in place of a fixed inlet"
+    level = (
+        "level of rolling resistance: nothing fitted, full inlets, φ_rs in place of a fixed inlet"
+    )
     for rolling in ("whole-film", "inlet"):
         every = sweep("temperature", rolling)
         add(
@@ -109,19 +133,33 @@ def draw(path: Path) -> None:
 
     figure = Figure(figsize=(13, 5.6), layout="constrained")
     axes = figure.subplots(2, len(SWEEPS), sharex="col", sharey="row", height_ratios=(3, 2))
-    for (upper, lower), (key, (name, values, unit, factor)) in zip(axes.T, SWEEPS.items(), strict=True):
+    for (upper, lower), (key, (name, values, unit, factor)) in zip(
+        axes.T, SWEEPS.items(), strict=True
+    ):
         place = values - 273.15 if unit == "degC" else values * factor
         every = sweep(key)
         filled = np.array([one.replenishment for one in every])
         for part, colour in (("rolling", "C1"), ("sliding", "C0")):
-            own, skf = (np.array([getattr(one, f"{who}{part}") for one in every]) for who in ("", "skf_"))
-            upper.plot(place, own, color=colour, label=f"{part}, full" if part == "rolling" else part)
-            upper.plot(place, skf, "--", color=colour, label=f"SKF {'M_rr, K_rs = 0' if part == 'rolling' else 'M_sl'}")
+            own, skf = (
+                np.array([getattr(one, f"{who}{part}") for one in every]) for who in ("", "skf_")
+            )
+            upper.plot(
+                place, own, color=colour, label=f"{part}, full" if part == "rolling" else part
+            )
+            upper.plot(
+                place,
+                skf,
+                "--",
+                color=colour,
+                label=f"SKF {'M_rr, K_rs = 0' if part == 'rolling' else 'M_sl'}",
+            )
             if part == "rolling":
                 upper.plot(place, own * filled, color="C3", label="rolling, φ_rs")
                 upper.plot(place, skf * filled, "--", color="C3", label="SKF M_rr, φ_rs")
             lower.plot(place, own / skf, color=colour, label=part)
-        lower.plot(place, [one.total / one.skf_total for one in every], color="k", label="all, φ_rs")
+        lower.plot(
+            place, [one.total / one.skf_total for one in every], color="k", label="all, φ_rs"
+        )
         lower.axhline(1.0, color="0.7", lw=0.8)
         lower.set_xlabel(f"{name} [{unit.replace('degC', '°C')}]")
         upper.set_yscale("log")

@@ -88,7 +88,12 @@ def interface_of(bearing: ThrustBearing, load: float, oil: Lubricant) -> Interfa
 
 
 def friction_torque(
-    bearing: ThrustBearing, oil: Lubricant, fluid: Fluid, thrust: float, speed: float, rolling: str = "whole-film"
+    bearing: ThrustBearing,
+    oil: Lubricant,
+    fluid: Fluid,
+    thrust: float,
+    speed: float,
+    rolling: str = "whole-film",
 ) -> Torque:
     """Friction torque of the bearing.
 
@@ -117,15 +122,22 @@ def friction_torque(
     profile = np.sqrt(1.0 - _PLACES**2) if bearing.crowned else np.ones_like(_PLACES)
     slip = 0.5 * speed * half * _PLACES
     stress = chord_stress(fluid, contact.hertz.pressure * root * profile, film, slip)
-    sheared = 4.0 * half * contact.hertz.semi_axis_along * root * _WEIGHTS @ (profile * stress * slip)
+    sheared = (
+        4.0 * half * contact.hertz.semi_axis_along * root * _WEIGHTS @ (profile * stress * slip)
+    )
     per_length = (1.5 if bearing.crowned else 1.0) * load / bearing.length * profile**2
     rubbed = 2.0 * half * _WEIGHTS @ (per_length * slip * np.minimum(slip / FULL_SLIP, 1.0))
     power = (1.0 - share) * sheared + share * bearing.boundary_friction * rubbed
 
     doubled = 2.0 * oil.viscosity * mean_speed / (STEEL * radius)
     middle = (1.5 * _SLICE if bearing.crowned else 1.0) * load / bearing.length
-    groups = middle / (STEEL * radius * math.sqrt(doubled)), oil.pressure_viscosity * STEEL * doubled**0.25
-    resistance = bearing.length * STEEL * radius * doubled**0.75 * float(line_rolling(rolling, *groups))
+    groups = (
+        middle / (STEEL * radius * math.sqrt(doubled)),
+        oil.pressure_viscosity * STEEL * doubled**0.25,
+    )
+    resistance = (
+        bearing.length * STEEL * radius * doubled**0.75 * float(line_rolling(rolling, *groups))
+    )
     resistance *= float(inlet_heating_of_rolling(warming))
     count = bearing.rollers
     return Torque(2.0 * count * power / speed, 4.0 * count * resistance * mean_speed / speed)
@@ -165,7 +177,9 @@ class Published(NamedTuple):
             * thrust**self.sliding_load
         )
 
-    def torque(self, boundary: float, film: float, viscosity: float, thrust: float, turns: float) -> Torque:
+    def torque(
+        self, boundary: float, film: float, viscosity: float, thrust: float, turns: float
+    ) -> Torque:
         """What was measured, rebuilt: φ_ish φ_rs M_rr + G_sl [φ_bl µ_bl + (1 − φ_bl) µ_EHL].
 
         ν in mm²/s, thrust in N, speed in r/min; low oil bath. The torque that was measured is the sum, which does not
@@ -173,8 +187,12 @@ class Published(NamedTuple):
         """
         middle, flow = 0.5 * (self.bore + self.outside), viscosity * turns
         heating = 1.0 / (1.0 + 1.84e-9 * (turns * middle) ** 1.28 * viscosity**0.64)
-        shape = (self.bore + self.outside) * math.sqrt(self.type_factor / (2.0 * (self.outside - self.bore)))
-        rolling = self.rolling * middle**self.rolling_diameter * thrust**self.rolling_load * flow**0.6
+        shape = (self.bore + self.outside) * math.sqrt(
+            self.type_factor / (2.0 * (self.outside - self.bore))
+        )
+        rolling = (
+            self.rolling * middle**self.rolling_diameter * thrust**self.rolling_load * flow**0.6
+        )
         share = math.exp(-2.6e-8 * flow**1.4 * middle)
         sliding = self.sliding_of_unit(thrust) * (share * boundary + (1.0 - share) * film)
         return Torque(sliding, 1e-3 * heating * math.exp(-3e-8 * flow * shape) * rolling)

@@ -21,9 +21,20 @@ from macroslip.contact.traction import Fluid, prepare_fluid
 from macroslip.lubricant.base_oil import BASE_OILS
 from macroslip.lubricant.estimate import estimate_lubricant
 from macroslip.lubricant.inlet import T40, T100
-from macroslip.lubricant.temperature import WaltherLine, eyring_stress, mean_pressure_viscosity, walther_viscosity
+from macroslip.lubricant.temperature import (
+    WaltherLine,
+    eyring_stress,
+    mean_pressure_viscosity,
+    walther_viscosity,
+)
 from validation.comparison import Comparison, Range
-from validation.thrust_bearing import BALL_51107, ROLLER_81107, STEEL, ThrustBearing, friction_torque
+from validation.thrust_bearing import (
+    BALL_51107,
+    ROLLER_81107,
+    STEEL,
+    ThrustBearing,
+    friction_torque,
+)
 
 DATA = Path(__file__).parent / "data" / "thrust_friction.csv"
 FAMILIES = {
@@ -36,7 +47,9 @@ TEMPERATURES = (343.15, 353.15)
 #: Neither is published; load ratings give count times length 82 to 85 mm, catalogues of cages up to 99 mm.
 GEOMETRIES = tuple(
     (count, length, crowned)
-    for (count, length), crowned in itertools.product(((18, 4.7e-3), (20, 4.2e-3), (22, 4.5e-3)), (False, True))
+    for (count, length), crowned in itertools.product(
+        ((18, 4.7e-3), (20, 4.2e-3), (22, 4.5e-3)), (False, True)
+    )
 )
 ROUGHNESSES = (0.1e-6, 0.2e-6)
 #: What the published µ_bl are in the bearing's own contacts, see `boundary_friction`.
@@ -58,7 +71,10 @@ def estimated(name: str) -> Lubricant:
     nu40, nu100 = (walther_viscosity(line, temperature) for temperature in (T40, T100))
     family = FAMILIES[oil.base]
     # What was found here has raised the estimate of two families; it is left out again.
-    return stiffer(estimate_lubricant(nu40, nu100, family, name=name.lower()), 1.0 / BASE_OILS[family].over_gold[1])
+    return stiffer(
+        estimate_lubricant(nu40, nu100, family, name=name.lower()),
+        1.0 / BASE_OILS[family].over_gold[1],
+    )
 
 
 def measured(name: str, temperature: float) -> np.ndarray:
@@ -66,7 +82,10 @@ def measured(name: str, temperature: float) -> np.ndarray:
     oil = oils().loc[name]
     viscosity = 1e6 * walther_viscosity(WaltherLine(oil.m, oil.n), temperature)
     return np.array(
-        [ROLLER_81107.torque(oil.roller_mu_bl, oil.roller_mu_ehl, viscosity, THRUST, turns) for turns in SPEEDS]
+        [
+            ROLLER_81107.torque(oil.roller_mu_bl, oil.roller_mu_ehl, viscosity, THRUST, turns)
+            for turns in SPEEDS
+        ]
     )
 
 
@@ -74,14 +93,18 @@ def stiffer(oil: Lubricant, factor: float) -> Lubricant:
     """The oil with another pressure-viscosity coefficient, and the Eyring stress 2 γ/α that goes with it."""
     alpha = factor * oil.pressure_viscosity
     mean = mean_pressure_viscosity(oil.viscosity, alpha, 1e9)
-    return oil.replace(pressure_viscosity=alpha, eyring_stress=eyring_stress(oil.limiting_shear, mean))
+    return oil.replace(
+        pressure_viscosity=alpha, eyring_stress=eyring_stress(oil.limiting_shear, mean)
+    )
 
 
 def bearings() -> list[ThrustBearing]:
     """Every bearing that 81107 may be."""
     return [
         ThrustBearing(count, length, _DIAMETER, _PITCH_RADIUS, crowned, roughness, boundary)
-        for (count, length, crowned), roughness, boundary in itertools.product(GEOMETRIES, ROUGHNESSES, BOUNDARY)
+        for (count, length, crowned), roughness, boundary in itertools.product(
+            GEOMETRIES, ROUGHNESSES, BOUNDARY
+        )
     ]
 
 
@@ -93,12 +116,17 @@ def computed(name: str, rheology: str) -> np.ndarray:
         oil, rebuilt = estimated(name).at(temperature), measured(name, temperature)
         fluid = prepare_fluid(laws, oil)
         for bearing in bearings():
-            own = [friction_torque(bearing, oil, fluid, THRUST, turns * math.pi / 30.0) for turns in SPEEDS]
+            own = [
+                friction_torque(bearing, oil, fluid, THRUST, turns * math.pi / 30.0)
+                for turns in SPEEDS
+            ]
             found.append(np.stack([np.array(own), rebuilt], axis=1))
     return np.array(found)
 
 
-def torques(name: str, rheology: str, where: np.ndarray, part: int | None = None) -> tuple[Range, Range, Range]:
+def torques(
+    name: str, rheology: str, where: np.ndarray, part: int | None = None
+) -> tuple[Range, Range, Range]:
     """Measured and computed torque [N m] and computed over measured: of sliding (part 0), rolling (1) or all."""
     found = computed(name, rheology)[:, where]
     own, rebuilt = np.moveaxis(found.sum(axis=-1) if part is None else found[..., part], -1, 0)
@@ -123,7 +151,11 @@ def needed_coefficient(name: str) -> tuple[Range, Range]:
                 other = stiffer(oil, factor)
                 speed = SPEEDS[-1] * math.pi / 30.0
                 return (
-                    friction_torque(bearing, other, prepare_fluid(laws, other), THRUST, speed).sliding / sliding - 1.0
+                    friction_torque(
+                        bearing, other, prepare_fluid(laws, other), THRUST, speed
+                    ).sliding
+                    / sliding
+                    - 1.0
                 )
 
             # With much on asperities no film friction is missing.
@@ -147,20 +179,31 @@ def needed_eyring_stress(name: str) -> tuple[int, Range]:
     for temperature in TEMPERATURES:
         oil, sliding = estimated(name).at(temperature), measured(name, temperature)[-1, 0]
         fluid, speed = prepare_fluid(laws, oil), SPEEDS[-1] * math.pi / 30.0
-        others: list[Fluid] = [fluid._replace(characteristic=factor * fluid.characteristic) for factor in factors]
+        others: list[Fluid] = [
+            fluid._replace(characteristic=factor * fluid.characteristic) for factor in factors
+        ]
         for bearing in bearings():
-            own = np.array([friction_torque(bearing, oil, one, THRUST, speed).sliding for one in others]) / sliding
+            own = (
+                np.array(
+                    [friction_torque(bearing, oil, one, THRUST, speed).sliding for one in others]
+                )
+                / sliding
+            )
             none += bool(own.max() < 1.0)
             if own[0] < 1.0 <= own.max():
                 first = int(np.argmax(own >= 1.0))
-                found.append(np.interp(1.0, own[first - 1 : first + 1], factors[first - 1 : first + 1]))
+                found.append(
+                    np.interp(1.0, own[first - 1 : first + 1], factors[first - 1 : first + 1])
+                )
     return none, Range.of(found)
 
 
 def boundary_friction() -> Range:
     """Boundary friction in the contact behind the published µ_bl: µ_bl G_sl over the bearing's own torque of µ = 1."""
     own = [THRUST * length * (3.0 / 16.0 if crowned else 0.25) for _, length, crowned in GEOMETRIES]
-    return Range.of(np.outer(oils().roller_mu_bl, ROLLER_81107.sliding_of_unit(THRUST) / np.array(own)))
+    return Range.of(
+        np.outer(oils().roller_mu_bl, ROLLER_81107.sliding_of_unit(THRUST) / np.array(own))
+    )
 
 
 def spin_friction(name: str) -> Range:
@@ -175,11 +218,15 @@ def spin_friction(name: str) -> Range:
     own = []
     for count, osculation in itertools.product((16, 19), (0.52, 0.54)):
         radius = 6.35e-3 / 2.0
-        hertz = elliptical_contact(1.0 / radius, 1.0 / radius - 1.0 / (2.0 * osculation * radius), STEEL)
+        hertz = elliptical_contact(
+            1.0 / radius, 1.0 / radius - 1.0 / (2.0 * osculation * radius), STEEL
+        )
         slender = hertz.semi_axis_along / hertz.semi_axis_across
         across = hertz.semi_axis_across * (THRUST / count) ** (1.0 / 3.0)
         own.append(0.375 * THRUST * across * float(ellipe(1.0 - slender**2)))
-    return Range.of(oils().loc[name].ball_mu_ehl * BALL_51107.sliding_of_unit(THRUST) / np.array(own))
+    return Range.of(
+        oils().loc[name].ball_mu_ehl * BALL_51107.sliding_of_unit(THRUST) / np.array(own)
+    )
 
 
 def compare() -> list[Comparison]:
@@ -195,7 +242,9 @@ def compare() -> list[Comparison]:
         )
     for name, oil in oils().iterrows():
         factor, mean = needed_coefficient(str(name))
-        given = Range.of([1e9 * mean_coefficient(estimated(str(name)).at(at)) for at in TEMPERATURES])
+        given = Range.of(
+            [1e9 * mean_coefficient(estimated(str(name)).at(at)) for at in TEMPERATURES]
+        )
         rows.append(
             Comparison(
                 f"mean pressure-viscosity coefficient to 1 GPa, {name} ({oil.base}) [1/GPa]",
@@ -243,12 +292,16 @@ def draw(path: Path) -> None:
     for axis, (name, oil) in zip(every, oils().iterrows(), strict=True):
         for rheology, colour in zip(RHEOLOGIES, ("C0", "C1"), strict=True):
             own = computed(str(name), rheology)[:, :, 0].sum(axis=-1)
-            axis.fill_between(SPEEDS, own.min(axis=0), own.max(axis=0), color=colour, alpha=0.25, label=rheology)
+            axis.fill_between(
+                SPEEDS, own.min(axis=0), own.max(axis=0), color=colour, alpha=0.25, label=rheology
+            )
             axis.plot(SPEEDS, np.median(own, axis=0), color=colour)
         for temperature, style in zip(TEMPERATURES, ("k-", "k--"), strict=True):
             label = f"measured constants, {temperature - 273.15:.0f} °C"
             axis.plot(SPEEDS, measured(str(name), temperature).sum(axis=1), style, label=label)
-        axis.set(title=f"{name}, {oil.base}", xlabel="speed [r/min]", xscale="log", ylim=(0.0, None))
+        axis.set(
+            title=f"{name}, {oil.base}", xlabel="speed [r/min]", xscale="log", ylim=(0.0, None)
+        )
         axis.set_xticks([75, 300, 1200], ["75", "300", "1200"], minor=False)
         axis.minorticks_off()
     every[0].set_ylabel("friction torque [N m]")

@@ -72,6 +72,10 @@ def draw(path: Path) -> None:
     place = np.linspace(-1.0, 1.0, 801)
     for error in ERRORS:
         axis.plot(place, wear(error, place), label=f"cone off by {math.degrees(error):.0f}°")
-    axis.set(xlabel="place along the contact, over its half length", ylabel="p |v| [own unit]", ylim=(0.0, None))
+    axis.set(
+        xlabel="place along the contact, over its half length",
+        ylabel="p |v| [own unit]",
+        ylim=(0.0, None),
+    )
     axis.legend(fontsize="x-small")
     figure.savefig(path, dpi=110)

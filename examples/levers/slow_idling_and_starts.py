@@ -16,7 +16,11 @@ trials = {"idling": idle, "idling at a tenth of the speed": slow}
 parked = HubLoads.bundled("parked-12").window(0.0, 120.0)
 turned = np.full_like(parked.shaft_speed, 2.0 * np.pi / 60.0)
 trials |= {"parked": parked, "parked, turned at 1 rpm": replace(parked, shaft_speed=turned)}
-for name, slope in (("start", 1.0), ("start, half the slope", 0.5), ("start, double the slope", 2.0)):
+for name, slope in (
+    ("start", 1.0),
+    ("start, half the slope", 0.5),
+    ("start, double the slope", 2.0),
+):
     trials[name] = replace(start, time=start.time / slope)
 for name, loads in trials.items():
     result = simulate(Case(loads=loads, laws=Laws.physical(), rollers=[0, 14]))

@@ -46,7 +46,10 @@ _HOMES = {
 _FOLDERS = ("film", "traction", "hertz")
 
 # Numba cannot be imported with a number of threads below 1, as some containers set it; its threads are not used here.
-if os.environ.get("NUMBA_NUM_THREADS", "").strip().lstrip("-").isdecimal() and int(os.environ["NUMBA_NUM_THREADS"]) < 1:
+if (
+    os.environ.get("NUMBA_NUM_THREADS", "").strip().lstrip("-").isdecimal()
+    and int(os.environ["NUMBA_NUM_THREADS"]) < 1
+):
     del os.environ["NUMBA_NUM_THREADS"]
 
 __all__ = ["__version__", *_HOMES, *_FOLDERS]  # pyright: ignore[reportUnsupportedDunderAll]

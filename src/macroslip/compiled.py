@@ -21,7 +21,9 @@ _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wra
 def jit(function: Callable) -> Callable:
     """Compile a function on first call, and keep it on disk where a folder can be written."""
     if numba.config.DISABLE_JIT:
-        raise MacroslipError("NUMBA_DISABLE_JIT: compiling is switched off. Remove this variable of the environment.")
+        raise MacroslipError(
+            "NUMBA_DISABLE_JIT: compiling is switched off. Remove this variable of the environment."
+        )
     folder, before = kernel_folder(), numba.config.CACHE_DIR
     if folder is not None:
         numba.config.CACHE_DIR = str(folder)

@@ -14,7 +14,8 @@ def safe_text(text: object, but: str = "") -> str:
     'run\\x1b[2J\\n7.outb'
     """
     return "".join(
-        one if one.isprintable() or one in but else one.encode("unicode_escape").decode() for one in str(text)
+        one if one.isprintable() or one in but else one.encode("unicode_escape").decode()
+        for one in str(text)
     )
 
 
@@ -73,4 +74,6 @@ class InputError(MacroslipError, ValueError):
             parts.append(f"Allowed: {allowed}")
         if remedy:
             parts.append(remedy)
-        super().__init__(" ".join(part if part.endswith((".", "!", "?")) else part + "." for part in parts))
+        super().__init__(
+            " ".join(part if part.endswith((".", "!", "?")) else part + "." for part in parts)
+        )

@@ -104,10 +104,19 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
         what = f"{path.name} is a file of the study in this folder"
         raise InputError(what, where=where, remedy="Choose another name; the study would be lost.")
     if path.is_dir():
-        raise InputError("this is a folder", where=where, allowed="a file", remedy="Add the name of a file to it.")
+        raise InputError(
+            "this is a folder",
+            where=where,
+            allowed="a file",
+            remedy="Add the name of a file to it.",
+        )
     check_regular(path, "Choose another name.")
     if path.exists() and not force:
-        raise InputError("the file exists", where=where, remedy="Choose another name, or replace it with --force.")
+        raise InputError(
+            "the file exists",
+            where=where,
+            remedy="Choose another name, or replace it with --force.",
+        )
     if not folder.is_dir():
         remedy = "Make that folder first, or choose another one."
         raise InputError(f"there is no folder '{folder}'", where=where, remedy=remedy)
@@ -119,7 +128,9 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
         remedy = "Choose another folder, or ask for the right to write there."
         if error.errno == errno.ENAMETOOLONG:
             remedy = SHORTER
-        raise InputError(f"nothing can be written there ({error.strerror})", where=where, remedy=remedy) from None
+        raise InputError(
+            f"nothing can be written there ({error.strerror})", where=where, remedy=remedy
+        ) from None
 
 
 @contextmanager
@@ -166,7 +177,9 @@ def unfinished(path: Path) -> Path:
 def check_no_zero_byte(name: str) -> None:
     """Refuse a character that no path may contain, before anything is computed for it."""
     if "\0" in name:
-        raise InputError(f"{name!r} holds a zero byte", allowed="text without it", remedy="Write the name anew.")
+        raise InputError(
+            f"{name!r} holds a zero byte", allowed="text without it", remedy="Write the name anew."
+        )
 
 
 @contextmanager
@@ -180,7 +193,9 @@ def reading(path: Path, remedy: str) -> Iterator[None]:
     except (InputError, MemoryError):
         raise
     except Exception as error:
-        if isinstance(error, OSError) and error.errno is not None:  # libraries use the class for damage too
+        if (
+            isinstance(error, OSError) and error.errno is not None
+        ):  # libraries use the class for damage too
             raise
         what = f"it is damaged ({type(error).__name__}: {' '.join(str(error).split())})"
         raise InputError(what, where=str(path), remedy=remedy) from error

@@ -50,5 +50,7 @@ def fingerprint(*parts: str) -> str:
     """
     digest = hashlib.sha256()
     for path in sources_of(*parts):
-        digest.update(path.relative_to(_ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+        digest.update(
+            path.relative_to(_ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0"
+        )
     return digest.hexdigest()

@@ -59,7 +59,14 @@ for path in paths:
 def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
     """Refuse the first of files that the HDF5 library cannot read to its end in bounded time and memory, or that holds links."""
     seconds = sum(_SECONDS + path.stat().st_size / _RATE for path in paths)
-    command = [sys.executable, "-P", "-c", _READER, str(seconds), *(str(path.absolute()) for path in paths)]
+    command = [
+        sys.executable,
+        "-P",
+        "-c",
+        _READER,
+        str(seconds),
+        *(str(path.absolute()) for path in paths),
+    ]
     try:
         done = subprocess.run(
             command,
@@ -75,6 +82,13 @@ def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
         begun, lines = done.stdout, [line for line in done.stderr.splitlines() if line.strip()]
         reason = lines[-1] if done.returncode == 1 and lines else "the HDF5 library came to no end"
     except subprocess.TimeoutExpired as late:
-        begun, reason = (late.stdout or b"").decode(errors="replace"), "the HDF5 library came to no end"
+        begun, reason = (
+            (late.stdout or b"").decode(errors="replace"),
+            "the HDF5 library came to no end",
+        )
     number = max(0, len(begun.splitlines()) - 1)
-    raise InputError(f"the file cannot be read as netCDF or HDF5 ({reason})", where=str(paths[number]), remedy=remedy)
+    raise InputError(
+        f"the file cannot be read as netCDF or HDF5 ({reason})",
+        where=str(paths[number]),
+        remedy=remedy,
+    )

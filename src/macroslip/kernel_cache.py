@@ -79,7 +79,9 @@ def _homes() -> Iterator[Path]:
         # Kernels are programs. Among the temporary files, which others may write, only a folder that is the user's own
         # and closed to others will do.
         number = os.getuid() if hasattr(os, "getuid") else None
-        temporary = Path(tempfile.gettempdir()) / ("macroslip" if number is None else f"macroslip-{number}")
+        temporary = Path(tempfile.gettempdir()) / (
+            "macroslip" if number is None else f"macroslip-{number}"
+        )
         temporary.mkdir(mode=0o700, exist_ok=True)
         status = temporary.lstat()
         if number is None or (status.st_uid == number and status.st_mode & 0o170077 == 0o040000):
@@ -132,7 +134,9 @@ def _remove_damaged(folder: Path) -> None:
             path.unlink(missing_ok=True)
     if damaged:
         what = f"note: {len(damaged)} of {number} files of compiled kernels were damaged or incomplete."
-        print(f"{what} They are removed; what is needed of them is compiled again.", file=sys.stderr)
+        print(
+            f"{what} They are removed; what is needed of them is compiled again.", file=sys.stderr
+        )
 
 
 @contextlib.contextmanager
@@ -147,7 +151,9 @@ def _locked(folder: Path) -> Iterator[None]:
 @contextlib.contextmanager
 def _entered_in_manifest(folder: Path, function: str, part: str) -> Iterator[None]:
     """Enter into the manifest what is stored, in the block, for a function of this qualified name in a part of the folder."""
-    pattern = f"{part}/*.{re.sub('[<>]', '', function)}-*.nb[ic]"  # names of files have no angle brackets
+    pattern = (
+        f"{part}/*.{re.sub('[<>]', '', function)}-*.nb[ic]"  # names of files have no angle brackets
+    )
 
     def states() -> dict[Path, tuple[int, int]]:
         found = {}
@@ -161,7 +167,9 @@ def _entered_in_manifest(folder: Path, function: str, part: str) -> Iterator[Non
     yield
     with contextlib.suppress(OSError):
         stored = [path for path, state in states().items() if before.get(path) != state]
-        lines = "".join(f"{_checksum(path)} {path.relative_to(folder).as_posix()}\n" for path in stored)
+        lines = "".join(
+            f"{_checksum(path)} {path.relative_to(folder).as_posix()}\n" for path in stored
+        )
         if lines:
             with (folder / _MANIFEST).open("a", encoding="utf-8", newline="\n") as file:
                 file.write("\n" + lines)  # a line before this one may be cut
@@ -186,7 +194,9 @@ class _Stored(event.Listener):
             self._of_thread.block = block = contextlib.ExitStack()
             # Two processes that store kernels of one function would write each other's index.
             block.enter_context(_locked(place.parent))
-            block.enter_context(_entered_in_manifest(place.parent, dispatcher.py_func.__qualname__, place.name))
+            block.enter_context(
+                _entered_in_manifest(place.parent, dispatcher.py_func.__qualname__, place.name)
+            )
 
 
 _listener = _Stored()

@@ -15,7 +15,9 @@ from typing import NamedTuple
 from macroslip.errors import InputError
 from macroslip.files import check_regular
 
-_ALLOWED = "a Python file that registers film or traction laws, as macroslip init --example laws writes"
+_ALLOWED = (
+    "a Python file that registers film or traction laws, as macroslip init --example laws writes"
+)
 
 
 class OwnLaws(NamedTuple):
@@ -70,13 +72,20 @@ file that registers film or traction laws, as macroslip init --example laws writ
     before = [set(kind.names()) for kind in kinds]
 
     def added() -> OwnLaws:
-        return OwnLaws(*(tuple(sorted(set(kind.names()) - old)) for kind, old in zip(kinds, before, strict=True)))
+        return OwnLaws(
+            *(
+                tuple(sorted(set(kind.names()) - old))
+                for kind, old in zip(kinds, before, strict=True)
+            )
+        )
 
     try:
         _import(path, name)
         if not any(added()):
             remedy = "Call macroslip.register_film or macroslip.register_traction in it."
-            raise InputError("the file registers no law", where=str(path), allowed=_ALLOWED, remedy=remedy)
+            raise InputError(
+                "the file registers no law", where=str(path), allowed=_ALLOWED, remedy=remedy
+            )
     except BaseException:
         sys.modules.pop(name, None)
         for kind, names in zip(kinds, added(), strict=True):
@@ -104,7 +113,9 @@ def _import(path: Path, name: str) -> None:
         loader.exec_module(module)
     except InputError as problem:
         where = ", ".join(part for part in (_place(path, problem), problem.where) if part)
-        raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+        raise InputError(
+            problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+        ) from None
     except (Exception, SystemExit) as error:
         if isinstance(error, ImportError) and str(error.name).startswith("macroslip."):
             raise InputError(
@@ -124,5 +135,7 @@ def _place(path: Path, error: BaseException) -> str:
     own = str(path.resolve())
     if isinstance(error, SyntaxError) and error.filename == own:
         return f"{path}, line {error.lineno}"
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == own]
+    lines = [
+        frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == own
+    ]
     return f"{path}, line {lines[-1]}" if lines else str(path)

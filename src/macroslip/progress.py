@@ -37,7 +37,13 @@ def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]
 
 def bar_with_time_left(console: Console) -> Progress:
     """A bar with counts of done and all, and the time left; it disappears when all is done."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
 
     columns = (
         TextColumn("{task.description}"),

@@ -49,23 +49,37 @@ def test_replace_checks_and_marks_what_it_replaced(base):
     other = base.replace(diametral_clearance=1e-4, title="mine")
     assert (other.diametral_clearance, other.title) == (1e-4, "mine")
     assert other.provenance["diametral_clearance"] == Provenance(1e-4, "m", "U", "")
-    assert other.provenance["mass"] is not None and other.provenance["mass"] == base.provenance["mass"]
+    assert (
+        other.provenance["mass"] is not None and other.provenance["mass"] == base.provenance["mass"]
+    )
     assert base.diametral_clearance == 2e-4
-    with pytest.raises(InputError, match="^contact_angle: it is 11.2 rad. Allowed: 0 to below 0.785398 rad"):
+    with pytest.raises(
+        InputError, match="^contact_angle: it is 11.2 rad. Allowed: 0 to below 0.785398 rad"
+    ):
         base.replace(contact_angle=11.2)
-    with pytest.raises(InputError, match="^the key 'roller_lenght' is unknown. Did you mean 'roller_length'"):
+    with pytest.raises(
+        InputError, match="^the key 'roller_lenght' is unknown. Did you mean 'roller_length'"
+    ):
         base.replace(roller_lenght=0.1)
 
 
-@pytest.mark.parametrize("value", ["7850", None, True, math.nan, math.inf, [7850.0], 10**400, 7850j])
+@pytest.mark.parametrize(
+    "value", ["7850", None, True, math.nan, math.inf, [7850.0], 10**400, 7850j]
+)
 def test_what_is_no_finite_number_is_refused(base, value):
     with pytest.raises(InputError, match="^density: it is "):
         base.replace(density=value)
 
 
 def test_numpy_numbers_are_welcome(base):
-    other = base.replace(density=np.float32(7800), rollers_per_row=np.int64(27), mass=np.float64(500))
-    assert (type(other.density), type(other.rollers_per_row), type(other.mass)) == (float, int, float)
+    other = base.replace(
+        density=np.float32(7800), rollers_per_row=np.int64(27), mass=np.float64(500)
+    )
+    assert (type(other.density), type(other.rollers_per_row), type(other.mass)) == (
+        float,
+        int,
+        float,
+    )
     assert base.replace(rollers_per_row=27.0).rollers_per_row == 27
 
 
@@ -119,14 +133,19 @@ def test_every_quantity_has_a_range(base, key):
 
 def test_rollers_have_to_fit(base):
     assert base.replace(rollers_per_row=33).rollers_per_row == 33
-    with pytest.raises(InputError, match="^34 rollers do not fit .* centres are 68.7.* mm apart.*at most 33 rollers"):
+    with pytest.raises(
+        InputError,
+        match="^34 rollers do not fit .* centres are 68.7.* mm apart.*at most 33 rollers",
+    ):
         base.replace(rollers_per_row=34)
 
 
 @given(st.integers(3, 60), st.floats(0.02, 0.15))
 @settings(max_examples=50, deadline=None)
 def test_the_largest_number_of_rollers_is_reported_right(count, diameter):
-    base = Bearing.read("skf-240-600-bc").replace(bore_diameter=None, outside_diameter=None, width=None)
+    base = Bearing.read("skf-240-600-bc").replace(
+        bore_diameter=None, outside_diameter=None, width=None
+    )
     centre = 0.38
     sphere = {"outer_raceway_radius": centre + diameter / 2, "pitch_radius": centre * math.cos(base.contact_angle),
               "row_offset": centre * math.sin(base.contact_angle), "roller_diameter": diameter,
@@ -151,11 +170,15 @@ def test_roller_centres_have_to_lie_on_the_sphere(base):
 
 
 def test_roller_and_ring_proportions_have_to_be_sane(base):
-    with pytest.raises(InputError, match="^roller_length is 0.3 m, which is 4.29 times .* Allowed: 0.5 to 4"):
+    with pytest.raises(
+        InputError, match="^roller_length is 0.3 m, which is 4.29 times .* Allowed: 0.5 to 4"
+    ):
         base.replace(roller_length=0.3)
     with pytest.raises(InputError, match="^roller_length is 0.03 m"):
         base.replace(roller_length=0.03)
-    with pytest.raises(InputError, match="^bore_diameter is 0.9 m. Allowed: less than outside_diameter, 0.87 m."):
+    with pytest.raises(
+        InputError, match="^bore_diameter is 0.9 m. Allowed: less than outside_diameter, 0.87 m."
+    ):
         base.replace(bore_diameter=0.9)
 
 

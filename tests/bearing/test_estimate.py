@@ -14,11 +14,17 @@ from tools.shipped_bearings import FOLDER, pages, shipped_bearing
 
 from .test_load_ratings import CATALOGUE
 
-PAGE = MakersPage(0.60, 0.87, 0.272, 16300e3, 0.30, shoulder=0.784, groove=0.0461, dynamic_load_rating=8502e3)
+PAGE = MakersPage(
+    0.60, 0.87, 0.272, 16300e3, 0.30, shoulder=0.784, groove=0.0461, dynamic_load_rating=8502e3
+)
 
 
 def page_of(row):
-    size = {key: float(text) for key, text in row.items() if key not in ("designation", "variant") and text != "–"}
+    size = {
+        key: float(text)
+        for key, text in row.items()
+        if key not in ("designation", "variant") and text != "–"
+    }
     return MakersPage(
         1e-3 * size["d_mm"], 1e-3 * size["D_mm"], 1e-3 * size["B_mm"], 1e3 * size["C0_kN"], size["e"],
         shoulder=1e-3 * size["D1_mm"], groove=1e-3 * size["groove_b_mm"] if "groove_b_mm" in size else None,
@@ -38,7 +44,9 @@ def estimates():
     for row in CATALOGUE:
         name = row["designation"].replace("/", "-")
         family = row["designation"][:3] + row["variant"][:2]
-        found.setdefault(family, []).append((page_of(row), estimate_bearing(page_of(row), name).bearing, row))
+        found.setdefault(family, []).append(
+            (page_of(row), estimate_bearing(page_of(row), name).bearing, row)
+        )
     return found
 
 
@@ -46,9 +54,18 @@ def test_every_bearing_of_the_catalogue_can_be_estimated(estimates):
     assert sum(map(len, estimates.values())) == 108
     for page, bearing, _ in (one for family in estimates.values() for one in family):
         # The medians have the static rating of the page, within the scatter of medians and whole rollers.
-        assert rating(static_load_rating, bearing) == pytest.approx(page.static_load_rating, rel=0.04)
-        ranged = {key: origin for key, origin in bearing.provenance.items() if origin.range is not None}
-        assert {"roller_diameter", "roller_length", "rollers_per_row", "pitch_radius"} <= ranged.keys()
+        assert rating(static_load_rating, bearing) == pytest.approx(
+            page.static_load_rating, rel=0.04
+        )
+        ranged = {
+            key: origin for key, origin in bearing.provenance.items() if origin.range is not None
+        }
+        assert {
+            "roller_diameter",
+            "roller_length",
+            "rollers_per_row",
+            "pitch_radius",
+        } <= ranged.keys()
         for key, origin in ranged.items():
             assert origin.range[0] <= origin.value <= origin.range[1], key
 
@@ -56,7 +73,10 @@ def test_every_bearing_of_the_catalogue_can_be_estimated(estimates):
 def test_dynamic_ratings_scatter_little_within_a_family(estimates):
     # The dynamic rating is not used by the estimate: that its ratio is one number for a family speaks for the inside.
     families = [
-        [rating(dynamic_load_rating, bearing) / page.dynamic_load_rating for page, bearing, _ in family]
+        [
+            rating(dynamic_load_rating, bearing) / page.dynamic_load_rating
+            for page, bearing, _ in family
+        ]
         for family in estimates.values()
     ]
     assert all(0.78 < np.mean(ratios) < 0.97 for ratios in families)
@@ -80,9 +100,18 @@ def test_the_base_bearing_lies_within_the_ranges():
     base, found = Bearing.read("skf-240-600-bc"), estimate_bearing(PAGE, "again").bearing
     for key in ("rollers_per_row", "roller_diameter", "roller_length", "outer_raceway_radius", "pitch_radius", "row_offset",
                 "contact_angle", "diametral_clearance"):  # fmt: skip
-        low, high = (found.written(key, limit * found_scale(found, key)) for limit in found.provenance[key].range)
-        assert float(low.split()[0]) <= float(found.written(key, getattr(base, key)).split()[0]) * 1.0015
-        assert float(found.written(key, getattr(base, key)).split()[0]) <= float(high.split()[0]) * 1.0015
+        low, high = (
+            found.written(key, limit * found_scale(found, key))
+            for limit in found.provenance[key].range
+        )
+        assert (
+            float(low.split()[0])
+            <= float(found.written(key, getattr(base, key)).split()[0]) * 1.0015
+        )
+        assert (
+            float(found.written(key, getattr(base, key)).split()[0])
+            <= float(high.split()[0]) * 1.0015
+        )
 
 
 def found_scale(bearing, key):
@@ -98,7 +127,9 @@ def test_every_sample_is_a_bearing_with_the_static_rating():
     assert np.all((c0 / PAGE.static_load_rating > 0.93) & (c0 / PAGE.static_load_rating < 1.07))
     assert np.ptp(c0) > 0.13 * PAGE.static_load_rating
     centre = np.hypot(samples["pitch_radius"], samples["row_offset"])
-    np.testing.assert_allclose(centre + samples["roller_diameter"] / 2, samples["outer_raceway_radius"], rtol=1e-13)
+    np.testing.assert_allclose(
+        centre + samples["roller_diameter"] / 2, samples["outer_raceway_radius"], rtol=1e-13
+    )
     assert np.all(samples["rollers_per_row"] == np.round(samples["rollers_per_row"]))
     base = Bearing.read("skf-240-600-bc")
     for k in range(0, samples["contact_angle"].size, 500):
@@ -116,7 +147,9 @@ def test_the_same_page_and_seed_give_the_same_bearing():
     assert other != estimate_bearing(PAGE, "x").bearing
     # Another seed moves the medians by no more than the sampling error.
     for key in ("roller_diameter", "roller_length", "pitch_radius"):
-        assert getattr(other, key) == pytest.approx(getattr(estimate_bearing(PAGE, "x").bearing, key), rel=5e-3)
+        assert getattr(other, key) == pytest.approx(
+            getattr(estimate_bearing(PAGE, "x").bearing, key), rel=5e-3
+        )
 
 
 def test_overrolling_frequencies_give_number_and_diameter():
@@ -150,10 +183,19 @@ def test_a_page_that_contradicts_itself(change, reported):
 
 
 @pytest.mark.parametrize(
-    "change", [{"static_load_rating": 33e6}, {"static_load_rating": 5e6}, {"axial_factor_e": 0.9}, {"width": 0.1}]
+    "change",
+    [
+        {"static_load_rating": 33e6},
+        {"static_load_rating": 5e6},
+        {"axial_factor_e": 0.9},
+        {"width": 0.1},
+    ],
 )
 def test_a_page_of_no_bearing(change):
-    with pytest.raises(InputError, match="^no bearing of usual proportions fits these values: of 20000 tried, 0 did"):
+    with pytest.raises(
+        InputError,
+        match="^no bearing of usual proportions fits these values: of 20000 tried, 0 did",
+    ):
         estimate_bearing(dataclasses.replace(PAGE, **change), "x")
 
 
@@ -161,8 +203,12 @@ def test_what_the_page_leaves_out_follows_from_the_standards():
     bare = MakersPage(0.60, 0.87, 0.272, 16300e3, 0.30)
     bearing, _ = estimate_bearing(bare, "x")
     assert bearing.provenance["dynamic_load_rating"].tag == "D"
-    assert bearing.dynamic_load_rating == pytest.approx(rating(dynamic_load_rating, bearing), rel=1e-4)
-    assert bearing.axial_factor_y2 == pytest.approx(0.67 / math.tan(bearing.contact_angle), abs=0.005)
+    assert bearing.dynamic_load_rating == pytest.approx(
+        rating(dynamic_load_rating, bearing), rel=1e-4
+    )
+    assert bearing.axial_factor_y2 == pytest.approx(
+        0.67 / math.tan(bearing.contact_angle), abs=0.005
+    )
     assert bearing.fatigue_load_limit == pytest.approx(1100e3, rel=0.02)  # as published
     # Without the shoulder the sphere is less well known.
     with_shoulder = estimate_bearing(PAGE, "x").bearing.provenance["outer_raceway_radius"].range
@@ -183,7 +229,13 @@ def test_shipped_files_are_what_the_estimate_gives(name):
     assert bearing.axial_factor_y1 == pytest.approx(0.45 * cot, rel=0.04)
     assert bearing.axial_factor_y2 == pytest.approx(0.67 * cot, rel=0.04)
     assert bearing.axial_factor_y0 == pytest.approx(0.44 * cot, rel=0.08)
-    annulus = math.pi / 4 * (bearing.outside_diameter**2 - bearing.bore_diameter**2) * bearing.width * 7850
+    annulus = (
+        math.pi
+        / 4
+        * (bearing.outside_diameter**2 - bearing.bore_diameter**2)
+        * bearing.width
+        * 7850
+    )
     assert 0.76 < bearing.mass / annulus < 0.88
 
 

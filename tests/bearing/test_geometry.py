@@ -19,7 +19,9 @@ def base():
 def test_contacts_lie_a_roller_radius_along_the_normal(base):
     r_in, r_out = geometry.inner_contact_radius(base), geometry.outer_contact_radius(base)
     assert r_in + r_out == pytest.approx(2 * base.pitch_radius, rel=1e-15)
-    assert r_out - r_in == pytest.approx(base.roller_diameter * math.cos(math.radians(11.2)), rel=1e-14)
+    assert r_out - r_in == pytest.approx(
+        base.roller_diameter * math.cos(math.radians(11.2)), rel=1e-14
+    )
 
 
 def test_outer_contact_lies_on_the_sphere(base):
@@ -37,7 +39,9 @@ def test_rolling_curvatures_are_those_of_the_raceways_normal_sections(base):
     assert geometry.inner_curvatures(base).rolling == pytest.approx(inner, rel=1e-14)
     assert geometry.outer_curvatures(base).rolling == pytest.approx(outer, rel=1e-14)
     # A sphere curves alike in all directions: 1/R_o.
-    assert geometry.outer_curvatures(base).rolling == pytest.approx(1 / r - 1 / base.outer_raceway_radius, rel=1e-4)
+    assert geometry.outer_curvatures(base).rolling == pytest.approx(
+        1 / r - 1 / base.outer_raceway_radius, rel=1e-4
+    )
 
 
 def test_one_roller_contour_fits_both_raceways(base):
@@ -46,8 +50,12 @@ def test_one_roller_contour_fits_both_raceways(base):
     raceway = geometry.inner_raceway_contour_radius(other)
     assert contour / other.outer_raceway_radius == pytest.approx(0.985, rel=1e-14)
     assert contour / raceway == pytest.approx(0.97, rel=1e-14)
-    assert geometry.outer_curvatures(other).lateral == pytest.approx(1 / contour - 1 / 0.4149, rel=1e-12)
-    assert geometry.inner_curvatures(other).lateral == pytest.approx(1 / contour - 1 / raceway, rel=1e-12)
+    assert geometry.outer_curvatures(other).lateral == pytest.approx(
+        1 / contour - 1 / 0.4149, rel=1e-12
+    )
+    assert geometry.inner_curvatures(other).lateral == pytest.approx(
+        1 / contour - 1 / raceway, rel=1e-12
+    )
 
 
 def test_cage_conforms_alike_in_both_directions(base):
@@ -60,7 +68,11 @@ def test_cage_conforms_alike_in_both_directions(base):
 
 
 def test_pure_rolling_has_no_slip_at_either_raceway(base):
-    r_in, r_out, r = geometry.inner_contact_radius(base), geometry.outer_contact_radius(base), base.roller_diameter / 2
+    r_in, r_out, r = (
+        geometry.inner_contact_radius(base),
+        geometry.outer_contact_radius(base),
+        base.roller_diameter / 2,
+    )
     orbit = geometry.orbit_ratio(base)
     spin = -orbit * r_out / r  # without slip at the outer raceway, which is at rest
     assert 0 < orbit < 0.5

@@ -6,10 +6,19 @@ from pathlib import Path
 
 import pytest
 
-from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit, geometry_factor, static_load_rating
+from macroslip.bearing.load_ratings import (
+    dynamic_load_rating,
+    fatigue_load_limit,
+    geometry_factor,
+    static_load_rating,
+)
 from macroslip.errors import InputError
 
-LINES = (Path(__file__).parents[1] / "data" / "srb_catalogue.csv").read_text(encoding="utf-8").splitlines()
+LINES = (
+    (Path(__file__).parents[1] / "data" / "srb_catalogue.csv")
+    .read_text(encoding="utf-8")
+    .splitlines()
+)
 CATALOGUE = list(csv.DictReader(line for line in LINES if not line.startswith("#")))
 
 
@@ -38,11 +47,15 @@ def test_scaling_of_the_ratings():
     small = (2, 28, 0.070, 0.106, 0.195, 0.745)
     large = (2, 28, 0.140, 0.212, 0.195, 1.490)
     assert static_load_rating(*large) / static_load_rating(*small) == pytest.approx(4.0, rel=1e-14)
-    assert dynamic_load_rating(*large) / dynamic_load_rating(*small) == pytest.approx(2 ** (7 / 9 + 29 / 27), rel=1e-14)
+    assert dynamic_load_rating(*large) / dynamic_load_rating(*small) == pytest.approx(
+        2 ** (7 / 9 + 29 / 27), rel=1e-14
+    )
     # Two rows carry twice the static load, 2^(7/9) the dynamic one.
     single = (1, *small[1:])
     assert static_load_rating(*small) / static_load_rating(*single) == pytest.approx(2.0, rel=1e-14)
-    assert dynamic_load_rating(*small) / dynamic_load_rating(*single) == pytest.approx(2 ** (7 / 9), rel=1e-14)
+    assert dynamic_load_rating(*small) / dynamic_load_rating(*single) == pytest.approx(
+        2 ** (7 / 9), rel=1e-14
+    )
 
 
 def test_the_fatigue_load_limit_is_what_a_maker_publishes():
@@ -52,6 +65,12 @@ def test_the_fatigue_load_limit_is_what_a_maker_publishes():
         pitch = 5e-4 * (float(row["d_mm"]) + float(row["D_mm"]))
         found = float(row["Pu_kN"]) * 1e3 / fatigue_load_limit(float(row["C0_kN"]) * 1e3, pitch)
         ratios.setdefault(row["designation"][:3] + row["variant"][:2], []).append(found)
-    assert len(CATALOGUE) == 108 and all(0.85 < one < 1.15 for family in ratios.values() for one in family)
+    assert len(CATALOGUE) == 108 and all(
+        0.85 < one < 1.15 for family in ratios.values() for one in family
+    )
     assert all(0.99 < one < 1.03 for one in ratios["240BC"])
-    assert fatigue_load_limit(8.2e5, 0.05) == fatigue_load_limit(8.2e5, 0.1) == pytest.approx(1e5, rel=1e-14)
+    assert (
+        fatigue_load_limit(8.2e5, 0.05)
+        == fatigue_load_limit(8.2e5, 0.1)
+        == pytest.approx(1e5, rel=1e-14)
+    )

@@ -17,7 +17,9 @@ from macroslip.input.record import TAGS, Provenance, fields_of
 from macroslip.study.settings import Setting, replaced
 
 NAME = "skf-240-600-bc"
-TEXT = (resources.files("macroslip.bearing") / "catalogue" / f"{NAME}.yaml").read_text(encoding="utf-8")
+TEXT = (resources.files("macroslip.bearing") / "catalogue" / f"{NAME}.yaml").read_text(
+    encoding="utf-8"
+)
 #: Keys that a ring which is round does without.
 WAVES = {key for key in fields_of(Bearing) if key.startswith("out_of_round_")}
 
@@ -68,9 +70,19 @@ def test_base_bearing_has_the_specified_values_in_si(base):
 
 
 def test_every_quantity_says_where_it_comes_from(base):
-    assert set(base.provenance) == set(fields_of(Bearing)) - {"name", "title", *WAVES, "roller_crown_radius"}
-    assert all(origin.tag in TAGS and origin.tag != "U" and origin.note for origin in base.provenance.values())
-    assert base.provenance["roller_diameter"] == Provenance(70, "mm", "E", "back-calculated from the load ratings")
+    assert set(base.provenance) == set(fields_of(Bearing)) - {
+        "name",
+        "title",
+        *WAVES,
+        "roller_crown_radius",
+    }
+    assert all(
+        origin.tag in TAGS and origin.tag != "U" and origin.note
+        for origin in base.provenance.values()
+    )
+    assert base.provenance["roller_diameter"] == Provenance(
+        70, "mm", "E", "back-calculated from the load ratings"
+    )
 
 
 def test_every_line_of_the_shipped_file_is_explained():
@@ -92,7 +104,10 @@ def test_units_are_converted_exactly(base, tmp_path):
         ("{value: 106, unit: mm", "{value: 0.106, unit: m"),
         ("{value: 8502, unit: kN", "{value: 8502e3, unit: N"),
         ("hardness: {value: 7.0, unit: GPa", "hardness: {value: 7_000, unit: MPa"),
-        ("contact_angle: {value: 11.2, unit: deg", f"contact_angle: {{value: {base.contact_angle!r}, unit: rad"),
+        (
+            "contact_angle: {value: 11.2, unit: deg",
+            f"contact_angle: {{value: {base.contact_angle!r}, unit: rad",
+        ),
     ):
         assert other.count(old) == 1
         other = other.replace(old, new)
@@ -136,17 +151,24 @@ def test_provenance_is_part_of_equality(base):
 
 def test_unknown_key_gets_a_suggestion_and_a_line(reported):
     message, line = reported(("roller_diameter: {", "roler_diameter: {"))
-    assert message == f"mine.yaml, line {line}: the key 'roler_diameter' is unknown. Did you mean 'roller_diameter'?"
+    assert (
+        message
+        == f"mine.yaml, line {line}: the key 'roler_diameter' is unknown. Did you mean 'roller_diameter'?"
+    )
 
 
 def test_unknown_key_without_likeness_gets_the_whole_list(reported):
     message, _ = reported(end="xyz: 1\n")
     line = TEXT.count("\n") + 1
-    assert message.startswith(f"mine.yaml, line {line}: the key 'xyz' is unknown. Allowed: name, title, bore_diameter,")
+    assert message.startswith(
+        f"mine.yaml, line {line}: the key 'xyz' is unknown. Allowed: name, title, bore_diameter,"
+    )
 
 
 def test_unknown_key_inside_an_entry(reported):
-    message, line = reported(("pitch_radius: {value: 372.7, unit: mm,", "pitch_radius:\n  {value: 372.7, units: mm,"))
+    message, line = reported(
+        ("pitch_radius: {value: 372.7, unit: mm,", "pitch_radius:\n  {value: 372.7, units: mm,")
+    )
     expected = "the key 'units' inside pitch_radius is unknown. Did you mean 'unit'?"
     assert message == f"mine.yaml, line {line + 1}: {expected}"
 
@@ -192,7 +214,9 @@ def test_missing_keys_are_reported_together(reported):
     assert reported(text="name: x\ntitle: y\n")[0].startswith(
         "15 problems: (1) mine.yaml: 'rollers_per_row' is missing ("
     )
-    lines = [line for line in TEXT.splitlines(keepends=True) if not line.startswith("roller_length:")]
+    lines = [
+        line for line in TEXT.splitlines(keepends=True) if not line.startswith("roller_length:")
+    ]
     assert reported(text="".join(lines))[0] == (
         "mine.yaml: 'roller_length' is missing (roller length). Allowed: a number with its unit, m or mm or um. Add it."
     )
@@ -218,7 +242,10 @@ def test_duplicate_key(reported):
     ("text", "expected"),
     [
         ("name: x\nmass: {value: 1\ntitle: y\n", "mine.yaml, line 3: this is not valid YAML ("),
-        ("name: x\nmass: *nowhere\n", "mine.yaml, line 2: this is not valid YAML (found undefined alias"),
+        (
+            "name: x\nmass: *nowhere\n",
+            "mine.yaml, line 2: this is not valid YAML (found undefined alias",
+        ),
         ("name: x\n---\nname: y\n", "mine.yaml, line 2: this is not valid YAML ("),
         ("name: \x01\n", "mine.yaml: this is not valid YAML (unacceptable character"),
         ("name: 2001-99-99\n", "mine.yaml: this is not valid YAML ("),
@@ -282,15 +309,23 @@ def test_waves_of_the_ring_are_a_section_of_the_file(tmp_path):
     (tmp_path / "again.yaml").write_text(oval.as_yaml())
     assert Bearing.read(tmp_path / "again.yaml") == oval
     varied = replaced(oval, [Setting("bearing.out_of_round.second", 35.0, "um").checked()])
-    assert varied.out_of_round_second == 35e-6 and varied.out_of_round_angle == oval.out_of_round_angle
+    assert (
+        varied.out_of_round_second == 35e-6 and varied.out_of_round_angle == oval.out_of_round_angle
+    )
 
 
 @pytest.mark.parametrize(
     ("section", "words"),
     [
-        ("{secnd: 1 um}", r"the key 'secnd' inside out_of_round is unknown. Did you mean 'second'\?"),
+        (
+            "{secnd: 1 um}",
+            r"the key 'secnd' inside out_of_round is unknown. Did you mean 'second'\?",
+        ),
         ("{second: 20 mm}", r"line \d+, out_of_round_second: it is 20 mm. Allowed: -1 to 1 mm"),
-        ("20 um", r"out_of_round: it is '20 um'. Allowed: a section with the keys second, third, angle"),
+        (
+            "20 um",
+            r"out_of_round: it is '20 um'. Allowed: a section with the keys second, third, angle",
+        ),
     ],
 )
 def test_faulty_waves_are_refused_with_their_line(tmp_path, section, words):

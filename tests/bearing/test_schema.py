@@ -20,7 +20,9 @@ def valid(value, schema):
     known = {"$schema", "title", "description", "default", "type", "properties", "required", "additionalProperties",
              "enum", "minLength", "anyOf", "pattern", "items", "minItems", "maxItems"}  # fmt: skip
     assert schema.keys() <= known, schema.keys() - known
-    if "enum" in schema and not any(value == item and type(value) is type(item) for item in schema["enum"]):
+    if "enum" in schema and not any(
+        value == item and type(value) is type(item) for item in schema["enum"]
+    ):
         return False
     if "anyOf" in schema and not any(valid(value, one) for one in schema["anyOf"]):
         return False
@@ -31,13 +33,19 @@ def valid(value, schema):
                 isinstance(value, dict)
                 and set(schema["required"]) <= value.keys()
                 and (value.keys() <= schema["properties"].keys() or schema["additionalProperties"])
-                and all(valid(value[key], inner) for key, inner in schema["properties"].items() if key in value)
+                and all(
+                    valid(value[key], inner)
+                    for key, inner in schema["properties"].items()
+                    if key in value
+                )
             )
         case "string":
             long_enough = isinstance(value, str) and len(value) >= schema.get("minLength", 0)
             return long_enough and re.search(schema.get("pattern", ""), value) is not None
         case "array":
-            in_bounds = isinstance(value, list) and schema["minItems"] <= len(value) <= schema["maxItems"]
+            in_bounds = (
+                isinstance(value, list) and schema["minItems"] <= len(value) <= schema["maxItems"]
+            )
             return in_bounds and all(valid(item, schema["items"]) for item in value)
         case "number":
             return number
@@ -79,7 +87,11 @@ def test_schema_and_reader_refuse_the_same(kind, name):
             assert not valid(good | {key: bad}, schema), (key, bad)
             with pytest.raises(InputError):
                 kind.from_dict(good | {key: bad})
-    for bad in (good | {"unknown": 1}, good | {"name": ""}, {k: v for k, v in good.items() if k != needed}):
+    for bad in (
+        good | {"unknown": 1},
+        good | {"name": ""},
+        {k: v for k, v in good.items() if k != needed},
+    ):
         assert not valid(bad, schema)
         with pytest.raises(InputError):
             kind.from_dict(bad)

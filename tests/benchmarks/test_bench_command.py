@@ -18,7 +18,9 @@ def short(monkeypatch):
     """One case of 2 s, three settings a rival; no library that may be missing."""
     names = {"scipy_bdf", rivals.EULER, "lsoda"}
     few = [
-        rival._replace(settings=lambda edges, quick, whole=rival.settings: list(whole(edges, quick))[:3])
+        rival._replace(
+            settings=lambda edges, quick, whole=rival.settings: list(whole(edges, quick))[:3]
+        )
         for rival in rivals.RIVALS
         if rival.key in names
     ]
@@ -26,7 +28,9 @@ def short(monkeypatch):
     monkeypatch.setattr("benchmarks.comparison.RIVALS", tuple(few))
     monkeypatch.setattr(room, "QUICK", (("24A",), 100.0, 2.0))
     monkeypatch.setattr(
-        run, "long_histories", lambda quick, **laws: room.histories_of("24A", 100.0, 102.0, [0], **laws)
+        run,
+        "long_histories",
+        lambda quick, **laws: room.histories_of("24A", 100.0, 102.0, [0], **laws),
     )
     monkeypatch.setattr(
         run,
@@ -79,14 +83,25 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
     for method in (methods[name] for name in methods if name != "lsoda"):
         assert len(method["histories"]) == 2
         for entry in method["histories"].values():
-            assert entry["seconds"] > 0.0 and len(entry["runs"]["setting"]) == len(entry["runs"]["seconds"]) >= 1
+            assert (
+                entry["seconds"] > 0.0
+                and len(entry["runs"]["setting"]) == len(entry["runs"]["seconds"]) >= 1
+            )
     own = methods["own"]["histories"].values()
-    assert all(one["reached"] and max(one["energy_error"], one["spin_error"]) <= found["asked_accuracy"] for one in own)
+    assert all(
+        one["reached"] and max(one["energy_error"], one["spin_error"]) <= found["asked_accuracy"]
+        for one in own
+    )
     assert found["quadrature"]["largest_difference"] < 1e-8
-    assert found["evaluation"]["force_evaluation_ns"] > 0.0 and found["evaluation"]["overhead_factor"] > 1.0
+    assert (
+        found["evaluation"]["force_evaluation_ns"] > 0.0
+        and found["evaluation"]["overhead_factor"] > 1.0
+    )
     for model in ("paper", "physical"):
         assert found["real_time"][model]["median"] >= found["real_time"][model]["slowest"] > 0.0
-    assert {"processor", "cores", "python", "numba", "numbalsoda", "scikit-sundae"} <= set(found["machine"])
+    assert {"processor", "cores", "python", "numba", "numbalsoda", "scikit-sundae"} <= set(
+        found["machine"]
+    )
 
 
 def test_quiet_says_nothing(monkeypatch, tmp_path):

@@ -5,7 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from benchmarks.random_cases import FORCES, HISTORIES, SPEEDS, WIDE, _largest, compare, random_case, table
+from benchmarks.random_cases import (
+    FORCES,
+    HISTORIES,
+    SPEEDS,
+    WIDE,
+    _largest,
+    compare,
+    random_case,
+    table,
+)
 from tests.fuzz.oracle import examples
 
 
@@ -31,7 +40,9 @@ def test_a_difference_is_seen():
 def test_wide_cases_have_every_kind_of_speed_and_force():
     drawn = [random_case(number, wide=1.0) for number in range(250)]
     kinds = [kind.removeprefix(f"{WIDE}: ").split(", ") for kind, _ in drawn]
-    assert {speed for speed, _ in kinds} == set(SPEEDS) and {force for _, force in kinds} == set(FORCES)
+    assert {speed for speed, _ in kinds} == set(SPEEDS) and {force for _, force in kinds} == set(
+        FORCES
+    )
     steps = [float(case.loads.time[1] - case.loads.time[0]) for _, case in drawn]
     assert min(steps) < 2e-3 and max(steps) > 0.5
 
@@ -92,4 +103,6 @@ def test_a_slice(physical, count):
 def test_cases_in_which_the_whole_bearing_moves_end_well():
     # Rows agree to 1e-3 in two of three; docs/integrator.md has the largest differences.
     outcomes = [compare(number, physical=0.0, whole=1.0) for number in range(9940, 9946)]
-    assert all(one.verdict.startswith(("agrees", "off")) and one.energy_error < 5e-3 for one in outcomes)
+    assert all(
+        one.verdict.startswith(("agrees", "off")) and one.energy_error < 5e-3 for one in outcomes
+    )

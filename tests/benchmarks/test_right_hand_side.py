@@ -28,7 +28,13 @@ def met(history, time):
     """Station of the roller at a time [s] within the interval of its sample."""
     motion, found = history.motion, np.zeros(1, STATION)
     k = int(np.searchsorted(motion.time, time, side="right")) - 1
-    station(history.roller.body[0], history.roller.tables, history.start_angle, instant(motion, k, time), found[0])
+    station(
+        history.roller.body[0],
+        history.roller.tables,
+        history.start_angle,
+        instant(motion, k, time),
+        found[0],
+    )
     return found[0]
 
 
@@ -42,7 +48,9 @@ def test_rates_are_those_of_the_package(histories):
             slip_forces(history.roller.body[0], history.roller.tables, at, slip, forces[0])
             eps = 1e-3 * (motion.time[k + 1] - motion.time[k])
             inside = min(max(time, motion.time[k] + eps), motion.time[k + 1] - eps)
-            before, after = (float(met(history, inside + side)["ring_speed"]) for side in (-eps, eps))
+            before, after = (
+                float(met(history, inside + side)["ring_speed"]) for side in (-eps, eps)
+            )
             acceleration = (after - before) / (2.0 * eps)
             inner, outer, cage = (float(forces[name][0]) for name in ("inner", "outer", "cage"))
             found = rate_at(time, slip, data)
@@ -59,10 +67,14 @@ def test_jacobian_is_the_difference_quotient(histories):
             found = np.zeros((4, 4))
             jacobian(time, np.array([slip, 0.0, 0.0, 0.0]), found, data)
             change = 1e-5 * abs(slip)
-            quotient = (rate_at(time, slip + change, data) - rate_at(time, slip - change, data)) / (2.0 * change)
+            quotient = (rate_at(time, slip + change, data) - rate_at(time, slip - change, data)) / (
+                2.0 * change
+            )
             # Round-off of the rates themselves limits the quotient.
             noise = 1e-13 * np.abs(rate_at(time, slip, data)) / change
-            assert np.all(np.abs(found[:, 0] - quotient) <= 1e-5 * np.abs(quotient) + 10.0 * noise + 1e-9)
+            assert np.all(
+                np.abs(found[:, 0] - quotient) <= 1e-5 * np.abs(quotient) + 10.0 * noise + 1e-9
+            )
             assert not found[:, 1:].any()
 
 

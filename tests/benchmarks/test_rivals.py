@@ -19,7 +19,13 @@ TIGHT = {
     "cvode": {"stops": "restart", "rtol": 1e-9, "atol": 1e-11, "longest_step": 0.02},
     "cvode_compiled": {"stops": "restart", "rtol": 1e-9, "atol": 1e-11, "longest_step": 0.02},
     "euler": {"step": 2e-4, "tolerance": 1e-13},
-    "scipy_solvers": {"method": "BDF", "stops": True, "rtol": 1e-8, "atol": 1e-9, "longest_step": 0.05},
+    "scipy_solvers": {
+        "method": "BDF",
+        "stops": True,
+        "rtol": 1e-8,
+        "atol": 1e-9,
+        "longest_step": 0.05,
+    },
 }
 NEEDS = {"lsoda": "numbalsoda", "cvode": "sksundae", "cvode_compiled": "sksundae"}
 

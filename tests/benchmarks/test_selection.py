@@ -20,7 +20,12 @@ def outcome(energy, spin, seconds):
 
 
 def test_the_cheapest_accurate_run_counts():
-    runs = [outcome(1e-6, 1e-6, 3.0), outcome(9e-5, 9e-5, 2.0), outcome(1e-6, 2e-4, 1.0), outcome(2e-4, 0.0, 0.5)]
+    runs = [
+        outcome(1e-6, 1e-6, 3.0),
+        outcome(9e-5, 9e-5, 2.0),
+        outcome(1e-6, 2e-4, 1.0),
+        outcome(2e-4, 0.0, 0.5),
+    ]
     assert cheapest(runs) == (runs[1], True)
 
 
@@ -33,7 +38,9 @@ def test_without_an_accurate_run_the_most_accurate_counts_and_is_marked():
 
 def test_errors_look_at_coasts_only_and_at_failures():
     # The second mark grips: an error of 1 % of the raceway speed there says nothing about a coast.
-    energy, spin = errors(Solution(np.array([0.5, 0.25, 0.25001]), np.array([-0.2004, 4e-3]), 1.0), REFERENCE)
+    energy, spin = errors(
+        Solution(np.array([0.5, 0.25, 0.25001]), np.array([-0.2004, 4e-3]), 1.0), REFERENCE
+    )
     assert energy == pytest.approx(1e-5) and spin == pytest.approx(1e-3)
     assert errors(Solution(np.full(3, np.nan), np.zeros(2), 1.0), REFERENCE)[0] == math.inf
     assert errors(Solution(np.ones(3), np.full(2, np.nan), 1.0), REFERENCE)[1] == math.inf
@@ -45,7 +52,11 @@ def fake(log):
     def solve(rtol, atol, most_evaluations=math.inf):
         log.append((rtol, atol))
         evaluations = 1.0 / (rtol * atol) ** 0.5
-        energy = np.array([1.0 + rtol, 0.0, 0.0]) if evaluations <= most_evaluations else np.full(3, np.nan)
+        energy = (
+            np.array([1.0 + rtol, 0.0, 0.0])
+            if evaluations <= most_evaluations
+            else np.full(3, np.nan)
+        )
         return Solution(energy, REFERENCE.slip, evaluations)
 
     return solve
@@ -101,10 +112,16 @@ def test_the_diagram_shows_the_least_cost_at_every_error():
     history = SimpleNamespace(start=0.0, end=10.0, marks=np.ones(1))
     still = SimpleNamespace(start=0.0, end=10.0, marks=np.empty(0))
     runs = [outcome(5e-3, 5e-3, 1.0), outcome(5e-5, 5e-5, 4.0)]
-    entries = [Entry(runs[1], True, runs, False, 1.0), Entry(runs[1], True, [outcome(5e-5, 0.0, 9.0)], False, 1.0)]
+    entries = [
+        Entry(runs[1], True, runs, False, 1.0),
+        Entry(runs[1], True, [outcome(5e-5, 0.0, 9.0)], False, 1.0),
+    ]
     energy = least_cost(entries, [history, still], "energy_error")
     assert [cost for _, cost in energy] == pytest.approx([0.3, 0.6])
-    assert least_cost(entries, [history, still], "spin_error")[-1] == (pytest.approx(1e-4), pytest.approx(0.4))
+    assert least_cost(entries, [history, still], "spin_error")[-1] == (
+        pytest.approx(1e-4),
+        pytest.approx(0.4),
+    )
 
 
 def test_every_rival_has_settings_and_a_target():

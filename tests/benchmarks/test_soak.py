@@ -11,7 +11,8 @@ from macroslip import run_study
 from macroslip.study.study_file import study_of
 
 SAMPLES = [
-    Sample(float(t), 200_000_000 + 100_000 * t, 300_000_000, 400_000_000, 10 * t, t // 60) for t in range(0, 600, 10)
+    Sample(float(t), 200_000_000 + 100_000 * t, 300_000_000, 400_000_000, 10 * t, t // 60)
+    for t in range(0, 600, 10)
 ]
 
 

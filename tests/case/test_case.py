@@ -37,24 +37,39 @@ def test_numbers_of_numpy_are_welcome():
     assert case.rollers == (0, 1, 2) and {type(number) for number in case.rollers} == {int}
     assert type(case.integrator.tolerance) is float and case.integrator.max_steps == 1000
     assert pickle.loads(pickle.dumps(case.integrator)) == case.integrator
-    assert BearingLoads.constant(np.array([0, -1, 0]), np.float32(2), np.int64(1)).shaft_speed[0] == 2.0
+    assert (
+        BearingLoads.constant(np.array([0, -1, 0]), np.float32(2), np.int64(1)).shaft_speed[0]
+        == 2.0
+    )
 
 
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Radau(tolerance=0.5), "integrator.tolerance: it is 0.5. Allowed: 1e-10 to 0.01. 2e-4 gives energies"),
-        (lambda: Radau(tolerance="1e-4"), "integrator.tolerance: it is '1e-4'. Allowed: a finite number."),
+        (
+            lambda: Radau(tolerance=0.5),
+            "integrator.tolerance: it is 0.5. Allowed: 1e-10 to 0.01. 2e-4 gives energies",
+        ),
+        (
+            lambda: Radau(tolerance="1e-4"),
+            "integrator.tolerance: it is '1e-4'. Allowed: a finite number.",
+        ),
         (
             lambda: Radau(max_steps=10**30),
             "integrator.max_steps: it is 1000000000000000000000000000000. Allowed: a whole",
         ),
-        (lambda: Radau(max_steps=1e30), "integrator.max_steps: it is 1e+30. Allowed: a whole number, 1 to 1e15."),
+        (
+            lambda: Radau(max_steps=1e30),
+            "integrator.max_steps: it is 1e+30. Allowed: a whole number, 1 to 1e15.",
+        ),
         (
             lambda: Radau(max_steps=0),
             "integrator.max_steps: it is 0. Allowed: a whole number, 1 to 1e15. It is the number of",
         ),
-        (lambda: Radau(tolerence=1e-4), "the key 'tolerence' inside integrator is unknown. Did you mean 'tolerance'?"),
+        (
+            lambda: Radau(tolerence=1e-4),
+            "the key 'tolerence' inside integrator is unknown. Did you mean 'tolerance'?",
+        ),
         (lambda: ExplicitEuler(), "integrator: 'step' is missing"),
         (
             lambda: BackwardEuler(step=3.0),
@@ -62,7 +77,10 @@ def test_numbers_of_numpy_are_welcome():
         ),
         (lambda: Traces(step=-1.0), "traces.step: it is -1.0. Allowed: a number above 0 s."),
         (lambda: Window(start=np.nan), "window.start: it is nan. Allowed: a finite number."),
-        (lambda: replace(Drivetrain(), tilt=5.0), "Angles are in radians: math.radians(5.0) for 5 degrees."),
+        (
+            lambda: replace(Drivetrain(), tilt=5.0),
+            "Angles are in radians: math.radians(5.0) for 5 degrees.",
+        ),
         (
             lambda: Radau(tables=True),
             "the key 'tables' inside integrator is gone. Contacts are always looked up in tables",
@@ -75,14 +93,26 @@ def test_numbers_of_numpy_are_welcome():
             lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=[0, 28]),
             "rollers: rollers is [0, 28]. Allowed: all, or a list",
         ),
-        (lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=3), "rollers: it is 3. Allowed: all, or a list"),
+        (
+            lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=3),
+            "rollers: it is 3. Allowed: all, or a list",
+        ),
         (
             lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=[True]),
             "rollers: it is [True]. Allowed: all, or a list",
         ),
-        (lambda: BearingLoads.constant([0, -1, 0], "2", 1.0), "the shaft_speed is '2'. Allowed: a finite number."),
-        (lambda: BearingLoads.constant([0, -1, 0], 2.0, 1e308), "the duration of a constant load is 1e+308 s"),
-        (lambda: HubLoads.constant(["1", 0, 0], [0, 0, 0], 2.0, 1.0), "constant load: force does not convert"),
+        (
+            lambda: BearingLoads.constant([0, -1, 0], "2", 1.0),
+            "the shaft_speed is '2'. Allowed: a finite number.",
+        ),
+        (
+            lambda: BearingLoads.constant([0, -1, 0], 2.0, 1e308),
+            "the duration of a constant load is 1e+308 s",
+        ),
+        (
+            lambda: HubLoads.constant(["1", 0, 0], [0, 0, 0], 2.0, 1.0),
+            "constant load: force does not convert",
+        ),
         (
             lambda: simulate(Case(loads=LOADS, laws=Laws.paper(), traces=Traces(step=1e-300))),
             "traces: a step of 1e-300 s makes 1e+300",

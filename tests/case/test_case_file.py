@@ -68,7 +68,11 @@ traces: {{step: 10 ms, start: 63 s, end: 64 s}}
     )
     assert case.loads.time[[0, -1]].tolist() == [61.0, 71.0]
     assert case.drivetrain == Drivetrain(
-        hub_to_bearing=1.3, bearing_to_gearbox=2.1, tilt=6 * math.pi / 180, shaft_mass=9000.0, shaft_mass_station=2.0
+        hub_to_bearing=1.3,
+        bearing_to_gearbox=2.1,
+        tilt=6 * math.pi / 180,
+        shaft_mass=9000.0,
+        shaft_mass_station=2.0,
     )
     assert (case.gravity, case.drag, case.rollers) == (False, True, (0, 7))
     assert (case.temperature, case.heat) == (323.15, None)
@@ -118,14 +122,18 @@ cage: {gap: 0.2 mm, impact: dry, damping: 30 s/m, arrangement: per-row, mass: 40
 @pytest.mark.slow
 def test_a_whole_bearing_whose_rollers_skew(write):
     """From file to result: both rows' rollers, and the case that the result holds."""
-    loads = "loads: {main_bearing: {force: [0 N, -60 kN, 40 kN], shaft_speed: 20 rpm, duration: 1 s}}\n"
-    text = (
-        "dynamics: whole-bearing\nlaws: {model: physical, skew: quasi-static}\ncage: {gap: 0.3 mm, skew_play: 4 mrad}\n"
+    loads = (
+        "loads: {main_bearing: {force: [0 N, -60 kN, 40 kN], shaft_speed: 20 rpm, duration: 1 s}}\n"
     )
+    text = "dynamics: whole-bearing\nlaws: {model: physical, skew: quasi-static}\ncage: {gap: 0.3 mm, skew_play: 4 mrad}\n"
     found = simulate(read_case(write(loads + text)))
     assert (found.status == 0).all() and found.attrs["dynamics"] == "whole-bearing"
     told = json.loads(found.attrs["input"])
-    assert (told["cage"]["skew_play"], told["cage"]["gap"], told["laws"]["skew"]) == (4e-3, 3e-4, "quasi-static")
+    assert (told["cage"]["skew_play"], told["cage"]["gap"], told["laws"]["skew"]) == (
+        4e-3,
+        3e-4,
+        "quasi-static",
+    )
     assert float(found.skew_energy.sum()) > 0.0 and float(found.stop_energy.sum()) > 0.0
     assert np.nanmax(np.abs(found.skew_by_position)) <= 4e-3
 
@@ -134,7 +142,10 @@ def test_a_whole_bearing_whose_rollers_skew(write):
     ("text", "place"),
     [
         ("cage: {gap: 20 mm}\n", r"line 3, cage\.gap: .*pockets would overlap"),
-        ("integrator: {method: backward-euler, step: 1 ms}\n", "line 3, integrator: .*cannot resolve the impacts"),
+        (
+            "integrator: {method: backward-euler, step: 1 ms}\n",
+            "line 3, integrator: .*cannot resolve the impacts",
+        ),
     ],
 )
 def test_a_whole_bearing_that_cannot_be(write, text, place):
@@ -146,7 +157,10 @@ def test_a_whole_bearing_that_cannot_be(write, text, place):
     ("text", "integrator"),
     [
         ("{method: backward-euler, step: 1 ms}", BackwardEuler(step=1e-3)),
-        ("{method: backward-euler, step: 0.001 s, tolerance: 1e-6}", BackwardEuler(step=1e-3, tolerance=1e-6)),
+        (
+            "{method: backward-euler, step: 0.001 s, tolerance: 1e-6}",
+            BackwardEuler(step=1e-3, tolerance=1e-6),
+        ),
         ("{method: explicit-euler, step: 1e-2 ms}", ExplicitEuler(step=1e-5)),
         ("{tolerance: 1e-4}", Radau(tolerance=1e-4)),
         ("{tolerance: 0.001}", Radau(tolerance=1e-3)),
@@ -177,7 +191,9 @@ loads:
 @pytest.mark.parametrize("speed", ["0 rpm", "-2.1 rad/s"])
 def test_constant_main_bearing_load(write, speed):
     loads = read_case(
-        write(f"loads: {{main_bearing: {{force: [0 N, -3e5 N, 0 kN], shaft_speed: {speed}, duration: 1 s}}}}")
+        write(
+            f"loads: {{main_bearing: {{force: [0 N, -3e5 N, 0 kN], shaft_speed: {speed}, duration: 1 s}}}}"
+        )
     ).loads
     assert isinstance(loads, BearingLoads)
     assert loads.force[0].tolist() == [0.0, -3e5, 0.0] and loads.shaft_speed[0] in (0.0, -2.1)
@@ -188,7 +204,9 @@ def test_relative_paths_start_at_the_folder_of_the_case_file(write, tmp_path, mo
 
     monkeypatch.chdir("/")
     (tmp_path / "mine").mkdir()
-    (tmp_path / "mine" / "bearing.yaml").write_text(json.dumps(Bearing.read("skf-240-600-bc").as_dict()))
+    (tmp_path / "mine" / "bearing.yaml").write_text(
+        json.dumps(Bearing.read("skf-240-600-bc").as_dict())
+    )
     (tmp_path / "mine" / "loads.csv").write_text(
         "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n0,20,0,-300,0\n0.1,20,0,-310,0\n"
     )
@@ -219,7 +237,14 @@ def accepts(schema, value):
              "const", "pattern", "minLength", "items", "minItems", "maxItems", "minimum", "uniqueItems", "oneOf",
              "anyOf"}  # fmt: skip
     assert schema.keys() <= known, schema.keys() - known
-    kinds = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int, "number": (int, float)}
+    kinds = {
+        "object": dict,
+        "array": list,
+        "string": str,
+        "boolean": bool,
+        "integer": int,
+        "number": (int, float),
+    }
     if "type" in schema:
         if not isinstance(value, kinds[schema["type"]]):
             return False
@@ -234,7 +259,9 @@ def accepts(schema, value):
     ]
     if isinstance(value, dict):
         properties = schema.get("properties", {})
-        checks += [accepts(properties[key], inner) for key, inner in value.items() if key in properties]
+        checks += [
+            accepts(properties[key], inner) for key, inner in value.items() if key in properties
+        ]
         checks.append(set(schema.get("required", [])) <= value.keys())
         checks.append(schema.get("additionalProperties", True) or value.keys() <= properties.keys())
     if isinstance(value, list) and schema.get("type") == "array":

@@ -32,7 +32,10 @@ def reported(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("laods: {bundled: 14B}\n", "case.yaml, line 1: the key 'laods' is unknown. Did you mean 'loads'?"),
+        (
+            "laods: {bundled: 14B}\n",
+            "case.yaml, line 1: the key 'laods' is unknown. Did you mean 'loads'?",
+        ),
         (
             LOADS + "window:\n  strat: 5 s\n",
             "case.yaml, line 3: the key 'strat' inside window is unknown. Did you mean 'start'?",
@@ -117,7 +120,8 @@ def reported(tmp_path):
             "with its unit, m or mm or um.",
         ),
         (
-            LOADS + "drivetrain:\n  hub_to_bearing: 1260 m\n  tilt: 50 deg\n  shaft_mass_station: 4 m\n",
+            LOADS
+            + "drivetrain:\n  hub_to_bearing: 1260 m\n  tilt: 50 deg\n  shaft_mass_station: 4 m\n",
             "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m. It "
             "is the distance from hub centre to main bearing; check value and unit. (2) case.yaml, line 4, "
             "drivetrain.tilt: it is 50 deg. Allowed: -17.1887 to 17.1887 deg. It is the shaft tilt, positive with the hub "
@@ -150,7 +154,10 @@ def reported(tmp_path):
             "case.yaml, line 4, cage.gap: it is -0.1 mm. Allowed: 0 to 100 mm. It is the play of a roller between the "
             "two spars of its pocket; check value and unit.",
         ),
-        (LOADS + "forces: {gravity: yes}\n", "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false."),
+        (
+            LOADS + "forces: {gravity: yes}\n",
+            "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false.",
+        ),
         (
             LOADS + "laws: {film: dowson, traction: barus-crook}\n",
             "2 problems: (1) case.yaml, line 2, laws.film: 'dowson' does not exist. Allowed: masjedi-khonsari, "
@@ -278,13 +285,21 @@ rollers: [99]
         ("bearing_file", "hub14B_50Hz.parquet", "This table holds hub loads: name it under file."),
         ("bearing_file", "sample14B.outb", "Hub loads from OpenFAST belong under file."),
         ("file", "bearing.csv", "This table holds main-bearing loads: name it under bearing_file."),
-        ("file", "gap.csv", "Read the part before or after the gap (loads.start, loads.end), or resample the record."),
+        (
+            "file",
+            "gap.csv",
+            "Read the part before or after the gap (loads.start, loads.end), or resample the record.",
+        ),
     ],
 )
 def test_a_load_file_under_the_wrong_key(reported, tmp_path, key, file, advice):
-    (tmp_path / "bearing.csv").write_text("time_s,rotor_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n0,1,1,1,1\n1,1,1,1,1\n")
+    (tmp_path / "bearing.csv").write_text(
+        "time_s,rotor_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n0,1,1,1,1\n1,1,1,1,1\n"
+    )
     header = "time_s,rotor_speed_rpm,fx_kN,fy_kN,fz_kN,mx_kNm,my_kNm,mz_kNm\n"
-    (tmp_path / "gap.csv").write_text(header + "".join(f"{t},1,1,1,1,1,1,1\n" for t in (0, 1, 2, 9)))
+    (tmp_path / "gap.csv").write_text(
+        header + "".join(f"{t},1,1,1,1,1,1,1\n" for t in (0, 1, 2, 9))
+    )
     path = tmp_path / file if (tmp_path / file).exists() else DATA / file
     message = reported(f"loads:\n  {key}: {path}\n")
     assert message.startswith(f"case.yaml, line 2, loads.{key}: ") and message.endswith(advice)
@@ -300,7 +315,10 @@ def test_a_wrong_bearing_file_is_named_with_its_own_line(reported, tmp_path):
 
 
 def test_a_file_that_cannot_be_read(tmp_path):
-    with pytest.raises(InputError, match=r"nowhere\.yaml: the case file cannot be read \(No such file or directory\)"):
+    with pytest.raises(
+        InputError,
+        match=r"nowhere\.yaml: the case file cannot be read \(No such file or directory\)",
+    ):
         read_case(tmp_path / "nowhere.yaml")
     (tmp_path / "latin.yaml").write_bytes("# Lagergröße\n".encode("latin-1"))
     with pytest.raises(InputError, match=r"the file is not UTF-8 text. Save it as UTF-8"):
@@ -311,17 +329,22 @@ def test_a_file_that_cannot_be_read(tmp_path):
 def test_a_pipe_in_place_of_a_case_file_is_refused_at_once(tmp_path):
     os.mkfifo(tmp_path / "case.yaml")
     with pytest.raises(
-        InputError, match="the case file cannot be read .it is a pipe, a socket or a device, not a file"
+        InputError,
+        match="the case file cannot be read .it is a pipe, a socket or a device, not a file",
     ):
         read_case(tmp_path / "case.yaml")
 
 
 def test_names_with_a_nul_and_files_that_are_none_of_ours(tmp_path):
-    with pytest.raises(InputError, match="the case file cannot be read .no file can have this name"):
+    with pytest.raises(
+        InputError, match="the case file cannot be read .no file can have this name"
+    ):
         read_case(tmp_path / "a\0.yaml")
     (tmp_path / "secret.txt").write_text("user: alice\npassword: hunter2\n", encoding="utf-8")
     for name in ('"a\\0.yaml"', "secret.txt"):
-        (tmp_path / "case.yaml").write_text(f"loads: {{bundled: 14B}}\nbearing: {name}\n", encoding="utf-8")
+        (tmp_path / "case.yaml").write_text(
+            f"loads: {{bundled: 14B}}\nbearing: {name}\n", encoding="utf-8"
+        )
         with pytest.raises(InputError) as caught:
             read_case(tmp_path / "case.yaml")
         assert str(caught.value).isprintable()

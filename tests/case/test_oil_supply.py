@@ -39,11 +39,19 @@ def test_skfs_factor_counts_where_a_law_asks_for_oil_and_no_supply_is_given():
 
 def test_other_laws_are_flooded():
     one = case(PAPER)
-    assert one.inlet_supply == "flooded" and "oil_supply" not in one.as_dict() and supply_note(one) == ""
+    assert (
+        one.inlet_supply == "flooded"
+        and "oil_supply" not in one.as_dict()
+        and supply_note(one) == ""
+    )
     assert math.isinf(one.oil.oil_gap)
     inner = prepare(PAPER, one.bearing, one.oil, 1).inner
     assert inner.film_thickness(2e4, 0.4) == FILM_LAWS.named(PAPER.film)(inner.interface, 2e4, 0.4)
-    assert case(PAPER, oil_supply="flooded").oil.oil_gap == case(PAPER, oil_supply=1.0).oil.oil_gap == math.inf
+    assert (
+        case(PAPER, oil_supply="flooded").oil.oil_gap
+        == case(PAPER, oil_supply=1.0).oil.oil_gap
+        == math.inf
+    )
 
 
 def test_starvation_of_an_old_file_is_the_supply_where_none_is_given():
@@ -54,9 +62,13 @@ def test_starvation_of_an_old_file_is_the_supply_where_none_is_given():
         f"oil_supply 0.7, read from the lubricant's starvation 0.7{known}", f"starvation, inlet_film, fullness: {ADVICE}"
     ]  # fmt: skip
     # The others have no effect.
-    assert case(lubricant=OLD.replace(fullness=None, inlet_film=None)).oil.oil_gap == new.oil.oil_gap
+    assert (
+        case(lubricant=OLD.replace(fullness=None, inlet_film=None)).oil.oil_gap == new.oil.oil_gap
+    )
     assert case(lubricant=OLD.replace(starvation=None)).inlet_supply == "skf"
-    assert case(lubricant=OLD.replace(starvation=0.1)).oil.oil_gap == case(oil_supply=0.3).oil.oil_gap
+    assert (
+        case(lubricant=OLD.replace(starvation=0.1)).oil.oil_gap == case(oil_supply=0.3).oil.oil_gap
+    )
     assert case(lubricant=OLD, oil_supply="skf").oil.oil_gap == case().oil.oil_gap
 
 
@@ -97,7 +109,8 @@ def test_rest_does_not_change_the_oil():
 def test_supplies_that_cannot_be_are_refused():
     for supply in (0.5, "skf"):
         with pytest.raises(
-            InputError, match="oil_supply: .*laws: paper have neither a starved film nor rolling resist"
+            InputError,
+            match="oil_supply: .*laws: paper have neither a starved film nor rolling resist",
         ):
             case(PAPER, oil_supply=supply)
     bearing = Bearing.read("skf-240-600-bc").replace(name="mine", bore_diameter=None)

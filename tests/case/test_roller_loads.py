@@ -19,7 +19,9 @@ def table(case, thin=1):
     time, load = time[::thin], load[::thin]
     count = case.bearing.rollers_per_row
     start = -90.0 + 360.0 / count * (np.arange(count) + np.array([[0.0], [0.5]]))
-    inner = case.bearing.pitch_radius - 0.5 * case.bearing.roller_diameter * np.cos(case.bearing.contact_angle)
+    inner = case.bearing.pitch_radius - 0.5 * case.bearing.roller_diameter * np.cos(
+        case.bearing.contact_angle
+    )
     turned = np.degrees(inner / (2.0 * case.bearing.pitch_radius) * SPEED * time)
     lines = [
         (t, SPEED * 30.0 / np.pi, name, (start[row, j] + turn) % 360.0, load[k, row, j])
@@ -56,7 +58,11 @@ def test_rows_and_signs_reach_the_resultant(bearing):
     angle = np.tile(2 * np.pi * np.arange(count) / count, (2, 2, 1))
     load = np.zeros((2, 2, count))
     load[:, 0, 7] = 1e4  # downwind at 90 degrees
-    force = RollerLoads(np.arange(2.0), np.ones(2), angle, load, "one").resultant(bearing.contact_angle, count).force[0]
+    force = (
+        RollerLoads(np.arange(2.0), np.ones(2), angle, load, "one")
+        .resultant(bearing.contact_angle, count)
+        .force[0]
+    )
     assert force == pytest.approx(
         [0.0, 1e4 * np.cos(bearing.contact_angle), 1e4 * np.sin(bearing.contact_angle)], abs=1e-9
     )
@@ -70,7 +76,10 @@ def test_rows_and_signs_reach_the_resultant(bearing):
         (lambda lines: lines.iloc[1:], "rows have 27 to 28 places"),
         (lambda lines: lines.assign(load_N=-1.0), "a load is negative"),
         (lambda lines: lines.assign(angle_deg=3.0), "a place is given twice"),
-        (lambda lines: lines.assign(shaft_speed_rpm=np.arange(len(lines))), "the shaft has two speeds at one time"),
+        (
+            lambda lines: lines.assign(shaft_speed_rpm=np.arange(len(lines))),
+            "the shaft has two speeds at one time",
+        ),
         (lambda lines: lines.assign(load_N=np.nan), "finite"),
     ],
 )
@@ -82,8 +91,11 @@ def test_faulty_tables_are_refused(tmp_path, balanced, change, words):
 
 def test_a_whole_bearing_has_no_given_loads(tmp_path, balanced):
     table(balanced, thin=10).to_parquet(tmp_path / "loads.parquet")
-    (tmp_path / "case.yaml").write_text("loads: {roller_loads: loads.parquet}\ndynamics: whole-bearing\n")
+    (tmp_path / "case.yaml").write_text(
+        "loads: {roller_loads: loads.parquet}\ndynamics: whole-bearing\n"
+    )
     with pytest.raises(
-        InputError, match=r"line 1, loads.roller_loads: .*follow from the simulation.*dynamics: imposed-orbit"
+        InputError,
+        match=r"line 1, loads.roller_loads: .*follow from the simulation.*dynamics: imposed-orbit",
     ):
         read_case(tmp_path / "case.yaml")

@@ -20,10 +20,16 @@ def folder(tmp_path, monkeypatch):
 def quick(folder):
     """Write `case.yaml`: two rollers a row for two seconds, of the paper's model and without traces if no line says else."""
 
-    def write(further="", loads=f"{{file: {DATA / 'sample14B.outb'}, start: 60 s, end: 62 s}}", rollers="[0, 14]"):
+    def write(
+        further="",
+        loads=f"{{file: {DATA / 'sample14B.outb'}, start: 60 s, end: 62 s}}",
+        rollers="[0, 14]",
+    ):
         defaults = ("laws: {model: paper}\n", "traces: none\n")
         further += "".join(one for one in defaults if one.split(":")[0] not in further)
-        (folder / "case.yaml").write_text(f"loads: {loads}\nrollers: {rollers}\n{further}", encoding="utf-8")
+        (folder / "case.yaml").write_text(
+            f"loads: {loads}\nrollers: {rollers}\n{further}", encoding="utf-8"
+        )
         return "case.yaml"
 
     return write

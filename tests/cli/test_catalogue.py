@@ -14,7 +14,10 @@ def test_list(macroslip, noun, kind):
     done = macroslip(noun, "list")
     assert (done.code, done.err) == (0, "")
     for name in kind.catalogue():
-        assert any(line.split()[0] == name and kind.read(name).title in line for line in done.out.splitlines())
+        assert any(
+            line.split()[0] == name and kind.read(name).title in line
+            for line in done.out.splitlines()
+        )
 
 
 @pytest.mark.parametrize(("noun", "kind"), KINDS)
@@ -40,7 +43,10 @@ def test_show_tells_what_follows_from_a_bearing(macroslip):
 
 
 def test_show_a_file_of_the_users_own(folder, macroslip):
-    entries = Lubricant.read("vg460-pao").as_dict() | {"name": "mine", "viscosity": {"value": 0.6, "unit": "Pa s"}}
+    entries = Lubricant.read("vg460-pao").as_dict() | {
+        "name": "mine",
+        "viscosity": {"value": 0.6, "unit": "Pa s"},
+    }
     (folder / "mine.yaml").write_text(json.dumps(entries))
     out = macroslip("lubricant", "show", "mine.yaml").out
     assert out.startswith("mine: ") and "0.6 Pa s  U: user" in out
@@ -71,17 +77,44 @@ def test_show_as_a_file_that_can_be_read_again(folder, macroslip, noun, kind):
         assert kind.read(folder / "mine.yaml") == kind.read(name)
 
 
-PAGE = ["--bore", "630 mm", "--outside", "920 mm", "--width", "290 mm", "--c0", "17600 kN", "--e", "0.30"]
+PAGE = [
+    "--bore",
+    "630 mm",
+    "--outside",
+    "920 mm",
+    "--width",
+    "290 mm",
+    "--c0",
+    "17600 kN",
+    "--e",
+    "0.30",
+]
 
 
 def test_a_bearing_from_its_makers_page(folder, macroslip):
-    done = macroslip("bearing", "estimate", *PAGE, "--shoulder", "828 mm", "--groove", "5.65e-2 m", "-o", "mine.yaml")
+    done = macroslip(
+        "bearing",
+        "estimate",
+        *PAGE,
+        "--shoulder",
+        "828 mm",
+        "--groove",
+        "5.65e-2 m",
+        "-o",
+        "mine.yaml",
+    )
     assert (done.code, done.err) == (0, "")
     assert "not the maker's drawing" in done.out and "written: mine.yaml" in done.out
     assert "C by ISO 281" not in done.out  # C is not published: there is nothing to compare with
     mine, shipped = Bearing.read("mine.yaml"), Bearing.read("skf-240-630-bc")
     assert mine.name == "mine"
-    for key in ("rollers_per_row", "roller_diameter", "roller_length", "contact_angle", "outer_raceway_radius"):
+    for key in (
+        "rollers_per_row",
+        "roller_diameter",
+        "roller_length",
+        "contact_angle",
+        "outer_raceway_radius",
+    ):
         assert getattr(mine, key) == getattr(shipped, key)
         low, high = mine.provenance[key].range
         assert low < mine.provenance[key].value < high
@@ -94,9 +127,15 @@ def test_a_bearing_from_its_makers_page(folder, macroslip):
     ("options", "reported"),
     [
         (["--shoulder", "828"], "--shoulder is '828', which does not give its unit"),
-        (["--shoulder", "928 mm"], "shoulder is 928 mm. Allowed: between bore and outside diameter"),
+        (
+            ["--shoulder", "928 mm"],
+            "shoulder is 928 mm. Allowed: between bore and outside diameter",
+        ),
         (["--bpfo", "13.2"], "only one overrolling frequency is given"),
-        (["--bpfo", "13.2", "--bpfi", "16.2"], "together 29.4. Allowed: a sum that is the whole number of rollers"),
+        (
+            ["--bpfo", "13.2", "--bpfi", "16.2"],
+            "together 29.4. Allowed: a sum that is the whole number of rollers",
+        ),
         (["--c", "0 kN"], "dynamic_load_rating is 0.0. Allowed: a finite number above 0"),
     ],
 )
@@ -118,7 +157,18 @@ def test_a_bearing_file_to_start_from(folder, macroslip):
 
 
 def test_estimate_a_lubricant_that_can_be_read_and_shown(folder, macroslip):
-    arguments = ("lubricant", "estimate", "--v40", "320 mm2/s", "--v100", "35 cSt", "--base", "pao", "--name", "mine")
+    arguments = (
+        "lubricant",
+        "estimate",
+        "--v40",
+        "320 mm2/s",
+        "--v100",
+        "35 cSt",
+        "--base",
+        "pao",
+        "--name",
+        "mine",
+    )
     done = macroslip(*arguments, "-o", "mine.yaml")
     assert (done.code, done.err) == (0, "")
     oil = Lubricant.read(folder / "mine.yaml")
@@ -140,7 +190,9 @@ def test_estimate_a_lubricant_that_can_be_read_and_shown(folder, macroslip):
     ],
 )  # fmt: skip
 def test_estimate_refuses_what_is_no_lubricant(folder, macroslip, v40, v100, base, message):
-    done = macroslip("lubricant", "estimate", "--v40", v40, "--v100", v100, "--base", base, "-o", "mine.yaml")
+    done = macroslip(
+        "lubricant", "estimate", "--v40", v40, "--v100", v100, "--base", base, "-o", "mine.yaml"
+    )
     assert done.code == 2 and done.err.startswith(message) and done.err.count("\n") == 1
     assert not (folder / "mine.yaml").exists()
 

@@ -9,7 +9,9 @@ import pytest
 from macroslip.machine import process_environment, safe_path
 
 #: As the script that an installation makes for the command.
-COMMAND = "import sys\nfrom macroslip.cli import main\nif __name__ == '__main__':\n    sys.exit(main())\n"
+COMMAND = (
+    "import sys\nfrom macroslip.cli import main\nif __name__ == '__main__':\n    sys.exit(main())\n"
+)
 MODULES = (
     "macroslip", "numba", "numpy", "scipy", "h5py", "xarray", "distributed", "dask", "random", "json", "pickle", "socket",
     "multiprocessing", "threading", "sitecustomize", "usercustomize",
@@ -24,9 +26,13 @@ def hostile(tmp_path, monkeypatch):
     folder = tmp_path / "sent"
     folder.mkdir()
     for name in MODULES:
-        (folder / f"{name}.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'a').write({name!r} + ' ')\n")
+        (folder / f"{name}.py").write_text(
+            f"open({str(tmp_path / 'ran')!r}, 'a').write({name!r} + ' ')\n"
+        )
     (folder / "case.yaml").write_text(f"loads: {LOADS}\nrollers: [0]\n")
-    (folder / "study.yaml").write_text("case: {rollers: [0], loads: {end: 60 s}}\nloads: {bundled: [14B]}\n")
+    (folder / "study.yaml").write_text(
+        "case: {rollers: [0], loads: {end: 60 s}}\nloads: {bundled: [14B]}\n"
+    )
     monkeypatch.chdir(folder)
     return tmp_path
 
@@ -44,9 +50,17 @@ def ran(hostile):
 def test_a_first_run_and_a_study_with_workers(hostile):
     environment = os.environ | {"NUMBA_CACHE_DIR": str(hostile / "kernels")}
     command = [sys.executable, str(hostile / "macroslip-command")]
-    for arguments in (["run", "case.yaml", "-o", "case.nc"], ["study", "study.yaml", "-o", "out", "--workers", "1"]):
+    for arguments in (
+        ["run", "case.yaml", "-o", "case.nc"],
+        ["study", "study.yaml", "-o", "out", "--workers", "1"],
+    ):
         done = subprocess.run(
-            [*command, *arguments], env=environment, capture_output=True, text=True, timeout=900, check=False
+            [*command, *arguments],
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=900,
+            check=False,
         )
         assert (done.returncode, ran(hostile)) == (0, ""), done.stderr
         assert "kernels" not in done.stderr  # one process finds as good what another has stored
@@ -59,7 +73,11 @@ def test_a_process_does_not_look_in_the_current_folder(hostile, monkeypatch, ent
     monkeypatch.setattr(sys, "path", ["", entry, *sys.path])
     code = "import sys, numba, macroslip; print(sys.path)"
     done = subprocess.run(
-        [sys.executable, "-c", code], env=process_environment(), capture_output=True, text=True, check=False
+        [sys.executable, "-c", code],
+        env=process_environment(),
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert (done.returncode, ran(hostile)) == (0, ""), done.stderr
     assert str(hostile / "other") in done.stdout and repr(str(hostile / "sent")) not in done.stdout

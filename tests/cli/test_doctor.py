@@ -10,7 +10,10 @@ def test_versions_kernels_and_commands(macroslip):
     done = macroslip("doctor", "--json")
     assert (done.code, done.err) == (0, "")
     found = json.loads(done.out)
-    assert found["version"] == package.__version__ and found["machine"]["python"] == platform.python_version()
+    assert (
+        found["version"] == package.__version__
+        and found["machine"]["python"] == platform.python_version()
+    )
     assert found["machine"]["cores"] >= 1
     numba = next(one for one in found["packages"] if one["package"] == "numba")
     assert numba["installed"] and numba["wanted"].startswith(">=")
@@ -37,5 +40,11 @@ def test_no_folder_for_kernels_is_said(macroslip, monkeypatch):
 
 def test_the_same_for_people(macroslip):
     out = macroslip("doctor").out
-    for word in (f"macroslip {package.__version__}", "numba", "kernels", "macroslip report", "ready"):
+    for word in (
+        f"macroslip {package.__version__}",
+        "numba",
+        "kernels",
+        "macroslip report",
+        "ready",
+    ):
         assert word in out

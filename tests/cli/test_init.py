@@ -15,14 +15,20 @@ def test_init_then_run(folder, macroslip):
     assert done.out == "written:    case.yaml\nrun it:     macroslip run case.yaml -o case.nc\n"
     done = macroslip("run", "case.yaml", "-o", "case.nc")
     assert (done.code, done.err) == (0, "")
-    assert "bundled case 14B, model physical, vg460-pao at 35 °C, from 6.40203 s to 60 s, 8 complete orbits" in done.out
+    assert (
+        "bundled case 14B, model physical, vg460-pao at 35 °C, from 6.40203 s to 60 s, 8 complete orbits"
+        in done.out
+    )
 
 
 def test_init_keeps_an_existing_file_unless_forced(folder, macroslip):
     (folder / "mine.yaml").write_text("precious")
     done = macroslip("init", "mine.yaml")
     assert done.code == 2
-    assert done.err == "error: mine.yaml: the file exists. Choose another name, or replace it with --force.\n"
+    assert (
+        done.err
+        == "error: mine.yaml: the file exists. Choose another name, or replace it with --force.\n"
+    )
     assert (folder / "mine.yaml").read_text() == "precious"
     assert macroslip("init", "mine.yaml", "--force").code == 0
     assert "loads:" in (folder / "mine.yaml").read_text()
@@ -37,7 +43,12 @@ def test_the_template_shows_every_key_with_a_comment_above(folder, macroslip):
     for key in {name.rpartition(".")[2] for name, _ in keys_of(Case)} - {"film_fullness"}:
         places = [n for n, line in enumerate(lines) if line.lstrip(" #").startswith(f"{key}:")]
         assert places, f"{key} is not in the template"
-        explained = (line for n in places for line in reversed(lines[:n]) if not line.lstrip(" #").startswith("force:"))
+        explained = (
+            line
+            for n in places
+            for line in reversed(lines[:n])
+            if not line.lstrip(" #").startswith("force:")
+        )
         assert any(line.lstrip().startswith("#") for line in explained), f"{key} has no comment"
 
 
@@ -51,7 +62,11 @@ def test_the_values_of_the_template_are_the_defaults(folder, macroslip):
     # The shaft's mass is an estimate for the rotor of the load cases, and marked as such; by default there is none.
     assert case["drivetrain"].pop("shaft_mass") == pytest.approx(0.0142 * 70.0**2.888, rel=1e-3)
     assert case["drivetrain"].pop("shaft_mass_station") == pytest.approx(0.5 * (1.26 + 2.2))
-    assert plain["drivetrain"].pop("shaft_mass") == plain["drivetrain"].pop("shaft_mass_station") == 0.0
+    assert (
+        plain["drivetrain"].pop("shaft_mass")
+        == plain["drivetrain"].pop("shaft_mass_station")
+        == 0.0
+    )
     assert case == plain
 
 
@@ -81,10 +96,18 @@ def test_what_the_template_comments_out_is_right_too(folder, macroslip):
         uncommented = "loads:\n" + block.replace("  # ", "  ", 1).replace("\n  # ", "\n  ")
         (folder / "one.yaml").write_text(uncommented)
         read_case("one.yaml")
-    for start in ("# integrator:\n#   method: backward", "# integrator:\n#   method: explicit", "# traces:\n"):
+    for start in (
+        "# integrator:\n#   method: backward",
+        "# integrator:\n#   method: explicit",
+        "# traces:\n",
+    ):
         block = text[text.index(start) :].split("\n\n")[0]
-        block = block if block.count("# integrator:") < 2 else block[: block.rindex("# integrator:")]
-        uncommented = "\n".join(line.removeprefix("# ").removeprefix("#") for line in block.splitlines())
+        block = (
+            block if block.count("# integrator:") < 2 else block[: block.rindex("# integrator:")]
+        )
+        uncommented = "\n".join(
+            line.removeprefix("# ").removeprefix("#") for line in block.splitlines()
+        )
         (folder / "one.yaml").write_text("loads: {bundled: 14B}\n" + uncommented + "\n")
         read_case("one.yaml")
     cage = text[text.index("# cage:\n") :].split("\n\n")[0].replace("\n# ", "\n").removeprefix("# ")
@@ -104,11 +127,15 @@ def test_every_other_example_does_what_its_last_line_proposes(folder, macroslip)
     for example, files in written.items():
         done = macroslip("init", "--example", example)
         assert (done.code, done.err) == (0, "")
-        assert [line.split()[1] for line in done.out.splitlines() if line.startswith("written:")] == files
+        assert [
+            line.split()[1] for line in done.out.splitlines() if line.startswith("written:")
+        ] == files
         assert all((folder / name).is_file() for name in files)
     assert macroslip("bearing", "show", "bearing.yaml").code == 0
     assert macroslip("lubricant", "show", "lubricant.yaml").code == 0
-    assert macroslip("study", "study.yaml", "--dry-run").out.startswith("Clearance of the base bearing")
+    assert macroslip("study", "study.yaml", "--dry-run").out.startswith(
+        "Clearance of the base bearing"
+    )
 
 
 def test_an_example_replaces_nothing(folder, macroslip):

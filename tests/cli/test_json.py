@@ -18,7 +18,10 @@ def test_catalogue(macroslip, noun, kind):
         shown = json.loads(macroslip(noun, "show", one["name"], "--json").out)
         assert shown["name"] == one["name"]
         for key, origin in kind.read(one["name"]).provenance.items():
-            assert shown["values"][key]["value"] == origin.value and shown["values"][key]["tag"] == origin.tag
+            assert (
+                shown["values"][key]["value"] == origin.value
+                and shown["values"][key]["tag"] == origin.tag
+            )
 
 
 def test_bearing_estimate(macroslip, folder):
@@ -43,7 +46,10 @@ def test_bearing_estimate(macroslip, folder):
     for key, one in found["values"].items():
         low, high = one["10 to 90 %"]
         assert low <= one["median"] <= high
-        assert written.provenance[key].value == one["median"] and written.provenance[key].unit == one["unit"]
+        assert (
+            written.provenance[key].value == one["median"]
+            and written.provenance[key].unit == one["unit"]
+        )
     assert {"roller_diameter", "contact_angle"} <= set(found["values"])
     shown = macroslip("bearing", "estimate", *page, "-o", "mine.yaml", "--force").out
     assert f"is {found['C by ISO 281 / published [1]']:.3f} of the published one" in shown
@@ -52,16 +58,23 @@ def test_bearing_estimate(macroslip, folder):
 
 def test_run(quick, macroslip, folder):
     done = macroslip("run", quick(), "-o", "case.nc", "--json")
-    assert done.code == 0 and done.err.startswith("doubtful: the film's formula is outside its range")
+    assert done.code == 0 and done.err.startswith(
+        "doubtful: the film's formula is outside its range"
+    )
     found = json.loads(done.out)
     result = xr.load_dataset(folder / "case.nc", engine="h5netcdf")
     energy = result.energy.sum("interface").mean("roller")
     for row in ("downwind", "upwind"):
-        assert found["rows"][row]["mean energy per roller [J]"] == pytest.approx(float(energy.sel(row=row)), rel=1e-12)
+        assert found["rows"][row]["mean energy per roller [J]"] == pytest.approx(
+            float(energy.sel(row=row)), rel=1e-12
+        )
         # Two seconds hold no complete orbit; the peak is that of the window.
         peak = float(result.window_peak_power.sel(row=row).max())
         assert found["rows"][row]["highest peak power [W]"] == pytest.approx(peak, rel=1e-12)
-    assert all(found[name] == result.attrs[name] for name in ("model", "oil")) and found["oil"] in found["title"]
+    assert (
+        all(found[name] == result.attrs[name] for name in ("model", "oil"))
+        and found["oil"] in found["title"]
+    )
     assert found["written"] == "case.nc" and found["window"]["complete orbits"] == 0
 
 
@@ -73,7 +86,13 @@ def test_study(folder, macroslip):
     assert found["runs"] == 1 and found["load histories"] == 1 and found["bytes"] > 0
     done = macroslip("study", "study.yaml", "-o", "out", "--json", "--quiet")
     found = json.loads(done.out)
-    assert (found["runs"], found["computed"], found["failed"], found["left"], found["failures"]) == (1, 1, 0, 0, [])
+    assert (
+        found["runs"],
+        found["computed"],
+        found["failed"],
+        found["left"],
+        found["failures"],
+    ) == (1, 1, 0, 0, [])
 
 
 def test_an_error_is_one_line_with_quiet(folder, macroslip):

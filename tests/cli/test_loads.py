@@ -51,7 +51,9 @@ def test_an_openfast_file(macroslip):
         "F_Y0 [kN]": bearing.force[:, 1] / 1e3,
         "radial [kN]": np.hypot(*bearing.force[:, :2].T) / 1e3,
     }.items():
-        assert table[name] == pytest.approx([values.mean(), values.std(), values.min(), values.max()], rel=1e-3), name
+        assert table[name] == pytest.approx(
+            [values.mean(), values.std(), values.min(), values.max()], rel=1e-3
+        ), name
     assert (
         "load on the main bearing, with the default drivetrain (1.26 m from hub to bearing, 2.2 m from bearing to "
         "gearbox, no shaft mass)" in lines
@@ -85,7 +87,12 @@ def test_semicolons_and_decimal_commas_in_a_table_of_bearing_loads(folder, macro
     lines = "".join(f"{t},5;1;3,25;-4;0\n" for t in range(3))
     (folder / "loads.csv").write_text("time_s;shaft_speed_rpm;F_X0_kN;F_Y0_kN;F_Z0_kN\n" + lines)
     done = macroslip("loads", "inspect", "loads.csv")
-    assert "kind      load on the main bearing" in done.out and rows(done.out)["F_X0 [kN]"] == [3.25, 0.0, 3.25, 3.25]
+    assert "kind      load on the main bearing" in done.out and rows(done.out)["F_X0 [kN]"] == [
+        3.25,
+        0.0,
+        3.25,
+        3.25,
+    ]
 
 
 @pytest.mark.parametrize(
@@ -105,13 +112,19 @@ def test_files_that_cannot_be_read(folder, macroslip, file, content, message):
     if content is not None:
         (folder / file).write_bytes(content)
     done = macroslip("loads", "inspect", file)
-    assert (done.code, done.out, done.err) == (2, "", f"error: {message.replace('FOLDER', str(folder))}\n")
+    assert (done.code, done.out, done.err) == (
+        2,
+        "",
+        f"error: {message.replace('FOLDER', str(folder))}\n",
+    )
 
 
 def test_a_damaged_parquet_file(folder, macroslip):
     (folder / "loads.parquet").write_bytes((DATA / "hub14B_50Hz.parquet").read_bytes()[:3000])
     done = macroslip("loads", "inspect", "loads.parquet")
-    assert done.code == 2 and done.err.startswith("error: loads.parquet: not readable as a Parquet table")
+    assert done.code == 2 and done.err.startswith(
+        "error: loads.parquet: not readable as a Parquet table"
+    )
 
 
 def inspected(macroslip, *arguments):
@@ -134,7 +147,10 @@ def test_a_drivetrain_of_ones_own_from_options_and_from_a_case_file(folder, macr
         assert means == pytest.approx(expected, rel=1e-12)
         assert not found["drivetrain"]["default"]
     both = inspected(macroslip, path, "--case", "case.yaml", "--bearing-to-gearbox", "2.2 m")
-    assert both["drivetrain"]["bearing_to_gearbox [m]"] == 2.2 and both["drivetrain"]["hub_to_bearing [m]"] == 1.9
+    assert (
+        both["drivetrain"]["bearing_to_gearbox [m]"] == 2.2
+        and both["drivetrain"]["hub_to_bearing [m]"] == 1.9
+    )
 
 
 def test_a_four_point_mount_from_a_case_file(folder, macroslip):
@@ -143,7 +159,9 @@ def test_a_four_point_mount_from_a_case_file(folder, macroslip):
         "loads: {bundled: 14B}\ndrivetrain: {mount: four-point, hub_to_bearing: 1.3 m, front_to_rear: 1.8 m, "
         "locating: rear, bearing: front}\n"
     )
-    own = Drivetrain(mount="four-point", hub_to_bearing=1.3, front_to_rear=1.8, locating="rear", bearing="front")
+    own = Drivetrain(
+        mount="four-point", hub_to_bearing=1.3, front_to_rear=1.8, locating="rear", bearing="front"
+    )
     expected = main_bearing_load(HubLoads.read(path), own).force.mean(axis=0) / 1e3
     found = inspected(macroslip, path, "--case", "case.yaml")["main bearing"]
     means = [found[f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")]
@@ -156,13 +174,17 @@ def test_a_four_point_mount_from_a_case_file(folder, macroslip):
 
 def test_a_shaft_speed_of_ones_own(macroslip):
     found = inspected(macroslip, DATA / "sample14B.outb", "--shaft-speed", "12 rpm")
-    assert found["statistics"]["shaft speed [rpm]"] == pytest.approx({"mean": 12, "std": 0, "min": 12, "max": 12})
+    assert found["statistics"]["shaft speed [rpm]"] == pytest.approx(
+        {"mean": 12, "std": 0, "min": 12, "max": 12}
+    )
     assert found["reading"][-1].startswith("shaft speed: given, ")
 
 
 def test_an_option_without_a_unit_is_refused(macroslip):
     done = macroslip("loads", "inspect", DATA / "sample14B.outb", "--hub-to-bearing", "1.9")
-    assert done.code == 2 and done.err.startswith("error: --hub-to-bearing is '1.9', which does not give its unit")
+    assert done.code == 2 and done.err.startswith(
+        "error: --hub-to-bearing is '1.9', which does not give its unit"
+    )
 
 
 @pytest.mark.slow
@@ -171,7 +193,10 @@ def test_a_picture(folder, macroslip):
     assert (done.code, done.err) == (0, "") and done.out.endswith("written: loads.png\n")
     assert (folder / "loads.png").read_bytes().startswith(b"\x89PNG")
     assert macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.png").code == 2
-    assert "Allowed: .png, .svg, .pdf" in macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.txt").err
+    assert (
+        "Allowed: .png, .svg, .pdf"
+        in macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.txt").err
+    )
 
 
 def test_both_main_bearings_carry_the_hub_force_together(folder, macroslip):
@@ -182,7 +207,9 @@ def test_both_main_bearings_carry_the_hub_force_together(folder, macroslip):
     arguments = ("loads", "inspect", DATA / "sample14B.outb", "--case", "both.yaml")
     found = json.loads(macroslip(*arguments, "--json").out)
     for hub, ring in (("fx", "F_Z0"), ("fy", "F_X0"), ("fz", "F_Y0")):
-        carried = sum(found[name][f"{ring} [kN]"]["mean"] for name in ("main bearing", "rear main bearing"))
+        carried = sum(
+            found[name][f"{ring} [kN]"]["mean"] for name in ("main bearing", "rear main bearing")
+        )
         assert carried == pytest.approx(found["statistics"][f"{hub} [kN]"]["mean"], rel=1e-9)
     out = macroslip(*arguments).out
     assert ": the front bearing" in out and "load on the rear main bearing" in out

@@ -45,7 +45,9 @@ def test_help_imports_nothing_heavy():
         "import sys\nfrom macroslip.cli.commands import app\ntry: app(['--help'])\nexcept SystemExit: pass\n"
         f"print([name for name in '{heavy}'.split() if name in sys.modules])"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60
+    )
     assert done.stdout.splitlines()[-1] == "[]"
 
 
@@ -76,10 +78,16 @@ def test_usage_errors():
 
 
 def test_a_reader_that_closes_early_is_no_error():
-    command = f"{sys.executable} -c 'from macroslip.cli import main; main()' bearing schema | head -1"
+    command = (
+        f"{sys.executable} -c 'from macroslip.cli import main; main()' bearing schema | head -1"
+    )
     done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
     assert (done.stdout, done.stderr) == ("{\n", "")
-    for arguments, code in ((["bearing", "schema"], 0), (["--help"], 0), (["bearing", "show", "nothing"], 2)):
+    for arguments, code in (
+        (["bearing", "schema"], 0),
+        (["--help"], 0),
+        (["bearing", "show", "nothing"], 2),
+    ):
         process = subprocess.Popen(
             [sys.executable, "-c", "from macroslip.cli import main; main()", *arguments],
             stdout=subprocess.PIPE,
@@ -97,7 +105,9 @@ def test_an_interrupt_while_the_command_is_imported_is_told_in_a_word():
         "def slow(name, *rest):\n    if name == 'typer': signal.raise_signal(signal.SIGINT)\n"
         "    return find(name, *rest)\nbuiltins.__import__ = slow\nmain()"
     )
-    done = subprocess.run([sys.executable, "-c", code, "--help"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-c", code, "--help"], capture_output=True, text=True, timeout=60
+    )
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
 
 

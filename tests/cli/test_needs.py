@@ -15,7 +15,9 @@ def without(monkeypatch):
 
     def hide(*names):
         monkeypatch.setattr(
-            importlib.util, "find_spec", lambda name, *rest: None if name in names else found(name, *rest)
+            importlib.util,
+            "find_spec",
+            lambda name, *rest: None if name in names else found(name, *rest),
         )
 
     return hide
@@ -28,7 +30,8 @@ def test_all_is_there():
 def test_the_message_names_package_and_remedy(without):
     without("jinja2")
     with pytest.raises(
-        MacroslipError, match=r"for a page or a picture: jinja2\. .*pip install 'macroslip\[figures\]'$"
+        MacroslipError,
+        match=r"for a page or a picture: jinja2\. .*pip install 'macroslip\[figures\]'$",
     ):
         require(FIGURES, SCHEDULER)
 
@@ -44,5 +47,9 @@ def test_a_dry_run_refuses_what_the_run_would_refuse(folder, macroslip, without)
 def test_doctor_says_which_command_lacks_what(macroslip, without):
     without("matplotlib")
     lines = macroslip("doctor").out.splitlines()
-    assert any(line.startswith("macroslip report ") and "lacks matplotlib" in line for line in lines)
-    assert any(line.startswith("macroslip study --scheduler ") and "ready" in line for line in lines)
+    assert any(
+        line.startswith("macroslip report ") and "lacks matplotlib" in line for line in lines
+    )
+    assert any(
+        line.startswith("macroslip study --scheduler ") and "ready" in line for line in lines
+    )

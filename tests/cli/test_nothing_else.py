@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 SOURCES = Path(__file__).parents[2] / "src" / "macroslip"
-LOADS = "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + "".join(f"{n / 20},20,0,-300,80\n" for n in range(41))
+LOADS = "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + "".join(
+    f"{n / 20},20,0,-300,80\n" for n in range(41)
+)
 #: Runs commands with every door to the network shut, whichever library knocks; prints the exit code of each.
 SCRIPT = """
 import json, sys
@@ -38,7 +40,9 @@ for sys.argv[1:] in json.loads(sys.argv[1]):
 def ran(folder, argument):
     """Run commands in a process of their own."""
     command = [sys.executable, "-c", SCRIPT, argument]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=800, check=False)
+    return subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=800, check=False
+    )
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +56,9 @@ def folder(tmp_path_factory):
         f"loads: {{bearing_file: {folder / 'home' / 'loads.csv'}}}\nrollers: [0]\ntraces: {{step: 50 ms}}\n"
     )
     study = folder / "home" / "study.yaml"
-    study.write_text('case: {rollers: [0]}\nloads: {files: "{what}_{wind_speed:g}.csv", kind: main-bearing}\n')
+    study.write_text(
+        'case: {rollers: [0]}\nloads: {files: "{what}_{wind_speed:g}.csv", kind: main-bearing}\n'
+    )
     (folder / "home" / "loads_12.csv").write_text(LOADS)
     (folder / "home" / "broken_14.csv").write_text(LOADS[:200] + "\n1,2,3,4\n")
     commands = {
@@ -64,7 +70,9 @@ def folder(tmp_path_factory):
     }
     done = ran(folder, json.dumps([[str(word) for word in one] for one in commands]))
     assert "the network was asked for" not in done.stderr
-    assert re.findall(r"^ended with (.*)$", done.stdout, re.MULTILINE) == list(commands.values()), done.stderr
+    assert re.findall(r"^ended with (.*)$", done.stdout, re.MULTILINE) == list(commands.values()), (
+        done.stderr
+    )
     return folder
 
 

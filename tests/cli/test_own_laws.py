@@ -31,7 +31,9 @@ def run(folder):
             *map(str, arguments),
         ]
         environment = os.environ | {"PYTHONIOENCODING": "utf-8", "COLUMNS": "200"}
-        return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600, check=False)
+        return subprocess.run(
+            command, env=environment, capture_output=True, text=True, timeout=600, check=False
+        )
 
     return run
 
@@ -41,25 +43,41 @@ LAWS = ["--laws", EXAMPLES / "own_film.py", "--laws", EXAMPLES / "own_law.py"]
 
 def test_film_and_traction_laws_of_ones_own(run, folder):
     case = (EXAMPLES / "own_laws.yaml").read_text(encoding="utf-8") + "traces: {step: 10 ms}\n"
-    (folder / "case.yaml").write_text(case.replace("inlet_heating: true", "inlet_heating: false"), encoding="utf-8")
+    (folder / "case.yaml").write_text(
+        case.replace("inlet_heating: true", "inlet_heating: false"), encoding="utf-8"
+    )
     done = run("case.yaml", *LAWS, "-o", "own.nc")
     # The film of its own is used beyond its range, and told so.
-    assert done.returncode == 0 and done.stderr.startswith("doubtful: the film's formula is outside its range")
+    assert done.returncode == 0 and done.stderr.startswith(
+        "doubtful: the film's formula is outside its range"
+    )
     with xr.open_dataset("own.nc", engine="h5netcdf") as found:
         result = found.sel(row="downwind").isel(roller=0).load()
     assert (result.status == 0).all()
     assert result.attrs["model"] == "paper, but film dowson-higginson, traction isothermal-barus"
-    assert "Dowson, Proc. Inst." in result.attrs["citations"] and "Crook" not in result.attrs["citations"]
+    assert (
+        "Dowson, Proc. Inst." in result.attrs["citations"]
+        and "Crook" not in result.attrs["citations"]
+    )
     # The film in the result is the formula's, written here once more, where only the rings load the roller.
     bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
     inner = interfaces(bearing, oil)[0]
     heaviest = result.isel(time=int(result.roller_load.argmax("time")))
-    load, speed = float(heaviest.roller_load), -float(heaviest.spin_pure) * bearing.roller_diameter / 2
+    load, speed = (
+        float(heaviest.roller_load),
+        -float(heaviest.spin_pure) * bearing.roller_diameter / 2,
+    )
     w = 0.75 * load ** (2 / 3) / inner.hertz.semi_axis_across
     size = inner.modulus * inner.rolling_radius
-    thickness = 2.65 * (oil.viscosity * speed / size) ** 0.7 * (oil.pressure_viscosity * inner.modulus) ** 0.54
+    thickness = (
+        2.65
+        * (oil.viscosity * speed / size) ** 0.7
+        * (oil.pressure_viscosity * inner.modulus) ** 0.54
+    )
     thickness *= (w / size) ** -0.13 * inner.rolling_radius
-    assert float(heaviest.film_thickness.sel(interface="inner")) == pytest.approx(thickness, rel=1e-4)
+    assert float(heaviest.film_thickness.sel(interface="inner")) == pytest.approx(
+        thickness, rel=1e-4
+    )
 
 
 @pytest.mark.deep  # each compiles the whole integrator once more; tests/result/test_own_laws.py has those of the examples
@@ -74,10 +92,14 @@ def test_film_and_traction_laws_of_ones_own(run, folder):
 )
 def test_own_laws_beside_the_mechanisms_of_the_package(run, folder, laws):
     loads = "{main_bearing: {force: [0 N, -100 kN, 0 N], shaft_speed: 20 rpm, duration: 8 s}}"
-    (folder / "case.yaml").write_text(f"loads: {loads}\nrollers: [0]\nlaws: {laws}\n", encoding="utf-8")
+    (folder / "case.yaml").write_text(
+        f"loads: {loads}\nrollers: [0]\nlaws: {laws}\n", encoding="utf-8"
+    )
     done = run("case.yaml", *LAWS, "-o", "own.nc")
     # The film of its own is used beyond its range, and told so.
-    assert done.returncode == 0 and done.stderr.startswith("doubtful: the film's formula is outside its range")
+    assert done.returncode == 0 and done.stderr.startswith(
+        "doubtful: the film's formula is outside its range"
+    )
     with xr.open_dataset("own.nc", engine="h5netcdf") as result:
         assert (result.status == 0).all() and float(result.asperity_energy.min()) >= 0.0
         parts, total = result.mechanism_energy.sum("mechanism"), result.energy
@@ -105,7 +127,9 @@ def test_a_case_file_names_no_program(run, folder):
     # A case file is data: nothing in it makes anything run.
     (folder / "my_laws.py").write_text("raise RuntimeError('I ran')\n", encoding="utf-8")
     text = (
-        (EXAMPLES / "own_laws.yaml").read_text(encoding="utf-8").replace("film: dowson-higginson", "film: my_laws.py")
+        (EXAMPLES / "own_laws.yaml")
+        .read_text(encoding="utf-8")
+        .replace("film: dowson-higginson", "film: my_laws.py")
     )
     (folder / "case.yaml").write_text(text, encoding="utf-8")
     done = run("case.yaml", "-o", "own.nc")

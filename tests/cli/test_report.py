@@ -30,7 +30,13 @@ def test_a_folder_becomes_one_page_beside_its_results(ran, macroslip):
 def test_one_file_and_a_page_of_ones_own_choice(ran, macroslip):
     done = macroslip("report", "out/plain.nc", "-o", "page.html")
     assert (done.code, done.out) == (0, "written: page.html\n")
-    assert "data-view" not in (ran / "page.html").read_text(encoding="utf-8").split("</header>")[1].split("<script>")[0]
+    assert (
+        "data-view"
+        not in (ran / "page.html")
+        .read_text(encoding="utf-8")
+        .split("</header>")[1]
+        .split("<script>")[0]
+    )
 
 
 def test_the_folder_of_a_study(folder, macroslip):
@@ -42,18 +48,24 @@ def test_the_folder_of_a_study(folder, macroslip):
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
     for words in ("Lifetime energy", "Exceedance", "Worst cases", "No run failed", "scale 9 m/s"):
         assert words in page
-    assert macroslip("study", "study.yaml", "-o", "out", "--resume", "--quiet").code == 0, "the page is in no way"
+    assert macroslip("study", "study.yaml", "-o", "out", "--resume", "--quiet").code == 0, (
+        "the page is in no way"
+    )
 
 
 def test_no_file_of_a_study_becomes_its_page(folder, macroslip):
-    text = "case: {laws: {model: paper}, rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A]}\n"
+    text = (
+        "case: {laws: {model: paper}, rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A]}\n"
+    )
     (folder / "study.yaml").write_text(text, encoding="utf-8")
     assert macroslip("study", "study.yaml", "-o", "out", "--quiet").code == 0
     before = {path: path.read_bytes() for path in (folder / "out").rglob("*") if path.is_file()}
     for path in before:
         done = macroslip("report", "out", "-o", path, "--force")
         assert done.code == 2 and "a file that the output is made from" in done.err
-    assert {path: path.read_bytes() for path in (folder / "out").rglob("*") if path.is_file()} == before
+    assert {
+        path: path.read_bytes() for path in (folder / "out").rglob("*") if path.is_file()
+    } == before
 
 
 def test_weights_belong_to_studies(ran, macroslip):

@@ -28,7 +28,9 @@ OUTB = DATA / "sample14B.outb"
 def test_the_file_holds_what_simulate_gives(quick, folder, macroslip):
     done = macroslip("run", quick(), "-o", "case.nc", "--threads", 1)
     # The film of the paper is used beyond its range, and told so.
-    assert done.code == 0 and done.err.startswith("doubtful: the film's formula is outside its range")
+    assert done.code == 0 and done.err.startswith(
+        "doubtful: the film's formula is outside its range"
+    )
     case = Case(loads=HubLoads.read(OUTB, start=60.0, end=62.0), laws=Laws.paper(), rollers=[0, 14])
     expected = with_rating(simulate(case), case)
     with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as written:
@@ -40,16 +42,23 @@ def test_the_file_holds_what_simulate_gives(quick, folder, macroslip):
 def test_the_summary(quick, folder, macroslip):
     done = macroslip("run", quick(rollers="all"), "-o", "case.nc")
     lines = done.out.splitlines()
-    assert f"under {OUTB.name}, model paper, vg460-pao at 35 °C, from 60 s to 62 s, 0 complete orbits" in lines[0]
+    assert (
+        f"under {OUTB.name}, model paper, vg460-pao at 35 °C, from 60 s to 62 s, 0 complete orbits"
+        in lines[0]
+    )
     with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as written:
         energy = written.energy.sum("interface").mean("roller")
         for line, row in zip(lines[2:4], ("downwind", "upwind"), strict=True):
             name, mean, peak, spin, *failed = line.split()
             assert (name, failed) == (row, ["0", "of", "28"])
             # Without a complete orbit the peak is that of the window.
-            assert float(peak) == pytest.approx(float(written.window_peak_power.sel(row=row).max()), rel=1e-3)
+            assert float(peak) == pytest.approx(
+                float(written.window_peak_power.sel(row=row).max()), rel=1e-3
+            )
             assert float(mean) == pytest.approx(float(energy.sel(row=row)), rel=1e-3)
-            assert float(spin) == pytest.approx(float(written.min_spin_ratio.sel(row=row).min()), rel=1e-3)
+            assert float(spin) == pytest.approx(
+                float(written.min_spin_ratio.sel(row=row).min()), rel=1e-3
+            )
     assert lines[-1] == "written: case.nc"
 
 
@@ -59,18 +68,31 @@ def test_quiet_says_nothing(quick, macroslip):
 
 
 def test_as_a_user_starts_it(quick, folder):
-    command = [sys.executable, "-c", "from macroslip.cli import main; main()", "run", quick(), "-o", "case.nc"]
+    command = [
+        sys.executable,
+        "-c",
+        "from macroslip.cli import main; main()",
+        "run",
+        quick(),
+        "-o",
+        "case.nc",
+    ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0 and done.stderr.count("\n") == 1
     assert done.stdout.endswith("written: case.nc\n") and "\x1b" not in done.stdout
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "error: case.nc: the file exists. Choose another name, or replace it with --force.\n"
+    assert (
+        done.stderr
+        == "error: case.nc: the file exists. Choose another name, or replace it with --force.\n"
+    )
 
 
 @pytest.mark.parametrize("speed", ["0 rpm", "-20 rpm"])
 def test_a_shaft_that_stands_or_turns_backwards(quick, macroslip, speed):
-    loads = f"{{main_bearing: {{force: [0 N, -300 kN, 100 kN], shaft_speed: {speed}, duration: 1 s}}}}"
+    loads = (
+        f"{{main_bearing: {{force: [0 N, -300 kN, 100 kN], shaft_speed: {speed}, duration: 1 s}}}}"
+    )
     assert macroslip("run", quick(loads=loads), "-o", "case.nc").code == 0
 
 
@@ -78,7 +100,9 @@ def test_a_shaft_that_reverses(quick, folder, macroslip):
     time = np.arange(41) / 20
     speed = 10.0 * np.cos(np.pi * time)
     rows = (f"{t},{n},10,-300,50\n" for t, n in zip(time, speed, strict=True))
-    (folder / "loads.csv").write_text("time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + "".join(rows))
+    (folder / "loads.csv").write_text(
+        "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + "".join(rows)
+    )
     assert macroslip("run", quick(loads="{bearing_file: loads.csv}"), "-o", "case.nc").code == 0
     with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as written:
         assert np.isfinite(written.energy).all()
@@ -103,7 +127,10 @@ def test_an_existing_file_is_kept_unless_forced(quick, folder, macroslip):
     (folder / "case.nc").write_text("precious")
     done = macroslip("run", quick(), "-o", "case.nc")
     assert (done.code, done.out) == (2, "")
-    assert done.err == "error: case.nc: the file exists. Choose another name, or replace it with --force.\n"
+    assert (
+        done.err
+        == "error: case.nc: the file exists. Choose another name, or replace it with --force.\n"
+    )
     assert (folder / "case.nc").read_text() == "precious"
     assert macroslip("run", quick(), "-o", "case.nc", "--force").code == 0
     assert (folder / "case.nc").stat().st_size > 1000
@@ -112,7 +139,10 @@ def test_an_existing_file_is_kept_unless_forced(quick, folder, macroslip):
 @pytest.mark.parametrize(
     ("output", "message"),
     [
-        ("nope/case.nc", "nope/case.nc: there is no folder 'nope'. Make that folder first, or choose another one."),
+        (
+            "nope/case.nc",
+            "nope/case.nc: there is no folder 'nope'. Make that folder first, or choose another one.",
+        ),
         (".", ".: this is a folder. Allowed: a file. Add the name of a file to it."),
         (
             "case.yaml/x.nc",
@@ -153,7 +183,9 @@ def test_a_folder_without_the_right_to_write(quick, macroslip, monkeypatch):
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("before", [None, "precious"])
-def test_nothing_partial_is_left_behind(quick, folder, macroslip, monkeypatch, failure, code, message, before):
+def test_nothing_partial_is_left_behind(
+    quick, folder, macroslip, monkeypatch, failure, code, message, before
+):
     case = quick()
     if before:
         (folder / "case.nc").write_text(before)
@@ -166,7 +198,9 @@ def test_nothing_partial_is_left_behind(quick, folder, macroslip, monkeypatch, f
     monkeypatch.setattr(Path, "write_bytes", fail_half_way)
     done = macroslip("run", case, "-o", "case.nc", "--force")
     assert (done.code, done.out, done.err) == (code, "", message)
-    assert sorted(path.name for path in folder.iterdir()) == (["case.nc", "case.yaml"] if before else ["case.yaml"])
+    assert sorted(path.name for path in folder.iterdir()) == (
+        ["case.nc", "case.yaml"] if before else ["case.yaml"]
+    )
     assert not before or (folder / "case.nc").read_text() == before
 
 
@@ -219,7 +253,9 @@ def test_books_that_do_not_close_are_told(quick, macroslip, monkeypatch):
 
     words, simulate = "the books close energy to 7 % of what is dissipated", module.simulate
     monkeypatch.setattr(
-        module, "simulate", lambda *given, **named: simulate(*given, **named).assign_attrs(books_warning=words)
+        module,
+        "simulate",
+        lambda *given, **named: simulate(*given, **named).assign_attrs(books_warning=words),
     )
     done = macroslip("run", quick(), "-o", "case.nc", "--quiet")
     assert (done.code, done.out, done.err) == (0, "", f"warning: {words}\n")
@@ -242,7 +278,10 @@ def test_a_fault_of_the_program_shows_its_traceback(quick, macroslip, monkeypatc
 @pytest.mark.parametrize(
     ("further", "message"),
     [
-        ("windwo: {start: auto}\n", "error: case.yaml, line 3: the key 'windwo' is unknown. Did you mean 'window'?\n"),
+        (
+            "windwo: {start: auto}\n",
+            "error: case.yaml, line 3: the key 'windwo' is unknown. Did you mean 'window'?\n",
+        ),
         (
             "window: {start: 50 s}\n",
             "error: case.yaml, line 3, window: the window runs from 50.0 s to 62.0 s. Allowed: start before end, both "
@@ -288,14 +327,20 @@ rating: false
 def test_both_main_bearings_are_two_results_that_carry_the_rotor_together(folder, macroslip):
     (folder / "case.yaml").write_text(BOTH)
     assert macroslip("run", "case.yaml", "-o", "case.nc", "--quiet").code == 0
-    assert sorted(path.name for path in folder.iterdir()) == ["case-front.nc", "case-rear.nc", "case.yaml"]
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "case-front.nc",
+        "case-rear.nc",
+        "case.yaml",
+    ]
     loads = {}
     for name in ("front", "rear"):
         with xr.open_dataset(folder / f"case-{name}.nc", engine="h5netcdf") as written:
             assert json.loads(written.attrs["input"])["drivetrain"]["bearing"] == name
         case = read_case(folder / "case.yaml", bearing=name)
         expected = simulate(with_motion(case))
-        np.testing.assert_allclose(open_result(folder / f"case-{name}.nc").energy, expected.energy, rtol=1e-12)
+        np.testing.assert_allclose(
+            open_result(folder / f"case-{name}.nc").energy, expected.energy, rtol=1e-12
+        )
         loads[name] = case.bearing_loads.force[0]
     np.testing.assert_allclose(loads["front"] + loads["rear"], [0.0, -263e3, 164e3], rtol=1e-12)
     again = macroslip("run", "case.yaml", "-o", "case.nc")
@@ -303,7 +348,10 @@ def test_both_main_bearings_are_two_results_that_carry_the_rotor_together(folder
     done = macroslip("run", "case.yaml", "-o", "case.nc", "--force")
     assert done.out.endswith("one page on both: macroslip report case-front.nc case-rear.nc\n")
     told = json.loads(macroslip("run", "case.yaml", "-o", "case.nc", "--force", "--json").out)
-    assert [told[name]["written"] for name in ("front", "rear")] == ["case-front.nc", "case-rear.nc"]
+    assert [told[name]["written"] for name in ("front", "rear")] == [
+        "case-front.nc",
+        "case-rear.nc",
+    ]
 
 
 def test_both_main_bearings_are_no_single_case_and_no_study(folder, macroslip):
@@ -311,16 +359,26 @@ def test_both_main_bearings_are_no_single_case_and_no_study(folder, macroslip):
     words = "drivetrain.bearing: 'both' does not exist. Allowed: front, rear. Choose one of these. A case file for macroslip run"
     with pytest.raises(InputError, match=words):
         read_case(folder / "case.yaml")
-    (folder / "study.yaml").write_text("case:\n  " + BOTH.split("\n")[1] + "\nloads: {bundled: [14B]}\n")
+    (folder / "study.yaml").write_text(
+        "case:\n  " + BOTH.split("\n")[1] + "\nloads: {bundled: [14B]}\n"
+    )
     done = macroslip("study", "study.yaml", "--dry-run")
-    assert done.code == 2 and words in done.err and "A study varies drivetrain.bearing: [front, rear]." in done.err
+    assert (
+        done.code == 2
+        and words in done.err
+        and "A study varies drivetrain.bearing: [front, rear]." in done.err
+    )
     (folder / "case.yaml").write_text(BOTH.replace("mount: four-point, ", ""))
     done = macroslip("run", "case.yaml", "-o", "case.nc")
-    assert done.code == 2 and "line 2, drivetrain: the mount is three-point, which has no" in done.err
+    assert (
+        done.code == 2 and "line 2, drivetrain: the mount is three-point, which has no" in done.err
+    )
     assert "both" in case_schema()["properties"]["drivetrain"]["properties"]["bearing"]["enum"]
 
 
-def test_a_cylindrical_bearing_runs_from_file_to_page_and_tells_how_its_cage_slips(folder, macroslip):
+def test_a_cylindrical_bearing_runs_from_file_to_page_and_tells_how_its_cage_slips(
+    folder, macroslip
+):
     bearing = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
     (folder / "case.yaml").write_text(
         f"bearing: {bearing}\nlubricant: vg320-mineral\ntemperature: 40 degC\noil_supply: flooded\n"
@@ -328,10 +386,21 @@ def test_a_cylindrical_bearing_runs_from_file_to_page_and_tells_how_its_cage_sli
         "dynamics: whole-bearing\ncage: {gap: 0.3 mm, mass: 4 kg}\n"
     )
     done = macroslip("run", "case.yaml", "-o", "case.nc")
-    assert done.code == 0 and "mean slip of the cage: 6" in done.out and "% behind pure rolling" in done.out
+    assert (
+        done.code == 0
+        and "mean slip of the cage: 6" in done.out
+        and "% behind pure rolling" in done.out
+    )
     assert "not rated: rating: cylindrical-160 is a cylindrical roller bearing" in done.out
     assert "rotors on main bearings" not in done.err
     assert (
-        -0.75 < json.loads(macroslip("run", "case.yaml", "-o", "two.nc", "--json").out)["cage slip [1]"]["both"] < -0.6
+        -0.75
+        < json.loads(macroslip("run", "case.yaml", "-o", "two.nc", "--json").out)["cage slip [1]"][
+            "both"
+        ]
+        < -0.6
     )
-    assert macroslip("report", "case.nc").code == 0 and "single row" in (folder / "report.html").read_text()
+    assert (
+        macroslip("report", "case.nc").code == 0
+        and "single row" in (folder / "report.html").read_text()
+    )

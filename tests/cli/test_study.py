@@ -30,7 +30,9 @@ def study(folder):
     """`study.yaml` with two genuine OpenFAST files, one after the other whole."""
     (folder / "runs").mkdir()
     for seed in (1, 2):
-        (folder / "runs" / f"14mps_seed{seed}.outb").write_bytes((DATA / "sample14B.outb").read_bytes())
+        (folder / "runs" / f"14mps_seed{seed}.outb").write_bytes(
+            (DATA / "sample14B.outb").read_bytes()
+        )
     (folder / "study.yaml").write_text(STUDY, encoding="utf-8")
     return folder
 
@@ -39,14 +41,23 @@ def test_from_a_study_file_to_tables(study, macroslip):
     done = macroslip("study", "study.yaml", "-o", "out", "--threads", "1")
     assert (done.code, done.err) == (0, "")
     # Both seeds are copies of one file: one input, one result, which the second run finds.
-    assert re.fullmatch(r"2 runs: 1 computed, 1 unchanged, 0 failed, in .*\nwritten: out\n", done.out)
+    assert re.fullmatch(
+        r"2 runs: 1 computed, 1 unchanged, 0 failed, in .*\nwritten: out\n", done.out
+    )
     assert len(list((study / "out").glob("cases/*/*.nc"))) == 1
     assert (open_study(study / "out").outcome == "completed").all()
     done = macroslip("aggregate", "out", "-o", "tables", "--weibull", "9", "2", "--years", "25")
     assert (done.code, done.err) == (0, "")
-    assert "energy of a roller in 25 years" in done.out and "written: tables/lifetime.csv" in done.out
+    assert (
+        "energy of a roller in 25 years" in done.out and "written: tables/lifetime.csv" in done.out
+    )
     (study / "p.csv").write_text("bin,probability\n14,0.2\n")
-    assert macroslip("aggregate", "out", "-o", "tables", "--probabilities", "p.csv", "--format", "parquet").code == 0
+    assert (
+        macroslip(
+            "aggregate", "out", "-o", "tables", "--probabilities", "p.csv", "--format", "parquet"
+        ).code
+        == 0
+    )
     (study / "p.csv").rename(study / "bins.csv")
     done = macroslip("aggregate", "out", "-o", ".", "--probabilities", "bins.csv")
     assert done.code == 2 and "bins.csv: this is a file that the output is made from" in done.err
@@ -64,7 +75,10 @@ def test_of_many_combinations_the_highest_are_shown(folder, macroslip):
     done = macroslip("aggregate", "out", "-o", "tables", "--weibull", "9", "2")
     title, _, *lines, coverage = done.out.split("written:")[0].rstrip().splitlines()
     assert coverage.startswith("The cases cover ") and coverage.endswith(" h of wind speeds.")
-    assert title.endswith("; the 20 highest of 30, all of them are in the table lifetime") and len(lines) == 20
+    assert (
+        title.endswith("; the 20 highest of 30, all of them are in the table lifetime")
+        and len(lines) == 20
+    )
     energies = pd.read_csv("tables/lifetime.csv")["lifetime_energy [J]"]
     assert len(energies) == 30
     shown = [float(line.split()[-2]) for line in lines]
@@ -75,7 +89,10 @@ def test_dry_run_counts_and_estimates_and_writes_nothing(study, macroslip):
     done = macroslip("study", "study.yaml", "--dry-run", "-o", "out")
     assert done.code == 0 and not (study / "out").exists()
     assert re.search(r"^runs +2 *$", done.out, re.MULTILINE)
-    assert re.search(r"^disk +[\d.]+ kB", done.out, re.MULTILINE) and "time on one processor" in done.out
+    assert (
+        re.search(r"^disk +[\d.]+ kB", done.out, re.MULTILINE)
+        and "time on one processor" in done.out
+    )
 
 
 def test_the_estimate_of_the_disk_is_right(folder, macroslip):
@@ -85,7 +102,9 @@ def test_the_estimate_of_the_disk_is_right(folder, macroslip):
     done = macroslip("study", "study.yaml", "--dry-run")
     estimated = float(re.search(r"^disk +([\d.]+) kB", done.out, re.MULTILINE)[1])
     macroslip("study", "study.yaml", "-o", "out")
-    actual = sum(path.stat().st_size for path in (folder / "out").rglob("*") if path.is_file()) / 1000.0
+    actual = (
+        sum(path.stat().st_size for path in (folder / "out").rglob("*") if path.is_file()) / 1000.0
+    )
     assert estimated == pytest.approx(actual, rel=0.3)
 
 
@@ -106,7 +125,9 @@ def test_failures_are_a_table_and_exit_code_3(study, macroslip):
 def test_names_cannot_steer_the_terminal(study, macroslip):
     (study / "runs" / "14mps_seed1.outb").rename(study / "runs" / "\x1b[31m[b]14mps_seed1.outb")
     (study / "runs" / "\x1b[31m[b]14mps_seed1.outb").write_text("")
-    (study / "study.yaml").write_text('loads: {files: "runs/*.outb"}\ncase: {rollers: [0], loads: {end: 62 s}}\n')
+    (study / "study.yaml").write_text(
+        'loads: {files: "runs/*.outb"}\ncase: {rollers: [0], loads: {end: 62 s}}\n'
+    )
     done = macroslip("study", "study.yaml", "-o", "out")
     assert done.code == 3 and "\x1b" not in done.out + done.err and "\\x1b[31m[b]14mps" in done.err
 
@@ -117,7 +138,10 @@ def test_names_cannot_steer_the_terminal(study, macroslip):
         (["study", "none.yaml", "-o", "out"], "the study file cannot be read"),
         (["study", "study.yaml"], "there is no folder for the results"),
         (["study", "study.yaml", "-o", "runs"], "the folder holds other things"),
-        (["study", "study.yaml", "-o", "out", "--workers", "1", "--scheduler", "x"], "given together"),
+        (
+            ["study", "study.yaml", "-o", "out", "--workers", "1", "--scheduler", "x"],
+            "given together",
+        ),
         (["aggregate", "runs", "-o", "tables"], "there is no study in this folder"),
     ],
 )
@@ -137,7 +161,9 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
     # Where the tests run in the background, interrupts are ignored unless that is undone.
     main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
     command = [sys.executable, "-c", main, "study", "study.yaml", "-o", "out"]
-    process = subprocess.Popen([*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        [*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     log = folder / "out" / "log.txt"
     end = time.monotonic() + 120
     while not log.exists() or ": completed" not in log.read_text():
@@ -145,9 +171,14 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)
     reported = process.communicate()[1]
-    assert reported == "interrupted; what is computed is kept in out. Go on with the same command and --resume.\n"
+    assert (
+        reported
+        == "interrupted; what is computed is kept in out. Go on with the same command and --resume.\n"
+    )
     assert process.returncode == 130
     done = subprocess.run([*command, "--resume"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    computed, unchanged = map(int, re.search(r"(\d+) computed, (\d+) unchanged, 0 failed", done.stdout).groups())
+    computed, unchanged = map(
+        int, re.search(r"(\d+) computed, (\d+) unchanged, 0 failed", done.stdout).groups()
+    )
     assert computed + unchanged == 60 and unchanged >= 1

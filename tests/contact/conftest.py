@@ -44,7 +44,11 @@ def contacts(base):
     found = {}
     for interface, curvature in zip(
         base,
-        (geometry.inner_curvatures(bearing), geometry.outer_curvatures(bearing), geometry.cage_curvatures(bearing)),
+        (
+            geometry.inner_curvatures(bearing),
+            geometry.outer_curvatures(bearing),
+            geometry.cage_curvatures(bearing),
+        ),
         strict=True,
     ):
         shape = GapShape(1.0 / curvature.rolling, 1.0 / curvature.lateral, bearing.roller_length)

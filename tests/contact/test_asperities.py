@@ -21,7 +21,13 @@ def formula(load, speed, material, roughness, hardness):
     load, speed, material = d(load), d(speed), d(material)
     inside = 4470 * d(roughness) ** d("6.015") * d(hardness) ** d("1.168") * load ** d("0.485")
     inside *= speed ** d("-3.741") * material ** d("-2.898")
-    per_cent = d("0.005") * load ** d("-0.408") * speed ** d("-0.088") * material ** d("0.103") * mpmath.log1p(inside)
+    per_cent = (
+        d("0.005")
+        * load ** d("-0.408")
+        * speed ** d("-0.088")
+        * material ** d("0.103")
+        * mpmath.log1p(inside)
+    )
     return per_cent / 100
 
 
@@ -33,13 +39,20 @@ def test_load_ratio_is_the_formula(base, number, log_load, log_speed):
     d = mpmath.mpf
     radius, modulus, oil = d(interface.rolling_radius), d(interface.modulus), interface.lubricant
     with mpmath.workdps(40):
-        w = 3 * d(load) / (4 * d(interface.hertz.semi_axis_across) * mpmath.cbrt(d(load))) / (modulus * radius)
+        w = (
+            3
+            * d(load)
+            / (4 * d(interface.hertz.semi_axis_across) * mpmath.cbrt(d(load)))
+            / (modulus * radius)
+        )
         groups = (
             w, oil.viscosity * d(speed) / (modulus * radius), oil.pressure_viscosity * modulus,
             interface.roughness / radius, interface.hardness / modulus,
         )  # fmt: skip
         expected = float(formula(*groups))
-    assert load_ratio(*(float(one) for one in groups)) == pytest.approx(expected, rel=1e-11, abs=1e-300)
+    assert load_ratio(*(float(one) for one in groups)) == pytest.approx(
+        expected, rel=1e-11, abs=1e-300
+    )
     found = asperity_share("masjedi-khonsari", interface, load, speed, 1e-6)
     assert found == pytest.approx(min(1.0, expected), rel=1e-11, abs=1e-300)
 
@@ -63,7 +76,9 @@ def test_limits_of_the_film_ratio(base):
 
     assert share(math.inf) == 0.0
     assert share(1e-15) == pytest.approx(1.0, abs=1e-7)
-    assert film_ratio_share(np.array([0.992, 2.027, 3.08])) == pytest.approx([0.1, 0.01, 0.001], rel=0.01)
+    assert film_ratio_share(np.array([0.992, 2.027, 3.08])) == pytest.approx(
+        [0.1, 0.01, 0.001], rel=0.01
+    )
     assert share(2 * base[0].roughness) == pytest.approx(film_ratio_share(2.0), rel=1e-14)
 
 
@@ -80,6 +95,9 @@ def test_raceways_at_rated_speed_run_on_a_nearly_full_film(base):
     """Λ of 4: a share of a thousandth by the load ratio and less by Λ."""
     height = masjedi_khonsari_moes(base[0], 5e4, RATED_SURFACE_SPEED)
     by_groups, by_film = (
-        asperity_share(name, base[0], 5e4, RATED_SURFACE_SPEED, height) for name in ("masjedi-khonsari", "film-ratio")
+        asperity_share(name, base[0], 5e4, RATED_SURFACE_SPEED, height)
+        for name in ("masjedi-khonsari", "film-ratio")
     )
-    assert by_groups == pytest.approx(1.2e-3, rel=0.05) and by_film == pytest.approx(1.3e-4, rel=0.05)
+    assert by_groups == pytest.approx(1.2e-3, rel=0.05) and by_film == pytest.approx(
+        1.3e-4, rel=0.05
+    )

@@ -22,8 +22,12 @@ d = mpmath.mpf
 
 def heavy_formula(load, speed, material, roughness, hardness):
     """Masjedi and Khonsari's smooth H and roughness term, exponents as decimals."""
-    smooth = d("2.691") * d(load) ** d("-0.135") * d(speed) ** d("0.705") * d(material) ** d("0.556")
-    rough = d("0.2") * d(roughness) ** d("1.222") * d(hardness) ** d("0.223") * d(load) ** d("-0.229")
+    smooth = (
+        d("2.691") * d(load) ** d("-0.135") * d(speed) ** d("0.705") * d(material) ** d("0.556")
+    )
+    rough = (
+        d("0.2") * d(roughness) ** d("1.222") * d(hardness) ** d("0.223") * d(load) ** d("-0.229")
+    )
     return smooth, rough * d(speed) ** d("-0.748") * d(material) ** d("-0.842")
 
 
@@ -31,7 +35,10 @@ def light_formula(load, material):
     """Moes' N, coefficients as decimals."""
     load, material = d(load), d(material)
     rigid, elastic = 3 / load, d("2.621") * load ** d("-0.2")
-    stiff, heavy = d("1.287") * material ** (d(2) / 3), d("1.311") * load ** d("-0.125") * material ** d("0.75")
+    stiff, heavy = (
+        d("1.287") * material ** (d(2) / 3),
+        d("1.311") * load ** d("-0.125") * material ** d("0.75"),
+    )
     s = (7 + 8 * mpmath.exp(-2 * elastic / rigid)) / 5
     isoviscous = (rigid ** (d(7) / 3) + elastic ** (d(7) / 3)) ** (3 * s / 7)
     return (isoviscous + (stiff ** d("-3.5") + heavy ** d("-3.5")) ** (-2 * s / 7)) ** (1 / s)
@@ -40,14 +47,23 @@ def light_formula(load, material):
 def exact(law, interface, load, speed):
     """h of each law from the interface's data, with w = 3Q/(4a)."""
     radius, modulus, oil = d(interface.rolling_radius), d(interface.modulus), interface.lubricant
-    w = 3 * d(load) / (4 * d(interface.hertz.semi_axis_across) * mpmath.cbrt(d(load))) / (modulus * radius)
+    w = (
+        3
+        * d(load)
+        / (4 * d(interface.hertz.semi_axis_across) * mpmath.cbrt(d(load)))
+        / (modulus * radius)
+    )
     u = d(oil.viscosity) * d(speed) / (modulus * radius)
     g = d(oil.pressure_viscosity) * modulus
     sigma, v = d(interface.roughness) / radius, d(interface.hardness) / modulus
     smooth, rough = heavy_formula(w, u, g, sigma, v)
     if law == "heavy":
         return radius * smooth * (1 + rough)
-    light = radius * mpmath.sqrt(2 * u) * light_formula(w / mpmath.sqrt(2 * u), g * mpmath.root(2 * u, 4))
+    light = (
+        radius
+        * mpmath.sqrt(2 * u)
+        * light_formula(w / mpmath.sqrt(2 * u), g * mpmath.root(2 * u, 4))
+    )
     if law == "light":
         return light
     pressure = d(interface.hertz.pressure) * mpmath.cbrt(load) / d("1e9")
@@ -62,7 +78,12 @@ def exact(law, interface, load, speed):
 
 def group(interface, load):
     """W of an interface."""
-    return 0.75 * load ** (2 / 3) / interface.hertz.semi_axis_across / (interface.modulus * interface.rolling_radius)
+    return (
+        0.75
+        * load ** (2 / 3)
+        / interface.hertz.semi_axis_across
+        / (interface.modulus * interface.rolling_radius)
+    )
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -98,7 +119,9 @@ def test_range_changes_at_the_edges_of_load_and_speed(base):
         return (np.array(group) * load_unit * 4.0 / 3.0 * interface.hertz.semi_axis_across) ** 1.5
 
     ends = [False, True, True, False]
-    by_load = film.masjedi_khonsari_in_range(interface, load([1.99e-5, 2.01e-5, 4.99e-4, 5.01e-4]), 1e-11 * speed_unit)
+    by_load = film.masjedi_khonsari_in_range(
+        interface, load([1.99e-5, 2.01e-5, 4.99e-4, 5.01e-4]), 1e-11 * speed_unit
+    )
     speeds = np.array([0.99e-12, 1.01e-12, 0.99e-10, 1.01e-10]) * speed_unit
     by_speed = film.masjedi_khonsari_in_range(interface, load(1e-4), speeds)
     assert by_load.tolist() == by_speed.tolist() == ends
@@ -106,17 +129,28 @@ def test_range_changes_at_the_edges_of_load_and_speed(base):
 
 def test_groups_outside_the_range_whatever_the_load_are_noted(base):
     # V = 7.0/230.77 = 0.0303 at every interface, just above 0.03.
-    assert film.masjedi_khonsari_notes(base[0]) == ["the hardness group 0.03033 is outside 0.005 to 0.03"]
+    assert film.masjedi_khonsari_notes(base[0]) == [
+        "the hardness group 0.03033 is outside 0.005 to 0.03"
+    ]
     oil = SimpleNamespace(viscosity=0.54, pressure_viscosity=5000.0 / base[0].modulus)
-    bounded = base[0]._replace(roughness=1e-5 * base[0].rolling_radius, hardness=0.02 * base[0].modulus, lubricant=oil)
+    bounded = base[0]._replace(
+        roughness=1e-5 * base[0].rolling_radius, hardness=0.02 * base[0].modulus, lubricant=oil
+    )
     assert film.masjedi_khonsari_notes(bounded) == []
-    assert len(film.masjedi_khonsari_notes(bounded._replace(roughness=1e-4 * base[0].rolling_radius))) == 1
+    assert (
+        len(film.masjedi_khonsari_notes(bounded._replace(roughness=1e-4 * base[0].rolling_radius)))
+        == 1
+    )
 
 
 def test_extreme_groups_stay_finite_and_slopes_have_their_signs():
-    log_load, log_material = np.meshgrid([-700.0, -50.0, 0.0, 50.0, 700.0], [-700.0, -50.0, 0.0, 50.0, 700.0])
+    log_load, log_material = np.meshgrid(
+        [-700.0, -50.0, 0.0, 50.0, 700.0], [-700.0, -50.0, 0.0, 50.0, 700.0]
+    )
     assert np.isfinite(log_moes(math.log(3.0) - log_load, log_load, log_material)).all()
-    log_load, log_material = np.meshgrid(np.linspace(-14.0, 9.0, 231), np.linspace(-7.0, 4.6, 117), indexing="ij")
+    log_load, log_material = np.meshgrid(
+        np.linspace(-14.0, 9.0, 231), np.linspace(-7.0, 4.6, 117), indexing="ij"
+    )
     found = log_moes(math.log(3.0) - log_load, log_load, log_material)
     by_load, by_material = np.diff(found, axis=0) / 0.1, np.diff(found, axis=1) / 0.1
     assert by_load.min() >= -1.001 and by_load.max() < -0.02
@@ -125,7 +159,9 @@ def test_extreme_groups_stay_finite_and_slopes_have_their_signs():
 
 def test_range_of_moes_is_where_numerical_solutions_were_compared(base):
     # M = 32 at 100 kN, L = 16.9 at 1 m/s.
-    found = film.moes_in_range(base[0], np.array([1e-3, 3e4, 1e5, 1e3]), np.array([0.4, 0.4, 0.4, 1.0]))
+    found = film.moes_in_range(
+        base[0], np.array([1e-3, 3e4, 1e5, 1e3]), np.array([0.4, 0.4, 0.4, 1.0])
+    )
     assert found.tolist() == [True, True, False, False]
 
 
@@ -133,7 +169,9 @@ def test_range_of_moes_is_where_numerical_solutions_were_compared(base):
 def test_film_for_every_load_is_the_heavy_one_where_that_was_fitted(base, number):
     load, speed = np.meshgrid(np.geomspace(1e3, 3e5, 40), np.geomspace(1e-3, 10.0, 40))
     inside = film.masjedi_khonsari_in_range(base[number], load, speed)
-    ratio = film.masjedi_khonsari_moes(base[number], load, speed) / film.masjedi_khonsari(base[number], load, speed)
+    ratio = film.masjedi_khonsari_moes(base[number], load, speed) / film.masjedi_khonsari(
+        base[number], load, speed
+    )
     assert number == 2 or inside.sum() > 400
     assert np.abs(ratio[inside] - 1.0).max(initial=0.0) < 1e-3
 
@@ -165,6 +203,8 @@ def test_softer_steel_is_inside_the_range(base):
 
     lubricant = Lubricant.read("vg460-pao")
     notes = film_range_notes("masjedi-khonsari-moes", base)
-    assert notes == [f"{one.name}: the hardness group 0.03033 is outside 0.005 to 0.03" for one in base]
+    assert notes == [
+        f"{one.name}: the hardness group 0.03033 is outside 0.005 to 0.03" for one in base
+    ]
     softer = interfaces(Bearing.read("skf-240-600-bc").replace(hardness=6.5e9), lubricant)
     assert film_range_notes("masjedi-khonsari", softer) == film_range_notes("moes", base) == []

@@ -27,7 +27,9 @@ def jaeger(place, peclet):
     """Rise at x = place·b under the semi-elliptical band, in P'/k, by quadrature of the full integral."""
 
     def source(distance):
-        kernel = k0e(peclet * abs(distance)) * (1.0 if distance > 0 else math.exp(2 * peclet * distance))
+        kernel = k0e(peclet * abs(distance)) * (
+            1.0 if distance > 0 else math.exp(2 * peclet * distance)
+        )
         return math.sqrt(max(0.0, 1 - (place - distance) ** 2)) * kernel
 
     # Distances from the source as squares: K0 is singular where the source is.
@@ -39,7 +41,10 @@ def jaeger(place, peclet):
 
 def hottest(peclet):
     found = minimize_scalar(
-        lambda place: -jaeger(place, peclet), bounds=(0, 0.95), method="bounded", options={"xatol": 1e-7}
+        lambda place: -jaeger(place, peclet),
+        bounds=(0, 0.95),
+        method="bounded",
+        options={"xatol": 1e-7},
     )
     return found.x, -found.fun
 
@@ -57,7 +62,9 @@ def test_constant_is_the_limit_of_high_peclet_number():
     assert place == pytest.approx(0.652, abs=5e-4)
 
 
-@pytest.mark.parametrize(("peclet", "error"), [(0.5, 0.137), (1, 0.0625), (2, 0.0231), (5, 0.0041), (10, 0.0009)])
+@pytest.mark.parametrize(
+    ("peclet", "error"), [(0.5, 0.137), (1, 0.0625), (2, 0.0231), (5, 0.0041), (10, 0.0009)]
+)
 def test_measured_error_at_low_peclet_number(peclet, error):
     assert overstated(peclet) == pytest.approx(error, rel=0.02, abs=0.0)
 
@@ -83,7 +90,12 @@ def march(power, speed_1, speed_2):
     bands[1, :-1] += 0.5 * dx / gap / width[:-1]
     bands[1, 1:] += 0.5 * dx / gap / width[1:]
     rise, peak = np.zeros(cells), 0.0
-    flux = 2 * power / (math.pi * HALF_WIDTH) * np.sqrt(np.maximum(0.0, 1 - ((x[1:] + x[:-1]) / 2) ** 2))
+    flux = (
+        2
+        * power
+        / (math.pi * HALF_WIDTH)
+        * np.sqrt(np.maximum(0.0, 1 - ((x[1:] + x[:-1]) / 2) ** 2))
+    )
     for heat in flux:
         rise[0] += 0.5 * dx / width[0] * heat * math.sqrt(2 * HALF_WIDTH) / uptake
         rise = solve_banded((1, 1), bands, rise)
@@ -93,18 +105,27 @@ def march(power, speed_1, speed_2):
 
 def test_two_surfaces_share_the_heat():
     exact = march(80.0, 0.3, 0.9)
-    assert flash_temperature(80.0, HALF_WIDTH, 0.3, 0.9, STEEL, STEEL) == pytest.approx(exact, rel=2e-3, abs=0.0)
+    assert flash_temperature(80.0, HALF_WIDTH, 0.3, 0.9, STEEL, STEEL) == pytest.approx(
+        exact, rel=2e-3, abs=0.0
+    )
 
 
-@given(power=positive, width=positive, speeds=st.tuples(positive, positive), materials=st.tuples(positive, positive))
+@given(
+    power=positive,
+    width=positive,
+    speeds=st.tuples(positive, positive),
+    materials=st.tuples(positive, positive),
+)
 def test_symmetry_and_scaling(power, width, speeds, materials):
     rise = flash_temperature(power, width, *speeds, *materials)
-    assert flash_temperature(power, width, *speeds[::-1], *materials[::-1]) == pytest.approx(rise, rel=1e-14, abs=0.0)
+    assert flash_temperature(power, width, *speeds[::-1], *materials[::-1]) == pytest.approx(
+        rise, rel=1e-14, abs=0.0
+    )
     assert flash_temperature(power, width, -speeds[0], -speeds[1], *materials) == rise
     # Twice the width at the same intensity and Péclet number.
-    assert flash_temperature(2 * power, 2 * width, speeds[0] / 2, speeds[1] / 2, *materials) == pytest.approx(
-        2 * rise, rel=1e-14, abs=0.0
-    )
+    assert flash_temperature(
+        2 * power, 2 * width, speeds[0] / 2, speeds[1] / 2, *materials
+    ) == pytest.approx(2 * rise, rel=1e-14, abs=0.0)
     # A second surface takes heat away, never adds any.
     assert rise <= flash_temperature(power, width, speeds[0], 0.0, *materials)
 
@@ -128,8 +149,14 @@ def test_a_transient_against_quadrature_in_the_moving_frame():
             inside = 1.0 - ((place - speed * (end - then)) / half) ** 2
             return 100.0 * then / end * 2.0 / (np.pi * half) * np.sqrt(max(0.0, inside))
 
-        return 0.5 * quad(flux, start, end, weight="alg", wvar=(0.0, -0.5))[0] / (np.sqrt(np.pi) * steel)
+        return (
+            0.5
+            * quad(flux, start, end, weight="alg", wvar=(0.0, -0.5))[0]
+            / (np.sqrt(np.pi) * steel)
+        )
 
     best = max(rise(place) for place in np.linspace(-0.5, 0.99, 60) * half)
-    found = transient_flash(time, 100.0 * time / end, half * one, speed * one, speed * one, steel, steel)
+    found = transient_flash(
+        time, 100.0 * time / end, half * one, speed * one, speed * one, steel, steel
+    )
     assert found == pytest.approx(best, rel=0.01)

@@ -36,12 +36,16 @@ def johnson(rolling, lateral, modulus):
             lower, upper = mpmath.log(low / high) - 1, mpmath.log(1 - mpmath.mpf(10) ** -15)
             for _ in range(90):
                 middle = (lower + upper) / 2
-                lower, upper = (middle, upper) if curvature_ratio(mpmath.exp(middle)) > 0 else (lower, middle)
+                lower, upper = (
+                    (middle, upper) if curvature_ratio(mpmath.exp(middle)) > 0 else (lower, middle)
+                )
             ratio = mpmath.exp(lower)
             m = 1 - ratio**2
             first, second = mpmath.ellipk(m), mpmath.ellipe(m)
             # Curvature A = ρ/2 of the long direction: A = p0 b (K − E)/(E* e² a²) with p0 = 3/(2π a b), E* = E'/2.
-            long_axis = (6 * (first - second) / (mpmath.pi * modulus * m * low)) ** (mpmath.mpf(1) / 3)
+            long_axis = (6 * (first - second) / (mpmath.pi * modulus * m * low)) ** (
+                mpmath.mpf(1) / 3
+            )
         short_axis = ratio * long_axis
         pressure = 3 / (2 * mpmath.pi * long_axis * short_axis)
         approach = 3 * first / (mpmath.pi * modulus * long_axis)
@@ -55,7 +59,9 @@ def test_agrees_with_johnsons_elliptic_integrals(ratio, lateral_is_flat):
     rolling, lateral = (31.0, 31.0 * ratio) if lateral_is_flat else (31.0 * ratio, 31.0)
     # Near the circle the reference itself cancels: K − E and E/ratio² − K lose digits that its 40 digits cover.
     expected = johnson(rolling, lateral, MODULUS)
-    assert elliptical_contact(rolling, lateral, MODULUS) == pytest.approx(expected, rel=2e-13, abs=0.0)
+    assert elliptical_contact(rolling, lateral, MODULUS) == pytest.approx(
+        expected, rel=2e-13, abs=0.0
+    )
 
 
 # Harris, Rolling Bearing Analysis, dimensionless contact parameters: F(ρ), a*, b*, δ*.
@@ -70,11 +76,19 @@ HARRIS = [
 @pytest.mark.parametrize(("difference", "long_axis", "short_axis", "approach"), HARRIS)
 def test_agrees_with_the_printed_table(difference, long_axis, short_axis, approach):
     total, load = 80.0, 1000.0
-    contact = elliptical_contact(total * (1 + difference) / 2, total * (1 - difference) / 2, MODULUS)
+    contact = elliptical_contact(
+        total * (1 + difference) / 2, total * (1 - difference) / 2, MODULUS
+    )
     unit = (3.0 * load / (2.0 * total) * 2.0 / MODULUS) ** (1.0 / 3.0)
-    assert contact.semi_axis_across * load ** (1 / 3) / unit == pytest.approx(long_axis, rel=2e-4, abs=0.0)
-    assert contact.semi_axis_along * load ** (1 / 3) / unit == pytest.approx(short_axis, rel=2e-4, abs=0.0)
-    assert contact.approach * load ** (2 / 3) / (unit**2 * total / 2) == pytest.approx(approach, rel=2e-4, abs=0.0)
+    assert contact.semi_axis_across * load ** (1 / 3) / unit == pytest.approx(
+        long_axis, rel=2e-4, abs=0.0
+    )
+    assert contact.semi_axis_along * load ** (1 / 3) / unit == pytest.approx(
+        short_axis, rel=2e-4, abs=0.0
+    )
+    assert contact.approach * load ** (2 / 3) / (unit**2 * total / 2) == pytest.approx(
+        approach, rel=2e-4, abs=0.0
+    )
 
 
 @given(curvatures, curvatures, st.floats(0.01, 100.0), st.floats(0.01, 100.0))
@@ -94,8 +108,13 @@ def test_scale_laws(rolling, lateral, size, hardness):
 @given(curvatures, curvatures)
 @settings(deadline=None, max_examples=50)
 def test_swapped_directions_swap_the_semi_axes(rolling, lateral):
-    here, there = (elliptical_contact(*pair, MODULUS) for pair in ((rolling, lateral), (lateral, rolling)))
-    assert (here.semi_axis_across, here.semi_axis_along) == (there.semi_axis_along, there.semi_axis_across)
+    here, there = (
+        elliptical_contact(*pair, MODULUS) for pair in ((rolling, lateral), (lateral, rolling))
+    )
+    assert (here.semi_axis_across, here.semi_axis_along) == (
+        there.semi_axis_along,
+        there.semi_axis_across,
+    )
     assert here[2:] == there[2:]
     # The flatter direction has the longer semi-axis.
     assert (here.semi_axis_across >= here.semi_axis_along) == (lateral <= rolling)
@@ -105,14 +124,20 @@ def test_swapped_directions_swap_the_semi_axes(rolling, lateral):
 @pytest.mark.parametrize("direction", ["rolling", "lateral"])
 def test_conforming_surfaces_are_refused(bad, direction):
     pair = {"rolling_curvature": 31.0, "lateral_curvature": 31.0, f"{direction}_curvature": bad}
-    with pytest.raises(InputError, match=f"{direction} direction is .* Allowed: positive .* osculation"):
+    with pytest.raises(
+        InputError, match=f"{direction} direction is .* Allowed: positive .* osculation"
+    ):
         elliptical_contact(**pair, modulus=MODULUS)
 
 
 def test_effective_modulus_mixes_compliances():
-    assert effective_modulus(210e9, 0.3, 210e9, 0.3) == pytest.approx(210e9 / 0.91, rel=1e-15, abs=0.0)
+    assert effective_modulus(210e9, 0.3, 210e9, 0.3) == pytest.approx(
+        210e9 / 0.91, rel=1e-15, abs=0.0
+    )
     # Against a rigid body, E' is twice the plane-strain modulus.
-    assert effective_modulus(210e9, 0.3, 1e30, 0.0) == pytest.approx(2 * 210e9 / 0.91, rel=1e-15, abs=0.0)
+    assert effective_modulus(210e9, 0.3, 1e30, 0.0) == pytest.approx(
+        2 * 210e9 / 0.91, rel=1e-15, abs=0.0
+    )
     assert effective_modulus(110e9, 0.26, 210e9, 0.3) == effective_modulus(210e9, 0.3, 110e9, 0.26)
 
 
@@ -138,10 +163,14 @@ def test_base_bearing_stiffness_and_truncation():
     for contact, expected in zip((inner, outer, cage), by_hand, strict=True):
         assert contact.hertz == pytest.approx(expected, rel=1e-11, abs=0.0)
     stiffness = (by_hand[0][3] + by_hand[1][3]) ** -1.5
-    assert series_stiffness(inner.hertz, outer.hertz) == pytest.approx(stiffness, rel=1e-11, abs=0.0)
+    assert series_stiffness(inner.hertz, outer.hertz) == pytest.approx(
+        stiffness, rel=1e-11, abs=0.0
+    )
     assert stiffness == pytest.approx(9.26e10, rel=5e-4, abs=0.0)
     # The load at which the longer of the two ellipses is as long as the roller.
     limit = min((0.053 / semi_axis) ** 3 for semi_axis, *_ in by_hand[:2])
     assert truncation_load(bearing, lubricant) == pytest.approx(limit, rel=1e-10, abs=0.0)
-    assert inner.rolling_radius == pytest.approx(1 / geometry.inner_curvatures(bearing).rolling, rel=1e-15, abs=0.0)
+    assert inner.rolling_radius == pytest.approx(
+        1 / geometry.inner_curvatures(bearing).rolling, rel=1e-15, abs=0.0
+    )
     assert [contact.name for contact in (inner, outer, cage)] == ["inner", "outer", "cage"]

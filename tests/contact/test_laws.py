@@ -69,7 +69,10 @@ def list_of(interface, load, speed):
     ("function", "words"),
     [
         (lambda interface, load, speed: 1e-6 * (speed - 0.1), "film law 'mine', inner, load"),
-        (lambda interface, load, speed: 0.0 * speed, "it gives 0 m. Allowed: a finite number above zero."),
+        (
+            lambda interface, load, speed: 0.0 * speed,
+            "it gives 0 m. Allowed: a finite number above zero.",
+        ),
         (lambda interface, load, speed: np.where(load < 1e4, 1e-6, math.nan), "it gives nan m"),
         (lambda interface, load, speed: np.full(load.shape, math.inf), "it gives inf m"),
         (
@@ -77,12 +80,24 @@ def list_of(interface, load, speed):
             "169 states it gives 1e-06. Allowed: an array of 169 real numbers",
         ),
         (list_of, "real numbers, one for each state"),
-        (lambda interface, load, speed: (1e-6 * speed, speed, load), "real numbers, one for each state"),
-        (lambda interface, load, speed: load > 0.0, "it gives an array of shape (169,) of type bool."),
+        (
+            lambda interface, load, speed: (1e-6 * speed, speed, load),
+            "real numbers, one for each state",
+        ),
+        (
+            lambda interface, load, speed: load > 0.0,
+            "it gives an array of shape (169,) of type bool.",
+        ),
         (lambda interface, load, speed: 1e-6 * speed + 0.0j, "real numbers, one for each state"),
-        (lambda interface, load, speed: np.full(load.shape, "thick"), "real numbers, one for each state"),
+        (
+            lambda interface, load, speed: np.full(load.shape, "thick"),
+            "real numbers, one for each state",
+        ),
         (lambda interface, load, speed: None, "it gives None."),
-        (lambda interface, load, speed: interface.no_such_thing, "film law 'mine', inner: AttributeError in it ("),
+        (
+            lambda interface, load, speed: interface.no_such_thing,
+            "film law 'mine', inner: AttributeError in it (",
+        ),
         (exits, "SystemExit in it (3)"),
         (lambda interface, load: load, "TypeError in it ("),
     ],
@@ -95,9 +110,18 @@ def test_a_wrong_film_law_is_refused_with_the_state_at_which_it_is(function, wor
     ("function", "words"),
     [
         (lambda interface, load, h, slip: -slip, "N. Allowed: a finite number above zero."),
-        (lambda interface, load, h, slip: 0.1 * load, "a force in proportion to slip where that is small"),
-        (lambda interface, load, h, slip: load * np.sqrt(slip), "a force in proportion to slip where that is small"),
-        (lambda interface, load, h, slip: load * slip / (h - 1e-7), "traction law 'mine', inner, load"),
+        (
+            lambda interface, load, h, slip: 0.1 * load,
+            "a force in proportion to slip where that is small",
+        ),
+        (
+            lambda interface, load, h, slip: load * np.sqrt(slip),
+            "a force in proportion to slip where that is small",
+        ),
+        (
+            lambda interface, load, h, slip: load * slip / (h - 1e-7),
+            "traction law 'mine', inner, load",
+        ),
         (lambda interface, load, h, slip: slip.sum(), "one for each state"),
     ],
 )
@@ -133,13 +157,17 @@ def test_a_sound_law_is_not_refused(function):
     register_film("mine", function, reference="none")
     found = tried().inner.film_thickness(np.array([[1.0], [1e4]]), np.array([0.1, 0.4, 0.9]))
     assert found.shape == (2, 3) and found.dtype == float
-    assert found == pytest.approx(np.broadcast_to(function(None, np.ones(3), np.array([0.1, 0.4, 0.9])), (2, 3)))
+    assert found == pytest.approx(
+        np.broadcast_to(function(None, np.ones(3), np.array([0.1, 0.4, 0.9])), (2, 3))
+    )
 
 
 def test_a_law_of_ones_own_is_what_the_contact_uses():
     """The package's laws as functions of one's own give what they give, signs and small slip included."""
     register_film("mine", lambda *state: film.moes(*state), reference="Moes")
-    register_traction("mine", lambda interface, load, h, slip: 1e-4 * load * slip / h, reference="Couette")
+    register_traction(
+        "mine", lambda interface, load, h, slip: 1e-4 * load * slip / h, reference="Couette"
+    )
     laws = Laws.paper().but(film="mine", traction="mine", inlet_heating=True)
     check_own_laws(laws, BEARING, OIL, 0.5)
     inner = prepare(laws, BEARING, OIL, 1).inner
@@ -165,7 +193,9 @@ def test_in_range_of_a_law_of_ones_own_is_used_and_checked():
     inner = tried().inner
     assert inner.film_in_range(np.array([9.0, 11.0]), 0.4).tolist() == [True, False]
     assert film_range_notes("mine", [inner.interface]) == ["inner: always at the inner"]
-    register_film("mine", lambda interface, load, speed: 1e-6 * speed, reference="", in_range=lambda *_: True)
+    register_film(
+        "mine", lambda interface, load, speed: 1e-6 * speed, reference="", in_range=lambda *_: True
+    )
     with pytest.raises(
         InputError,
         match="in_range of film law 'mine', inner: for 169 states it gives True. Allowed: an array of 169 truth values",
@@ -178,7 +208,8 @@ def test_names_that_are_taken_or_unknown_are_refused():
         return 1e-6 * speed
 
     with pytest.raises(
-        InputError, match="the film law 'moes' cannot be registered: the name is taken. Allowed: a name"
+        InputError,
+        match="the film law 'moes' cannot be registered: the name is taken. Allowed: a name",
     ):
         register_film("moes", mine, reference="none")
     with pytest.raises(InputError, match="the traction law 'mechanisms' cannot be registered"):
@@ -188,9 +219,13 @@ def test_names_that_are_taken_or_unknown_are_refused():
     assert FILM_LAWS.named("mine").reference == "mended at a prompt"
     FILM_LAWS.remove("mine")
     assert FILM_LAWS.names() == ["masjedi-khonsari", "masjedi-khonsari-moes", "moes"]
-    with pytest.raises(InputError, match="^laws.film: 'dowson' does not exist. Allowed: .*masjedi-khonsari"):
+    with pytest.raises(
+        InputError, match="^laws.film: 'dowson' does not exist. Allowed: .*masjedi-khonsari"
+    ):
         prepare(Laws.paper().but(film="dowson"), BEARING, OIL, 1)
-    with pytest.raises(InputError, match="^laws.traction: 'coulomb' does not exist. Allowed: mechanisms"):
+    with pytest.raises(
+        InputError, match="^laws.traction: 'coulomb' does not exist. Allowed: mechanisms"
+    ):
         prepare(Laws.paper().but(traction="coulomb"), BEARING, OIL, 1)
 
 
@@ -206,7 +241,9 @@ def test_film_has_its_corrections_and_a_floor_of_speed(laws):
     found = prepare(laws.but(starvation=True, inlet_heating=True), BEARING, short, 1).outer
     plain = prepare(laws.but(starvation=False, inlet_heating=False), BEARING, short, 1).outer
     load, speed = np.geomspace(1.0, 1e5, 7), np.geomspace(1e-3, 2.0, 7)[:, None]
-    heated = plain.film_thickness(load, speed) / (1.0 + 0.1 * (0.54 * 0.056 / 0.125 * speed**2) ** 0.64)
+    heated = plain.film_thickness(load, speed) / (
+        1.0 + 0.1 * (0.54 * 0.056 / 0.125 * speed**2) ** 0.64
+    )
     film = found.film_thickness(load, speed)
     assert (film < gap).all()
     # The inlet begins to be full at the gap.
@@ -219,10 +256,17 @@ def test_contacts_of_the_papers_model():
     inner, outer, cage = prepare(Laws.paper(), BEARING, OIL, 1)
     assert (inner.name, outer.name, cage.name) == ("inner", "outer", "cage")
     for one in (inner, outer, cage):
-        assert not one.curved and one.rolling is None and one.boundary_friction == 0.0 and one.fluid is None
+        assert (
+            not one.curved
+            and one.rolling is None
+            and one.boundary_friction == 0.0
+            and one.fluid is None
+        )
         assert one.asperity_share(1e4, 0.4, 1e-6) == 0.0 and not one.shape.microslip
     assert any("10.1098/rsta.1961.0014" in one for one in references(Laws.paper()))
-    assert not any("10.1098/rsta.1961.0014" in one for one in references(Laws.paper().but(heating=False)))
+    assert not any(
+        "10.1098/rsta.1961.0014" in one for one in references(Laws.paper().but(heating=False))
+    )
 
 
 def test_contacts_with_all_mechanisms(contacts):
@@ -231,22 +275,30 @@ def test_contacts_with_all_mechanisms(contacts):
     assert up.inner.shape.spin_ratio == -down.inner.shape.spin_ratio != 0.0
     assert down.inner.curved and down.cage.curved and not down.cage.shape.microslip
     # A roller floats in its pocket on tens of micrometres: no asperity touches. The film of a raceway is thinner.
-    assert down.cage.asperity_share(1e4, 1e-3, 1e-7) == 0.0 < down.inner.asperity_share(1e4, 1e-3, 1e-7)
+    assert (
+        down.cage.asperity_share(1e4, 1e-3, 1e-7)
+        == 0.0
+        < down.inner.asperity_share(1e4, 1e-3, 1e-7)
+    )
     without = prepare(laws.but(rolling="none"), BEARING, OIL, 1)
     assert without.cage.asperity_share(1e4, 1e-3, 1e-7) > 0.0 and without.cage.rolling is None
     # The spar of a pocket ends where its gap is at most seven times the least; raceways are flooded.
     for one, inlet in ((down.cage, 7.0), (down.inner, math.inf)):
         full = film_at_gap(prepare_gap(contacts[one.name][1]), math.log(2e-5))
-        assert np.exp(np.subtract(film_at_gap(one.rolling.gap, math.log(2e-5)), full)) == pytest.approx(
-            starved_martin(inlet), rel=1e-12
-        )
-    conductance = down.inner.uniform_traction(1e4, 1e-6, np.array([LEAST_SLIP, -1e-8])) / [LEAST_SLIP, -1e-8]
+        assert np.exp(
+            np.subtract(film_at_gap(one.rolling.gap, math.log(2e-5)), full)
+        ) == pytest.approx(starved_martin(inlet), rel=1e-12)
+    conductance = down.inner.uniform_traction(1e4, 1e-6, np.array([LEAST_SLIP, -1e-8])) / [
+        LEAST_SLIP,
+        -1e-8,
+    ]
     assert conductance[0] == pytest.approx(conductance[1], rel=1e-3)
     assert len(references(laws)) == 7
 
 
 @pytest.mark.parametrize(
-    ("missing", "purpose"), [("eyring_stress", "Eyring's rheology"), ("boundary_friction", "asperity friction")]
+    ("missing", "purpose"),
+    [("eyring_stress", "Eyring's rheology"), ("boundary_friction", "asperity friction")],
 )
 def test_values_that_the_lubricant_lacks_are_named(missing, purpose):
     with pytest.raises(InputError, match=missing) as caught:

@@ -18,7 +18,9 @@ def test_named_sets_and_what_differs():
     assert Laws.named("physical") == Laws.physical()
     assert Laws.paper().name == "paper" and Laws.physical().name == "physical"
     assert Laws.physical().but(microslip=False).name == "physical, but microslip off"
-    assert Laws.paper().but(microslip=True, film="moes").name == "paper, but film moes, microslip on"
+    assert (
+        Laws.paper().but(microslip=True, film="moes").name == "paper, but film moes, microslip on"
+    )
 
 
 def test_every_mechanism_of_the_physical_model_changes_the_choice():
@@ -68,7 +70,9 @@ def test_what_a_user_is_reported(choice, message):
 
 
 def test_the_way_out_that_the_message_names_is_one():
-    own = Laws.physical().but(traction="coulomb", viscosity="barus", rheology="newtonian", microslip=False)
+    own = Laws.physical().but(
+        traction="coulomb", viscosity="barus", rheology="newtonian", microslip=False
+    )
     assert own.asperities == "masjedi-khonsari" and own.starvation
 
 

@@ -13,7 +13,13 @@ from hypothesis import strategies as st
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.bearing import geometry
 from macroslip.contact.laws import prepare
-from macroslip.contact.patch import fine_power, patch_of, patch_power, patch_tractions, rolling_lines
+from macroslip.contact.patch import (
+    fine_power,
+    patch_of,
+    patch_power,
+    patch_tractions,
+    rolling_lines,
+)
 from macroslip.contact.table import tractions
 from macroslip.contact.traction import chord_table
 
@@ -47,7 +53,11 @@ def summed(patch, chords, load, film, share, ring_speed, slip):
 def slip_along(patch, station, ring_speed, slip):
     """v(ζ) = Δu + κ h − s ζ."""
     curvature = ring_speed * patch.curvature_ratio - slip / patch.roller_radius
-    return slip + curvature * station**2 / (2.0 * patch.contour_radius) - ring_speed * patch.spin_ratio * station
+    return (
+        slip
+        + curvature * station**2 / (2.0 * patch.contour_radius)
+        - ring_speed * patch.spin_ratio * station
+    )
 
 
 def power(patch, found, ring_speed, slip):
@@ -81,7 +91,9 @@ def test_slip_is_that_of_rigid_bodies(sign, speed, ring, skid):
         ring_velocity = np.cross([0.0, 0.0, of_ring], PITCH * outward + arm)
         difference = float((ring_velocity - np.cross(spin * axis, arm)) @ along)
         direction = math.copysign(1.0, np.cross(axis, arm) @ along)
-        assert slip_along(patch, station, ring_speed, skid) == pytest.approx(difference * direction, abs=1e-14)
+        assert slip_along(patch, station, ring_speed, skid) == pytest.approx(
+            difference * direction, abs=1e-14
+        )
 
 
 @given(
@@ -155,15 +167,21 @@ def whole_area(laws, patch, load, film, ring_speed, slip):
     root = load ** (1.0 / 3.0)
     across, along, peak = patch.across * root, patch.along * root, patch.pressure * root
     end = min(across, patch.half_length)
-    bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
+    bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (
+        2.0 * patch.contour_radius
+    )
     roots = np.roots([bend, -ring_speed * patch.spin_ratio, slip])
-    inside = sorted(float(z.real) for z in roots if abs(z.imag) < 1e-12 and abs(z.real) < end * (1 - 1e-9))
+    inside = sorted(
+        float(z.real) for z in roots if abs(z.imag) < 1e-12 and abs(z.real) < end * (1 - 1e-9)
+    )
     z, w = graded([-end, *inside, end])
     height = np.sqrt(1.0 - (z / across) ** 2)
     t, wt = np.polynomial.legendre.leggauss(60)
     angle = 0.25 * np.pi * (t + 1.0)
     v = slip_along(patch, z, ring_speed, slip)
-    stress = local_stress(laws, peak * height[:, None] * np.cos(angle), film, np.abs(v)[:, None] + 0.0 * angle)
+    stress = local_stress(
+        laws, peak * height[:, None] * np.cos(angle), film, np.abs(v)[:, None] + 0.0 * angle
+    )
     # x = b √(1 − ζ²/a²) sin θ
     part = w * 2.0 * along * height * (stress @ (0.25 * np.pi * wt * np.cos(angle))) * np.sign(v)
     drop = z**2 / (2 * patch.contour_radius)
@@ -188,7 +206,9 @@ def test_whole_contact_against_integration_over_its_area(name, ring):
         assert found[1] == pytest.approx(lag, abs=promised * largest * reach), (load, slip)
         assert found[2] == pytest.approx(skew, abs=promised * largest * across), (load, slip)
         assert power(patch, found, -0.396, slip) == pytest.approx(spent, rel=promised), (load, slip)
-        assert patch_power(patch, chords, load, 6e-7, -0.396, slip) == power(patch, found, -0.396, slip)
+        assert patch_power(patch, chords, load, 6e-7, -0.396, slip) == power(
+            patch, found, -0.396, slip
+        )
 
 
 @pytest.mark.parametrize("name", ["physical", "limiting shear", "cool"])
@@ -198,7 +218,9 @@ def test_fine_rule_is_finer(name):
     patch = patch_of(law)
     for load, slip in ((300.0, -1e-3), (5e4, 4e-3), (5e4, 2e-2), (1.5e5, 3e-3)):
         spent = whole_area(CHOICES[name], patch, load, 6e-7, -0.396, slip)[3]
-        assert fine_power(patch, law.fluid, load, 6e-7, -0.396, slip) == pytest.approx(spent, rel=2e-5)
+        assert fine_power(patch, law.fluid, load, 6e-7, -0.396, slip) == pytest.approx(
+            spent, rel=2e-5
+        )
 
 
 def random_states(count=2000):
@@ -216,13 +238,17 @@ def test_bounds_and_signs(name):
     none = np.zeros_like(load)
     found = patch_tractions(patch, chords, load, film, none, ring_speed, slip)
     spent = power(patch, found.T, ring_speed, slip)
-    scale = np.abs(slip * found[:, 0]) + np.abs(ring_speed * (found[:, 1] + found[:, 2] * patch.spin_ratio))
+    scale = np.abs(slip * found[:, 0]) + np.abs(
+        ring_speed * (found[:, 1] + found[:, 2] * patch.spin_ratio)
+    )
     assert (spent >= -1e-12 * scale).all() and (found[:, 3] == 0.0).all()
     back = patch_tractions(patch, chords, load, film, none, -ring_speed, -slip)
     np.testing.assert_allclose(back, -found, rtol=1e-9, atol=1e-9 * float(np.abs(found).max()))
     if CHOICES[name].rheology == "limiting-shear":
         half = np.minimum(patch.across * np.cbrt(load), patch.half_length)
-        for values, arm in zip(found.T, (1.0, half**2 / (2 * patch.contour_radius * RADIUS), half), strict=False):
+        for values, arm in zip(
+            found.T, (1.0, half**2 / (2 * patch.contour_radius * RADIUS), half), strict=False
+        ):
             assert (np.abs(values) <= GAMMA * load * arm * (1 + 1e-4)).all()
 
 
@@ -239,12 +265,16 @@ def test_without_microslip_slip_is_uniform(name):
         if name == "barus" and load > 1e4:
             continue
         found = summed(patch, chords, load, 6e-7, 0.0, -0.4, slip)
-        exact, _, _, spent = whole_area(CHOICES[name], patch._replace(contour_radius=1e9), load, 6e-7, 0.0, slip)
+        exact, _, _, spent = whole_area(
+            CHOICES[name], patch._replace(contour_radius=1e9), load, 6e-7, 0.0, slip
+        )
         assert found[0] == pytest.approx(exact, rel=promised)
         assert float(law.uniform_traction(load, 6e-7, slip)) == pytest.approx(found[0], rel=1e-12)
         assert found[2] == pytest.approx(0.0, abs=1e-9 * abs(exact)) and found[1] == 0.0
         assert spent == pytest.approx(exact * slip, rel=1e-3)
-        assert summed(still, chords, load, 6e-7, 0.0, -0.4, slip)[0] == pytest.approx(found[0], rel=1e-12)
+        assert summed(still, chords, load, 6e-7, 0.0, -0.4, slip)[0] == pytest.approx(
+            found[0], rel=1e-12
+        )
 
 
 def test_contact_is_cut_off_at_the_ends_of_the_roller():
@@ -255,9 +285,13 @@ def test_contact_is_cut_off_at_the_ends_of_the_roller():
     x = patch.half_length / across
     kept = 0.5 * (3.0 * x - x**3)
     assert x < 1.0
-    assert summed(patch, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(GAMMA * load * kept, rel=2e-3)
+    assert summed(patch, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(
+        GAMMA * load * kept, rel=2e-3
+    )
     longer = patch._replace(half_length=1.0)
-    assert summed(longer, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(GAMMA * load, rel=2e-3)
+    assert summed(longer, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(
+        GAMMA * load, rel=2e-3
+    )
 
 
 # --- Asperities ------------------------------------------------------------------------------------------------------
@@ -270,7 +304,9 @@ def test_contact_is_cut_off_at_the_ends_of_the_roller():
     ring_speed=st.floats(-1.0, 1.0).map(lambda x: round(x, 9)),
 )
 @settings(max_examples=60)
-def test_friction_of_asperities_along_the_roller_against_dense_integration(load, share, slip, ring_speed):
+def test_friction_of_asperities_along_the_roller_against_dense_integration(
+    load, share, slip, ring_speed
+):
     """µ_b p min(|v|/v_full, 1) over the stations of the Hertz contact, beside the film's part of the load."""
     law = contact(FULL)
     patch, chords = patch_of(law), chord_table(law.fluid)
@@ -286,7 +322,9 @@ def test_friction_of_asperities_along_the_roller_against_dense_integration(load,
     film = 1e-9 * (1.0 - share) * 0.1 * load
     assert found[0] == pytest.approx(part.sum(), abs=1e-6 * largest + film)
     reach = across**2 / (2 * patch.contour_radius * RADIUS)
-    assert found[1] == pytest.approx((part * drop).sum() / RADIUS, abs=(1e-6 * largest + film) * reach)
+    assert found[1] == pytest.approx(
+        (part * drop).sum() / RADIUS, abs=(1e-6 * largest + film) * reach
+    )
     assert found[2] == pytest.approx((part * z).sum(), abs=(1e-6 * largest + film) * across)
     assert found[3] == pytest.approx((part * v).sum(), rel=1e-5, abs=1e-12 * largest)
 

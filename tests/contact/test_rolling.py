@@ -41,7 +41,11 @@ def line_film(load, material):
 
 @pytest.fixture(scope="module")
 def laws(contacts):
-    return {(name, where): prepare_rolling(name, *contacts[where]) for name in NAMES for where in contacts}
+    return {
+        (name, where): prepare_rolling(name, *contacts[where])
+        for name in NAMES
+        for where in contacts
+    }
 
 
 def resistance(numbers, load, speed=SPEED):
@@ -70,7 +74,11 @@ def starved(inlet):
     start = -brentq(lambda s: 1.0 + s * s - inlet * (1.0 + exit_of(-s) ** 2), 0.1, 1e3)
     end = exit_of(start)
     load = -24.0 * quad(lambda t: t * slope(t, end), start, end, epsabs=1e-13)[0] / martin.LOAD
-    rolling = 6.0 * math.sqrt(2.0) * quad(lambda t: (1.0 + t * t) * slope(t, end), start, end, epsabs=1e-13)[0]
+    rolling = (
+        6.0
+        * math.sqrt(2.0)
+        * quad(lambda t: (1.0 + t * t) * slope(t, end), start, end, epsabs=1e-13)[0]
+    )
     shear = quad(lambda t: 1.0 / (1.0 + t * t), start, end)[0] / martin.SHEAR
     return load, rolling / martin.ROLLING_AT_GAP, shear
 
@@ -82,7 +90,9 @@ def test_martins_constants_solve_reynolds_equation():
     end = brentq(lambda e: integral(lambda t: slope(t, e), e), 0.2, 0.9, xtol=1e-14)
     assert end == pytest.approx(martin.EXIT, abs=1e-10)
     # w h0/(η u R) = 24 ∫ p̂ dt with p̂' = slope, by parts; F_R √h0/(η u √R) = 6 √2 ∫ (1 + t²) slope dt.
-    assert -24.0 * integral(lambda t: t * slope(t, end), end) == pytest.approx(martin.LOAD, rel=1e-9)
+    assert -24.0 * integral(lambda t: t * slope(t, end), end) == pytest.approx(
+        martin.LOAD, rel=1e-9
+    )
     rolling = 6.0 * math.sqrt(2.0) * integral(lambda t: (1.0 + t * t) * slope(t, end), end)
     assert rolling == pytest.approx(martin.ROLLING_AT_GAP, rel=1e-9)
     assert integral(lambda t: 1.0 / (1.0 + t * t), end) == pytest.approx(martin.SHEAR, rel=1e-12)
@@ -102,7 +112,9 @@ def test_starvation_ends_in_the_flooded_contact():
     assert starvation_factor(math.inf) == 1.0
 
 
-@pytest.mark.parametrize(("inlet", "tolerance"), [(5.0, 0.08), (10.0, 0.06), (30.0, 0.01), (100.0, 0.025)])
+@pytest.mark.parametrize(
+    ("inlet", "tolerance"), [(5.0, 0.08), (10.0, 0.06), (30.0, 0.01), (100.0, 0.025)]
+)
 def test_biboulet_and_houperts_starvation_is_that_of_a_rigid_contact_under_load(inlet, tolerance):
     load, rolling, _ = starved(inlet)
     assert starvation_factor(inlet) == pytest.approx(rolling / math.sqrt(load), rel=tolerance)
@@ -110,7 +122,16 @@ def test_biboulet_and_houperts_starvation_is_that_of_a_rigid_contact_under_load(
 
 # --- The elastic line
 
-GRID = [(0.1, 13.4), (0.6, 4.0), (1.5, 7.0), (3.0, 2.0), (6.0, 10.0), (11.0, 4.0), (11.0, 13.4), (32.0, 13.4)]
+GRID = [
+    (0.1, 13.4),
+    (0.6, 4.0),
+    (1.5, 7.0),
+    (3.0, 2.0),
+    (6.0, 10.0),
+    (11.0, 4.0),
+    (11.0, 13.4),
+    (32.0, 13.4),
+]
 
 
 @pytest.fixture(scope="module")
@@ -131,7 +152,9 @@ def test_rigid_limit_is_martins(line_contact):
     solution = line_contact.solve_line(0.003, 0.0, 600)
     assert solution.rolling == pytest.approx(RIGID * math.sqrt(0.003), rel=2e-3)
     assert solution.film * 0.003 == pytest.approx(3.0, rel=2e-3)
-    assert solution.gap_integral == pytest.approx(martin.SHEAR * math.sqrt(2.0 * martin.FLOW / solution.film), rel=3e-3)
+    assert solution.gap_integral == pytest.approx(
+        martin.SHEAR * math.sqrt(2.0 * martin.FLOW / solution.film), rel=3e-3
+    )
     for name in NAMES:
         assert line_rolling(name, 1e-6, 13.4) == pytest.approx(RIGID * 1e-3, rel=1e-6)
 
@@ -151,7 +174,9 @@ def test_exit_resists_beside_the_inlet(solutions):
 
 def test_heating_lowers_the_force_and_vanishes_at_rest():
     assert inlet_heating_of_rolling(0.0) == 1.0
-    assert inlet_heating_of_rolling(10.0) < inlet_heating_of_rolling(1.0) == pytest.approx(1.0 / 1.29)
+    assert (
+        inlet_heating_of_rolling(10.0) < inlet_heating_of_rolling(1.0) == pytest.approx(1.0 / 1.29)
+    )
 
 
 # --- The rigid gap of finite length
@@ -185,11 +210,14 @@ def finite_elements(kappa, aspect, nodes=(120, 28)):
                 mass[a] = mass[a] + shape[a] * area
                 for b in range(4):
                     stiffness[a][b] = (
-                        stiffness[a][b] + cubed * (by_x[a] * by_x[b] + aspect**2 * by_z[a] * by_z[b]) * area
+                        stiffness[a][b]
+                        + cubed * (by_x[a] * by_x[b] + aspect**2 * by_z[a] * by_z[b]) * area
                     )
     rows = np.concatenate([corner[a].ravel() for a in range(4) for b in range(4)])
     columns = np.concatenate([corner[b].ravel() for a in range(4) for b in range(4)])
-    values = np.concatenate([np.broadcast_to(stiffness[a][b], i.shape).ravel() for a in range(4) for b in range(4)])
+    values = np.concatenate(
+        [np.broadcast_to(stiffness[a][b], i.shape).ravel() for a in range(4) for b in range(4)]
+    )
     matrix = coo_matrix((values, (rows, columns)), shape=(count, count)).tocsr()
     right, area = np.zeros(count), np.zeros(count)
     for a in range(4):
@@ -229,7 +257,10 @@ def test_table_is_confirmed_by_finite_elements(kappa, aspect):
 
 @pytest.mark.parametrize(("kappa", "aspect"), [(0.5, 0.033), (17.0, 0.21)])
 def test_between_its_places_the_table_is_the_solution(gap_solution, kappa, aspect):
-    coarse, fine = (np.array(gap_solution.solve_gap(kappa, aspect, cells)[:3]) for cells in ((90, 22), (180, 44)))
+    coarse, fine = (
+        np.array(gap_solution.solve_gap(kappa, aspect, cells)[:3])
+        for cells in ((90, 22), (180, 44))
+    )
     load, rolling = slices(kappa)
     limits = load, rolling, 2.0 * martin.SHEAR * math.asinh(math.sqrt(kappa)) / math.sqrt(kappa)
     assert ratios(kappa, aspect) == pytest.approx((fine + (fine - coarse) / 3.0) / limits, rel=5e-3)
@@ -243,9 +274,13 @@ def test_power_lost_is_power_dissipated(gap_solution):
 def test_without_side_flow_slices_are_martins():
     # A line: R_y infinite in effect, the film thin against the length.
     radius, length, gap = 0.03, 10.0, 1e-6
-    load, rolling, shear = np.exp(film_at_gap(prepare_gap(GapShape(radius, 1e12, length)), math.log(gap)))
+    load, rolling, shear = np.exp(
+        film_at_gap(prepare_gap(GapShape(radius, 1e12, length)), math.log(gap))
+    )
     assert load == pytest.approx(martin.LOAD * radius * length / gap, rel=2e-3)
-    assert rolling == pytest.approx(martin.ROLLING_AT_GAP * length * math.sqrt(radius / gap), rel=5e-3)
+    assert rolling == pytest.approx(
+        martin.ROLLING_AT_GAP * length * math.sqrt(radius / gap), rel=5e-3
+    )
     assert shear == pytest.approx(martin.SHEAR * length * math.sqrt(2.0 * radius / gap), rel=2e-3)
 
 
@@ -254,7 +289,9 @@ def test_both_splines_are_one_film(contacts, name):
     gap = prepare_gap(contacts[name][1])
     place = np.log(np.geomspace(1e-6, 1e-3, 13))
     load, rolling, shear = film_at_gap(gap, place)
-    assert np.array(film_at_load(gap, load)) == pytest.approx(np.array([place, rolling, shear]), abs=2e-4)
+    assert np.array(film_at_load(gap, load)) == pytest.approx(
+        np.array([place, rolling, shear]), abs=2e-4
+    )
 
 
 def test_beyond_its_knots_the_gap_follows_powers(contacts):
@@ -265,13 +302,17 @@ def test_beyond_its_knots_the_gap_follows_powers(contacts):
 
 
 @WHERE
-def test_a_gap_lacks_oil_where_its_film_is_thick_and_a_surface_that_ends_lets_no_more_in(contacts, where):
+def test_a_gap_lacks_oil_where_its_film_is_thick_and_a_surface_that_ends_lets_no_more_in(
+    contacts, where
+):
     shape, filled = contacts[where][1], 2e-4
     full, short, spar = (prepare_gap(shape, *one) for one in ((), (filled,), (math.inf, 7.0)))
     for inlet in (2.0, 10.0, 100.0):
         place = math.log(filled / (inlet * martin.FLOW))
         flooded = np.array(film_at_gap(full, place))
-        assert np.exp(film_at_gap(short, place) - flooded) == pytest.approx(starved(inlet), rel=2e-3)
+        assert np.exp(film_at_gap(short, place) - flooded) == pytest.approx(
+            starved(inlet), rel=2e-3
+        )
         assert np.exp(film_at_gap(spar, place) - flooded) == pytest.approx(starved(7.0), rel=2e-3)
 
 
@@ -302,9 +343,16 @@ def test_heavy_contact_is_its_slices_and_the_film_beside_them(contacts, name, lo
     doubled = 2.0 * oil.viscosity * SPEED / (modulus * radius)
     middle = 0.75 * load / across / (modulus * radius) / math.sqrt(doubled)
     material = oil.pressure_viscosity * modulus * doubled**0.25
-    whole = 2.0 * quad(lambda z: line_rolling(name, middle * (1.0 - z * z), material), 0.0, 1.0, limit=200)[0]
+    whole = (
+        2.0
+        * quad(lambda z: line_rolling(name, middle * (1.0 - z * z), material), 0.0, 1.0, limit=200)[
+            0
+        ]
+    )
     inside = across * modulus * radius * doubled**0.75 * whole
-    assert resistance(numbers, load) == pytest.approx(inside + beside_ellipse(numbers, load), rel=0.03)
+    assert resistance(numbers, load) == pytest.approx(
+        inside + beside_ellipse(numbers, load), rel=0.03
+    )
 
 
 def test_beside_the_ellipse_every_slice_is_martins(laws, contacts):
@@ -315,7 +363,12 @@ def test_beside_the_ellipse_every_slice_is_martins(laws, contacts):
 
     def per_length(z):
         gap = lowest + (z * z - across * across) / (2.0 * shape.lateral_radius)
-        return martin.ROLLING_AT_GAP * numbers.viscosity * SPEED * math.sqrt(shape.rolling_radius / gap)
+        return (
+            martin.ROLLING_AT_GAP
+            * numbers.viscosity
+            * SPEED
+            * math.sqrt(shape.rolling_radius / gap)
+        )
 
     expected = 2.0 * quad(per_length, across, 0.5 * shape.length)[0]
     assert beside_ellipse(numbers, load) == pytest.approx(expected, rel=1e-8)
@@ -328,7 +381,9 @@ def test_beside_the_ellipse_every_slice_is_martins(laws, contacts):
 def test_force_rises_with_load_and_speed_and_film_falls_without_a_step(laws, name, where):
     loads = np.geomspace(0.01, 1e5, 1500)
     conductance, force, film = light_contact(laws[name, where], loads, SPEED)
-    assert (np.diff(force) > 0.0).all() and (np.diff(film) < 0.0).all() and (conductance > 0.0).all()
+    assert (
+        (np.diff(force) > 0.0).all() and (np.diff(film) < 0.0).all() and (conductance > 0.0).all()
+    )
     step = np.log(loads[1] / loads[0])
     assert np.diff(np.log(force)).max() < 0.75 * step and np.diff(np.log(film)).min() > -2.2 * step
     assert (np.diff(resistance(laws[name, where], 1e3, np.geomspace(0.01, 3.0, 300))) > 0.0).all()
@@ -358,7 +413,9 @@ def test_factors_of_the_inlet(contacts):
 
     full = law(heating=False)
     # Full from ten times the film on, which is thinner by what it lacks.
-    short = law(heating=False, oil_gap=10.0 * film_factor(10.0) * light_contact(full, 5e4, SPEED)[2])
+    short = law(
+        heating=False, oil_gap=10.0 * film_factor(10.0) * light_contact(full, 5e4, SPEED)[2]
+    )
     beside = beside_ellipse(full, 5e4)
     flooded = resistance(full, 5e4) - beside
     less = resistance(short, 5e4) - starved(10.0)[1] * beside
@@ -373,7 +430,10 @@ def free_ratio(numbers, gap, speed=SPEED):
     """No load, no cage: the roller's surface speed at which nothing turns it, over pure rolling."""
     _, conductance, per_speed = contact_at_gap(numbers, gap)
     # −F_R + conductance Δu = 0 with Δu = u2 − u1 and the mean of both.
-    return brentq(lambda u1: -per_speed * 0.5 * (u1 + speed) + conductance * (speed - u1), 1e-6, speed) / speed
+    return (
+        brentq(lambda u1: -per_speed * 0.5 * (u1 + speed) + conductance * (speed - u1), 1e-6, speed)
+        / speed
+    )
 
 
 @pytest.mark.parametrize("where", ["inner", "outer"])
@@ -387,7 +447,9 @@ def test_free_roller_turns_at_an_eighth_to_a_fifth(laws, where, gap):
 
 def test_a_short_inlet_lets_the_free_roller_turn_faster(contacts):
     gaps = [inlet * martin.FLOW * 2e-5 for inlet in (math.inf, 30, 10, 2)]
-    found = [free_ratio(prepare_rolling("inlet", *contacts["inner"], oil_gap=one), 2e-5) for one in gaps]
+    found = [
+        free_ratio(prepare_rolling("inlet", *contacts["inner"], oil_gap=one), 2e-5) for one in gaps
+    ]
     assert found == pytest.approx((0.140, 0.26, 0.375, 0.81), abs=0.02)
 
 
@@ -400,7 +462,9 @@ def test_a_roller_in_its_pocket_floats_without_load_and_is_the_rigid_contact_und
     assert (np.diff(conductance) > 0.0).all() and conductance[0] > floating[0]
     log_group = math.log(1e3 / (numbers.viscosity * 0.2))
     free = np.exp(film_at_load(numbers.gap, log_group)[0])
-    assert (conductance[-1], per_speed[-1]) == pytest.approx(contact_at_gap(numbers, free)[1:], rel=1e-3)
+    assert (conductance[-1], per_speed[-1]) == pytest.approx(
+        contact_at_gap(numbers, free)[1:], rel=1e-3
+    )
 
 
 def test_none_is_nothing_and_unknown_names_are_refused(contacts):

@@ -26,7 +26,9 @@ def contact(ring, sign=1, shear=None, laws=LAWS):
 
 
 @sides
-@pytest.mark.parametrize("laws", [LAWS, LAWS.but(rheology="limiting-shear"), LAWS.but(asperities="film-ratio")])
+@pytest.mark.parametrize(
+    "laws", [LAWS, LAWS.but(rheology="limiting-shear"), LAWS.but(asperities="film-ratio")]
+)
 @pytest.mark.parametrize("slip", [-2e-3, 1e-3])
 def test_a_straight_roller_has_the_tractions_without_skew(ring, laws, slip):
     one = contact(ring, laws=laws)
@@ -50,10 +52,17 @@ def test_forces_and_moments_are_those_of_an_integral_of_their_own(ring):
     k, r = one.side, one.roller_radius
     ring_rate, spin = k * SPEED / one.raceway_radius, (SPEED - slip) / r
     axis = np.array(
-        [math.sin(BEARING.contact_angle) * 0.0, math.sin(BEARING.contact_angle), math.cos(BEARING.contact_angle)]
+        [
+            math.sin(BEARING.contact_angle) * 0.0,
+            math.sin(BEARING.contact_angle),
+            math.cos(BEARING.contact_angle),
+        ]
     )
     contour = 0.5 * (1.0 / one.roller_contour + one.along)
-    centre = np.array([0.0, math.cos(BEARING.contact_angle), -math.sin(BEARING.contact_angle)]) * BEARING.pitch_radius
+    centre = (
+        np.array([0.0, math.cos(BEARING.contact_angle), -math.sin(BEARING.contact_angle)])
+        * BEARING.pitch_radius
+    )
     turn = skew * (1.0 + one.turn)
 
     def place(zeta, x):
@@ -127,7 +136,9 @@ def test_moment_of_the_pressure_is_the_slope_of_the_hertz_energy(ring):
     step = 0.02
     change = (stiffness(step) - stiffness(0.0)) / (0.5 * step**2)
     delta = (load / stiffness(0.0)) ** (2.0 / 3.0)
-    assert found.pressure_moment == pytest.approx(-0.4 * delta**2.5 * change * 1e-3, rel=0.05, abs=1e-6)
+    assert found.pressure_moment == pytest.approx(
+        -0.4 * delta**2.5 * change * 1e-3, rel=0.05, abs=1e-6
+    )
 
 
 @sides

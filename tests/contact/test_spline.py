@@ -81,7 +81,9 @@ def test_cubics_are_exact_in_every_direction():
     assert coefficients.shape == (8, 7, 9) and coefficients.flags.c_contiguous
     flat, random = coefficients.ravel(), np.random.default_rng(1)
     for place in random.uniform(0.0, 1.0, (50, 3)) * [5.0, 4.0, 6.0]:
-        (i, t), (k, s), (j, u) = (split(one, count) for one, count in zip(place, (8, 7, 9), strict=True))
+        (i, t), (k, s), (j, u) = (
+            split(one, count) for one, count in zip(place, (8, 7, 9), strict=True)
+        )
         found = one_in_cube(flat, (i * 7 + k) * 9 + j, (63, 9), (t, s, u))
         assert found == pytest.approx(cubic(*place), rel=1e-11, abs=1e-10)
 
@@ -89,7 +91,9 @@ def test_cubics_are_exact_in_every_direction():
 @given(x=places[0], y=places[1], z=places[2])
 def test_splines_in_a_cube_and_their_derivatives(x, y, z):
     spline = NdBSpline(KNOTS, COEFFICIENTS, 3)
-    (i, t), (k, s), (j, u) = (split(place, count) for place, count in zip((x, y, z), SHAPE, strict=True))
+    (i, t), (k, s), (j, u) = (
+        split(place, count) for place, count in zip((x, y, z), SHAPE, strict=True)
+    )
     start = (i * SHAPE[1] + k) * SHAPE[2] + j
     value = one_in_cube(COEFFICIENTS.ravel(), start, (SHAPE[1] * SHAPE[2], SHAPE[2]), (t, s, u))
     assert value == pytest.approx(float(spline((x, y, z))), abs=1e-12)
@@ -137,7 +141,11 @@ def test_a_plane_is_its_function(plane, load, speed):
 
 def test_beyond_its_lightest_and_slowest_state_a_plane_stays_as_it_is(plane):
     light, by_load, by_speed = plane_at(*plane, 1e-5, 0.1)
-    assert light[0] == pytest.approx(2.0 * math.log(0.1), abs=1e-9) and by_load[0] == 0.0 and by_speed[0] > 1.9
+    assert (
+        light[0] == pytest.approx(2.0 * math.log(0.1), abs=1e-9)
+        and by_load[0] == 0.0
+        and by_speed[0] > 1.9
+    )
     slow, by_load, by_speed = plane_at(*plane, 10.0, 0.0)
     assert slow[0] == pytest.approx(math.log(10.0) + 2.0 * math.log(1e-3), abs=1e-9)
     assert by_speed[0] == 0.0 and by_load[0] > 0.9

@@ -11,7 +11,12 @@ from macroslip import Bearing, BearingLoads, Case, Laws, Lubricant
 from macroslip.case.case_file import build_case
 from macroslip.contact.gap import starved_martin
 from macroslip.contact.laws import prepare
-from macroslip.contact.rolling import light_contact, pocket_contact, replenishment, starvation_factor
+from macroslip.contact.rolling import (
+    light_contact,
+    pocket_contact,
+    replenishment,
+    starvation_factor,
+)
 from macroslip.contact.starvation import (
     film_factor,
     inlet_at_gap,
@@ -33,7 +38,9 @@ def test_film_reaches_the_reduced_pressure_with_the_inlet_that_it_has(inlet):
         return quad(lambda t: t**1.5 / (film + t**1.5) ** 3, 0.0, first, limit=200)[0]
 
     film = float(film_factor(inlet))
-    full = pressure(1.0, 1.0) + quad(lambda s: s**-3.5 / (1.0 + s**-1.5) ** 3, 0.0, 1.0)[0]  # t = 1/s beyond 1
+    full = (
+        pressure(1.0, 1.0) + quad(lambda s: s**-3.5 / (1.0 + s**-1.5) ** 3, 0.0, 1.0)[0]
+    )  # t = 1/s beyond 1
     assert pressure(film, ((inlet - 1.0) * film) ** (2.0 / 3.0)) == pytest.approx(full, rel=1e-7)
 
 
@@ -41,7 +48,9 @@ def test_inverses():
     for inlet in (1.5, 3.0, 30.0, 175.0):
         assert inlet_for_film(float(film_factor(inlet))) == pytest.approx(inlet, rel=1e-6)
         assert inlet_for_rolling(starvation_factor(inlet)) == pytest.approx(inlet, rel=1e-9)
-        assert inlet_at_gap(inlet * film_factor(inlet) * 1e-6, 1e-6) == pytest.approx(inlet, rel=1e-6)
+        assert inlet_at_gap(inlet * film_factor(inlet) * 1e-6, 1e-6) == pytest.approx(
+            inlet, rel=1e-6
+        )
         assert rigid_rolling_factor(inlet) == pytest.approx(starved_martin(inlet)[1], rel=1e-5)
     assert inlet_for_film(1.0) == math.inf
 
@@ -57,12 +66,18 @@ def contacts(supply, **other):
 
 def test_flooded_is_a_lubricant_without_a_limit_and_nearly_one_with_a_wide_gap():
     oil, bearing = Lubricant.read("vg460-pao"), Bearing.read("skf-240-600-bc")
-    known, wide = (prepare(Laws.physical(), bearing, one, 1).inner for one in (oil, oil.supplied(0.999)))
+    known, wide = (
+        prepare(Laws.physical(), bearing, one, 1).inner for one in (oil, oil.supplied(0.999))
+    )
     found = contacts("flooded")
     for one, tolerance in ((known, 0.0), (wide, 0.02)):
-        assert found.inner.film_thickness(LOAD, SPEED) == pytest.approx(one.film_thickness(LOAD, SPEED), rel=tolerance)
+        assert found.inner.film_thickness(LOAD, SPEED) == pytest.approx(
+            one.film_thickness(LOAD, SPEED), rel=tolerance
+        )
         expected = np.array(light_contact(one.rolling, LOAD, SPEED))
-        assert np.array(light_contact(found.inner.rolling, LOAD, SPEED)) == pytest.approx(expected, rel=tolerance)
+        assert np.array(light_contact(found.inner.rolling, LOAD, SPEED)) == pytest.approx(
+            expected, rel=tolerance
+        )
     assert math.isinf(found.inner.oil_gap) and math.isinf(contacts(1.0).inner.oil_gap)
 
 
@@ -73,9 +88,9 @@ def test_number_is_film_over_flooded_film_under_the_mean_load(supply):
     inlet = inlet_for_film(supply)
     flooded = gap / (inlet * supply)
     # The film law at a load between that of one roller and ten times it: somewhere there is the mean load.
-    assert contacts(supply).inner.film_thickness(2.3e4, SPEED) / full.film_thickness(2.3e4, SPEED) == pytest.approx(
-        supply, abs=0.02
-    )
+    assert contacts(supply).inner.film_thickness(2.3e4, SPEED) / full.film_thickness(
+        2.3e4, SPEED
+    ) == pytest.approx(supply, abs=0.02)
     assert 0.5e-6 < flooded < 3e-6
 
 
@@ -105,16 +120,25 @@ def test_skf_gives_the_rolling_resistance_its_replenishment_factor():
     one = case("skf")
     oil, full = one.oil, contacts("flooded").inner
     filled = float(
-        replenishment(oil.viscosity / oil.density, 2.14, one.bearing.bore_diameter, one.bearing.outside_diameter)
+        replenishment(
+            oil.viscosity / oil.density,
+            2.14,
+            one.bearing.bore_diameter,
+            one.bearing.outside_diameter,
+        )
     )
-    ratio = light_contact(contacts("skf").inner.rolling, 2.3e4, SPEED)[1] / light_contact(full.rolling, 2.3e4, SPEED)[1]
+    ratio = (
+        light_contact(contacts("skf").inner.rolling, 2.3e4, SPEED)[1]
+        / light_contact(full.rolling, 2.3e4, SPEED)[1]
+    )
     assert ratio == pytest.approx(filled, abs=0.03)
 
 
 def test_skf_needs_the_size_of_the_bearing():
     bearing = Bearing.read("skf-240-600-bc").replace(name="mine", bore_diameter=None)
     with pytest.raises(
-        InputError, match=r"oil_supply: .*mine has no bore_diameter.*give the film over the flooded film as a number"
+        InputError,
+        match=r"oil_supply: .*mine has no bore_diameter.*give the film over the flooded film as a number",
     ):
         case("skf", bearing=bearing)
     assert case(0.7, bearing=bearing).oil.oil_gap > 0.0
@@ -123,7 +147,9 @@ def test_skf_needs_the_size_of_the_bearing():
 @pytest.mark.parametrize("value", ["full", 0.2, 1.1, True, [0.7]])
 def test_other_supplies_are_refused(value):
     data = {"loads": {"bundled": "14B"}, "oil_supply": value}
-    with pytest.raises(InputError, match="oil_supply: it is .*Allowed: flooded, skf, or film / flooded film"):
+    with pytest.raises(
+        InputError, match="oil_supply: it is .*Allowed: flooded, skf, or film / flooded film"
+    ):
         build_case(data, Source(), __import__("pathlib").Path())
 
 
@@ -132,7 +158,10 @@ def test_yield_stress_of_a_grease_holds_rollers_back():
     stiff = plain.replace(grease_yield_stress=300.0)
     here, there = (contacts("flooded", lubricant=one) for one in (plain, stiff))
     speed = 0.05
-    added = [pocket_contact(law.cage.rolling, 1.0, speed, 2.5e-4)[0] * 2.0 * speed for law in (here, there)]
+    added = [
+        pocket_contact(law.cage.rolling, 1.0, speed, 2.5e-4)[0] * 2.0 * speed
+        for law in (here, there)
+    ]
     # A flooded pocket holds the roller on a roller's radius to either side: 2 r l τ_y.
     assert added[1] - added[0] == pytest.approx(0.07 * 0.106 * 300.0, rel=1e-6)
     resistance = [float(light_contact(law.inner.rolling, 5.0, 0.2)[1]) for law in (here, there)]

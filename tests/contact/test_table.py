@@ -11,7 +11,16 @@ import pytest
 from macroslip import Laws
 from macroslip.compiled import jit
 from macroslip.contact.laws import POCKET_GAP, prepare
-from macroslip.contact.look_up import PLANE, TRACTION, Traction, in_plane, log_load, log_speed, rising_slip, traction
+from macroslip.contact.look_up import (
+    PLANE,
+    TRACTION,
+    Traction,
+    in_plane,
+    log_load,
+    log_speed,
+    rising_slip,
+    traction,
+)
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.table import (
     Box,
@@ -34,7 +43,9 @@ CHOICES = {
     "without microslip": FULL.but(microslip=False),
 }
 #: A shaft that turns at rated speed, and one that also stands still.
-RUNNING, TURNING = (table_box(np.array(speeds), 1.2e5, 2e-4) for speeds in ([-0.42, -0.37], [-0.4, 0.4]))
+RUNNING, TURNING = (
+    table_box(np.array(speeds), 1.2e5, 2e-4) for speeds in ([-0.42, -0.37], [-0.4, 0.4])
+)
 
 
 class Table:
@@ -47,7 +58,9 @@ class Table:
         self.record, self.flat = record[0], tables.flat()
 
     def __call__(self, load, ring_speed, slip) -> Traction:
-        load, ring_speed, slip = (np.ascontiguousarray(one) for one in np.broadcast_arrays(load, ring_speed, slip))
+        load, ring_speed, slip = (
+            np.ascontiguousarray(one) for one in np.broadcast_arrays(load, ring_speed, slip)
+        )
         found = np.zeros((load.size, len(Traction._fields)))
         look_up(self.record, self.flat, load.ravel(), ring_speed.ravel(), slip.ravel(), found)
         return Traction(*(column.reshape(load.shape) for column in found.T))
@@ -132,7 +145,8 @@ def test_rollers_that_spin_while_a_ring_comes_to_rest(turning, ratios):
 
 
 @pytest.mark.parametrize(
-    ("speeds", "median", "most"), [((0.03, 0.1), 2e-4, 2e-2), ((3e-3, 0.03), 2e-4, 2e-2), ((1e-5, 3e-3), 5e-3, 0.1)]
+    ("speeds", "median", "most"),
+    [((0.03, 0.1), 2e-4, 2e-2), ((3e-3, 0.03), 2e-4, 2e-2), ((1e-5, 3e-3), 5e-3, 0.1)],
 )
 def test_slow_rollers(turning, speeds, median, most):
     """A shaft that starts or stops. Speeds even in a root lower than the fourth would leave such states between two nodes."""
@@ -143,7 +157,9 @@ def test_slow_rollers(turning, speeds, median, most):
 def test_lag_skew_and_power_of_asperities(running):
     reached = states((5.0, 1.2e5), (0.37, 0.44), (-0.006, 0.006))
     found, expected = running(*reached), tractions(running.law, *reached)
-    for value, exact in zip((found.lag, found.skew, found.asperity_power), expected[1:], strict=True):
+    for value, exact in zip(
+        (found.lag, found.skew, found.asperity_power), expected[1:], strict=True
+    ):
         assert np.abs(value - exact).max() <= 1e-3 * np.abs(exact).max() + 1e-12
 
 
@@ -155,14 +171,19 @@ def test_derivatives_are_those_of_the_values(running):
     steps = {"load": (1e-5 * load, 0, 0), "speed": (0, 1e-5 * ring, 0), "slip": (0, 0, 1e-5 * size)}
     for name, step in steps.items():
         more, less = (
-            running(*(one + sign * part for one, part in zip((load, ring, slip), step, strict=True)))
+            running(
+                *(one + sign * part for one, part in zip((load, ring, slip), step, strict=True))
+            )
             for sign in (1.0, -1.0)
         )
         width = 2.0 * sum(step)
         for force in ("pull", "lag"):
             slope = (getattr(more, force) - getattr(less, force)) / width
             unit = scale * (1.0 if force == "pull" else np.cbrt(load) ** 2 * 1e-5) / (0.5e5 * width)
-            assert np.all(np.abs(getattr(here, f"{force}_by_{name}") - slope) <= 2e-4 * np.abs(slope) + 2e-4 * unit), (
+            assert np.all(
+                np.abs(getattr(here, f"{force}_by_{name}") - slope)
+                <= 2e-4 * np.abs(slope) + 2e-4 * unit
+            ), (
                 name,
                 force,
             )
@@ -237,7 +258,9 @@ def test_the_moment_rises_up_to_rising_slip(ring):
         top = table.rising(load, 0.4)
         assert 0.0 < top <= 0.8
         slip = np.linspace(-top, top, 400)
-        pull, lag, *_ = tractions(table.law, np.full_like(slip, load), np.full_like(slip, 0.4), slip)
+        pull, lag, *_ = tractions(
+            table.law, np.full_like(slip, load), np.full_like(slip, 0.4), slip
+        )
         moment = pull - lag
         # Bounds stand at nodes, and at a constant speed w, which grows with slip.
         assert (np.maximum.accumulate(moment) - moment).max() <= 1e-2 * np.abs(moment).max()
@@ -247,7 +270,9 @@ def test_the_moment_rises_up_to_rising_slip(ring):
 
 @pytest.mark.parametrize("name", ["film", "oil", "cage"])
 def test_planes_are_their_laws(name):
-    laws = prepare(FULL if name != "film" else Laws.paper().but(asperities="film-ratio"), BEARING, OIL, 1)
+    laws = prepare(
+        FULL if name != "film" else Laws.paper().but(asperities="film-ratio"), BEARING, OIL, 1
+    )
     law = laws.cage if name == "cage" else laws.outer
     values = {
         "film": partial(film_values, law),
@@ -272,4 +297,6 @@ def test_planes_are_their_laws(name):
             values(load, speed)[2:], pocket_contact(law.rolling, load, 0.5 * speed, POCKET_GAP)
         )
         film = law.film_thickness(load, 0.5 * speed)
-        np.testing.assert_allclose(values(load, speed)[0] * speed, law.uniform_traction(load, film, speed), rtol=2e-3)
+        np.testing.assert_allclose(
+            values(load, speed)[0] * speed, law.uniform_traction(load, film, speed), rtol=2e-3
+        )

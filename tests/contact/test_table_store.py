@@ -47,7 +47,9 @@ def test_a_table_is_found_on_the_disk(place, monkeypatch):
         assert one.dtype == other.dtype and not one.flags.writeable and not other.flags.writeable
 
 
-@pytest.mark.parametrize("damage", [lambda c: c[:-1], lambda c: c[:500] + b"x" + c[501:], lambda c: b""])
+@pytest.mark.parametrize(
+    "damage", [lambda c: c[:-1], lambda c: c[:500] + b"x" + c[501:], lambda c: b""]
+)
 def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
     make = Maker()
     store.stored("ab12", make)
@@ -81,7 +83,9 @@ def test_processes_that_write_one_table_find_it_whole(place):
         "made = store.stored('ab12', lambda: (time.sleep(0.2), [np.arange(1e5)])[1])\n"
         "print(int(made[0].sum()))"
     )
-    started = [subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) for _ in range(4)]
+    started = [
+        subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) for _ in range(4)
+    ]
     assert {process.communicate(timeout=60)[0] for process in started} == {b"4999950000\n"}
     assert [path.name for path in place.iterdir() if path.suffix != ".lock"] == ["ab12.table"]
     assert store._read(place / "ab12.table")[0].size == 10**5
@@ -101,7 +105,9 @@ def test_without_a_home_folder_nothing_is_written(tmp_path, monkeypatch):
     forget(monkeypatch)
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setattr(store, "user_cache_path", lambda *args, **kwargs: Path("~/.cache/macroslip"))
+    monkeypatch.setattr(
+        store, "user_cache_path", lambda *args, **kwargs: Path("~/.cache/macroslip")
+    )
     with pytest.raises(RuntimeError):
         store.folder()
     assert store.stored("ab78", Maker())[0].size == 1000
@@ -143,7 +149,9 @@ def test_keys_differ_with_any_value():
 def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
     """A sheet of a raceway's traction, cut in the middle: the table is the same, and the file is whole again."""
     box = table_box(np.array([-0.41, -0.40]), 1e3, 2e-4)._replace(fineness=2.0)
-    contact = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1).inner
+    contact = prepare(
+        Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1
+    ).inner
 
     def made():
         forget(monkeypatch)
@@ -164,9 +172,12 @@ def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
 
 def test_cases_share_their_sheets(place, monkeypatch):
     slower, faster = (
-        table_box(np.array(speeds), 1e3, 2e-4)._replace(fineness=2.0) for speeds in ([-0.41, -0.3], [-0.43, -0.35])
+        table_box(np.array(speeds), 1e3, 2e-4)._replace(fineness=2.0)
+        for speeds in ([-0.41, -0.3], [-0.43, -0.35])
     )
-    contact = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1).inner
+    contact = prepare(
+        Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1
+    ).inner
     forget(monkeypatch)
     counts = []
     for box in (slower, faster):

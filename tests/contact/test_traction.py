@@ -92,7 +92,9 @@ def test_is_the_inverse_of_the_published_law(rheology, ratio):
     with mpmath.workdps(40):
         back = shear_rate_times_viscosity(rheology, stress, characteristic)
     # Close to the limit a rounded stress says little of the rate behind it.
-    rounding = 4e-16 * math.exp(ratio) / ratio if rheology == LIMITING_SHEAR else 4e-16 * (1.0 + ratio)
+    rounding = (
+        4e-16 * math.exp(ratio) / ratio if rheology == LIMITING_SHEAR else 4e-16 * (1.0 + ratio)
+    )
     assert float(back) == pytest.approx(ratio * characteristic, rel=4e-16 + rounding, abs=0.0)
 
 
@@ -214,7 +216,9 @@ def test_without_heat_stress_is_that_of_the_rheology(rheology, viscous, limit):
     stress = limited_stress(rheology, viscous, limit)
     assert heated_shear(rheology, viscous, limit, 0.0) == stress
     # Approached in proportion to heat τ; and nothing jumps where heat begins to be solved for.
-    less = heated_shear(rheology, viscous, limit, np.array([0.999999e-7, 1.000001e-7, 1e-6]) / stress)
+    less = heated_shear(
+        rheology, viscous, limit, np.array([0.999999e-7, 1.000001e-7, 1e-6]) / stress
+    )
     assert less == pytest.approx(stress, rel=1e-6)
     # At the limit of stress its fall is below rounding.
     assert np.all(np.diff(less) <= 4.0 * np.finfo(float).eps * stress)
@@ -260,7 +264,9 @@ def slip_at(heating):
 
 def test_stress_peaks_at_the_known_heating():
     # √(1+B) = √B asinh √B.
-    peak = mpmath.findroot(lambda b: mpmath.sqrt(1 + b) - mpmath.sqrt(b) * mpmath.asinh(mpmath.sqrt(b)), 2.0)
+    peak = mpmath.findroot(
+        lambda b: mpmath.sqrt(1 + b) - mpmath.sqrt(b) * mpmath.asinh(mpmath.sqrt(b)), 2.0
+    )
     assert float(peak) == pytest.approx(2.2767, abs=5e-5)
     slip = slip_at(float(peak))
     around = crook_stress(slip * np.linspace(0.5, 2.0, 301))
@@ -273,14 +279,18 @@ def test_stress_peaks_at_the_known_heating():
 def local_stress(oil, pressure, film, slip):
     viscosity = np.exp(log_viscosity(oil, pressure))
     return heated_shear(
-        oil.rheology, viscosity * slip / film, characteristic_stress(oil, pressure), oil.heating * film * slip
+        oil.rheology,
+        viscosity * slip / film,
+        characteristic_stress(oil, pressure),
+        oil.heating * film * slip,
     )
 
 
 def adaptive(oil, pressure, film, slip):
     """∫ τ(p cos θ) cos θ dθ over a quarter turn, the pressure's decades apart."""
     places = [
-        math.acos(min(1.0, p / pressure)) for p in (1e-4 * pressure, 1e-2 * pressure, 0.1 * pressure, 0.5 * pressure)
+        math.acos(min(1.0, p / pressure))
+        for p in (1e-4 * pressure, 1e-2 * pressure, 0.1 * pressure, 0.5 * pressure)
     ]
     found, error = quad(
         lambda t: local_stress(oil, pressure * math.cos(t), film, slip) * math.cos(t),
@@ -372,12 +382,16 @@ def test_viscosity_beyond_all_numbers_is_refused():
 def test_characteristic_slip_is_where_the_law_turns():
     eta = math.log(1e3)
     limited = Fluid(LIMITING_SHEAR, 0.54, 2.1, 1.0, 1e8, 0.04, 0.05)
-    assert characteristic_slip(limited, eta, 1e9, 1e-6) * 1e3 / 1e-6 == pytest.approx(0.04 * 1e9, rel=1e-12)
+    assert characteristic_slip(limited, eta, 1e9, 1e-6) * 1e3 / 1e-6 == pytest.approx(
+        0.04 * 1e9, rel=1e-12
+    )
     eyring = limited._replace(rheology=EYRING, characteristic=3e6)
     assert characteristic_slip(eyring, eta, 1e9, 1e-6) * 1e3 / 1e-6 == pytest.approx(3e6, rel=1e-12)
     newtonian = limited._replace(rheology=NEWTONIAN, characteristic=1.0)
     # Crook's heating number, β η v²/(8k), is one there.
-    assert 0.05 * 1e3 * characteristic_slip(newtonian, eta, 1e9, 1e-6) ** 2 == pytest.approx(1.0, rel=1e-12)
+    assert 0.05 * 1e3 * characteristic_slip(newtonian, eta, 1e9, 1e-6) ** 2 == pytest.approx(
+        1.0, rel=1e-12
+    )
 
 
 # --- The table
@@ -398,7 +412,9 @@ def looked_up(chords, pressures, films, slips):
 
 def interpolated_stress(table, *states):
     """The compiled look-up at arrays of pressure, film and slip."""
-    return looked_up(table, *(one.copy() for one in np.broadcast_arrays(*map(np.atleast_1d, states))))
+    return looked_up(
+        table, *(one.copy() for one in np.broadcast_arrays(*map(np.atleast_1d, states)))
+    )
 
 
 def exact(oil, pressure, film, slip):
@@ -416,7 +432,9 @@ def test_error_over_the_region_of_use(name):
         states = 10.0 ** rng.uniform(
             [4.0, -7.0, -12.0], [math.log10(2e9), math.log10(2e-6), math.log10(fastest)], (2000, 3)
         )
-        errors[fastest] = np.abs(interpolated_stress(table, *states.T) / exact(table.fluid, *states.T) - 1.0)
+        errors[fastest] = np.abs(
+            interpolated_stress(table, *states.T) / exact(table.fluid, *states.T) - 1.0
+        )
     assert errors[0.05].max() < everywhere
     assert np.quantile(errors[0.4], 0.99) < most
     assert errors[0.4].max() < worst
@@ -427,7 +445,9 @@ def test_light_and_thick_films_of_the_cage(name):
     table = chord_table(fluid(name))
     rng = np.random.default_rng(5)
     states = 10.0 ** rng.uniform([3.0, -6.0, -9.0], [7.5, -3.4, math.log10(0.6)], (3000, 3))
-    assert interpolated_stress(table, *states.T) == pytest.approx(exact(table.fluid, *states.T), rel=1e-3)
+    assert interpolated_stress(table, *states.T) == pytest.approx(
+        exact(table.fluid, *states.T), rel=1e-3
+    )
 
 
 @pytest.mark.parametrize("name", ["physical", "limiting shear", "newtonian"])
@@ -454,7 +474,9 @@ def test_limit_holds_in_the_table_too():
     rng = np.random.default_rng(11)
     pressure, film, slip = 10.0 ** rng.uniform([2.0, -8.0, -14.0], [9.6, -3.4, 1.0], (3000, 3)).T
     found = interpolated_stress(table, pressure, film, slip)
-    assert np.all(found <= 0.042 * np.minimum(pressure, HIGHEST_PRESSURE) * math.pi / 4 * (1.0 + 1e-12))
+    assert np.all(
+        found <= 0.042 * np.minimum(pressure, HIGHEST_PRESSURE) * math.pi / 4 * (1.0 + 1e-12)
+    )
 
 
 def test_outside_the_table_nothing_jumps():
@@ -462,7 +484,9 @@ def test_outside_the_table_nothing_jumps():
     at, above = interpolated_stress(table, np.array([1.0, 2.0]) * HIGHEST_PRESSURE, 5e-7, 1e-3)
     assert above == at
     for edge in (2e-8, 4e-4):
-        inside, outside = interpolated_stress(table, 1e8, edge * (1.0 + np.array([-1e-9, 1e-9])), 1e-9)
+        inside, outside = interpolated_stress(
+            table, 1e8, edge * (1.0 + np.array([-1e-9, 1e-9])), 1e-9
+        )
         assert inside == pytest.approx(outside, rel=1e-8)
     # A film beyond the table is still sheared by its own thickness.
     assert interpolated_stress(table, 1e6, 4e-3, 1e-6) == pytest.approx(
@@ -471,7 +495,9 @@ def test_outside_the_table_nothing_jumps():
 
 
 def test_one_table_serves_equal_fluids():
-    assert chord_table(fluid("physical")) is chord_table(prepare_fluid(Laws.physical(), Lubricant.read("vg460-pao")))
+    assert chord_table(fluid("physical")) is chord_table(
+        prepare_fluid(Laws.physical(), Lubricant.read("vg460-pao"))
+    )
     assert not chord_table(fluid("physical")).coefficients.flags.writeable
 
 
@@ -494,11 +520,17 @@ def stress_integral(interface, load, film, slip, *, heated=True):
     pressure = hertz.pressure * size * np.outer(cosine, cosine)
     area = hertz.semi_axis_across * hertz.semi_axis_along * size**2 * np.outer(cosine**2, cosine)
     viscosity = oil.viscosity * np.exp(oil.pressure_viscosity * pressure)
-    root = np.sqrt(oil.temperature_viscosity * viscosity / (8 * oil.thermal_conductivity)) * slip * heated
+    root = (
+        np.sqrt(oil.temperature_viscosity * viscosity / (8 * oil.thermal_conductivity))
+        * slip
+        * heated
+    )
     reduction = np.where(root < 1e-3, 1 - root**2 * (2 / 3 - 8 / 15 * root**2), 0.0)
     hot = np.maximum(root, 1e-3)
     reduction = np.where(root < 1e-3, reduction, np.arcsinh(hot) / (hot * np.sqrt(1 + hot**2)))
-    return np.einsum("i,j,ij->", ANGLE_WEIGHTS, ANGLE_WEIGHTS, viscosity * reduction * slip / film * area)
+    return np.einsum(
+        "i,j,ij->", ANGLE_WEIGHTS, ANGLE_WEIGHTS, viscosity * reduction * slip / film * area
+    )
 
 
 @pytest.mark.parametrize("heated", [True, False])
@@ -518,8 +550,13 @@ def contact(name, number):
 
 
 def test_force_is_bounded_by_limiting_shear_and_vanishes_with_slip():
-    load, film = np.array([1e-9, 3.0, 2e5, 1e7])[:, None, None], np.array([1e-12, 1e-7, 1e-2])[:, None]
-    force = contact("limiting shear", 0).uniform_traction(load, film, np.array([0.0, 1e-300, 1e-12, 10.0, 1e6]))
+    load, film = (
+        np.array([1e-9, 3.0, 2e5, 1e7])[:, None, None],
+        np.array([1e-12, 1e-7, 1e-2])[:, None],
+    )
+    force = contact("limiting shear", 0).uniform_traction(
+        load, film, np.array([0.0, 1e-300, 1e-12, 10.0, 1e6])
+    )
     assert np.all(np.abs(force) <= 0.042 * load * (1 + 1e-4)) and np.all(force[..., 0] == 0.0)
 
 
@@ -530,16 +567,33 @@ def test_light_load_is_isoviscous():
         hertz = one.interface.hertz
         for load in (1e-9, 1e-6):
             area = math.pi * hertz.semi_axis_across * hertz.semi_axis_along * load ** (2 / 3)
-            assert one.uniform_traction(load, 1e-4, 1e-3) == pytest.approx(0.54 * area * 1e-3 / 1e-4, rel=0.02)
+            assert one.uniform_traction(load, 1e-4, 1e-3) == pytest.approx(
+                0.54 * area * 1e-3 / 1e-4, rel=0.02
+            )
 
 
 # --- The closed patch integral
 
 # Where the code changes its formula, and neighbours at both sides.
 COOL_LOG, SMALL_P, MEDIUM_P, LARGE_U = 0.5 * math.log(0.02), 0.4, 1.2, 1.1
-EDGES_P = [0.0, 1e-300, 1e-12, 1e-6, 1e-3, 0.05, 0.999, 1.001, 2.0, 3.3, 5.0, 10.0, 20.0, 31.0, 45.0, 60.0] + [
-    edge * side for edge in (SMALL_P, MEDIUM_P, 0.5, 1.0) for side in (1 - 1e-9, 1.0, 1 + 1e-9)
-]
+EDGES_P = [
+    0.0,
+    1e-300,
+    1e-12,
+    1e-6,
+    1e-3,
+    0.05,
+    0.999,
+    1.001,
+    2.0,
+    3.3,
+    5.0,
+    10.0,
+    20.0,
+    31.0,
+    45.0,
+    60.0,
+] + [edge * side for edge in (SMALL_P, MEDIUM_P, 0.5, 1.0) for side in (1 - 1e-9, 1.0, 1 + 1e-9)]
 PANEL_NODES, PANEL_WEIGHTS = np.polynomial.legendre.leggauss(40)
 PANELS = 24
 
@@ -558,7 +612,9 @@ def quadrature(p, log_q0):
         q = np.exp(log_q0[..., None] + 0.5 * p[..., None] * s)
         # For tiny q the complex arcsinh of some libraries loses the imaginary part.
         ratio = np.where(abs(q) < 1e-3, 1 - q**2 * (2 / 3 - 8 / 15 * q**2), 0)
-        ratio = np.where(abs(q) < 1e-3, ratio, np.log(q + np.sqrt(1 + q**2)) / (q * np.sqrt(1 + q**2)))
+        ratio = np.where(
+            abs(q) < 1e-3, ratio, np.log(q + np.sqrt(1 + q**2)) / (q * np.sqrt(1 + q**2))
+        )
         return (weights * s * np.exp(p[..., None] * s) * ratio).sum(axis=-1)
 
     tiny = 1e-30
@@ -569,7 +625,9 @@ def quadrature(p, log_q0):
 def check(p, log_q0, rel=2e-13, slope_rel=1e-12):
     p, log_q0 = np.broadcast_arrays(p, log_q0)
     value, by_slip, by_exponent = quadrature(p, log_q0)
-    found = np.transpose([patch_integral(*state) for state in zip(p.ravel(), np.exp(log_q0).ravel(), strict=True)])
+    found = np.transpose(
+        [patch_integral(*state) for state in zip(p.ravel(), np.exp(log_q0).ravel(), strict=True)]
+    )
     assert found[0] == pytest.approx(value.ravel(), rel=rel, abs=0.0)
     assert np.all(abs(found[1] - by_slip.ravel()) <= slope_rel * value.ravel())
     assert np.all(abs(found[2] - by_exponent.ravel()) <= slope_rel * value.ravel())
@@ -610,7 +668,9 @@ def test_agrees_with_the_polylogarithm_form_and_its_derivatives(p, q0):
         p, q0 = mpmath.mpf(p), mpmath.mpf(q0)
         exact = polylogarithms(p, q0)
         step = mpmath.mpf(10) ** -12
-        by_slip = (polylogarithms(p, q0 * (1 + step)) - polylogarithms(p, q0 * (1 - step))) / (2 * step)
+        by_slip = (polylogarithms(p, q0 * (1 + step)) - polylogarithms(p, q0 * (1 - step))) / (
+            2 * step
+        )
         by_exponent = (polylogarithms(p + step, q0) - polylogarithms(p - step, q0)) / (2 * step)
         exact, by_slip, by_exponent = float(exact), float(by_slip), float(by_exponent)
     found = patch_integral(float(p), float(q0))
@@ -622,7 +682,11 @@ def test_agrees_with_the_polylogarithm_form_and_its_derivatives(p, q0):
 def test_cold_patch_is_the_linear_limit(p):
     with mpmath.workdps(40):
         x = mpmath.mpf(p)
-        series = mpmath.nsum(lambda k: x**k / (mpmath.factorial(k) * (k + 2)), [0, mpmath.inf]) if p < 0.01 else None
+        series = (
+            mpmath.nsum(lambda k: x**k / (mpmath.factorial(k) * (k + 2)), [0, mpmath.inf])
+            if p < 0.01
+            else None
+        )
         value = series if p < 0.01 else (mpmath.exp(x) * (x - 1) + 1) / x**2
         # ∫ s² e^{xs} ds
         slope = (mpmath.exp(x) - 2 * value) / x if p > 1e-12 else mpmath.mpf(1) / 3

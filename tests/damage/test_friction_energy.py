@@ -36,16 +36,27 @@ def test_its_power_and_what_it_accumulates_in_20_hours():
     assert high * ThrustTest().duration == pytest.approx(4.1e11, rel=0.02)
 
 
-@pytest.mark.parametrize("change", [{"rollers": 19}, {"roller_diameter": 10e-3}, {"roller_length": 10.5e-3}])
+@pytest.mark.parametrize(
+    "change", [{"rollers": 19}, {"roller_diameter": 10e-3}, {"roller_length": 10.5e-3}]
+)
 def test_the_logarithmic_profile_hardly_depends_on_the_roller(change):
-    assert replace(ThrustTest(), **change).range()[0] == pytest.approx(ThrustTest().range()[0], rel=0.06)
+    assert replace(ThrustTest(), **change).range()[0] == pytest.approx(
+        ThrustTest().range()[0], rel=0.06
+    )
 
 
 def test_load_is_conserved_by_the_profile():
     test = ThrustTest()
     place, power = test.power("logarithmic", slices=400)
-    load = power / (test.rollers * 0.25 * test.speed / math.pi) * (test.pitch_radius + place) / np.abs(place)
-    assert (load * test.roller_length / 400).sum() * test.rollers == pytest.approx(test.force, rel=1e-9)
+    load = (
+        power
+        / (test.rollers * 0.25 * test.speed / math.pi)
+        * (test.pitch_radius + place)
+        / np.abs(place)
+    )
+    assert (load * test.roller_length / 400).sum() * test.rollers == pytest.approx(
+        test.force, rel=1e-9
+    )
 
 
 def test_a_pass_does_not_depend_on_the_sign_of_slip():

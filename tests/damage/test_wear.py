@@ -21,16 +21,23 @@ def pressed(slip=SLIP, ring=5.0, roller=2.0, load=LOAD):
     return Pressed(load, CONTOUR, hertz_slices(LOAD, HALF, CURVATURE), slip, ring, roller)
 
 
-@given(st.lists(st.floats(0.0, 1e-4), min_size=1, max_size=40), st.floats(1e-3, 1e6), st.floats(1e8, 1e12))
+@given(
+    st.lists(st.floats(0.0, 1e-4), min_size=1, max_size=40),
+    st.floats(1e-3, 1e6),
+    st.floats(1e8, 1e12),
+)
 def test_slices_carry_the_load_and_never_pull(gap, load, stiffness):
     found = slice_loads(gap, load, stiffness, 1e-3)
     # Where gaps are far larger than the approach, loads are small differences of large numbers.
     rounding = 1e-3 * len(gap) * 4.0 * np.finfo(float).eps * stiffness * max(gap)
-    assert (found >= 0.0).all() and found.sum() * 1e-3 == pytest.approx(load, rel=1e-9, abs=rounding)
+    assert (found >= 0.0).all() and found.sum() * 1e-3 == pytest.approx(
+        load, rel=1e-9, abs=rounding
+    )
     # Where load is, the approach is the same everywhere; where none is, the gap is open.
     approach = (found / stiffness + gap)[found > 0.0]
     assert (
-        np.ptp(approach) <= 1e-9 * approach.max() and (np.array(gap)[found == 0.0] >= approach.max() * (1 - 1e-9)).all()
+        np.ptp(approach) <= 1e-9 * approach.max()
+        and (np.array(gap)[found == 0.0] >= approach.max() * (1 - 1e-9)).all()
     )
 
 
@@ -43,7 +50,8 @@ def test_unworn_slices_carry_what_hertz_has():
 def test_a_worn_profile_spreads_pressure_with_the_load_conserved():
     worn = grow((pressed(), pressed()), WIDTH, deepest=1e-5)
     loads = [
-        slice_loads(CONTOUR + one[0] + one[2], LOAD, hertz_slices(LOAD, HALF, CURVATURE), WIDTH) for one in worn.depth
+        slice_loads(CONTOUR + one[0] + one[2], LOAD, hertz_slices(LOAD, HALF, CURVATURE), WIDTH)
+        for one in worn.depth
     ]
     assert all(one.sum() * WIDTH == pytest.approx(LOAD, rel=1e-12) for one in loads)
     deepest = np.argmax(worn.depth[-1, 0])

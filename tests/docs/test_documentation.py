@@ -6,7 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
+from macroslip import (
+    BearingLoads,
+    Case,
+    Laws,
+    Traces,
+    bundled_cases,
+    open_study,
+    read_study,
+    run_study,
+    simulate,
+)
 from macroslip.case.parts import INTEGRATORS
 from macroslip.imposed.status import Status
 from macroslip.input.fields import Choice
@@ -21,7 +31,10 @@ from macroslip.study.weights import Weibull
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
 PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
-STUDIES = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("studies.md", "study-results.md"))
+STUDIES = "".join(
+    (ROOT / "docs" / name).read_text(encoding="utf-8")
+    for name in ("studies.md", "study-results.md")
+)
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 OURS = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.py"), *EXAMPLES]
 
@@ -36,12 +49,16 @@ def test_relative_links_resolve(page):
 def test_index_names_every_page_and_every_example():
     index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
     pages = [path.name for path in (ROOT / "docs").glob("*.md") if path.name != "index.md"]
-    missing = [name for name in [*pages, *(path.name for path in EXAMPLES)] if f"{name})" not in index]
+    missing = [
+        name for name in [*pages, *(path.name for path in EXAMPLES)] if f"{name})" not in index
+    ]
     assert missing == []
 
 
 def test_case_file_page_names_every_key_of_a_case():
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8"))
+    quoted = re.findall(
+        r"`([^`\n]+)`", (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8")
+    )
     sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
     # The cage's film fullness is a key of earlier versions, read without effect.
     names = [key for key, _ in keys_of(Case) if key not in sections | {"cage.film_fullness"}]
@@ -72,9 +89,19 @@ def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
     found = tables(opened, Weibull(9.0, 2.0))
-    files = [f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()]
+    files = [
+        f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()
+    ]
     labels = [name for name, one in opened.coords.items() if one.dims == ("case",)]
-    names = [*files, *found, *ROW_VARIABLES, *CASE_VARIABLES, *labels, "load_cycles", *opened.load_cycles.dims]
+    names = [
+        *files,
+        *found,
+        *ROW_VARIABLES,
+        *CASE_VARIABLES,
+        *labels,
+        "load_cycles",
+        *opened.load_cycles.dims,
+    ]
     assert [name for name in names if f"`{name}`" not in STUDIES] == []
 
 
@@ -91,10 +118,17 @@ def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     block, balance = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
     (tmp_path / "balance.yaml").write_text(balance, encoding="utf-8")
     balanced = read_study(tmp_path / "balance.yaml")
-    assert (len(balanced), balanced.heat.conductance, balanced.weights.year.wind.shape) == (21, 60.0, 2.0)
+    assert (len(balanced), balanced.heat.conductance, balanced.weights.year.wind.shape) == (
+        21,
+        60.0,
+        2.0,
+    )
     (tmp_path / "dlc12").mkdir()
     shutil.copy(SAMPLE, tmp_path / "dlc12" / "14mps_seed1.outb")
-    shutil.copy(ROOT / "src/macroslip/bearing/catalogue/skf-240-600-bc.yaml", tmp_path / "other-bearing.yaml")
+    shutil.copy(
+        ROOT / "src/macroslip/bearing/catalogue/skf-240-600-bc.yaml",
+        tmp_path / "other-bearing.yaml",
+    )
     (tmp_path / "study.yaml").write_text(block, encoding="utf-8")
     assert len(read_study(tmp_path / "study.yaml")) == 2 * 2 * 3 * 16
 
@@ -112,12 +146,18 @@ def test_input_page_shows_the_lines_that_the_program_asks_for():
     from macroslip.loads.openfast import _MEANING
 
     text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
-    missing = [name for name, meaning in _MEANING.items() if not re.search(rf'"{name}" +- {re.escape(meaning)}', text)]
+    missing = [
+        name
+        for name, meaning in _MEANING.items()
+        if not re.search(rf'"{name}" +- {re.escape(meaning)}', text)
+    ]
     assert missing == []
 
 
 #: Variables of a result stand on its page, and what criteria of damage need on theirs.
-RESULTS = "\n".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("results.md", "damage.md"))
+RESULTS = "\n".join(
+    (ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("results.md", "damage.md")
+)
 
 
 @pytest.fixture(scope="module")
@@ -139,12 +179,16 @@ def test_results_page_gives_the_units_of_every_variable(dataset):
     cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)] for row in rows]
     for name, variable in dataset.data_vars.items():
         found = [row for row in cells if f"`{name}`" in row[0]]
-        assert any(variable.units in re.split(", ", cell) for row in found for cell in row[1:]), name
+        assert any(variable.units in re.split(", ", cell) for row in found for cell in row[1:]), (
+            name
+        )
 
 
 def test_results_page_has_the_sentence_of_every_status():
     text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-    assert [status for status in Status if f"| {int(status)} | {status.sentence} |" not in text] == []
+    assert [
+        status for status in Status if f"| {int(status)} | {status.sentence} |" not in text
+    ] == []
 
 
 def test_pages_of_the_models_name_modules_that_exist():
@@ -158,12 +202,18 @@ def test_pages_of_the_models_name_modules_that_exist():
 @pytest.mark.parametrize("path", sorted(OURS), ids=lambda path: path.name)
 def test_page_or_script_names_no_machine(path):
     text = path.read_text(encoding="utf-8")
-    assert re.findall(r"(?:^|[\s\"'`(=])(?:/(?:home|root|tmp|work|Users|mnt|opt)/|[A-Z]:\\)\S*", text) == []
+    assert (
+        re.findall(r"(?:^|[\s\"'`(=])(?:/(?:home|root|tmp|work|Users|mnt|opt)/|[A-Z]:\\)\S*", text)
+        == []
+    )
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_says_what_it_is_and_how_to_run_it(path):
-    assert re.match(rf'""".+\n(.*\n)*? *python (examples/)?{re.escape(path.name)}', path.read_text(encoding="utf-8"))
+    assert re.match(
+        rf'""".+\n(.*\n)*? *python (examples/)?{re.escape(path.name)}',
+        path.read_text(encoding="utf-8"),
+    )
 
 
 def test_readme_for_a_package_index_has_no_link_into_the_repository():

@@ -17,8 +17,13 @@ def scripts(python, tmp_path_factory):
 
     def run(path):
         # The drawings go to a folder of their own, so that a run of the tests changes no file.
-        arguments = {"02_openfast_file.py": [str(SAMPLE)], "drawings.py": [str(tmp_path_factory.mktemp("pictures"))]}
-        return python(str(path), *arguments.get(path.name, []), folder=tmp_path_factory.mktemp(path.stem))
+        arguments = {
+            "02_openfast_file.py": [str(SAMPLE)],
+            "drawings.py": [str(tmp_path_factory.mktemp("pictures"))],
+        }
+        return python(
+            str(path), *arguments.get(path.name, []), folder=tmp_path_factory.mktemp(path.stem)
+        )
 
     return {path: run(path) for path in SCRIPTS}
 

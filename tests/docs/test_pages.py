@@ -42,10 +42,16 @@ LAWS = ROOT / "docs" / "laws.md"
 
 def python_blocks(page: Path) -> list[str]:
     """Code of the ```python blocks of a page."""
-    return re.findall(r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return re.findall(
+        r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
+    )
 
 
-PAGES = [page for page in [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"] if python_blocks(page)]
+PAGES = [
+    page
+    for page in [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
+    if python_blocks(page)
+]
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +70,9 @@ def pages(python, tmp_path_factory):
         if (folder / "done.txt").exists():
             return (folder / "printed.txt").read_text(encoding="utf-8"), None
         failure = folder / "failure.txt"
-        return "", failure.read_text(encoding="utf-8") if failure.exists() else [one.stderr for one in ended]
+        return "", failure.read_text(encoding="utf-8") if failure.exists() else [
+            one.stderr for one in ended
+        ]
 
     return {page: read(folder) for page, folder in folders.items()}
 
@@ -91,7 +99,10 @@ def test_energies_that_the_page_on_mechanisms_quotes(pages):
     every = re.findall(r"inner ([\d.]+) J, outer ([\d.]+) J, cage ([\d.]+) J", printed)
     default, starved, limited, rolling_only = ([float(one) for one in three] for three in every)
     page = quoted_by("physical.md")
-    assert "Inner and outer raceway dissipate {:.1f} and {:.1f} J, the cage {:.1f} J.".format(*default) in page
+    assert (
+        "Inner and outer raceway dissipate {:.1f} and {:.1f} J, the cage {:.1f} J.".format(*default)
+        in page
+    )
     assert "With `oil_supply: 0.7` they have {:.1f}, {:.1f} and {:.0f} J,".format(*starved) in page
     assert "with limiting shear the raceways {:.1f} and {:.1f} J,".format(*limited) in page
     assert max(rolling_only[:2]) < 0.05 and "without microslip below 0.05 J each" in page
@@ -99,10 +110,14 @@ def test_energies_that_the_page_on_mechanisms_quotes(pages):
 
 def test_ratios_that_the_page_on_the_study_quotes(pages):
     printed, _ = pages[ROOT / "docs" / "physical-study.md"]
-    none, fifth, whole = np.reshape([float(one) for one in re.findall(r"over upwind ([\d.]+)", printed)], (3, 2))
+    none, fifth, whole = np.reshape(
+        [float(one) for one in re.findall(r"over upwind ([\d.]+)", printed)], (3, 2)
+    )
     assert none == pytest.approx([1.0, 1.0], abs=5e-3)
     words = f"with a fifth of it {fifth[0]:.1f} under `paper` and {fifth[1]:.1f} under `physical`"
-    assert f"{words}, with all of it {whole[0]:.1f} and {whole[1]:.0f}." in quoted_by("physical-study.md")
+    assert f"{words}, with all of it {whole[0]:.1f} and {whole[1]:.0f}." in quoted_by(
+        "physical-study.md"
+    )
 
 
 def test_the_readme_quotes_what_the_case_that_init_writes_gives():
@@ -114,11 +129,15 @@ def test_the_readme_quotes_what_the_case_that_init_writes_gives():
     case = replace(case, traces=Traces(step=0.02), contact_details=False)
 
     def mean_spin(result):
-        inside = result.sel(time=slice(*(result.attrs[f"window_{end}"] for end in ("start", "end"))))
+        inside = result.sel(
+            time=slice(*(result.attrs[f"window_{end}"] for end in ("start", "end")))
+        )
         return (inside.spin / inside.spin_pure).mean(("roller", "time"))
 
     found, full = simulate(case), simulate(replace(case, oil_supply="flooded"))
-    power = found.energy.sum("interface").mean("roller") / (found.attrs["window_end"] - found.attrs["window_start"])
+    power = found.energy.sum("interface").mean("roller") / (
+        found.attrs["window_end"] - found.attrs["window_start"]
+    )
     loaded = 100.0 * (found.roller_load > 0.0).mean(("roller", "time"))
     words = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     assert (

@@ -15,14 +15,29 @@ NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 
 def test_the_site_builds_without_a_warning_and_asks_no_network(tmp_path):
     # Without Python's own warnings as errors: Sphinx's extensions warn of each other's versions.
-    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", ROOT / "docs", tmp_path]
+    command = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-W",
+        "--keep-going",
+        "-q",
+        "-b",
+        "html",
+        ROOT / "docs",
+        tmp_path,
+    ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     pages = list(tmp_path.glob("*.html"))
-    assert {"index.html", "first-run.html", "search.html", "api.html"} <= {page.name for page in pages}
+    assert {"index.html", "first-run.html", "search.html", "api.html"} <= {
+        page.name for page in pages
+    }
     for page in pages:
         text = page.read_text(encoding="utf-8")
-        assert re.findall(r'<(?:script|link|img)[^>]+(?:src|href)="https?://[^"]*"', text) == [], page.name
+        assert re.findall(r'<(?:script|link|img)[^>]+(?:src|href)="https?://[^"]*"', text) == [], (
+            page.name
+        )
     assert (tmp_path / "searchindex.js").stat().st_size > 10_000
 
 
@@ -42,7 +57,11 @@ def test_notebook_runs_and_shows_what_is_stored(path):
     again = [cell for cell in fresh.cells if cell.cell_type == "code"]
     for old, new in zip(cells, again, strict=True):
         before, after = (
-            [out.data["text/plain"] for out in cell.outputs if "image/png" not in out.get("data", {})]
+            [
+                out.data["text/plain"]
+                for out in cell.outputs
+                if "image/png" not in out.get("data", {})
+            ]
             for cell in (old, new)
         )
         for left, right in zip(before, after, strict=True):

@@ -43,7 +43,11 @@ def _place(draw, content):
 
 def _flip(draw, content):
     place = min(_place(draw, content), len(content) - 1)
-    return content[:place] + bytes([content[place] ^ (1 << draw(st.integers(0, 7)))]) + content[place + 1 :]
+    return (
+        content[:place]
+        + bytes([content[place] ^ (1 << draw(st.integers(0, 7)))])
+        + content[place + 1 :]
+    )
 
 
 def _cut(draw, content):
@@ -83,13 +87,17 @@ def _number(draw, content):
 
 def _swap(draw, content):
     (a, b), (c, d) = sorted((_chosen(draw, _TOKEN, content), _chosen(draw, _TOKEN, content)))
-    return content if b > c else content[:a] + content[c:d] + content[b:c] + content[a:b] + content[d:]
+    return (
+        content if b > c else content[:a] + content[c:d] + content[b:c] + content[a:b] + content[d:]
+    )
 
 
 @st.composite
 def damaged(draw, content, binary=False, most=3):
     """Content with one to `most` kinds of damage."""
-    kinds = [_flip, _cut, _insert, _remove, _repeat, _overwrite] + ([] if binary else [_number, _number, _swap])
+    kinds = [_flip, _cut, _insert, _remove, _repeat, _overwrite] + (
+        [] if binary else [_number, _number, _swap]
+    )
     for _ in range(draw(st.integers(1, most))):
         content = draw(st.sampled_from(kinds))(draw, content or b" ")
     return content
@@ -97,7 +105,13 @@ def damaged(draw, content, binary=False, most=3):
 
 def _paths(data, path=()):
     yield path
-    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    items = (
+        data.items()
+        if isinstance(data, dict)
+        else enumerate(data)
+        if isinstance(data, list)
+        else ()
+    )
     for key, value in items:
         yield from _paths(value, (*path, key))
 
@@ -117,14 +131,20 @@ def misshapen(draw, data):
     for _ in range(draw(st.integers(1, 3))):
         path = draw(st.sampled_from(list(_paths(data))))
         odd = draw(st.sampled_from(_ODD))
-        key = draw(st.sampled_from(["", "a\0b", "loads", "file", "values", "1", "k" * 5000, "<<", "=", "__class__"]))
+        key = draw(
+            st.sampled_from(
+                ["", "a\0b", "loads", "file", "values", "1", "k" * 5000, "<<", "=", "__class__"]
+            )
+        )
         kind = draw(st.sampled_from(["replace", "replace", "wrap", "list", "add", "drop"]))
         change = {
             "replace": lambda value: odd,
             "wrap": lambda value: {key: value},
             "list": lambda value: [value, value],
             "add": lambda value: value | {key: odd} if isinstance(value, dict) else odd,
-            "drop": lambda value: dict(list(value.items())[1:]) if isinstance(value, dict) else None,
+            "drop": lambda value: (
+                dict(list(value.items())[1:]) if isinstance(value, dict) else None
+            ),
         }[kind]
         data = _changed(data, path, change)
     return json.dumps(data, ensure_ascii=False).encode("utf-8", "surrogatepass")

@@ -53,7 +53,9 @@ def ends_well(folder, file, *arguments, app=None):
         done = CliRunner().invoke(app, [str(argument) for argument in arguments])
     seconds = time.process_time() - start
     grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - peak) / 1024
-    assert done.exit_code in (0, 2), f"exit code {done.exit_code}: {done.stderr[-3000:]}{done.exception!r}"
+    assert done.exit_code in (0, 2), (
+        f"exit code {done.exit_code}: {done.stderr[-3000:]}{done.exception!r}"
+    )
     assert seconds < SECONDS, f"{seconds:.1f} s"
     assert grown < MEGABYTES, f"{grown:.0f} MB"
     if done.exit_code == 0:
@@ -61,12 +63,18 @@ def ends_well(folder, file, *arguments, app=None):
         return ""
     message = done.stderr
     assert _files(folder) == before
-    assert message.startswith("error: ") and "Traceback" not in message and "not enough memory" not in message, message
+    assert (
+        message.startswith("error: ")
+        and "Traceback" not in message
+        and "not enough memory" not in message
+    ), message
     assert file.stem in message, f"the file is not named: {message}"
     assert re.search(r"[.!?)] +[A-Z]", message), f"no remedy: {message}"
     assert len(message) < CHARACTERS, f"{len(message)} characters: {message[:500]}"
     text = message.removesuffix("\n")
-    assert all(letter.isprintable() or letter == "\n" for letter in text) and "\n\n" not in text, repr(text)
+    assert all(letter.isprintable() or letter == "\n" for letter in text) and "\n\n" not in text, (
+        repr(text)
+    )
     return message
 
 

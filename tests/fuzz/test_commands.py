@@ -39,14 +39,20 @@ def lines(draw):
         if (not one.required and draw(st.integers(0, 3))) or set(one.opts) & LONG:
             continue
         values = [] if getattr(one, "is_flag", False) else [draw(st.sampled_from(ODD))]
-        line += values if isinstance(one, click.Argument) else [draw(st.sampled_from(one.opts)), *values]
+        line += (
+            values
+            if isinstance(one, click.Argument)
+            else [draw(st.sampled_from(one.opts)), *values]
+        )
     return line
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("commands")
-    (folder / "case.yaml").write_text("loads: {bearing_file: loads.csv}\nrollers: [0]\nwindow: {start: 9 s}\n")
+    (folder / "case.yaml").write_text(
+        "loads: {bearing_file: loads.csv}\nrollers: [0]\nwindow: {start: 9 s}\n"
+    )
     (folder / "loads.csv").write_text(
         "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n0,20,0,-300,80\n1,20,0,-300,80\n"
     )

@@ -30,7 +30,9 @@ def _load(path):
     try:
         for kind, names in zip(KINDS, found, strict=True):
             for name in names:
-                for interface in interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")):
+                for interface in interfaces(
+                    Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+                ):
                     states = (LOADS, 0.4) if kind is FILM_LAWS else (LOADS, 1e-6, 1e-4)
                     try:
                         assert (kind.named(name)(interface, *states) > 0.0).all()

@@ -39,7 +39,9 @@ _BINARY = re.compile(r"\.(outb|\$\d+|dat|hdf5|parquet)$")
 def _write(kind, folder):
     """A small valid file of a kind."""
     whole = HubLoads.read(DATA / "sample14B.outb")
-    short = HubLoads(whole.time[:30], whole.shaft_speed[:30], whole.force[:30], whole.moment[:30], "short")
+    short = HubLoads(
+        whole.time[:30], whole.shaft_speed[:30], whole.force[:30], whole.moment[:30], "short"
+    )
     if kind == "out":
         lines = (DATA / "sample14B.out").read_bytes().splitlines(keepends=True)
         (folder / "run.out").write_bytes(b"".join(lines[:40]))
@@ -118,7 +120,9 @@ def test_prefixes(files):
     name = named.name
     for other, content in contents.items():
         (folder / other).write_bytes(content)
-    for length in itertools.chain(range(1, 60, 3), range(60, len(contents[name]), max(1, len(contents[name]) // 10))):
+    for length in itertools.chain(
+        range(1, 60, 3), range(60, len(contents[name]), max(1, len(contents[name]) // 10))
+    ):
         (folder / name).write_bytes(contents[name][:length])
         _inspect(folder, named)
     (folder / name).write_bytes(contents[name])

@@ -28,6 +28,10 @@ def test_refused(tmp_path, name):
     (tmp_path / "case.yaml").write_text("loads: {file: pipe.csv}\n", encoding="utf-8")
     (tmp_path / "study.yaml").write_text("loads: {table: pipe.csv}\n", encoding="utf-8")
     command = [sys.executable, "-c", "from macroslip.cli import main; main()", *COMMANDS[name]]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
-    assert done.returncode == 2 and "it is a pipe, a socket or a device, not a file" in " ".join(done.stderr.split())
+    done = subprocess.run(
+        command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 2 and "it is a pipe, a socket or a device, not a file" in " ".join(
+        done.stderr.split()
+    )
     assert len(list(tmp_path.iterdir())) == 5

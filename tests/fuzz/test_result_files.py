@@ -12,7 +12,18 @@ from tests.fuzz.mutations import damaged
 from tests.fuzz.oracle import app_of, ends_well, examples
 
 _NUMBERS = [np.nan, np.inf, -np.inf, -1.0, 0.0, 1e308, -1e308, 5e-324, 127.0]
-_TEXTS = ["", "x" * 100_000, "{", "[1]", "null", "a\nb", "<script>", -1, float("nan"), np.array([1.0, 2.0])]
+_TEXTS = [
+    "",
+    "x" * 100_000,
+    "{",
+    "[1]",
+    "null",
+    "a\nb",
+    "<script>",
+    -1,
+    float("nan"),
+    np.array([1.0, 2.0]),
+]
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +175,9 @@ def test_page_of_any_variable_without_meaning(folder, result, value):
     for name in result.variables:
         if result[name].dtype.kind in "fiu":
             values = np.full_like(result[name].values, value, dtype=float)
-            file.write_bytes(to_netcdf(result.assign({name: (result[name].dims, values, result[name].attrs)})))
+            file.write_bytes(
+                to_netcdf(result.assign({name: (result[name].dims, values, result[name].attrs)}))
+            )
             page.touch()
             ends_well(folder, file, "report", file, "-o", page, "--force", "--quiet")
 
@@ -184,16 +197,28 @@ def test_what_is_missing_is_named(folder, result, name):
             lambda one: one.assign_coords(start_angle=-1e300 + one.start_angle),
             "start_angle holds no angles",
         ),
-        (lambda one: one.assign_coords(start_angle=np.nan * one.start_angle), "start_angle holds no angles"),
-        (lambda one: one.assign(roller_load=one.roller_load + np.inf), "roller_load holds numbers beyond 1e+30"),
+        (
+            lambda one: one.assign_coords(start_angle=np.nan * one.start_angle),
+            "start_angle holds no angles",
+        ),
+        (
+            lambda one: one.assign(roller_load=one.roller_load + np.inf),
+            "roller_load holds numbers beyond 1e+30",
+        ),
         (lambda one: one.assign(power=one.power + 1e308), "power holds numbers beyond 1e+30"),
-        (lambda one: one.assign_coords(time=one.time * np.inf), "the coordinate time does not rise"),
+        (
+            lambda one: one.assign_coords(time=one.time * np.inf),
+            "the coordinate time does not rise",
+        ),
         (lambda one: one.assign(status=one.status + 99), "status holds numbers without a meaning"),
         (lambda one: one.assign(slip=one.slip.transpose("time", "roller", "row")), "slip is over"),
         (lambda one: one.assign(power=one.power.astype(str)), "power holds no numbers"),
         (lambda one: one.assign_attrs(input="{"), "the attribute input holds no case"),
         (lambda one: one.assign_attrs(window_end="late"), "the attribute window_end is no time"),
-        (lambda one: one.assign_coords(time=one.time[::-1].values), "the coordinate time does not rise"),
+        (
+            lambda one: one.assign_coords(time=one.time[::-1].values),
+            "the coordinate time does not rise",
+        ),
         (lambda one: one.assign_coords(row=["front", "rear"]), "row is front, rear"),
     ],
 )
@@ -203,7 +228,8 @@ def test_what_no_result_holds_is_refused(folder, result, change, words):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "part", [{"row": ["downwind"]}, {"roller": [0]}, {"interface": ["cage"]}, {"time": slice(3.0, 9.0)}]
+    "part",
+    [{"row": ["downwind"]}, {"roller": [0]}, {"interface": ["cage"]}, {"time": slice(3.0, 9.0)}],
 )
 def test_a_selection_is_a_result(folder, result, part):
     assert _read(folder, to_netcdf(result.sel(part))) == ""

@@ -39,13 +39,17 @@ variations:
 keep: [energy]
 cycles: true
 """
-RECORDS = {"bearing": Bearing.read("skf-240-600-bc").as_yaml(), "lubricant": Lubricant.read("vg460-pao").as_yaml()}
+RECORDS = {
+    "bearing": Bearing.read("skf-240-600-bc").as_yaml(),
+    "lubricant": Lubricant.read("vg460-pao").as_yaml(),
+}
 
 
 def _either(*texts):
     """Bytes changed at random, or a changed tree of values, of one of some YAML texts."""
     return st.one_of(
-        *(damaged(text.encode()) for text in texts), *(misshapen(parse(text, "mine.yaml")[0]) for text in texts)
+        *(damaged(text.encode()) for text in texts),
+        *(misshapen(parse(text, "mine.yaml")[0]) for text in texts),
     )
 
 
@@ -72,7 +76,14 @@ def folder(tmp_path_factory):
 def test_case_file(folder, content):
     (folder / "mine.yaml").write_bytes(content)
     ends_well(
-        folder, folder / "mine.yaml", "loads", "inspect", folder / "loads.csv", "--case", folder / "mine.yaml", "--json"
+        folder,
+        folder / "mine.yaml",
+        "loads",
+        "inspect",
+        folder / "loads.csv",
+        "--case",
+        folder / "mine.yaml",
+        "--json",
     )
 
 
@@ -103,4 +114,6 @@ def test_what_is_undamaged_is_accepted(folder):
         (folder / "mine.yaml").write_text(text, encoding="utf-8")
         assert ends_well(folder, folder / "mine.yaml", *arguments, folder / "mine.yaml") == ""
     (folder / "mine.yaml").write_text(STUDY, encoding="utf-8")
-    assert ends_well(folder, folder / "mine.yaml", folder / "mine.yaml", app=app_of(_all_runs)) == ""
+    assert (
+        ends_well(folder, folder / "mine.yaml", folder / "mine.yaml", app=app_of(_all_runs)) == ""
+    )

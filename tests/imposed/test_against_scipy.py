@@ -37,7 +37,13 @@ STORIES = {
     "leaves the load zone and coasts over the top": ((0.0, -2.3e-4, 0.0), -0.55, 0.0, 0.0, 1.6),
     "coasts into the load zone and snaps back": ((0.0, -2.3e-4, 0.0), 3.6, -0.15, 0.0, 0.9),
     "unloaded all round": ((0.0, 0.0, -3e-4), 0.3, -0.02, 0.0, 2.0),
-    "the shaft brakes while the roller is lightly loaded": ((0.0, -1.1e-4, 0.0), -2.2, 0.0, -0.4, 1.5),
+    "the shaft brakes while the roller is lightly loaded": (
+        (0.0, -1.1e-4, 0.0),
+        -2.2,
+        0.0,
+        -0.4,
+        1.5,
+    ),
     # At 150 rad/s² the light contacts cannot pull the roller along: slip grows although traction has peaked.
     "the shaft is too quick for traction": ((0.0, -0.3e-4, 0.0), -math.pi / 2, 0.0, 150.0, 0.2),
 }
@@ -46,7 +52,9 @@ FULL = Laws.physical()
 HOT = {
     "paper": Laws.paper(),
     "physical": FULL,
-    "barus, newtonian": FULL.but(rheology="newtonian", viscosity="barus", asperities="none", rolling="none"),
+    "barus, newtonian": FULL.but(
+        rheology="newtonian", viscosity="barus", asperities="none", rolling="none"
+    ),
     "limiting shear": FULL.but(rheology="limiting-shear"),
     "without microslip": FULL.but(microslip=False),
 }
@@ -60,7 +68,9 @@ def of(name):
 def thrust(roller, load):
     """Axial displacement of the ring [m] that presses every roller of the downwind row with a load [N]."""
     body = roller.body[0]
-    approach = (load / float(body["stiffness"])) ** (2 / 3) + float(body["radial_play"] * body["cos_contact_angle"])
+    approach = (load / float(body["stiffness"])) ** (2 / 3) + float(
+        body["radial_play"] * body["cos_contact_angle"]
+    )
     return 0.0, 0.0, approach / float(body["sin_contact_angle"])
 
 
@@ -73,15 +83,22 @@ def by_scipy(roller, motion, angle, slip, times):
 
     def rate(t, y):
         k = min(int(np.searchsorted(motion.time, t, side="right")) - 1, motion.time.size - 2)
-        acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+        acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
+            motion.time[k + 1] - motion.time[k]
+        )
         at = station_of(roller, angle, instant(motion, k, t))
-        forces, drive = forces_of(roller, at, y[0]), -body["orbit_ratio"] * body["outer_radius"] * acceleration
+        forces, drive = (
+            forces_of(roller, at, y[0]),
+            -body["orbit_ratio"] * body["outer_radius"] * acceleration,
+        )
         return [drive - body["mobility"] * net(forces), *powers_of(roller, at, forces, y[0])]
 
     state, ends = [slip, 0.0, 0.0, 0.0], np.unique(np.concatenate([motion.time, times]))
     at = {ends[0]: slip}
     for start, end in itertools.pairwise(ends):
-        piece = solve_ivp(rate, (start, end), state, method="Radau", rtol=1e-8, atol=[1e-12, 1e-10, 1e-10, 1e-10])
+        piece = solve_ivp(
+            rate, (start, end), state, method="Radau", rtol=1e-8, atol=[1e-12, 1e-10, 1e-10, 1e-10]
+        )
         assert piece.success
         state = piece.y[:, -1]
         at[end] = float(state[0])
@@ -94,7 +111,9 @@ def test_slip_and_energies_of_the_papers_model(story):
     roller = rollers(models(Laws.paper()), speeds=(-6.0, 6.0), tolerance=1e-5)["downwind"]
     time, times = np.linspace(0.0, span, 401), np.linspace(span / 8, span, 8)
     motion = motion_of(time, 2.143 + acceleration * time, displacement)
-    steps, status, _ = walk(roller, motion, limits_of(roller, motion, 1e-7), times, angle, slip=slip)
+    steps, status, _ = walk(
+        roller, motion, limits_of(roller, motion, 1e-7), times, angle, slip=slip
+    )
     assert status == Status.COMPLETED
     whole = motion_of([0.0, span], 2.143 + acceleration * np.array([0.0, span]), displacement)
     slips, spent = by_scipy(roller, whole, angle, slip, times)
@@ -103,7 +122,8 @@ def test_slip_and_energies_of_the_papers_model(story):
 
 
 @pytest.mark.parametrize(
-    ("name", "slip"), [*((name, -0.35) for name in HOT), ("physical", 0.3), ("barus, newtonian", -0.02)]
+    ("name", "slip"),
+    [*((name, -0.35) for name in HOT), ("physical", 0.3), ("barus, newtonian", -0.02)],
 )
 def test_a_skidding_roller_follows_its_past(name, slip):
     """Set down far from rolling under a heavy load: traction falls with slip at first, and rolling, where the roller would be
@@ -120,7 +140,9 @@ def test_a_skidding_roller_follows_its_past(name, slip):
 def test_a_roller_whose_shaft_jerks_follows_its_past():
     """The shaft gains a third of its speed within 2 ms: more than traction of a lightly loaded roller can give."""
     roller = of("physical")
-    motion = motion_of([0.0, 0.02, 0.022, 0.05], RATED * np.array([1.0, 1.0, 1.33, 1.33]), thrust(roller, 700.0))
+    motion = motion_of(
+        [0.0, 0.02, 0.022, 0.05], RATED * np.array([1.0, 1.0, 1.33, 1.33]), thrust(roller, 700.0)
+    )
     times = np.linspace(1e-3, 0.05, 80)
     steps, _, _ = walk(roller, motion, limits_of(roller, motion, 1e-6), times, 0.2)
     wanted, _ = by_scipy(roller, motion, 0.2, 0.0, times)

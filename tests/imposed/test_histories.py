@@ -35,7 +35,9 @@ START = Window(start=0.0)
 
 def run(loads, tolerance=1e-6, rollers=(3,), laws=Laws.paper(), **settings_):
     integrator = Radau(tolerance=tolerance)
-    return simulate(Case(loads=loads, rollers=list(rollers), integrator=integrator, laws=laws, **settings_))
+    return simulate(
+        Case(loads=loads, rollers=list(rollers), integrator=integrator, laws=laws, **settings_)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +57,9 @@ def exact(turbulent):
 
     def of(laws):
         if laws.name not in known:
-            known[laws.name] = run(turbulent, 1e-9, traces=Traces(step=0.5), laws=laws, oil_supply=supply(laws))
+            known[laws.name] = run(
+                turbulent, 1e-9, traces=Traces(step=0.5), laws=laws, oil_supply=supply(laws)
+            )
         return known[laws.name]
 
     return of
@@ -65,10 +69,15 @@ def exact(turbulent):
 @pytest.mark.parametrize("tolerance", [1e-2, 2e-4, 1e-7])
 def test_every_tolerance_gives_the_answer_it_promises(turbulent, exact, laws, tolerance):
     traces = Traces(step=0.5)
-    found, reference = run(turbulent, tolerance, traces=traces, laws=laws, oil_supply=supply(laws)), exact(laws)
+    found, reference = (
+        run(turbulent, tolerance, traces=traces, laws=laws, oil_supply=supply(laws)),
+        exact(laws),
+    )
     assert (found.status == Status.COMPLETED).all()
     energy, best = found.energy.sum("interface"), reference.energy.sum("interface")
-    assert float(abs(energy / best - 1).max()) < max((0.3 if laws.name == "paper" else 2.0) * tolerance, 1e-6)
+    assert float(abs(energy / best - 1).max()) < max(
+        (0.3 if laws.name == "paper" else 2.0) * tolerance, 1e-6
+    )
     coasting = reference.roller_load == 0.0
     assert int(coasting.sum()) > 20
     # A coast remembers; the errors of its steps add up. Between films a roller all but stands still.
@@ -82,7 +91,9 @@ def test_every_tolerance_gives_the_answer_it_promises(turbulent, exact, laws, to
 
 @both
 def test_threads_change_no_bit(turbulent, laws):
-    one, many = (simulate(Case(loads=turbulent, laws=laws, rollers=[0, 9, 20]), threads=n) for n in (1, 3))
+    one, many = (
+        simulate(Case(loads=turbulent, laws=laws, rollers=[0, 9, 20]), threads=n) for n in (1, 3)
+    )
     for name in one.data_vars:
         assert np.array_equal(one[name], many[name], equal_nan=True), name
 
@@ -90,10 +101,17 @@ def test_threads_change_no_bit(turbulent, laws):
 @both
 def test_results_do_not_depend_on_the_size_of_buffers(laws):
     roller = rollers(models(laws))["downwind"]
-    motion = motion_of(np.linspace(0.0, 6.0, 121), RATED * (1.0 + 0.01 * np.sin(np.arange(121.0))), (0.0, -2.2e-4, 0.0))
+    motion = motion_of(
+        np.linspace(0.0, 6.0, 121),
+        RATED * (1.0 + 0.01 * np.sin(np.arange(121.0))),
+        (0.0, -2.2e-4, 0.0),
+    )
     found = [
         walk(roller, motion, limits, [1.7, 6.0], -0.55, rows=rows)
-        for limits in (limits_of(roller, motion, 2e-4), fixed_step(roller, motion, step=0.01, end=6.0, tolerance=1e-9))
+        for limits in (
+            limits_of(roller, motion, 2e-4),
+            fixed_step(roller, motion, step=0.01, end=6.0, tolerance=1e-9),
+        )
         for rows in (7, 64, 5000)
     ]
     for group in (found[:3], found[3:]):
@@ -104,7 +122,9 @@ def test_results_do_not_depend_on_the_size_of_buffers(laws):
 
 
 def test_too_fast_a_ring_leaves_the_tables():
-    roller = with_tables(models(Laws.paper()), table_box(np.array([-0.2]), 1e5, 2e-4))[0]["downwind"]
+    roller = with_tables(models(Laws.paper()), table_box(np.array([-0.2]), 1e5, 2e-4))[0][
+        "downwind"
+    ]
     motion = motion_of([0.0, 1.0], RATED, (0.0, 0.0, 0.0))
     _, status, work = walk(roller, motion, limits_of(roller, motion, 2e-4), [1.0], 0.0)
     assert status == Status.OUTSIDE_TABLES and work["time"] == 0.0
@@ -112,7 +132,10 @@ def test_too_fast_a_ring_leaves_the_tables():
 
 def test_steps_follow_one_another_and_end_at_every_stop():
     roller = rollers(models(Laws.physical()))["downwind"]
-    motion, stops = motion_of(np.linspace(0.0, 5.0, 101), RATED, (0.0, -2.2e-4, 0.0)), [0.333, 1.0, 2.02, 5.0]
+    motion, stops = (
+        motion_of(np.linspace(0.0, 5.0, 101), RATED, (0.0, -2.2e-4, 0.0)),
+        [0.333, 1.0, 2.02, 5.0],
+    )
     steps, _, work = walk(roller, motion, limits_of(roller, motion, 2e-4), stops, -0.55)
     real = steps[steps["weight"][:, 0] > 0.0]
     assert real["start"][0] == 0.0 and np.array_equal(real["start"][1:], real["end"][:-1])
@@ -121,10 +144,18 @@ def test_steps_follow_one_another_and_end_at_every_stop():
 
 
 def test_a_roller_that_fails_says_so(turbulent):
-    found = simulate(Case(loads=turbulent, laws=Laws.paper(), rollers=[3], integrator=Radau(max_steps=40)))
+    found = simulate(
+        Case(loads=turbulent, laws=Laws.paper(), rollers=[3], integrator=Radau(max_steps=40))
+    )
     assert (found.status == Status.TOO_MANY_STEPS).all()
-    assert found.energy.isnull().all() and found.peak_power.isnull().all() and found.min_spin_ratio.isnull().all()
-    assert (found.end_time > turbulent.time[0]).all() and (found.end_time < turbulent.time[-1]).all()
+    assert (
+        found.energy.isnull().all()
+        and found.peak_power.isnull().all()
+        and found.min_spin_ratio.isnull().all()
+    )
+    assert (found.end_time > turbulent.time[0]).all() and (
+        found.end_time < turbulent.time[-1]
+    ).all()
 
 
 def test_a_short_load_in_the_middle_of_a_coast_is_not_passed_over():
@@ -133,9 +164,14 @@ def test_a_short_load_in_the_middle_of_a_coast_is_not_passed_over():
     force[(time > 4.02) & (time < 4.12)] = [0.0, 300e3, 0.0]
     for tolerance in (1e-2, 1e-4):
         loads = BearingLoads(time, np.full(161, 2.143), force, "pulse")
-        found = run(loads, tolerance, range(0, 28, 4), traces=Traces(step=0.5), window=START).sel(row="downwind")
+        found = run(loads, tolerance, range(0, 28, 4), traces=Traces(step=0.5), window=START).sel(
+            row="downwind"
+        )
         # Rollers near the top are gripped by the pulse: their slip, built up for seconds, is gone just after it.
-        before, after = abs(found.slip.sel(time=4.0)), abs(found.slip.sel(time=4.5, method="nearest"))
+        before, after = (
+            abs(found.slip.sel(time=4.0)),
+            abs(found.slip.sel(time=4.5, method="nearest")),
+        )
         top = np.sin(found.start_angle + 0.45394 * 2.143 * 4.07) > 0.8
         assert top.any() and (before.where(top, drop=True) > 0.05).all()
         assert (after.where(top, drop=True) < 0.5 * before.where(top, drop=True)).all()
@@ -150,7 +186,9 @@ def history(shape, force=(0.0, -500e3, 200e3), seconds=20.0):
 
 
 def stop_and_go(period, phase, offset, fastest):
-    return lambda t: fastest * np.clip(2.0 * np.sin(2 * np.pi * t / period + phase) + offset, 0.0, 1.0)
+    return lambda t: (
+        fastest * np.clip(2.0 * np.sin(2 * np.pi * t / period + phase) + offset, 0.0, 1.0)
+    )
 
 
 #: Shaft speeds at which energies were off by 1e-3 to 5e-3 with the embedded estimate alone, and what the window starts at.
@@ -159,7 +197,10 @@ SPEEDS = {
     "stops for long": (stop_and_go(16.2, 3.8, -0.2, 0.6), None),
     "stops in the window": (stop_and_go(13.0, 0.5, -0.1, 1.4), None),
     "turns back": (lambda t: 1.1 * np.sin(2 * np.pi * t / 14.3 + 4.1), None),
-    "turns for a moment in a long rest": (lambda t: 1.5 * ((t < 3.0) | ((t > 11.0) & (t < 11.4))), None),
+    "turns for a moment in a long rest": (
+        lambda t: 1.5 * ((t < 3.0) | ((t > 11.0) & (t < 11.4))),
+        None,
+    ),
     "runs down in the window": (lambda t: np.clip(2.0 * (17.0 - t), 0.0, 2.0), 15.9),
 }
 
@@ -168,7 +209,9 @@ SPEEDS = {
 def test_energy_at_the_default_tolerance_where_the_shaft_stops_or_turns_back(name):
     shape, start = SPEEDS[name]
     found, exact = (
-        run(history(shape), tolerance, [0, 5, 11, 16, 22], window=Window(start=start)).energy.sum("interface")
+        run(history(shape), tolerance, [0, 5, 11, 16, 22], window=Window(start=start)).energy.sum(
+            "interface"
+        )
         for tolerance in (Radau().tolerance, 1e-8)
     )
     assert float(exact.min()) > 0.0 and float(abs(found / exact - 1.0).max()) < 3e-4
@@ -179,7 +222,9 @@ def test_energy_at_the_default_tolerance_where_the_shaft_stops_or_turns_back(nam
 def test_shaft_reversal_with_microslip(period, thrust):
     """A gripped roller's slip passes zero with the shaft's speed; there is no ratio of the two there."""
     loads = history(lambda t: 2.0 * np.sin(2.0 * np.pi * t / period), (0.0, -300e3, thrust))
-    default, tight = (run(loads, one, [7], laws=Laws.physical(), window=START) for one in (2e-4, 5e-5))
+    default, tight = (
+        run(loads, one, [7], laws=Laws.physical(), window=START) for one in (2e-4, 5e-5)
+    )
     assert (default.status == Status.COMPLETED).all() and (tight.status == Status.COMPLETED).all()
     energy, exact = default.energy.sum("interface"), tight.energy.sum("interface")
     assert float(abs(energy / exact - 1).max()) < 2e-3
@@ -208,7 +253,9 @@ def test_standstill(laws):
         for end in (10.0, 130.0)
     )
     assert (long.status == Status.COMPLETED).all() and (short.energy.sum("interface") > 0.0).all()
-    np.testing.assert_allclose(long.energy.sum("interface"), short.energy.sum("interface"), rtol=1e-3)
+    np.testing.assert_allclose(
+        long.energy.sum("interface"), short.energy.sum("interface"), rtol=1e-3
+    )
     assert float(abs(long.end_slip).max()) < 1e-3
 
 
@@ -217,7 +264,8 @@ def test_energy_of_rollers_without_weight_and_drag():
     random = np.random.default_rng(3)
     loads = history(lambda t: 2.0 + np.cumsum(random.normal(0.0, 0.004, t.size)), seconds=28.0)
     found, exact = (
-        run(loads, one, [0, 9], gravity=False, drag=False).sel(row="downwind", interface="cage") for one in (2e-4, 1e-8)
+        run(loads, one, [0, 9], gravity=False, drag=False).sel(row="downwind", interface="cage")
+        for one in (2e-4, 1e-8)
     )
     for name in ("energy", "peak_power"):
         assert float(abs(found[name] / exact[name] - 1.0).max()) < 1e-5
@@ -251,9 +299,17 @@ def test_euler_is_of_first_order_where_nothing_is_stiff(method):
     exact = run(coasting, 1e-10, window=START).isel(roller=0).sel(row="upwind")
     errors = []
     for step in (8e-3, 4e-3, 2e-3):
-        case = Case(loads=coasting, laws=Laws.paper(), rollers=[3], integrator=method(step=step), window=START)
+        case = Case(
+            loads=coasting,
+            laws=Laws.paper(),
+            rollers=[3],
+            integrator=method(step=step),
+            window=START,
+        )
         found = simulate(case).isel(roller=0).sel(row="upwind")
-        errors.append([float(found.energy.sum() - exact.energy.sum()), float(found.end_slip - exact.end_slip)])
+        errors.append(
+            [float(found.energy.sum() - exact.energy.sum()), float(found.end_slip - exact.end_slip)]
+        )
     assert np.log2(np.abs(np.array(errors[:-1]) / errors[1:])) == pytest.approx(1.0, abs=0.2)
 
 
@@ -261,7 +317,9 @@ def test_explicit_euler_is_unstable_in_the_load_zone_and_backward_euler_is_not()
     loads = BearingLoads.constant([0.0, -343e3, 0.0], 2.143, 9.0)
     # Roller 14 starts at the top, unloaded, and meets the load zone after two to three seconds.
     explicit, backward, exact = (
-        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[14], integrator=one)).isel(roller=0).sel(row="downwind")
+        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[14], integrator=one))
+        .isel(roller=0)
+        .sel(row="downwind")
         for one in (ExplicitEuler(step=1e-3), BackwardEuler(step=1e-3), Radau(tolerance=1e-8))
     )
     assert backward.status == Status.COMPLETED
@@ -274,7 +332,9 @@ def test_explicit_euler_is_unstable_in_the_load_zone_and_backward_euler_is_not()
 def test_stopping_the_iteration_early_leaves_spurious_force_and_energy():
     loads = main_bearing_load(HubLoads.bundled("14B").window(0.0, 20.0), Drivetrain())
     exact, fine, loose = (
-        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[3], integrator=one)).isel(roller=0).sel(row="downwind")
+        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[3], integrator=one))
+        .isel(roller=0)
+        .sel(row="downwind")
         for one in (
             Radau(tolerance=1e-8),
             BackwardEuler(step=5e-3, tolerance=1e-15),

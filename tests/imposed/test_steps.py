@@ -75,7 +75,13 @@ def test_order_five_on_a_nonlinear_equation():
     for steps in (4, 8, 16):
         v, h = 1.0, 1.0 / steps
         for n in range(steps):
-            v += step(lambda t, v: v * v + math.sin(t) - math.cos(t) ** 2, lambda t, v: 2.0 * v, v, n * h, h)[2]
+            v += step(
+                lambda t, v: v * v + math.sin(t) - math.cos(t) ** 2,
+                lambda t, v: 2.0 * v,
+                v,
+                n * h,
+                h,
+            )[2]
         errors.append(abs(v - math.cos(1.0)))
     assert np.all(np.log2(np.array(errors[:-1]) / errors[1:]) > 4.7), errors
 
@@ -100,7 +106,9 @@ def test_a_held_step_forgets_its_start_and_solves_its_equations():
     scale, d2, d3 = 3.0, 7.0, 11.0
     matrix = np.array([[d2, scale], [-4.0 * scale, 3.0 * scale + d3]])
     for rest in ([1.0, -2.0], [0.3, 5.0]):
-        np.testing.assert_allclose(matrix @ held_update(scale, d2, d3, *rest), -np.array(rest), rtol=1e-14)
+        np.testing.assert_allclose(
+            matrix @ held_update(scale, d2, d3, *rest), -np.array(rest), rtol=1e-14
+        )
 
 
 def test_slip_error_is_of_fourth_order_in_the_step():
@@ -123,13 +131,20 @@ def test_energy_error_of_a_held_step_is_on_the_safe_side(growth):
 def test_collocation_reproduces_cubics_and_their_rate():
     z = [c**3 - 2 * c for c in NODES]
     for part in (0.0, 0.3, 0.83, 1.0, 1.4):
-        assert collocation(part, *z) == pytest.approx((part**3 - 2 * part, 3 * part**2 - 2), abs=1e-12)
+        assert collocation(part, *z) == pytest.approx(
+            (part**3 - 2 * part, 3 * part**2 - 2), abs=1e-12
+        )
 
 
 # --- Where a step must end -------------------------------------------------------------------------------------------
 
 
-@given(root=st.floats(0.03, 0.97), far=st.floats(1.2, 5.0), near=st.floats(-5.0, -0.2), sign=st.sampled_from([-1, 1]))
+@given(
+    root=st.floats(0.03, 0.97),
+    far=st.floats(1.2, 5.0),
+    near=st.floats(-5.0, -0.2),
+    sign=st.sampled_from([-1, 1]),
+)
 def test_the_only_root_of_a_cubic_inside_the_step_is_found(root, far, near, sign):
     values = sign * (PLACES - root) * (PLACES - far) * (PLACES - near)
     assert crossing(*values) == pytest.approx(root, abs=1e-9)
@@ -137,7 +152,9 @@ def test_the_only_root_of_a_cubic_inside_the_step_is_found(root, far, near, sign
 
 
 def test_of_several_roots_the_first_is_found_and_one_at_an_end_is_none():
-    assert crossing(*((PLACES - 0.1) * (PLACES - 0.4) * (PLACES - 0.8))) == pytest.approx(0.1, abs=1e-9)
+    assert crossing(*((PLACES - 0.1) * (PLACES - 0.4) * (PLACES - 0.8))) == pytest.approx(
+        0.1, abs=1e-9
+    )
     for root in (0.0, 0.3 * AT_END, 1.0 - 0.3 * AT_END, 1.0):
         assert crossing(*(PLACES - root)) == 1.0
     assert crossing(*(PLACES + 1.0)) == 1.0 == crossing(*(-1.0 - PLACES))
@@ -153,7 +170,14 @@ def a_step(motion, roller, start, end, slip=0.0):
     work["interval"], work["end_interval"] = (interval_of(motion, one, 0) for one in (start, end))
     work["at"]["ring_speed"] = -ratio * np.interp(start, motion.time, motion.shaft_speed)
     work["stage_at"]["ring_speed"] = -ratio * np.interp(times, motion.time, motion.shaft_speed)
-    return work, Path(body, roller.tables.ctypes.data, roller.tables, motion, 0.0, limits_of(roller, motion, 2e-4)[0])
+    return work, Path(
+        body,
+        roller.tables.ctypes.data,
+        roller.tables,
+        motion,
+        0.0,
+        limits_of(roller, motion, 2e-4)[0],
+    )
 
 
 @pytest.fixture(scope="module")
@@ -167,7 +191,10 @@ def test_what_is_missed_of_the_way_is_what_quadrature_of_the_speed_misses(roller
     work, path = a_step(motion, roller, start, end)
     ratio = -float(roller.body[0]["orbit_ratio"] * roller.body[0]["outer_radius"])
     kinks = [one for one in motion.time if start < one < end]
-    exact = ratio * quad(np.interp, start, end, (motion.time, motion.shaft_speed), points=kinks or None)[0]
+    exact = (
+        ratio
+        * quad(np.interp, start, end, (motion.time, motion.shaft_speed), points=kinks or None)[0]
+    )
     found = (end - start) * float(np.dot(WEIGHTS, work["stage_at"]["ring_speed"]))
     assert missed_way(path, work) == pytest.approx(found - exact, abs=1e-9)
     linear = motion_of([0.0, 1.0, 3.0], [1.0, 1.3, 1.9], (0.0, 0.0, 0.0))
@@ -220,7 +247,9 @@ def test_traction_rises_up_to_the_bound(laws, load):
     made = rollers(models(laws))["downwind"]
     bound = surely_rising(made.body[0], made.tables, load, load, 0.4)
     assert 0.0 < bound < math.inf
-    pulls = np.array([forces_of(made, a_station(load), one)["inner"] for one in np.linspace(0.0, bound, 60)])
+    pulls = np.array(
+        [forces_of(made, a_station(load), one)["inner"] for one in np.linspace(0.0, bound, 60)]
+    )
     assert (np.maximum.accumulate(pulls) - pulls).max() < 5e-3 * pulls.max()
     both = surely_rising(made.body[0], made.tables, 1e3, 1e5, 0.4)
     alone = [surely_rising(made.body[0], made.tables, one, one, 0.4) for one in (1e3, 1e5)]

@@ -12,7 +12,15 @@ from scipy.optimize import brentq
 
 from macroslip import Laws
 from macroslip.imposed.tuning import FIRM_RATE, FIRM_RATE_MICROSLIP
-from macroslip.imposed.zones import EDGE, FIRM, FREE, classify, edge_time, firm_interference, relaxation_rate
+from macroslip.imposed.zones import (
+    EDGE,
+    FIRM,
+    FREE,
+    classify,
+    edge_time,
+    firm_interference,
+    relaxation_rate,
+)
 from tests.one_roller import models, motion_of, rollers
 
 RATED_SURFACE_SPEED = 0.39594
@@ -50,7 +58,11 @@ samples = st.tuples(st.floats(1e-3, 0.3), st.floats(-3.0, 3.0), lengths, lengths
 
 
 @pytest.mark.parametrize("row", ["downwind", "upwind"])
-@given(st.lists(samples, min_size=2, max_size=6), st.floats(-4.0, 4.0), st.sampled_from([0.0, 1e-5, 5e-5]))
+@given(
+    st.lists(samples, min_size=2, max_size=6),
+    st.floats(-4.0, 4.0),
+    st.sampled_from([0.0, 1e-5, 5e-5]),
+)
 @settings(max_examples=150)
 def test_no_interval_is_free_or_firm_that_is_not(paper, made, row, history, start_angle, firm):
     time = np.cumsum([sample[0] for sample in history])
@@ -75,14 +87,18 @@ def test_load_that_comes_and_goes_within_an_interval_is_an_edge(
     # not: turning, reversing and accelerating shafts, with and without a ring that follows.
     model, far = paper["downwind"], near if steady else far
     ring = np.array([[dx, dy, 0.0], [dx + rise_x, dy + rise_y, 0.0]])
-    dense = direct(model, motion_of([0.0, span], [near, far], ring), angle, np.linspace(0.0, span, 401))
+    dense = direct(
+        model, motion_of([0.0, span], [near, far], ring), angle, np.linspace(0.0, span, 401)
+    )
     above, below = dense.max() - max(dense[0], dense[-1]), min(dense[0], dense[-1]) - dense.min()
     firm = 1e-5
     ways = (
         (above, -max(dense[0], dense[-1]) - 0.9 * above, FREE),
         (below, firm - min(dense[0], dense[-1]) + 0.9 * below, FIRM),
     )
-    for level, forbidden in ((level, forbidden) for excess, level, forbidden in ways if excess > 1e-13):
+    for level, forbidden in (
+        (level, forbidden) for excess, level, forbidden in ways if excess > 1e-13
+    ):
         ring[:, 2] = level / model.sin_contact_angle
         motion = motion_of([0.0, span], [near, far], ring)
         assert classes_of(made["downwind"], motion, angle, firm).tolist() != [forbidden]
@@ -134,13 +150,15 @@ def test_relaxation_time_by_hand(paper, made, load, seconds):
         total += 2 * area * 0.54 / film * (math.exp(p) * (p - 1) + 1) / p**2
     mass = 7850.0 * math.pi * 0.035**2 * 0.106
     roller = made["downwind"]
-    assert relaxation_rate(roller.body[0], roller.tables, load, RATED_SURFACE_SPEED) == pytest.approx(
-        2 / mass * total, rel=1e-6
-    )
+    assert relaxation_rate(
+        roller.body[0], roller.tables, load, RATED_SURFACE_SPEED
+    ) == pytest.approx(2 / mass * total, rel=1e-6)
     assert mass / 2 / total == pytest.approx(seconds, rel=0.01, abs=0.0)
 
 
-@pytest.mark.parametrize(("laws", "rate"), [(Laws.paper(), FIRM_RATE), (Laws.physical(), FIRM_RATE_MICROSLIP)])
+@pytest.mark.parametrize(
+    ("laws", "rate"), [(Laws.paper(), FIRM_RATE), (Laws.physical(), FIRM_RATE_MICROSLIP)]
+)
 def test_a_firm_roller_relaxes_at_the_firm_rate(laws, rate):
     roller = rollers(models(laws))["downwind"]
     body, tables = roller.body[0], roller.tables
@@ -153,6 +171,8 @@ def test_a_firm_roller_relaxes_at_the_firm_rate(laws, rate):
     for more in (1.05, 2.0, 5.0):
         assert at(more * load) > rate > at(load / more)
     # Slower rings hold no less firmly.
-    assert min(at(load, speed) for speed in np.geomspace(0.05, RATED_SURFACE_SPEED, 20)) >= rate * (1 - 1e-3)
+    assert min(at(load, speed) for speed in np.geomspace(0.05, RATED_SURFACE_SPEED, 20)) >= rate * (
+        1 - 1e-3
+    )
     rates = [at(one) for one in np.geomspace(1e-3, 1e5, 40)]
     assert np.all(np.isfinite(rates)) and np.all(np.diff(rates) > 0.0)

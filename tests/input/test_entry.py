@@ -72,17 +72,23 @@ def test_a_range_goes_with_the_value():
 
 
 @pytest.mark.parametrize(
-    "limits", [[71, 74], [60, 69], [66], "66 74", [66, "74"], [66, float("nan")], 3, None, [1, 2, 3]]
+    "limits",
+    [[71, 74], [60, 69], [66], "66 74", [66, "74"], [66, float("nan")], 3, None, [1, 2, 3]],
 )
 def test_a_wrong_range_is_refused(limits):
-    with pytest.raises(InputError, match="^mine.yaml, line 4, bore.range: it is .* Allowed: two numbers in the unit"):
+    with pytest.raises(
+        InputError,
+        match="^mine.yaml, line 4, bore.range: it is .* Allowed: two numbers in the unit",
+    ):
         read_entry("bore", {"value": 70, "unit": "mm", "range": limits}, LENGTH, SOURCE)
 
 
 def test_a_bearing_file_in_text_is_the_bearing():
     base = Bearing.read("skf-240-600-bc")
     short = {
-        key: entry if isinstance(entry, str) else f"{entry['value']} {entry['unit']}".removesuffix(" 1")
+        key: entry
+        if isinstance(entry, str)
+        else f"{entry['value']} {entry['unit']}".removesuffix(" 1")
         for key, entry in base.as_dict().items()
     }
     assert Bearing.from_dict(short).model_dump() == base.model_dump()

@@ -9,7 +9,10 @@ from macroslip.input.files import parse
 
 RECORDS = [(kind, name) for kind in (Bearing, Lubricant) for name in kind.catalogue()]
 TEXT = st.text(
-    st.characters(exclude_categories=("Cc", "Cs", "Zl", "Zp"), exclude_characters="\ufeff\ufffe\uffff"), max_size=80
+    st.characters(
+        exclude_categories=("Cc", "Cs", "Zl", "Zp"), exclude_characters="\ufeff\ufffe\uffff"
+    ),
+    max_size=80,
 )
 
 
@@ -29,7 +32,10 @@ def test_every_key_is_explained_in_the_line_above_it():
     assert list(keys) == list(base.as_dict())
     assert all(lines[n - 1].startswith("# ") for n in keys.values())
     assert max(len(line) for line in lines if line.startswith("#")) <= 120
-    assert 'rollers_per_row: {value: 28, unit: "1", tag: E, note: "back-calculated from the catalogue"}' in lines
+    assert (
+        'rollers_per_row: {value: 28, unit: "1", tag: E, note: "back-calculated from the catalogue"}'
+        in lines
+    )
 
 
 @pytest.mark.slow

@@ -17,7 +17,9 @@ def _group(folder, stem, number, title, names, units, columns, form, step=0.05, 
     columns = np.asarray(columns, dtype=np.float32)
     quoted = [f"'{name}'" for name in names]
     half = len(names) // 2
-    variables = "\n".join([" ".join(quoted[:half]), " ".join(quoted[half:])]) if wrap else " ".join(quoted)
+    variables = (
+        "\n".join([" ".join(quoted[:half]), " ".join(quoted[half:])]) if wrap else " ".join(quoted)
+    )
     mean = "   ".join(f"{value:.7E}" for value in columns.astype(float).mean(axis=0))
     (folder / f"{stem}.%{number}").write_text(
         f"FILE\t{stem}.${number}\nACCESS\tD\nFORM\t{form}\nRECL\t4\nFORMAT\tR*4\nCONTENT\t'POWPROD'\nCONFIG\t'STATIONARY'\n"
@@ -45,7 +47,17 @@ def _run(folder, truth, form="U", with_speed=True, **options):
     columns = np.column_stack([mx, my, mz, np.hypot(my, mz), fx, fy, fz, np.hypot(fy, fz)])
     names = [f"Stationary hub {name}" for name in HUB]
     units = ["FL"] * 4 + ["F"] * 4
-    header = _group(folder, "demo", 23, "Hub loads: fixed frame GL coordinates", names, units, columns, form, **options)
+    header = _group(
+        folder,
+        "demo",
+        23,
+        "Hub loads: fixed frame GL coordinates",
+        names,
+        units,
+        columns,
+        form,
+        **options,
+    )
     if with_speed:
         azimuth = np.cumsum(truth.shaft_speed) * 0.05
         drive = np.column_stack([truth.shaft_speed, azimuth])
@@ -109,7 +121,9 @@ def test_a_case_and_a_study_may_give_the_speed(tmp_path, truth):
 def test_only_hub_loads_from_a_file_take_a_speed(tmp_path, source):
     case = tmp_path / "case.yaml"
     case.write_text(f"loads: {{{source}, shaft_speed: 20 rpm}}\n")
-    with pytest.raises(InputError, match=r"shaft_speed is given, but .* has its own\. Remove loads\.shaft_speed"):
+    with pytest.raises(
+        InputError, match=r"shaft_speed is given, but .* has its own\. Remove loads\.shaft_speed"
+    ):
         read_case(case)
 
 

@@ -34,14 +34,22 @@ def test_filter_is_as_documented():
     assert np.interp(9.25, frequency, gain) == pytest.approx(0.5, abs=1e-3)
 
 
-@pytest.mark.parametrize(("frequency", "gain"), [(0.34, 1), (3.1, 1), (8.4, 1), (10.1, 0), (12.0, 0), (24.9, 0)])
+@pytest.mark.parametrize(
+    ("frequency", "gain"), [(0.34, 1), (3.1, 1), (8.4, 1), (10.1, 0), (12.0, 0), (24.9, 0)]
+)
 def test_a_tone_keeps_amplitude_and_phase_or_vanishes(frequency, gain):
-    fine, coarse = (2 * np.pi * frequency * np.arange(n) / rate + 0.3 for n, rate in ((3001, 50), (1201, 20)))
-    assert bundle.decimate(np.cos(fine))[40:-40] == pytest.approx(gain * np.cos(coarse)[40:-40], abs=3e-4)
+    fine, coarse = (
+        2 * np.pi * frequency * np.arange(n) / rate + 0.3 for n, rate in ((3001, 50), (1201, 20))
+    )
+    assert bundle.decimate(np.cos(fine))[40:-40] == pytest.approx(
+        gain * np.cos(coarse)[40:-40], abs=3e-4
+    )
 
 
 def test_a_ramp_is_kept_up_to_both_ends():
-    assert bundle.decimate(np.arange(3001) / 50.0) == pytest.approx(np.arange(1201) / 20, rel=5e-6, abs=1e-6)
+    assert bundle.decimate(np.arange(3001) / 50.0) == pytest.approx(
+        np.arange(1201) / 20, rel=5e-6, abs=1e-6
+    )
 
 
 def test_mean_and_spread_are_kept_but_for_the_removed_band(clip):
@@ -58,7 +66,9 @@ def test_mean_and_spread_are_kept_but_for_the_removed_band(clip):
 
 def test_bundled_file_is_what_the_module_makes_of_the_source(clip):
     # The clip ends at 60 s, the bundled record goes on: the last 1.7 s rest on different continuations.
-    assert bundle.decimate(clip)[:-34] == pytest.approx(_bundled("14B", 1201)[:-34], rel=1e-6, abs=0.05)
+    assert bundle.decimate(clip)[:-34] == pytest.approx(
+        _bundled("14B", 1201)[:-34], rel=1e-6, abs=0.05
+    )
 
 
 @pytest.mark.parametrize("case", bundled_cases())
@@ -87,12 +97,15 @@ def test_provenance_and_size():
     total = 0
     for case in bundled_cases():
         file = pq.ParquetFile(f"{folder}/{case}.parquet")
-        metadata = {key.decode(): value.decode() for key, value in file.schema_arrow.metadata.items()}
+        metadata = {
+            key.decode(): value.decode() for key, value in file.schema_arrow.metadata.items()
+        }
         assert metadata["case"] == case and "OpenFAST v3.5.5" in metadata["source"]
         assert {"turbsim_seeds", "decimation", "frame", "nature", "turbine"} <= metadata.keys()
         assert list(json.loads(metadata["units"])) == file.schema_arrow.names
         total += file.metadata.serialized_size + sum(
-            file.metadata.row_group(0).column(i).total_compressed_size for i in range(file.metadata.num_columns)
+            file.metadata.row_group(0).column(i).total_compressed_size
+            for i in range(file.metadata.num_columns)
         )
     assert total < 8e6
     # All of them go into the wheel.

@@ -23,7 +23,10 @@ def _channels(truth, sign=1.0, direction=1.0, start=0.7):
     angle = start + np.concatenate([[0.0], np.cumsum(truth.shaft_speed[:-1] * np.diff(time))])
     columns = {"Time": ("s", "Time", time)}
     cos, sin = np.cos(angle), np.sin(angle)
-    for letter, unit, kind, vector in (("F", "kN", "Force ", truth.force), ("M", "kNm", "Moment", truth.moment)):
+    for letter, unit, kind, vector in (
+        ("F", "kN", "Force ", truth.force),
+        ("M", "kNm", "Moment", truth.moment),
+    ):
         x, y, z = sign * vector.T / 1e3
         # Left, up and downwind become x', −y' and −z', in axes that have turned by the angle about the downwind axis.
         left, up = y * cos + z * sin, -y * sin + z * cos
@@ -39,7 +42,13 @@ def _write_sel(folder, columns, binary):
     values = np.column_stack([column for _, _, column in columns.values()])
     duration = np.ptp(columns["Time"][2])
     kind = "BINARY" if binary else "ASCII"
-    lines = [LINE, "  Version ID : HAWC2MB 12.8", "   Time : 10:02:19", "   Date : 24:01.2023", LINE]
+    lines = [
+        LINE,
+        "  Version ID : HAWC2MB 12.8",
+        "   Time : 10:02:19",
+        "   Date : 24:01.2023",
+        LINE,
+    ]
     lines += ["  Result file : ./run.dat", LINE, "   Scans    Channels    Time [sec]      Format"]
     lines += [
         f"{values.shape[0]:11d}{values.shape[1]:7d}{duration:15.3f}       {kind}",
@@ -75,7 +84,9 @@ def _write_gtsdf(folder, columns, packed):
             ("units", [unit for unit, _, _ in rest.values()]),
             ("descriptions", [text for _, text, _ in rest.values()]),
         ):
-            file.create_dataset(f"attribute_{kind}", data=np.array([text.encode() for text in texts]))
+            file.create_dataset(
+                f"attribute_{kind}", data=np.array([text.encode() for text in texts])
+            )
         block = file.create_group("block0000")
         block.attrs["time_start"], block.attrs["time_step"] = 0.0, 0.05
         if packed:
@@ -98,7 +109,9 @@ def _message(path, *words):
 
 def _check(read, truth, tolerance):
     np.testing.assert_allclose(read.force, truth.force, atol=tolerance * np.abs(truth.force).max())
-    np.testing.assert_allclose(read.moment, truth.moment, atol=tolerance * np.abs(truth.moment).max())
+    np.testing.assert_allclose(
+        read.moment, truth.moment, atol=tolerance * np.abs(truth.moment).max()
+    )
     np.testing.assert_allclose(read.shaft_speed, truth.shaft_speed, rtol=tolerance)
     assert read.time == pytest.approx(truth.time - truth.time[0], abs=1e-6)
 
@@ -116,7 +129,11 @@ def test_list_of_channels(tmp_path, truth, sign, direction, binary):
 
 @pytest.mark.parametrize("packed", [False, True])
 def test_gtsdf(tmp_path, truth, packed):
-    _check(HubLoads.read(_write_gtsdf(tmp_path, _channels(truth), packed)), truth, 3e-3 if packed else 1e-9)
+    _check(
+        HubLoads.read(_write_gtsdf(tmp_path, _channels(truth), packed)),
+        truth,
+        3e-3 if packed else 1e-9,
+    )
 
 
 @pytest.mark.parametrize(
@@ -147,7 +164,11 @@ def test_axes_in_which_the_weight_does_not_point_down(tmp_path, truth):
 
 @pytest.mark.parametrize(
     ("binary", "length", "words"),
-    [(True, -10, "cut off"), (False, -30, "the list of channels announces"), (True, None, "no run.dat beside it")],
+    [
+        (True, -10, "cut off"),
+        (False, -30, "the list of channels announces"),
+        (True, None, "no run.dat beside it"),
+    ],
 )
 def test_data_that_are_cut_off_or_absent(tmp_path, truth, binary, length, words):
     path = _write_sel(tmp_path, _channels(truth), binary)
@@ -176,7 +197,9 @@ def test_an_hdf5_file_of_another_kind(tmp_path):
     _message(path, "General time series")
 
 
-@pytest.mark.parametrize(("duration", "words"), [("20.000", "announces 20 s"), ("nan", "channels in nan s")])
+@pytest.mark.parametrize(
+    ("duration", "words"), [("20.000", "announces 20 s"), ("nan", "channels in nan s")]
+)
 def test_a_damaged_duration(tmp_path, truth, duration, words):
     path = _write_sel(tmp_path, _channels(truth), binary=True)
     path.write_text(path.read_text().replace("60.000", duration))
@@ -190,7 +213,10 @@ def test_a_damaged_duration(tmp_path, truth, duration, words):
             lambda time: np.append(time[:-1], time[-1] ^ 0x4000),
             "from 0 s to 29.28 s, the list of channels announces 60 s",
         ),
-        (lambda time: np.append(time[0], np.append(time[1] ^ 0x0800, time[2:])), "are not equally spaced"),
+        (
+            lambda time: np.append(time[0], np.append(time[1] ^ 0x0800, time[2:])),
+            "are not equally spaced",
+        ),
         (lambda time: time.byteswap(), "its time"),
     ],
 )
@@ -203,7 +229,9 @@ def test_flipped_bits_and_swapped_bytes_in_the_time(tmp_path, truth, change, wor
 
 
 @pytest.mark.parametrize("binary", [False, True])
-@pytest.mark.parametrize(("start", "announced"), [(0.05, "60.050"), (100.0, "60.000"), (100.0, "160.000")])
+@pytest.mark.parametrize(
+    ("start", "announced"), [(0.05, "60.050"), (100.0, "60.000"), (100.0, "160.000")]
+)
 def test_ways_to_count_the_duration(tmp_path, truth, binary, start, announced):
     columns = _channels(truth)
     unit, text, time = columns["Time"]
@@ -229,7 +257,9 @@ def _second_name(file, folder):
 def _external_storage(file, folder):
     del file["block0000/data"]
     os.truncate(os.open(folder / "numbers", os.O_CREAT | os.O_WRONLY), 1000)
-    file["block0000"].create_dataset("data", (10, 10), "f8", external=[(str(folder / "numbers"), 0, 800)])
+    file["block0000"].create_dataset(
+        "data", (10, 10), "f8", external=[(str(folder / "numbers"), 0, 800)]
+    )
 
 
 def _virtual_layout(file, folder):

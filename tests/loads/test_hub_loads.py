@@ -50,7 +50,10 @@ def test_standstill_and_reverse_rotation_are_legal(speed):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"time": np.array([1.0]), "shaft_speed": [1.0]}, ["time has shape (1,)", "at least 2 samples"]),
+        (
+            {"time": np.array([1.0]), "shaft_speed": [1.0]},
+            ["time has shape (1,)", "at least 2 samples"],
+        ),
         ({"time": np.zeros((20, 1))}, ["time has shape (20, 1)"]),
         ({"shaft_speed": 2.0}, ["shaft_speed has shape ()", "(20,)", "20 time stamps"]),
         ({"force": np.zeros((3, 20))}, ["force has shape (3, 20)", "(20, 3)", "fx, fy, fz"]),
@@ -60,17 +63,35 @@ def test_standstill_and_reverse_rotation_are_legal(speed):
             {"time": _replace(_record()["time"], 4, 60.15)},
             ["sample 3 (counted from 0) is at 60.15 s, sample 4 at 60.15 s"],
         ),
-        ({"time": _replace(_record()["time"], 9, 60.0)}, ["sample 8 (counted from 0) is at 60.4 s, sample 9 at 60 s"]),
+        (
+            {"time": _replace(_record()["time"], 9, 60.0)},
+            ["sample 8 (counted from 0) is at 60.4 s, sample 9 at 60 s"],
+        ),
         (
             {"time": _record()["time"] + np.where(np.arange(20) > 6, 0.4, 0)},
             ["gap of 0.45 s after t = 60.3 s", "median step 0.05 s", "start=, end="],
         ),
-        ({"shaft_speed": _replace(_record()["shaft_speed"], 5, np.nan)}, ["run 7, t = 60.25 s", "shaft_speed is nan"]),
-        ({"force": _replace(_record()["force"], (7, 1), -np.inf)}, ["t = 60.35 s", "fy is -inf (1 of 20"]),
+        (
+            {"shaft_speed": _replace(_record()["shaft_speed"], 5, np.nan)},
+            ["run 7, t = 60.25 s", "shaft_speed is nan"],
+        ),
+        (
+            {"force": _replace(_record()["force"], (7, 1), -np.inf)},
+            ["t = 60.35 s", "fy is -inf (1 of 20"],
+        ),
         ({"moment": _replace(_record()["moment"], (19, 2), np.nan)}, ["t = 60.95 s", "mz is nan"]),
-        ({"shaft_speed": np.full(20, 1800.0)}, ["shaft_speed is 1800 rad/s", "up to 100 rad/s", "rpm", "generator"]),
-        ({"force": _replace(_record()["force"], (2, 2), -2.6e8)}, ["t = 60.1 s", "fz is -2.6e+08 N", "kN"]),
-        ({"moment": _replace(_record()["moment"], (2, 0), 7e9)}, ["mx is 7e+09 N m", "up to 1e+09 N m"]),
+        (
+            {"shaft_speed": np.full(20, 1800.0)},
+            ["shaft_speed is 1800 rad/s", "up to 100 rad/s", "rpm", "generator"],
+        ),
+        (
+            {"force": _replace(_record()["force"], (2, 2), -2.6e8)},
+            ["t = 60.1 s", "fz is -2.6e+08 N", "kN"],
+        ),
+        (
+            {"moment": _replace(_record()["moment"], (2, 0), 7e9)},
+            ["mx is 7e+09 N m", "up to 1e+09 N m"],
+        ),
     ],
 )
 def test_bad_hub_loads_are_told_apart(changes, words):
@@ -102,10 +123,14 @@ def test_window_sides_can_be_left_open():
     assert np.array_equal(loads.window(None, 60.5).time, loads.time[:11])
     assert np.array_equal(loads.window(60.5, None).force, loads.force[10:])
     bearing = BearingLoads.constant([0, -1e5, 0], 2.0, 1.0)
-    assert bearing.window(0.25, 0.5).time.tolist() == pytest.approx([0.25, 0.3, 0.35, 0.4, 0.45, 0.5])
+    assert bearing.window(0.25, 0.5).time.tolist() == pytest.approx(
+        [0.25, 0.3, 0.35, 0.4, 0.45, 0.5]
+    )
 
 
-@pytest.mark.parametrize(("start", "end"), [(0.0, 60.5), (60.1, 61.0), (60.5, 60.1), (60.4, 60.4), (np.nan, 60.5)])
+@pytest.mark.parametrize(
+    ("start", "end"), [(0.0, 60.5), (60.1, 61.0), (60.5, 60.1), (60.4, 60.4), (np.nan, 60.5)]
+)
 def test_window_outside_the_record(start, end):
     with pytest.raises(InputError, match=r"run 7: the window .* 60 s to 60\.95 s"):
         HubLoads(**_record()).window(start, end)
@@ -113,7 +138,9 @@ def test_window_outside_the_record(start, end):
 
 @pytest.mark.parametrize("start", ["60 s", True])
 def test_window_in_other_things_than_seconds(start):
-    with pytest.raises(InputError, match="run 7: start is .* Allowed: a number of seconds, or None"):
+    with pytest.raises(
+        InputError, match="run 7: start is .* Allowed: a number of seconds, or None"
+    ):
         HubLoads(**_record()).window(start, None)
 
 
@@ -127,7 +154,11 @@ def test_constant_ends_at_the_duration(duration, step):
     loads = HubLoads.constant([1, 2, 3], [4, 5, 6], -1.5, duration, step=step)
     assert loads.time[0] == 0.0 and loads.time[-1] == duration == loads.duration
     assert np.diff(loads.time).max() <= step * (1 + 1e-9)
-    assert (loads.force == [1, 2, 3]).all() and (loads.moment == [4, 5, 6]).all() and (loads.shaft_speed == -1.5).all()
+    assert (
+        (loads.force == [1, 2, 3]).all()
+        and (loads.moment == [4, 5, 6]).all()
+        and (loads.shaft_speed == -1.5).all()
+    )
 
 
 @pytest.mark.parametrize(

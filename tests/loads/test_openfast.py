@@ -45,11 +45,15 @@ def test_binary_and_text_of_one_run_agree_to_text_rounding(sample_outb, sample_o
     assert binary.time == pytest.approx(60 + 0.05 * np.arange(1201), abs=1e-9)
     assert text.time == pytest.approx(binary.time, abs=1e-9)
     for name in ("shaft_speed", "force", "moment"):
-        unit = np.pi / 30 if name == "shaft_speed" else 1e3  # the text is rounded in rpm, kN and kN m
+        unit = (
+            np.pi / 30 if name == "shaft_speed" else 1e3
+        )  # the text is rounded in rpm, kN and kN m
         written, exact = getattr(text, name) / unit, getattr(binary, name) / unit
         # Half a unit of the fourth digit, plus half a step of the 16-bit packing of the channel's range.
         packing = 0.51 * np.ptp(exact, axis=0) / 64000
-        assert (np.abs(written - exact) <= 0.51e-3 * 10 ** np.floor(np.log10(np.abs(exact))) + packing).all()
+        assert (
+            np.abs(written - exact) <= 0.51e-3 * 10 ** np.floor(np.log10(np.abs(exact))) + packing
+        ).all()
 
 
 def test_units_and_signs_of_the_genuine_file(sample_outb):
@@ -61,19 +65,34 @@ def test_units_and_signs_of_the_genuine_file(sample_outb):
 
 
 def test_sample_is_the_bundled_case(sample_outb, clip_50hz):
-    sample, clip, bundled = HubLoads.read(sample_outb), HubLoads.read(clip_50hz), HubLoads.bundled("14B").window(0, 60)
+    sample, clip, bundled = (
+        HubLoads.read(sample_outb),
+        HubLoads.read(clip_50hz),
+        HubLoads.bundled("14B").window(0, 60),
+    )
     assert sample.time - 60 == pytest.approx(bundled.time, abs=1e-9)
     for name in ("shaft_speed", "force", "moment"):
-        recorded, source, thinned = getattr(sample, name), getattr(clip, name), getattr(bundled, name)
+        recorded, source, thinned = (
+            getattr(sample, name),
+            getattr(clip, name),
+            getattr(bundled, name),
+        )
         spread = recorded.std(axis=0)
-        assert (np.abs(recorded[::2] - source[::5]).max(axis=0) < 2e-4 * spread).all()  # 16-bit packing
+        assert (
+            np.abs(recorded[::2] - source[::5]).max(axis=0) < 2e-4 * spread
+        ).all()  # 16-bit packing
         # The thinned record lacks what lay above 8.5 Hz.
         assert (np.sqrt(np.mean((recorded - thinned) ** 2, axis=0)) < 0.02 * spread).all()
 
 
 def test_rotating_channels_are_turned_by_azimuth(tmp_path, sample_out, sample_outb):
-    rotating = _selection(sample_out, lambda name: name not in ("LSShftFys", "LSShftFzs", "LSSTipMys", "LSSTipMzs"))
-    turned, fixed = HubLoads.read(_write_text(tmp_path / "a.out", *rotating)), HubLoads.read(sample_outb)
+    rotating = _selection(
+        sample_out, lambda name: name not in ("LSShftFys", "LSShftFzs", "LSSTipMys", "LSSTipMzs")
+    )
+    turned, fixed = (
+        HubLoads.read(_write_text(tmp_path / "a.out", *rotating)),
+        HubLoads.read(sample_outb),
+    )
     # Four digits of loads up to 1 MN m, and of an azimuth up to 360 degrees (0.05 degrees of rounding).
     assert turned.force[:, 1:] == pytest.approx(fixed.force[:, 1:], abs=0.4e3)
     assert turned.moment[:, 1:] == pytest.approx(fixed.moment[:, 1:], abs=1.3e3)
@@ -89,7 +108,9 @@ def test_one_pair_may_be_rotating_and_the_other_not(tmp_path, sample_out):
 
 
 def test_rotating_forces_that_do_not_point_down_are_refused(tmp_path, sample_out):
-    head, names, units, rows = _selection(sample_out, lambda name: name not in ("LSShftFys", "LSShftFzs"))
+    head, names, units, rows = _selection(
+        sample_out, lambda name: name not in ("LSShftFys", "LSShftFzs")
+    )
     i = names.index("Azimuth")
     for row in rows:  # what AzimB1Up = 90 does
         row[i] = f"{(float(row[i]) + 90) % 360:.4f}"
@@ -102,7 +123,9 @@ def test_aliases_and_letter_case(tmp_path, sample_out):
         "Time": "TIME", "RotSpeed": "LSSTipVxa", "LSShftFxa": "rotthrust", "LSShftFys": "LSSGAGFYS",
         "LSShftFzs": "lsshftfzs", "LSShftMxa": "RotTorq", "LSSTipMys": "lsstipmys", "LSSTipMzs": "LSSTIPMZS",
     }  # fmt: skip
-    path = _write_text(tmp_path / "a.out", *_selection(sample_out, needed.__contains__, needed, rows=50))
+    path = _write_text(
+        tmp_path / "a.out", *_selection(sample_out, needed.__contains__, needed, rows=50)
+    )
     renamed, plain = HubLoads.read(path), HubLoads.read(sample_out).window(60, 62.45)
     for name in ("time", "shaft_speed", "force", "moment"):
         assert np.array_equal(getattr(renamed, name), getattr(plain, name))
@@ -110,7 +133,9 @@ def test_aliases_and_letter_case(tmp_path, sample_out):
 
 def test_declared_units_are_used(tmp_path, sample_out):
     units = {"LSShftFxa": "(N)", "LSSTipMys": "(N-m)", "LSSTipMzs": "(kN·m)", "RotSpeed": "(rad/s)"}
-    path = _write_text(tmp_path / "a.out", *_selection(sample_out, lambda name: True, units_of=units, rows=50))
+    path = _write_text(
+        tmp_path / "a.out", *_selection(sample_out, lambda name: True, units_of=units, rows=50)
+    )
     other, plain = HubLoads.read(path), HubLoads.read(sample_out).window(60, 62.45)
     assert other.force == pytest.approx(plain.force * [1e-3, 1, 1])
     assert other.moment == pytest.approx(plain.moment * [1, 1e-3, 1])
@@ -124,11 +149,18 @@ def test_declared_units_are_used(tmp_path, sample_out):
         ("LSSTipMzs", "(kN)", ["channel LSSTipMzs has the unit (kN)", "(N-m), (kN-m)"]),
         ("RotSpeed", "(m/s)", ["channel RotSpeed has the unit (m/s)", "(rpm)"]),
         ("LSShftMxa", "(INVALID)", ["channel LSShftMxa has the unit (INVALID)", "cannot compute"]),
-        ("LSSTipMys", "INVALID", ["channel LSSTipMys has the unit (INVALID)", "check that ElastoDyn is in use"]),
+        (
+            "LSSTipMys",
+            "INVALID",
+            ["channel LSSTipMys has the unit (INVALID)", "check that ElastoDyn is in use"],
+        ),
     ],
 )
 def test_unknown_units(tmp_path, sample_out, channel, unit, words):
-    path = _write_text(tmp_path / "a.out", *_selection(sample_out, lambda name: True, units_of={channel: unit}, rows=5))
+    path = _write_text(
+        tmp_path / "a.out",
+        *_selection(sample_out, lambda name: True, units_of={channel: unit}, rows=5),
+    )
     _message(path, *words)
 
 
@@ -137,9 +169,16 @@ def test_unknown_units(tmp_path, sample_out, channel, unit, words):
     [
         (
             ["RotSpeed"],
-            ["RotSpeed is not in the file (34 channels)", '"RotSpeed"      - (rpm)', "RotSpeed or LSSTipVxa"],
+            [
+                "RotSpeed is not in the file (34 channels)",
+                '"RotSpeed"      - (rpm)',
+                "RotSpeed or LSSTipVxa",
+            ],
         ),
-        (["LSShftFxa", "RotThrust"], ["LSShftFxa is not in the file", '"LSShftFxa"     - (kN)', "or RotThrust"]),
+        (
+            ["LSShftFxa", "RotThrust"],
+            ["LSShftFxa is not in the file", '"LSShftFxa"     - (kN)', "or RotThrust"],
+        ),
         (
             ["LSSTipMys", "LSSTipMya"],
             [
@@ -151,14 +190,22 @@ def test_unknown_units(tmp_path, sample_out, channel, unit, words):
         ),
         (
             ["LSShftFys", "LSSTipMzs", "Azimuth"],
-            ["LSShftFys, LSSTipMzs are not in the file (32 channels)", '"LSShftFys"     -', '\n"LSSTipMzs"     -'],
+            [
+                "LSShftFys, LSSTipMzs are not in the file (32 channels)",
+                '"LSShftFys"     -',
+                '\n"LSSTipMzs"     -',
+            ],
         ),
         (["Time"], ["no channel Time"]),
     ],
 )
 def test_missing_channels_name_the_outlist_line(tmp_path, sample_out, absent, words):
-    path = _write_text(tmp_path / "a.out", *_selection(sample_out, lambda name: name not in absent, rows=5))
-    _message(path, *words, "" if absent == ["Time"] else "Add to the OutList of the ElastoDyn input file")
+    path = _write_text(
+        tmp_path / "a.out", *_selection(sample_out, lambda name: name not in absent, rows=5)
+    )
+    _message(
+        path, *words, "" if absent == ["Time"] else "Add to the OutList of the ElastoDyn input file"
+    )
 
 
 def test_window_on_reading_also_skips_a_bad_stretch(tmp_path, sample_out):
@@ -212,7 +259,9 @@ def test_what_was_read_is_said(sample_outb):
 
 
 def _poke(content, offset, layout, value):
-    return content[:offset] + struct.pack(layout, value) + content[offset + struct.calcsize(layout) :]
+    return (
+        content[:offset] + struct.pack(layout, value) + content[offset + struct.calcsize(layout) :]
+    )
 
 
 @pytest.mark.parametrize(("offset", "layout", "value"), [
@@ -223,13 +272,17 @@ def test_damaged_binary_header(tmp_path, sample_outb, offset, layout, value):
     path = tmp_path / "bad.outb"
     path.write_bytes(_poke(sample_outb.read_bytes(), offset, layout, value))
     message = _message(path)
-    assert any(word in message for word in ("cut off", "damaged", "not that of an OpenFAST binary file"))
+    assert any(
+        word in message for word in ("cut off", "damaged", "not that of an OpenFAST binary file")
+    )
 
 
 def test_a_scale_of_zero_is_reported_by_channel_and_time(tmp_path, sample_outb, sample_out):
     path = tmp_path / "bad.outb"
     _, names, _, _ = _split_text(sample_out)
-    path.write_bytes(_poke(sample_outb.read_bytes(), 28 + 4 * (names.index("LSShftFzs") - 1), "<f", 0.0))
+    path.write_bytes(
+        _poke(sample_outb.read_bytes(), 28 + 4 * (names.index("LSShftFzs") - 1), "<f", 0.0)
+    )
     assert "t = 60 s: fz is" in _message(path)
 
 
@@ -252,7 +305,9 @@ def test_all_four_binary_formats(tmp_path, sample_out, file_format, name_length)
     scale = (60000 / np.maximum(high - low, 1e-9)).astype(np.float32)
     offset = (-30000 - low * scale).astype(np.float32)
     text = b"made for a test"
-    content = struct.pack("<h", file_format) + (struct.pack("<h", name_length) if file_format == 4 else b"")
+    content = struct.pack("<h", file_format) + (
+        struct.pack("<h", name_length) if file_format == 4 else b""
+    )
     content += struct.pack("<ii", values.shape[1], len(time))
     content += struct.pack("<dd", *((1e4, 0.0) if file_format == 1 else (time[0], 0.05)))
     content += b"" if file_format == 3 else scale.tobytes() + offset.tobytes()
@@ -276,7 +331,10 @@ def test_all_four_binary_formats(tmp_path, sample_out, file_format, name_length)
     [
         (-200, ["line 1209 has", "values for 35 channels", "incomplete last line"]),
         (-3, ["line 1209 holds '8.143E+'", "instead of a number"]),
-        (-5, ["the last line is cut off"]),  # what is left, 8.143, is a number: the exponent is lost without a sign
+        (
+            -5,
+            ["the last line is cut off"],
+        ),  # what is left, 8.143, is a number: the exponent is lost without a sign
         (-2, ["the last line is cut off"]),
     ],
 )
@@ -295,7 +353,9 @@ def test_text_without_the_final_line_end_is_complete(tmp_path, sample_out):
 def test_text_with_overflowed_numbers_names_the_line(tmp_path, sample_out):
     head, names, units, rows = _selection(sample_out, lambda name: True, rows=20)
     rows[4][5] = "**********"
-    assert "line 13 holds '**********'" in _message(_write_text(tmp_path / "a.out", head, names, units, rows))
+    assert "line 13 holds '**********'" in _message(
+        _write_text(tmp_path / "a.out", head, names, units, rows)
+    )
 
 
 @pytest.mark.parametrize("lines", [1, 7, 8, 9])
@@ -303,4 +363,6 @@ def test_text_with_hardly_any_lines(tmp_path, sample_out, lines):
     path = tmp_path / "short.out"
     path.write_text("".join(sample_out.read_text().splitlines(keepends=True)[:lines]))
     message = _message(path)
-    assert "not an OpenFAST text output" in message if lines < 9 else "at least 2 samples" in message
+    assert (
+        "not an OpenFAST text output" in message if lines < 9 else "at least 2 samples" in message
+    )

@@ -65,9 +65,12 @@ def test_hub_and_bearing_tables(tmp_path, extension):
 )
 def test_every_unit_gives_the_same_loads(tmp_path, old, new, factor):
     columns = {
-        new if name == old else name: np.array(values) * (factor if name == old else 1) for name, values in HUB.items()
+        new if name == old else name: np.array(values) * (factor if name == old else 1)
+        for name, values in HUB.items()
     }
-    plain, other = (HubLoads.read(_write(tmp_path / f"{i}.csv", c)) for i, c in enumerate((HUB, columns)))
+    plain, other = (
+        HubLoads.read(_write(tmp_path / f"{i}.csv", c)) for i, c in enumerate((HUB, columns))
+    )
     for name in ("time", "shaft_speed", "force", "moment"):
         assert getattr(other, name) == pytest.approx(getattr(plain, name))
 
@@ -82,10 +85,19 @@ def _renamed(old, new):
         (_renamed("fx_N", "fx_lbf"), ["column fx_lbf has no known unit", "fx_N, fx_kN"]),
         (_renamed("mx_Nm", "mx"), ["column mx has no known unit", "mx_Nm, mx_kNm"]),
         (_renamed("time_s", "time_ms"), ["column time_ms has no known unit", "time_s"]),
-        (_renamed("my_Nm", "bending_Nm"), ["no column for my_Nm or my_kNm", "The columns are: time_s"]),
-        (_renamed("rotor_speed_rpm", "speed"), ["shaft_speed_rpm or shaft_speed_rad_s", "rotor_speed_rpm"]),
+        (
+            _renamed("my_Nm", "bending_Nm"),
+            ["no column for my_Nm or my_kNm", "The columns are: time_s"],
+        ),
+        (
+            _renamed("rotor_speed_rpm", "speed"),
+            ["shaft_speed_rpm or shaft_speed_rad_s", "rotor_speed_rpm"],
+        ),
         (HUB | {"fx_kN": HUB["fx_N"]}, ["columns fx_N and fx_kN both give fx"]),
-        (HUB | {"shaft_speed_rpm": HUB["fx_N"]}, ["columns rotor_speed_rpm and shaft_speed_rpm both give shaft_speed"]),
+        (
+            HUB | {"shaft_speed_rpm": HUB["fx_N"]},
+            ["columns rotor_speed_rpm and shaft_speed_rpm both give shaft_speed"],
+        ),
         (HUB | {"fz_N": ["a", "b", "c"]}, ["column fz_N holds string, not numbers"]),
         (HUB | {"fz_N": [1.0, None, 2.0]}, ["t = 0.1 s: fz is nan"]),
         (HUB | {"time_s": [0.0, 0.1, 0.1]}, ["time does not increase"]),
@@ -98,21 +110,30 @@ def test_bad_columns(tmp_path, columns, words, extension):
 
 
 def test_hub_table_read_as_bearing_loads(tmp_path):
-    _message(_write(tmp_path / "a.csv", HUB), "HubLoads.read, then main_bearing_load", reader=BearingLoads.read)
+    _message(
+        _write(tmp_path / "a.csv", HUB),
+        "HubLoads.read, then main_bearing_load",
+        reader=BearingLoads.read,
+    )
 
 
 def test_a_column_that_stands_twice(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("time_s,fx_N,fx_N\n0,1,2\n0.1,1,2\n")
     _message(path, "columns fx_N and fx_N both give fx")
-    table = pa.Table.from_arrays([pa.array(v) for v in [*HUB.values(), HUB["fy_N"]]], names=[*HUB, "fy_N"])
+    table = pa.Table.from_arrays(
+        [pa.array(v) for v in [*HUB.values(), HUB["fy_N"]]], names=[*HUB, "fy_N"]
+    )
     _message(_write(tmp_path / "a.parquet", table), "columns fy_N and fy_N both give fy")
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (";".join(HUB) + "\n" + "0,5;1.5;3;4;5;6;7;8\n" * 2, ["holds string, not numbers", "the same decimal mark"]),
+        (
+            ";".join(HUB) + "\n" + "0,5;1.5;3;4;5;6;7;8\n" * 2,
+            ["holds string, not numbers", "the same decimal mark"],
+        ),
         ("time_s,fx_N\n0,1\n0.1\n", ["not readable as a CSV table", "Expected 2 columns, got 1"]),
         ("time_s,fx_N\n0,1\n0.1,2,3\n", ["Expected 2 columns, got 3"]),
         ("\n\n", ["not readable as a CSV table"]),
@@ -127,7 +148,9 @@ def test_bad_csv(tmp_path, text, words):
 
 def test_names_of_columns_that_are_no_utf8(tmp_path):
     path = tmp_path / "a.csv"
-    path.write_bytes(b"\xff\xfe" + (",".join(HUB) + "\n" + "0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,7\n").encode())
+    path.write_bytes(
+        b"\xff\xfe" + (",".join(HUB) + "\n" + "0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,7\n").encode()
+    )
     _message(path, "not readable as a CSV table", "text as UTF-8")
 
 
@@ -135,7 +158,9 @@ def test_csv_as_people_write_it(tmp_path):
     """A byte-order mark, spaces after the commas, Windows line ends, whole numbers, no final line end."""
     path = tmp_path / "a.csv"
     rows = [", ".join(str(values[i]) for values in BEARING.values()) for i in range(3)]
-    path.write_bytes(("\ufeff" + "\r\n".join([", ".join(BEARING), *rows]).replace("100000.0", "100000")).encode())
+    path.write_bytes(
+        ("\ufeff" + "\r\n".join([", ".join(BEARING), *rows]).replace("100000.0", "100000")).encode()
+    )
     assert BearingLoads.read(path).force[2].tolist() == [3e3, -3e5, 1e5]
 
 
@@ -144,9 +169,14 @@ def test_csv_with_other_separators_and_decimal_commas(tmp_path, separator, mark)
     """As spreadsheets write it where numbers have a comma."""
     path = tmp_path / "a.csv"
     rows = [
-        separator.join(f"{1e-3 * values[i]:.6f}".replace(".", mark) for values in BEARING.values()) for i in range(3)
+        separator.join(f"{1e-3 * values[i]:.6f}".replace(".", mark) for values in BEARING.values())
+        for i in range(3)
     ]
-    path.write_text("\n".join([separator.join([*BEARING, "remark"]), *(f"{row}{separator}a,b.c" for row in rows)]))
+    path.write_text(
+        "\n".join(
+            [separator.join([*BEARING, "remark"]), *(f"{row}{separator}a,b.c" for row in rows)]
+        )
+    )
     read = BearingLoads.read(path)
     assert read.force[2] == pytest.approx([3.0, -3e2, 1e2], rel=1e-12)
     assert read.time == pytest.approx(1e-3 * np.array(BEARING["time_s"]), abs=1e-12)
@@ -165,7 +195,9 @@ def test_truncated_parquet(tmp_path, clip_50hz, part):
 )
 def test_float32_time_is_rebuilt(tmp_path, first, rate, n):
     exact = first + np.arange(n) / rate
-    columns = {name: np.zeros(n, dtype=np.float32) for name in HUB} | {"time_s": exact.astype(np.float32)}
+    columns = {name: np.zeros(n, dtype=np.float32) for name in HUB} | {
+        "time_s": exact.astype(np.float32)
+    }
     rebuilt = HubLoads.read(_write(tmp_path / "a.parquet", columns)).time
     assert rebuilt == pytest.approx(exact, rel=0, abs=1e-9)
 

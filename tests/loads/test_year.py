@@ -27,7 +27,9 @@ def test_the_paper_keeps_its_21_and_a_year_has_all():
 def test_every_new_case_is_whole(name):
     known, loads = bundled_case(name), HubLoads.bundled(name)
     assert np.array_equal(loads.time, np.arange(loads.time.size) / 20)
-    metadata = {key.decode(): text.decode() for key, text in pq.read_schema(known.path).metadata.items()}
+    metadata = {
+        key.decode(): text.decode() for key, text in pq.read_schema(known.path).metadata.items()
+    }
     assert metadata["case"] == name and "OpenFAST v3.5.5" in metadata["source"]
     # The weight of the rotor, 26 886 kg on a shaft tilted by 5 degrees, is in every load.
     assert loads.force[:, 2].mean() == pytest.approx(-262.65e3, rel=0.07)
@@ -70,7 +72,12 @@ def test_second_seeds_are_other_winds_of_the_same_kind(name):
 def test_an_event_says_that_its_supervisor_is_assumed_wherever_it_goes():
     hub = HubLoads.bundled("stop-14")
     bearing = main_bearing_load(hub.window(30.0, 60.0), Drivetrain())
-    assert bearing.event and ASSUMED in bearing.source and ASSUMED in repr(hub) and ASSUMED in hub._repr_html_()
+    assert (
+        bearing.event
+        and ASSUMED in bearing.source
+        and ASSUMED in repr(hub)
+        and ASSUMED in hub._repr_html_()
+    )
     case = Case(loads=hub)
     assert ASSUMED in repr(case) and "window at the first sample" in repr(case)
     assert (
@@ -84,4 +91,7 @@ def test_labels_in_a_study():
     assert list(found) == bundled_cases("year")
     assert found["8B-2"] == {"wind_speed": 8.0, "turbulence": "B", "seed": 2, "event": ""}
     assert found["eog-14"] == {"wind_speed": 14.0, "turbulence": "-", "seed": 1, "event": "eog-14"}
-    assert load_list(None, kind="hub", bundled=["14B"]).loads[0].fields == {"wind_speed": 14.0, "turbulence": "B"}
+    assert load_list(None, kind="hub", bundled=["14B"]).loads[0].fields == {
+        "wind_speed": 14.0,
+        "turbulence": "B",
+    }

@@ -25,7 +25,9 @@ def test_every_family_gives_a_lubricant_that_reads_back(base, tmp_path):
 
 def test_the_oil_of_the_base_case_is_within_the_scatter():
     oil, base = estimate_lubricant(460e-6, 46e-6, "pao", "mine"), Lubricant.read("vg460-pao")
-    assert oil.viscosity == pytest.approx(base.viscosity, rel=0.07)  # density of 842 instead of 900 kg/m3
+    assert oil.viscosity == pytest.approx(
+        base.viscosity, rel=0.07
+    )  # density of 842 instead of 900 kg/m3
     assert oil.temperature_viscosity == pytest.approx(base.temperature_viscosity, rel=0.01)
     low, high = oil.provenance["pressure_viscosity"].range
     assert low < 17e-9 < high
@@ -36,14 +38,25 @@ def test_the_oil_of_the_base_case_is_within_the_scatter():
 def test_shipped_oils_are_their_estimates():
     shipped = Lubricant.read("skf-lgwm-1")
     oil = estimate_lubricant(200e-6, 16e-6, "mineral", "skf-lgwm-1")
-    same = ("viscosity", "pressure_viscosity", "temperature_viscosity", "density", "limiting_shear", "eyring_stress")
+    same = (
+        "viscosity",
+        "pressure_viscosity",
+        "temperature_viscosity",
+        "density",
+        "limiting_shear",
+        "eyring_stress",
+    )
     assert all(getattr(oil, key) == getattr(shipped, key) for key in same)
 
 
 def test_what_cannot_be_estimated():
-    with pytest.raises(InputError, match="^there is no base oil 'whale'. Allowed: pao .polyalphaolefin., mineral"):
+    with pytest.raises(
+        InputError, match="^there is no base oil 'whale'. Allowed: pao .polyalphaolefin., mineral"
+    ):
         estimate_lubricant(320e-6, 30e-6, "whale", "mine")
-    with pytest.raises(InputError, match="^the viscosity is 30 mm2/s at 313.15 K and 320 mm2/s at 373.15 K"):
+    with pytest.raises(
+        InputError, match="^the viscosity is 30 mm2/s at 313.15 K and 320 mm2/s at 373.15 K"
+    ):
         estimate_lubricant(30e-6, 320e-6, "pao", "mine")
     for pair in ((1e294, 1e-5), (1e294, 1e293), (1e-2, 1e-9), (1e24, 1e-5)):
         with pytest.raises(InputError, match="mm2/s. Allowed: 1 to 100000 mm2/s"):

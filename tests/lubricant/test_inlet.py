@@ -14,7 +14,14 @@ from macroslip.errors import InputError
 from macroslip.input.record import fields_of
 from macroslip.lubricant import Lubricant
 
-INLET = ("inlet_temperature", "density", "viscosity", "temperature_viscosity", "pressure_viscosity", "eyring_stress")
+INLET = (
+    "inlet_temperature",
+    "density",
+    "viscosity",
+    "temperature_viscosity",
+    "pressure_viscosity",
+    "eyring_stress",
+)
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +31,11 @@ def base():
 
 def figures(**changes):
     """A lubricant file with the figures of a data sheet alone."""
-    entries = {key: entry for key, entry in Lubricant.read("vg460-pao").as_dict().items() if key not in INLET}
+    entries = {
+        key: entry
+        for key, entry in Lubricant.read("vg460-pao").as_dict().items()
+        if key not in INLET
+    }
     entries |= {
         "inlet_temperature": "35 degC", "kinematic_viscosity_40": "460 mm2/s", "kinematic_viscosity_100": "46 cSt",
         "density_15": "860 kg/m3", "roelands_index": 0.45,
@@ -48,13 +59,22 @@ def test_values_at_the_inlet_follow_from_a_data_sheet():
     step = 0.01
     logs = [math.log(line_viscosity(308.15 + s) * (density - 0.65 * s)) for s in (-step, step)]
     assert oil.temperature_viscosity == pytest.approx((logs[0] - logs[1]) / (2 * step), rel=1e-7)
-    assert oil.pressure_viscosity == pytest.approx(0.45 * (math.log(viscosity) + 9.67) / 1.96e8, rel=1e-9)
-    assert {oil.provenance[key].tag for key in ("viscosity", "density", "pressure_viscosity")} == {"D"}
+    assert oil.pressure_viscosity == pytest.approx(
+        0.45 * (math.log(viscosity) + 9.67) / 1.96e8, rel=1e-9
+    )
+    assert {oil.provenance[key].tag for key in ("viscosity", "density", "pressure_viscosity")} == {
+        "D"
+    }
 
 
 def test_what_follows_is_not_written_and_follows_again():
     oil = Lubricant.from_dict(figures())
-    assert not oil.as_dict().keys() & {"viscosity", "temperature_viscosity", "pressure_viscosity", "density"}
+    assert not oil.as_dict().keys() & {
+        "viscosity",
+        "temperature_viscosity",
+        "pressure_viscosity",
+        "density",
+    }
     assert Lubricant.from_dict(json.loads(json.dumps(oil.as_dict()))) == oil
     assert pickle.loads(pickle.dumps(oil)) == oil
     warm = oil.replace(inlet_temperature=323.15)
@@ -63,7 +83,11 @@ def test_what_follows_is_not_written_and_follows_again():
 
 def test_a_coefficient_at_a_stated_temperature_is_that_there():
     oil = Lubricant.from_dict(
-        figures(roelands_index=None, reference_pressure_viscosity="20 1/GPa", reference_temperature="25 degC")
+        figures(
+            roelands_index=None,
+            reference_pressure_viscosity="20 1/GPa",
+            reference_temperature="25 degC",
+        )
     )
     assert oil.pressure_viscosity < 20e-9
     assert oil.at("25 degC").pressure_viscosity == pytest.approx(20e-9, rel=1e-9)
@@ -87,7 +111,9 @@ def test_the_line_through_a_viscosity_and_its_slope(base, celsius):
     # The same line by another way: the slope of the line is found by a root search on its viscosity at 100 degC.
     def fall(at_100):
         logs = [
-            math.log(line_viscosity(308.15 + s, (308.15, 600.0), (373.15, at_100)) * (900.0 - 0.65 * s))
+            math.log(
+                line_viscosity(308.15 + s, (308.15, 600.0), (373.15, at_100)) * (900.0 - 0.65 * s)
+            )
             for s in (-0.01, 0.01)
         ]
         return (logs[0] - logs[1]) / 0.02
@@ -100,7 +126,9 @@ def test_the_line_through_a_viscosity_and_its_slope(base, celsius):
     assert warm.viscosity == pytest.approx(expected, rel=1e-5)
     assert warm.density == pytest.approx(density, rel=1e-13)
     index = 21e-9 * 1.96e8 / (math.log(0.54) + 9.67)
-    assert warm.pressure_viscosity == pytest.approx(index * (math.log(expected) + 9.67) / 1.96e8, rel=1e-5)
+    assert warm.pressure_viscosity == pytest.approx(
+        index * (math.log(expected) + 9.67) / 1.96e8, rel=1e-5
+    )
     assert warm.eyring_stress * warm.pressure_viscosity == pytest.approx(6.7e6 * 21e-9, rel=1e-12)
     kept = fields_of(Lubricant).keys() - set(INLET)
     assert all(getattr(warm, key) == getattr(base, key) for key in kept)
@@ -110,21 +138,31 @@ def test_what_changes_is_derived_and_its_range_goes_with_it(base):
     warm = base.at("50 degC")
     assert {warm.provenance[key].tag for key in INLET[1:]} == {"D"}
     assert warm.provenance["inlet_temperature"].tag == "U"
-    assert all(warm.provenance[key] == base.provenance[key] for key in warm.provenance.keys() - set(INLET))
+    assert all(
+        warm.provenance[key] == base.provenance[key] for key in warm.provenance.keys() - set(INLET)
+    )
     low, high = warm.provenance["pressure_viscosity"].range
-    assert (low / warm.pressure_viscosity, high / warm.pressure_viscosity) == pytest.approx((16.5 / 21, 22 / 21))
+    assert (low / warm.pressure_viscosity, high / warm.pressure_viscosity) == pytest.approx(
+        (16.5 / 21, 22 / 21)
+    )
     assert Lubricant.from_dict(warm.as_dict()) == warm
 
 
-@pytest.mark.parametrize("temperature", [float("nan"), "40", "40 bar", 10.0, 250.0, 430.0, "200 degC", True, None])
+@pytest.mark.parametrize(
+    "temperature", [float("nan"), "40", "40 bar", 10.0, 250.0, 430.0, "200 degC", True, None]
+)
 def test_a_temperature_that_is_none_is_refused(base, temperature):
-    with pytest.raises(InputError, match="^lubricant vg460-pao: the inlet temperature .* Allowed: ") as caught:
+    with pytest.raises(
+        InputError, match="^lubricant vg460-pao: the inlet temperature .* Allowed: "
+    ) as caught:
         base.at(temperature)
     assert "\n" not in str(caught.value)
 
 
 def test_a_viscosity_that_hardly_falls_has_no_line(base):
-    with pytest.raises(InputError, match="^lubricant vg460-pao: the kinematic viscosity falls by -"):
+    with pytest.raises(
+        InputError, match="^lubricant vg460-pao: the kinematic viscosity falls by -"
+    ):
         base.replace(temperature_viscosity=1e-4).at(320.0)
 
 
@@ -164,13 +202,18 @@ def test_every_shipped_lubricant_runs_over_temperature():
     for name in names:
         oil = Lubricant.read(name)
         assert oil.name == name and oil.title and oil.base_oil
-        oil.require("limiting_shear", "eyring_stress", "boundary_friction", purpose="the physical model")
+        oil.require(
+            "limiting_shear", "eyring_stress", "boundary_friction", purpose="the physical model"
+        )
         assert all(origin.tag in "PVDRE" and origin.note for origin in oil.provenance.values())
         assert oil.provenance["limiting_shear"].range and oil.provenance["eyring_stress"].range
         states = [oil.at(temperature) for temperature in (263.15, 293.15, 323.15, 353.15)]
         for key, sign in (("viscosity", -1), ("density", -1), ("pressure_viscosity", -1), ("temperature_viscosity", -1),
                           ("eyring_stress", 1)):  # fmt: skip
-            assert (sign * np.diff([getattr(state, key) for state in states]) > 0.0).all(), (name, key)
+            assert (sign * np.diff([getattr(state, key) for state in states]) > 0.0).all(), (
+                name,
+                key,
+            )
 
 
 def test_the_base_lubricant_says_where_its_viscosity_comes_from(base):

@@ -8,7 +8,11 @@ import pytest
 from macroslip.errors import InputError
 from macroslip.input.record import TAGS
 from macroslip.lubricant import Lubricant
-from macroslip.lubricant.temperature import dowson_higginson, mean_pressure_viscosity, roelands_index
+from macroslip.lubricant.temperature import (
+    dowson_higginson,
+    mean_pressure_viscosity,
+    roelands_index,
+)
 
 
 @pytest.fixture(scope="module")
@@ -33,10 +37,17 @@ def test_base_lubricant_has_the_specified_values_in_si(base):
 
 
 def test_every_quantity_says_where_it_comes_from(base):
-    assert set(base.provenance) == {key for key, value in base.model_dump().items() if isinstance(value, float)}
-    assert all(origin.tag in TAGS and origin.tag != "U" and origin.note for origin in base.provenance.values())
+    assert set(base.provenance) == {
+        key for key, value in base.model_dump().items() if isinstance(value, float)
+    }
+    assert all(
+        origin.tag in TAGS and origin.tag != "U" and origin.note
+        for origin in base.provenance.values()
+    )
     assert "misprint" in base.provenance["thermal_conductivity"].note
-    assert [base.provenance[key].tag for key in ("pressure_viscosity", "temperature_viscosity")] == ["P", "P"]
+    assert [
+        base.provenance[key].tag for key in ("pressure_viscosity", "temperature_viscosity")
+    ] == ["P", "P"]
 
 
 def test_round_trip(base):
@@ -63,14 +74,18 @@ def test_other_units_give_the_same(base):
 )  # fmt: skip
 def test_every_quantity_has_a_range(base, key, low, high):
     for value in (low, high):
-        with pytest.raises(InputError, match=f"^{key}: it is .* Allowed: (above )?[0-9.e]+,? (up )?to [0-9]"):
+        with pytest.raises(
+            InputError, match=f"^{key}: it is .* Allowed: (above )?[0-9.e]+,? (up )?to [0-9]"
+        ):
             base.replace(**{key: value})
 
 
 def test_a_range_is_reported_in_the_unit_of_the_file(base):
     entries = base.as_dict()
     entries["inlet_temperature"]["value"] = 308.15
-    with pytest.raises(InputError, match="^inlet_temperature: it is 308.15 degC. Allowed: -73.15 to 226.85 degC"):
+    with pytest.raises(
+        InputError, match="^inlet_temperature: it is 308.15 degC. Allowed: -73.15 to 226.85 degC"
+    ):
         Lubricant.from_dict(entries)
 
 
@@ -100,9 +115,12 @@ def test_a_file_without_the_data_of_the_physical_model_is_read_and_they_are_aske
     )
     assert message.endswith('boundary_friction: {value: ..., unit: "1"}.') and "\n" not in message
     with pytest.raises(
-        InputError, match="it has no limiting_shear, which grease needs. Allowed: limiting_shear: above 0"
+        InputError,
+        match="it has no limiting_shear, which grease needs. Allowed: limiting_shear: above 0",
     ):
-        base.replace(limiting_shear=None).require("eyring_stress", "limiting_shear", purpose="grease")
+        base.replace(limiting_shear=None).require(
+            "eyring_stress", "limiting_shear", purpose="grease"
+        )
 
 
 def test_roelands_lies_below_barus_and_bends(base):
@@ -118,7 +136,8 @@ def test_roelands_lies_below_barus_and_bends(base):
 def test_a_viscosity_too_low_for_roelands_is_reported():
     for viscosity in (6e-5, 1e-9, 0.0):
         with pytest.raises(
-            InputError, match="^viscosity: Roelands' law has no viscosity of .* Allowed: above 6.3e-05 Pa s"
+            InputError,
+            match="^viscosity: Roelands' law has no viscosity of .* Allowed: above 6.3e-05 Pa s",
         ):
             roelands_index(viscosity, 2.1e-8)
     assert roelands_index(6.4e-5, 2.1e-8) > 0.0

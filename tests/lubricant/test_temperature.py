@@ -32,10 +32,22 @@ def exact(first, second):
     def ordinate(viscosity):
         return mpmath.log10(mpmath.log10(mpmath.mpf(viscosity) + SHIFT))
 
-    slope = (ordinate(n1) - ordinate(n2)) / (mpmath.log10(mpmath.mpf(t2)) - mpmath.log10(mpmath.mpf(t1)))
+    slope = (ordinate(n1) - ordinate(n2)) / (
+        mpmath.log10(mpmath.mpf(t2)) - mpmath.log10(mpmath.mpf(t1))
+    )
 
     def viscosity(temperature):
-        return 10 ** (10 ** (ordinate(n1) - slope * (mpmath.log10(temperature) - mpmath.log10(mpmath.mpf(t1))))) - SHIFT
+        return (
+            10
+            ** (
+                10
+                ** (
+                    ordinate(n1)
+                    - slope * (mpmath.log10(temperature) - mpmath.log10(mpmath.mpf(t1)))
+                )
+            )
+            - SHIFT
+        )
 
     return viscosity
 
@@ -53,7 +65,9 @@ def test_line_and_its_slope_in_high_precision(grade, temperature):
 
 
 @given(st.floats(260.0, 380.0), st.floats(2e-6, 1e-2), st.floats(0.02, 0.1))
-def test_a_line_with_a_slope_has_it_and_passes_through_the_point(temperature, viscosity, coefficient):
+def test_a_line_with_a_slope_has_it_and_passes_through_the_point(
+    temperature, viscosity, coefficient
+):
     line = walther_line_with_slope(temperature, viscosity, coefficient)
     assert walther_viscosity(line, temperature) == pytest.approx(viscosity, rel=1e-10)
     assert walther_coefficient(line, temperature) == pytest.approx(coefficient, rel=1e-10)
@@ -72,12 +86,15 @@ def test_an_oil_between_its_two_viscosities_as_published():
 
 def test_what_is_no_line_is_refused():
     with pytest.raises(
-        InputError, match="the viscosity is 24 mm2/s at 313.15 K and 320 mm2/s at 373.15 K. Allowed: a vis"
+        InputError,
+        match="the viscosity is 24 mm2/s at 313.15 K and 320 mm2/s at 373.15 K. Allowed: a vis",
     ):
         walther_line_through(313.15, 24e-6, 373.15, 320e-6)
     with pytest.raises(InputError, match="falls with temperature"):
         walther_line_through(313.15, 24e-6, 373.15, 24e-6)
-    with pytest.raises(InputError, match="Walther's line has no viscosity of 0.2 mm2/s. Allowed: above 0.3 mm2/s"):
+    with pytest.raises(
+        InputError, match="Walther's line has no viscosity of 0.2 mm2/s. Allowed: above 0.3 mm2/s"
+    ):
         walther_line_through(313.15, 24e-6, 373.15, 0.2e-6)
     for coefficient in (0.0, -0.01, float("nan")):
         with pytest.raises(InputError, match="falls by .* Allowed: a positive number"):
@@ -96,7 +113,11 @@ def test_mean_coefficient_gives_the_viscosity_back(viscosity, coefficient, press
     with mpmath.workdps(30):
         constant = mpmath.log(viscosity) + mpmath.mpf("9.67")
         index = mpmath.mpf(coefficient) * mpmath.mpf(ROELANDS_PRESSURE) / constant
-        exact = constant * ((1 + mpmath.mpf(pressure) / mpmath.mpf(ROELANDS_PRESSURE)) ** index - 1) / pressure
+        exact = (
+            constant
+            * ((1 + mpmath.mpf(pressure) / mpmath.mpf(ROELANDS_PRESSURE)) ** index - 1)
+            / pressure
+        )
     assert mean == pytest.approx(float(exact), rel=1e-11)
 
 
@@ -114,8 +135,16 @@ def test_gold_is_a_power_law_in_mm2_per_second():
 
 def test_families_are_ordered_as_their_friction():
     # Mineral oils have the largest coefficients, polyglycols the smallest.
-    alpha = {name: gold(320e-6, oil.gold_factor, oil.gold_exponent) for name, oil in BASE_OILS.items()}
-    assert alpha["mineral"] > alpha["pao-mineral"] > alpha["pao"] > alpha["ester"] > alpha["polyglycol"]
+    alpha = {
+        name: gold(320e-6, oil.gold_factor, oil.gold_exponent) for name, oil in BASE_OILS.items()
+    }
+    assert (
+        alpha["mineral"]
+        > alpha["pao-mineral"]
+        > alpha["pao"]
+        > alpha["ester"]
+        > alpha["polyglycol"]
+    )
     assert all(10e-9 < value < 25e-9 for value in alpha.values())
 
 

@@ -17,10 +17,16 @@ from macroslip.result.damage import _slip_profile, _working_skew, damage
 from macroslip.roller.skew import equilibrium, pocket, raceways
 from macroslip.whole.cage import Cage
 
-BEARING, OIL, SPEED = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao").at("50 degC"), -0.396
+BEARING, OIL, SPEED = (
+    Bearing.read("skf-240-600-bc"),
+    Lubricant.read("vg460-pao").at("50 degC"),
+    -0.396,
+)
 SKEWED = Laws.physical().but(skew="quasi-static")
 RACEWAYS = pytest.mark.parametrize("raceway", [0, 1])
-STATES = pytest.mark.parametrize(("load", "skew"), [(2e4, 1e-3), (5e4, 6.6e-3), (5e4, -6.6e-3), (9e4, 3e-3)])
+STATES = pytest.mark.parametrize(
+    ("load", "skew"), [(2e4, 1e-3), (5e4, 6.6e-3), (5e4, -6.6e-3), (9e4, 3e-3)]
+)
 
 
 def profile(raceway, load, skew, sign=1):
@@ -34,9 +40,15 @@ def profile(raceway, load, skew, sign=1):
     entrainment = abs(SPEED - 0.5 * at.slip)
     look["film"][raceway] = film = one.laws.film_thickness(load, entrainment)
     look["share"][raceway] = one.laws.asperity_share(load, entrainment, film)
-    look["lines"][raceway], look["time"], look["at"]["elastic_load"] = [middle, *lines[:6]], 1.0, load
+    look["lines"][raceway], look["time"], look["at"]["elastic_load"] = (
+        [middle, *lines[:6]],
+        1.0,
+        load,
+    )
     along = maps["along"][0, 2 * raceway]
-    looks._look_along(maps[0], raceway, looks.prepare(laws)[raceway], (load, SPEED, at.slip), look, 1.0, along)
+    looks._look_along(
+        maps[0], raceway, looks.prepare(laws)[raceway], (load, SPEED, at.slip), look, 1.0, along
+    )
     return along, one, lines, at, maps
 
 
@@ -67,10 +79,14 @@ def test_work_is_the_integral_of_pressure_times_slip(raceway, load, skew):
     """Both components of slip all over the ellipse, on a grid; by the formulas of `contact/skewed.py`'s heading."""
     along, one, _, at, _ = profile(raceway, load, skew)
     k, r, hertz = one.side, roller_radius(BEARING), one.laws.interface.hertz
-    a, b, p0 = (x * load ** (1 / 3) for x in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure))
+    a, b, p0 = (
+        x * load ** (1 / 3) for x in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure)
+    )
     place = at.shift + k * r * at.tilt
     middle = (-k * at.tilt + one.along * place) / one.lateral
-    x, y = np.meshgrid((np.arange(1000) + 0.5) / 500 - 1.0, (np.arange(100) + 0.5) / 50 - 1.0, indexing="ij")
+    x, y = np.meshgrid(
+        (np.arange(1000) + 0.5) / 500 - 1.0, (np.arange(100) + 0.5) / 50 - 1.0, indexing="ij"
+    )
     height = np.sqrt(np.maximum(1.0 - x * x - y * y, 0.0))
     station = middle + a * x
     height[np.abs(station) > 0.5 * BEARING.roller_length] = 0.0
@@ -80,7 +96,12 @@ def test_work_is_the_integral_of_pressure_times_slip(raceway, load, skew):
     )
     rate, spin = k * SPEED / one.raceway_radius, (SPEED - at.slip) / r
     sine, cosine = math.sin(BEARING.contact_angle), math.cos(BEARING.contact_angle)
-    v = at.slip + spin * drop - rate * cosine * (drop + k * at.tilt * station) - k * rate * sine * (station + place)
+    v = (
+        at.slip
+        + spin * drop
+        - rate * cosine * (drop + k * at.tilt * station)
+        - k * rate * sine * (station + place)
+    )
     w = -k * spin * skew * (r - drop) - (sine * rate + spin * at.tilt) * (b * y + turn * station)
     work = (p0 * height * np.hypot(v, w)).sum() * a * b / (500 * 50)
     assert along["work_total"] == pytest.approx(work, rel=0.01)
@@ -90,14 +111,18 @@ def test_work_is_the_integral_of_pressure_times_slip(raceway, load, skew):
 def test_the_other_row_is_a_mirror(raceway):
     down, up = (profile(raceway, 5e4, sign * 4e-3, sign)[0] for sign in (1, -1))
     for name in ("power", "rough", "work", "density"):
-        assert up[name] == pytest.approx(down[name][::-1], rel=1e-6, abs=1e-9 * np.abs(down[name]).max()), name
+        assert up[name] == pytest.approx(
+            down[name][::-1], rel=1e-6, abs=1e-9 * np.abs(down[name]).max()
+        ), name
 
 
 @RACEWAYS
 def test_a_little_skew_changes_what_slides_little_and_much_most_where_rolling_is_pure(raceway):
     straight, little, much = (profile(raceway, 5e4, skew)[0] for skew in (0.0, 1e-6, 6.6e-3))
     for name in ("power", "rough", "work"):
-        assert little[name] == pytest.approx(straight[name], abs=1e-3 * np.abs(straight[name]).max())
+        assert little[name] == pytest.approx(
+            straight[name], abs=1e-3 * np.abs(straight[name]).max()
+        )
     rise = much["work"][straight["work"] > 0.0] / straight["work"][straight["work"] > 0.0]
     # No more than a slip of ψ all over the contact adds.
     added = (much["work_total"] - straight["work_total"]) / (5e4 * 6.6e-3 * abs(SPEED))
@@ -109,7 +134,9 @@ def test_a_little_skew_changes_what_slides_little_and_much_most_where_rolling_is
 
 def case(laws=SKEWED, **cage):
     places = np.radians(np.tile(np.arange(0.0, 360.0, 45.0), (2, 2, 1)))
-    loads = RollerLoads(np.array([0.0, 10.0]), np.full(2, 2.143), places, np.full(places.shape, 9e3), "even")
+    loads = RollerLoads(
+        np.array([0.0, 10.0]), np.full(2, 2.143), places, np.full(places.shape, 9e3), "even"
+    )
     return Case(
         loads=loads, rollers=[0], laws=laws, temperature=323.15, traces=Traces(step=1.0), gravity=False, drag=False,
         cage=Cage(**cage),
@@ -129,17 +156,23 @@ def stopped():
 @pytest.mark.slow
 def test_without_play_maps_and_criteria_are_those_of_straight_rollers(straight):
     found = simulate(case(skew_play=0.0), threads=1)
-    for name in (one for one in straight.data_vars if one.startswith(("surface", "film_slip", "station", "asper"))):
+    for name in (
+        one
+        for one in straight.data_vars
+        if one.startswith(("surface", "film_slip", "station", "asper"))
+    ):
         assert found[name].values == pytest.approx(straight[name].values, rel=1e-9, abs=1e-12), name
-    assert damage(found).value.values == pytest.approx(damage(straight).value.values, rel=1e-9, nan_ok=True)
+    assert damage(found).value.values == pytest.approx(
+        damage(straight).value.values, rel=1e-9, nan_ok=True
+    )
 
 
 @pytest.mark.slow
 def test_sums_over_maps_and_classes_are_the_whole(stopped, straight):
     both = stopped.sel(interface=["inner", "outer"]).sum("roller")
-    assert stopped.surface_energy.sum(("angle", "station", "slip_sign", "film_regime")).values == pytest.approx(
-        both.energy.transpose("row", "interface").values, rel=1e-9
-    )
+    assert stopped.surface_energy.sum(
+        ("angle", "station", "slip_sign", "film_regime")
+    ).values == pytest.approx(both.energy.transpose("row", "interface").values, rel=1e-9)
     assert stopped.surface_asperity_energy.sum(("angle", "station")).values == pytest.approx(
         both.asperity_energy.transpose("row", "interface").values, rel=1e-9
     )
@@ -162,9 +195,14 @@ def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
     angle = pocket(BEARING, "conforming-pocket", 0.5e-3).largest
     at = equilibrium(raceways(laws, BEARING, 1), laws, 9e3, speed, angle)
     for i, contact in enumerate(raceways(bare, BEARING, 1, constant_friction(1.0))):
-        power = resultants(contact, 9e3, speed, at.slip, angle, contact.middle(at.tilt, at.shift), at.tilt).power
+        power = resultants(
+            contact, 9e3, speed, at.slip, angle, contact.middle(at.tilt, at.shift), at.tilt
+        ).power
         assert float(one.surface_work[i].sum()) / seconds == pytest.approx(power, rel=0.02)
-    assert _working_skew(one) == pytest.approx(angle, rel=1e-9) and _working_skew(straight.sel(row="downwind")) == 0.0
+    assert (
+        _working_skew(one) == pytest.approx(angle, rel=1e-9)
+        and _working_skew(straight.sel(row="downwind")) == 0.0
+    )
     skewed, held = damage(stopped), damage(straight)
     for name in ("pressure_slip_rate", "asperity_work_rate"):
         ratio = (skewed[name] / held[name]).sel(row="downwind", place="inner").values

@@ -40,9 +40,13 @@ def walked():
     made = models(Laws.physical())
     roller = rollers(made)["downwind"]
     motion = motion_of(
-        np.linspace(0.0, 16.0, 321), RATED * (1.0 + 0.01 * np.sin(np.arange(321.0))), (0.0, -2.2e-4, 0.0)
+        np.linspace(0.0, 16.0, 321),
+        RATED * (1.0 + 0.01 * np.sin(np.arange(321.0))),
+        (0.0, -2.2e-4, 0.0),
     )
-    steps, status, _ = walk(roller, motion, limits_of(roller, motion, 2e-4), sorted([*EDGES, LATE, 16.0]), ANGLE)
+    steps, status, _ = walk(
+        roller, motion, limits_of(roller, motion, 2e-4), sorted([*EDGES, LATE, 16.0]), ANGLE
+    )
     assert status == 0 and LATE not in steps["end"] and 4.9 in steps["end"]
     return made["downwind"], roller, motion, steps
 
@@ -62,22 +66,32 @@ def test_totals_are_sums_over_the_steps(walked):
     steps = walked[3]
     totals, inside = booked(steps), steps[steps["start"] >= EDGES[0]]
     weight = inside["weight"][..., None]
-    for name, field in (("energy", "power"), ("rolling_energy", "rolling"), ("asperity_energy", "rough")):
+    for name, field in (
+        ("energy", "power"),
+        ("rolling_energy", "rolling"),
+        ("asperity_energy", "rough"),
+    ):
         expected = (weight * inside[field]).sum(axis=(0, 1))
         assert (expected[:2] > 0.0).all()
         np.testing.assert_allclose(getattr(totals, name), expected, rtol=1e-10)
     lag, skew = ((weight * inside[name]).sum(axis=(0, 1)) for name in ("lag_power", "skew_power"))
-    np.testing.assert_allclose(totals.mechanism_energy[:2, 1:], np.stack([lag, skew], axis=1), rtol=1e-9)
+    np.testing.assert_allclose(
+        totals.mechanism_energy[:2, 1:], np.stack([lag, skew], axis=1), rtol=1e-9
+    )
     np.testing.assert_allclose(totals.mechanism_energy.sum(axis=1), totals.energy, rtol=1e-10)
     assert (totals.mechanism_energy[2, 1:] == 0.0).all()
     middle = 0.5 * (inside["start"] + inside["end"])
     for orbit in range(3):
         here = inside[(middle >= EDGES[orbit]) & (middle < EDGES[orbit + 1])]
         np.testing.assert_allclose(
-            totals.orbit_energy[orbit], (here["weight"][..., None] * here["power"]).sum(axis=(0, 1)), rtol=1e-10
+            totals.orbit_energy[orbit],
+            (here["weight"][..., None] * here["power"]).sum(axis=(0, 1)),
+            rtol=1e-10,
         )
         # A peak is at least the largest sample and, by the parabola, at most a tenth above it.
-        largest = np.where((np.arange(3) < here["stages"][:, None])[..., None], here["power"], 0.0).max(axis=(0, 1))
+        largest = np.where(
+            (np.arange(3) < here["stages"][:, None])[..., None], here["power"], 0.0
+        ).max(axis=(0, 1))
         largest = np.maximum(largest, here["power_before"][0])
         assert (totals.peak_power[orbit] >= largest).all() and (
             totals.peak_power[orbit] <= HIGHEST_RISE * largest
@@ -106,7 +120,11 @@ def test_time_with_load_and_out_of_range(walked):
     found = film_times(booked_with_ends(steps)[1], model.laws)
     inside = steps[(steps["start"] >= EDGES[0]) & (steps["weight"][:, 0] > 0.0)]
     span = inside["end"] - inside["start"]
-    loaded = [inside["inner_load"][:, 2] > 0.0, inside["outer_load"][:, 2] > 0.0, inside["cage_load"][:, 2] != 0.0]
+    loaded = [
+        inside["inner_load"][:, 2] > 0.0,
+        inside["outer_load"][:, 2] > 0.0,
+        inside["cage_load"][:, 2] != 0.0,
+    ]
     np.testing.assert_allclose(found[0], [span[one].sum() for one in loaded], rtol=1e-10)
     assert ((found[1] >= 0.0) & (found[1] <= found[0] * (1 + 1e-12))).all()
 
@@ -118,7 +136,10 @@ def test_load_of_films_is_what_raceways_carry_beside_the_rings(walked):
     inside = steps[steps["start"] >= EDGES[0]]
     assert time == pytest.approx(16.0 - EDGES[0], rel=1e-12)
     at, last = inside["end"], inside["stages"] - 1
-    load = {name: inside[name][np.arange(at.size), last] for name in ("elastic_load", "inner_load", "outer_load")}
+    load = {
+        name: inside[name][np.arange(at.size), last]
+        for name in ("elastic_load", "inner_load", "outer_load")
+    }
     beside = np.minimum(load["inner_load"], load["outer_load"]) - load["elastic_load"]
     assert films == pytest.approx(np.trapezoid(beside, at), rel=0.05) and films > 0.0
 
@@ -129,8 +150,14 @@ def test_load_of_films_is_what_raceways_carry_beside_the_rings(walked):
 @given(top=st.floats(-0.9, 0.9), height=st.floats(0.1, 100.0), bend=st.floats(0.1, 10.0))
 def test_vertex_of_a_parabola_is_exact(top, height, bend):
     middle = round(top)
-    places = (middle - 1.1, middle, middle + 0.9) if middle == 0 else (middle - 1.0, middle, middle + 1.0)
-    found = vertex(*(number for t in places for number in (float(t), height - bend * (t - top) ** 2)))
+    places = (
+        (middle - 1.1, middle, middle + 0.9)
+        if middle == 0
+        else (middle - 1.0, middle, middle + 1.0)
+    )
+    found = vertex(
+        *(number for t in places for number in (float(t), height - bend * (t - top) ** 2))
+    )
     assert found == pytest.approx(height, rel=1e-12, abs=1e-9)
     assert vertex(0.0, 1.0, 1.0, 2.0, 2.0, 3.0) == 2.0
 
@@ -156,7 +183,9 @@ def test_error_of_a_smooth_peak_is_of_third_order():
 
 
 def test_a_kink_adds_a_tenth_at_most_and_uneven_samples_are_not_extrapolated():
-    kinked = peak_of([0.0, 1.0, 2.0, 3.0], lambda t: max(0.0, 1.0 - 20.0 * abs(t - 1.3)) + (t == 1.0))[0]
+    kinked = peak_of(
+        [0.0, 1.0, 2.0, 3.0], lambda t: max(0.0, 1.0 - 20.0 * abs(t - 1.3)) + (t == 1.0)
+    )[0]
     assert 1.0 <= kinked <= HIGHEST_RISE
     uneven = dict(zip((0.0, 1e-3, 1.0), (0.9, 1.0, 0.5), strict=True))
     assert peak_of(list(uneven), uneven.__getitem__)[0] == 1.0
@@ -166,7 +195,14 @@ def test_a_kink_adds_a_tenth_at_most_and_uneven_samples_are_not_extrapolated():
 
 def test_outside_all_orbits_powers_count_for_the_rest_of_the_window():
     assert peak_of([70.0, 71.0, 72.0], lambda t: 5.0).tolist() == [0.0, 0.0, 5.0]
-    assert [orbit_at(EDGES, time, -1) for time in (0.4, 0.5, 1.9, 2.0, 14.5, 14.6)] == [-1, 0, 0, 1, 2, -1]
+    assert [orbit_at(EDGES, time, -1) for time in (0.4, 0.5, 1.9, 2.0, 14.5, 14.6)] == [
+        -1,
+        0,
+        0,
+        1,
+        2,
+        -1,
+    ]
 
 
 # --- Details ---------------------------------------------------------------------------------------------------------
@@ -174,7 +210,14 @@ def test_outside_all_orbits_powers_count_for_the_rest_of_the_window():
 
 def looked(walked, cuts=(), edges=EDGES):
     model, roller, motion, steps = walked
-    looker = Looker(Wanted(edges, 0.4, np.zeros(0), True), roller, model.laws, prepare(model.laws), motion, ANGLE)
+    looker = Looker(
+        Wanted(edges, 0.4, np.zeros(0), True),
+        roller,
+        model.laws,
+        prepare(model.laws),
+        motion,
+        ANGLE,
+    )
     for part in np.split(steps, cuts):
         looker.add(part[:, None].copy(), 0)
     looker.finish()
@@ -190,7 +233,9 @@ def test_energies_of_stations_and_places_add_up_to_the_energy(walked, details):
     energy = booked(walked[3]).energy[:2]
     np.testing.assert_allclose(details.station_energy.sum(axis=1), energy, rtol=1e-9)
     np.testing.assert_allclose(details.surface_energy.sum(axis=(1, 2, 3, 4)), energy, rtol=1e-9)
-    np.testing.assert_allclose(details.surface_energy.sum(axis=(1, 3, 4)), details.station_energy, rtol=1e-9)
+    np.testing.assert_allclose(
+        details.surface_energy.sum(axis=(1, 3, 4)), details.station_energy, rtol=1e-9
+    )
     assert (details.station_energy >= 0.0).all() and (details.surface_density >= 0.0).all()
     # The outer raceway is loaded at the bottom; flooded rollers slide without load too.
     by_sector = details.surface_energy[1].sum(axis=(1, 2, 3))
@@ -208,14 +253,23 @@ def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch)
     assert details.memory["count"][0] < 0.8 * np.count_nonzero(walked[3]["weight"][:, 0])
     every = new_details(EDGES)
     model, roller, motion, steps = walked
-    looker = Looker(Wanted(EDGES, 0.4, np.zeros(0), True), roller, model.laws, prepare(model.laws), motion, ANGLE)
+    looker = Looker(
+        Wanted(EDGES, 0.4, np.zeros(0), True),
+        roller,
+        model.laws,
+        prepare(model.laws),
+        motion,
+        ANGLE,
+    )
     for row in steps:
         # A new highest power makes every step a look.
         looker.details.memory["highest"][0, :] = -1.0
         looker.add(np.array([[row]]), 0)
     looker.finish()
     every = looker.details
-    assert every.memory["count"][0] == np.count_nonzero((steps["weight"][:, 0] > 0.0) & (steps["start"] >= EDGES[0]))
+    assert every.memory["count"][0] == np.count_nonzero(
+        (steps["weight"][:, 0] > 0.0) & (steps["start"] >= EDGES[0])
+    )
     moved = np.abs(details.station_energy - every.station_energy).sum() / every.station_energy.sum()
     assert moved < 0.01
     for k in range(3):
@@ -237,7 +291,11 @@ def test_energy_between_two_looks_lies_as_at_both_of_them():
 
 def test_extremes_and_quadrature(details):
     flash, density, ratio, film = np.moveaxis(details.extreme, -1, 0)
-    assert (flash[:, :2] > 0.0).all() and (density[:, :2] > 1e3).all() and ((ratio > 0.0) & (ratio < 3.0)).all()
+    assert (
+        (flash[:, :2] > 0.0).all()
+        and (density[:, :2] > 1e3).all()
+        and ((ratio > 0.0) & (ratio < 3.0)).all()
+    )
     assert ((film[:, :2] > 0.01) & (film[:, :2] < 100.0)).all()
     fine, off = details.quadrature.T
     assert (fine > 0.0).all() and (off < 5e-3 * fine).all()
@@ -247,12 +305,16 @@ def by_brute_force(start, end, energy, growth=0.0):
     """Energy of each sector from a hundred thousand equal pieces of the way."""
     parts = (np.arange(100_000) + 0.5) / 100_000
     weights = energy * (1.0 + growth * (2.0 * parts - 1.0)) / parts.size
-    return np.bincount(np.floor(start + (end - start) * parts).astype(int) % SECTORS, weights, minlength=SECTORS)
+    return np.bincount(
+        np.floor(start + (end - start) * parts).astype(int) % SECTORS, weights, minlength=SECTORS
+    )
 
 
 @pytest.mark.parametrize("interface", [0, 1])
 @pytest.mark.parametrize("mean_time", [0.5, 0.61, 0.4])
-@pytest.mark.parametrize(("start", "end"), [(-17.2, -16.1), (4.6, 41.3), (35.0, 29.7), (0.0, 208.0), (11.4, 11.4)])
+@pytest.mark.parametrize(
+    ("start", "end"), [(-17.2, -16.1), (4.6, 41.3), (35.0, 29.7), (0.0, 208.0), (11.4, 11.4)]
+)
 def test_energy_lies_where_the_roller_passes(interface, start, end, mean_time):
     details, energy = new_details(EDGES), 8.0
     before, after = details.maps["along"][0, :2]
@@ -285,14 +347,26 @@ def test_what_makes_a_look_due(walked):
         rows = np.zeros((2, 1), STEP)
         rows[:, 0] = held
         radius = float(roller.body[0]["outer_radius"])
-        rows["start"][:, 0], rows["end"][:, 0] = [1.0, 1.1], [1.1, 1.1 + max(turn * radius / 0.4, 1e-3)]
+        rows["start"][:, 0], rows["end"][:, 0] = (
+            [1.0, 1.1],
+            [1.1, 1.1 + max(turn * radius / 0.4, 1e-3)],
+        )
         for name in ("inner_slip", "outer_slip", "outer_speed", "inner_load", "outer_load"):
             rows[name] = {"slip": 1e-3, "peed": -0.4, "load": 1e4}[name[-4:]]
         rows["power"] = 10.0
         for name, value in change.items():
             rows[name.split()[0]][1, 0][(..., int(name[-1])) if " " in name else ...] = value
         found = new_details(EDGES)
-        return looks._choose(rows, 0, EDGES, found.entries, found.memory[0], radius, spacing, np.zeros(2, looks._LOOK))
+        return looks._choose(
+            rows,
+            0,
+            EDGES,
+            found.entries,
+            found.memory[0],
+            radius,
+            spacing,
+            np.zeros(2, looks._LOOK),
+        )
 
     assert count({}) == 1
     for name, few, many in (
@@ -323,11 +397,18 @@ def test_traces_are_the_states_at_their_times(walked):
             measures.add(part[:, None].copy(), 0)
         measures.finish()
         found = measures.traces()
-        speed = np.interp(times, motion.time, motion.shaft_speed) * model.orbit_ratio * model.outer_radius
+        speed = (
+            np.interp(times, motion.time, motion.shaft_speed)
+            * model.orbit_ratio
+            * model.outer_radius
+        )
         np.testing.assert_allclose(found["spin_pure"], -speed / model.radius, rtol=1e-12)
         for k, time in enumerate(times[1:], start=1):
             at = steps[(np.abs(steps["end"] - time) < 1e-12) & (steps["weight"][:, 0] > 0.0)][0]
-            assert found["slip"][k] == at["outer_slip"][2] and found["roller_load"][k] == at["elastic_load"][2]
+            assert (
+                found["slip"][k] == at["outer_slip"][2]
+                and found["roller_load"][k] == at["elastic_load"][2]
+            )
             np.testing.assert_array_equal(found["power"][k], at["power"][2])
             skew = -at["skew_power"][2] / (at["outer_speed"][2] * np.array([1.0, -1.0]))
             skew /= [model.laws.inner.shape.spin_ratio, model.laws.outer.shape.spin_ratio]

@@ -37,7 +37,9 @@ def test_a_turn_under_downward_load(downward):
     assert downward.energy_fraction.values[-1] == 1.0
     assert (np.diff(downward.energy_fraction) >= 0.0).all()
     # The traces' trapezoids and the integrator's own quadrature are two ways to the same energy.
-    assert downward.attrs["energy_from_traces_J"] == pytest.approx(downward.attrs["energy_J"], rel=1e-5)
+    assert downward.attrs["energy_from_traces_J"] == pytest.approx(
+        downward.attrs["energy_J"], rel=1e-5
+    )
     assert downward.spin_speed.max() <= 1.0001 * downward.spin_speed_pure.max()
 
 
@@ -57,7 +59,9 @@ def test_inflexion_is_the_steepest_rise_of_spin():
     angle = np.linspace(0.0, 360.0, 721)
     load = np.where(np.abs(angle - 180.0) < 120.0, 0.0, 1.0)
     spin = 9.0 - 0.02 * angle + np.tanh((angle - 170.0) / 30.0)
-    turn = xr.Dataset({"spin_speed": ("angle", spin), "roller_load": ("angle", load)}, {"angle": angle})
+    turn = xr.Dataset(
+        {"spin_speed": ("angle", spin), "roller_load": ("angle", load)}, {"angle": angle}
+    )
     assert inflexion_angle(turn) == pytest.approx(170.0, abs=0.5)
     assert np.isnan(inflexion_angle(turn.assign(spin_speed=("angle", 9.0 - 1e-5 * angle**2))))
 
@@ -82,4 +86,6 @@ def test_a_loose_iteration_adds_energy_only_to_a_gripped_roller_under_varying_lo
 
 def test_a_coarse_step_misses_the_peak(varying):
     found = step_size(varying, start=360.0, end=375.0, steps=(1e-2, 3e-3), rollers=(0,))
-    assert found.mean_peak_power.sel(row="upwind").max() < found.mean_peak_power_converged.sel(row="upwind")
+    assert found.mean_peak_power.sel(row="upwind").max() < found.mean_peak_power_converged.sel(
+        row="upwind"
+    )

@@ -159,7 +159,12 @@ def test_classes_differ_in_more_than_colour(axes, numbers):
     draw.plot_by_class(axes, numbers, "energy_ratio", "ratio [–]")
     np.testing.assert_allclose(line(axes, "A")[1], [31.0, 35.0])
     drawn = [container.lines[0] for container in axes.containers]
-    assert len({one.get_marker() for one in drawn}) == len({one.get_linestyle() for one in drawn}) == len(drawn) == 2
+    assert (
+        len({one.get_marker() for one in drawn})
+        == len({one.get_linestyle() for one in drawn})
+        == len(drawn)
+        == 2
+    )
 
 
 def test_peak_power_with_standard_deviation_from_zero(numbers):
@@ -192,7 +197,11 @@ def test_a_turn(axes, turn):
 
 def test_stability(stability):
     left, right = draw.stability_figure(stability).axes
-    labels = {"explicit": "explicit Euler", "backward": "backward Euler", "converged": "converged (Radau)"}
+    labels = {
+        "explicit": "explicit Euler",
+        "backward": "backward Euler",
+        "converged": "converged (Radau)",
+    }
     for name, label in labels.items():
         np.testing.assert_allclose(line(left, label)[1], stability[f"spin_ratio_{name}"])
     assert any(np.allclose(one.get_xdata(), 312.0) for one in left.lines)
@@ -223,11 +232,15 @@ def test_stations_of_the_chosen_cases(axes, parts):
     assert draw.shown_cases(parts) == ["12B", "24B"]
     draw.plot_stations(axes, parts.station_energy, "upwind", draw.shown_cases(parts))
     _, drawn = line(axes, "24B, outer")
-    np.testing.assert_allclose(drawn, parts.station_energy.sel(case="24B", row="upwind", raceway="outer"))
+    np.testing.assert_allclose(
+        drawn, parts.station_energy.sel(case="24B", row="upwind", raceway="outer")
+    )
 
 
 def test_models_stand_on_the_same_axes(axes, numbers):
-    draw.plot_models(axes, {"paper": numbers, "physical": 10.0 * numbers}, "energy_ratio", "ratio [–]")
+    draw.plot_models(
+        axes, {"paper": numbers, "physical": 10.0 * numbers}, "energy_ratio", "ratio [–]"
+    )
     lines = {one.get_label(): one.get_ydata().tolist() for one in axes.lines}
     assert lines == {"paper": [32.0, 36.0], "physical": [320.0, 360.0]}
     assert len({one.get_linestyle() for one in axes.lines}) == 2
@@ -249,7 +262,9 @@ def test_torque_over_a_part_of_the_history():
     time = np.arange(10.0)
     histories = {"model": TorqueHistory(time, time + 1.0), "SKF": TorqueHistory(time, time + 5.0)}
     figure = draw.torque_figure(histories, 2.0, 4.0)
-    np.testing.assert_allclose(figure.axes[0].lines[0].get_data(), ([2.0, 3.0, 4.0], [3.0, 4.0, 5.0]))
+    np.testing.assert_allclose(
+        figure.axes[0].lines[0].get_data(), ([2.0, 3.0, 4.0], [3.0, 4.0, 5.0])
+    )
     labels = [one.get_text() for one in figure.legends[0].get_texts()]
     assert labels == ["model (mean 5.5 N m)", "SKF (mean 9.5 N m)"]
 
@@ -265,4 +280,6 @@ def test_figures_are_written_as_png_and_svg_with_units(tmp_path, numbers, turn, 
     for k, figure in enumerate(figures):
         for name in save(figure, tmp_path, f"figure_{k}"):
             assert (tmp_path / name).stat().st_size > 1000
-        assert all(one.get_xlabel() or not one.get_subplotspec().is_last_row() for one in figure.axes)
+        assert all(
+            one.get_xlabel() or not one.get_subplotspec().is_last_row() for one in figure.axes
+        )

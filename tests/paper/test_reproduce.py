@@ -30,27 +30,39 @@ STUDIES = {
 def few_turns(result, laws, threads, report):
     """One turn in the place of all, traced at samples 18 times as far apart as others are."""
     with patch.object(experiments, "_FINE", 2):
-        turn = experiments.static_turn(experiments.varying_load(), "downwind", thrust=False, laws=laws)
+        turn = experiments.static_turn(
+            experiments.varying_load(), "downwind", thrust=False, laws=laws
+        )
     report(1, 1)
     rows = ("downwind", "upwind")
     static = {f"{name}, {row}": turn for name in experiments.STATIC_LOADS for row in rows}
-    return {"static": static} | {figure: {f"{row} row": turn for row in rows} for figure in ("typical", "peak")}
+    return {"static": static} | {
+        figure: {f"{row} row": turn for row in rows} for figure in ("typical", "peak")
+    }
 
 
 def few_experiments(result, threads, report):
     varying = experiments.varying_load()
     report(1, 1)
     return {
-        "A1": experiments.compare_stability(experiments.static_load(varying, thrust=False, duration=3.5)),
-        "nonlinear_tolerance": experiments.nonlinear_tolerance(varying.window(0.0, 26.0), tolerances=(1e-12, 1e-6)),
-        "step_size": experiments.step_size(varying, start=360.0, end=375.0, steps=(1e-2, 3e-3), rollers=(0,)),
+        "A1": experiments.compare_stability(
+            experiments.static_load(varying, thrust=False, duration=3.5)
+        ),
+        "nonlinear_tolerance": experiments.nonlinear_tolerance(
+            varying.window(0.0, 26.0), tolerances=(1e-12, 1e-6)
+        ),
+        "step_size": experiments.step_size(
+            varying, start=360.0, end=375.0, steps=(1e-2, 3e-3), rollers=(0,)
+        ),
     }
 
 
 @pytest.fixture(scope="module")
 def quick(small):
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(studies, "content", lambda stage, model: small(stage, model, **STUDIES[stage]))
+        patched.setattr(
+            studies, "content", lambda stage, model: small(stage, model, **STUDIES[stage])
+        )
         patched.setattr(reproduce, "turns", few_turns)
         patched.setattr(reproduce, "experiments", few_experiments)
         yield reproduce.reproduce
@@ -76,7 +88,13 @@ def test_everything_is_written(written, study):
             assert (target / f"figure_{name}{model}.png").is_file()
             assert (target / f"figure_{name}{model}.svg").is_file()
             assert f"{name}{model}" in summary["figures"]
-    for name in ("figure_A1", "mechanisms_physical", "uncertainty_physical", "figures_4_5_models", "friction_torque"):
+    for name in (
+        "figure_A1",
+        "mechanisms_physical",
+        "uncertainty_physical",
+        "figures_4_5_models",
+        "friction_torque",
+    ):
         assert (target / f"{name}.png").is_file()
     with xr.open_dataset(target / "study.nc", engine="h5netcdf") as stored:
         np.testing.assert_array_equal(stored.energy, study.energy)
@@ -87,7 +105,11 @@ def test_everything_is_written(written, study):
     torque = summary["figures"]["friction_torque_physical"]["data_vars"]["torque"]
     assert 1.0 < torque["data"] < 1e3
     assert torque["attrs"]["units"] == "N m"
-    assert summary["figures"]["uncertainty_physical"]["attrs"] == {"completed": 2, "failed": 0, "refused": 0}
+    assert summary["figures"]["uncertainty_physical"]["attrs"] == {
+        "completed": 2,
+        "failed": 0,
+        "refused": 0,
+    }
     assert len(summary["headline"]) == 9
     euler = summary["statements"][-1]["models"]
     assert euler["physical"]["verdict"] == NOT_COMPUTED
@@ -102,7 +124,14 @@ def test_the_page_has_every_section_number_and_figure_and_needs_no_network(writt
     page = html.unescape((target / "report.html").read_text(encoding="utf-8"))
     assert len(page) < 8e6
     links = set(re.findall(r'href="#([^"]+)"', page))
-    assert {"answer", "figures-physical", "mechanisms", "uncertainty", "torque", "provenance"} <= links
+    assert {
+        "answer",
+        "figures-physical",
+        "mechanisms",
+        "uncertainty",
+        "torque",
+        "provenance",
+    } <= links
     assert links <= set(re.findall(r'id="([^"]+)"', page))
     assert page.count("<img") == len(list(target.glob("*.svg")))
     assert not re.search(r'(src|href)="(?!data:|#)', page)
@@ -121,14 +150,22 @@ def test_the_page_has_every_section_number_and_figure_and_needs_no_network(writt
 def test_all_that_is_written_is_documented(written):
     target, summary, _ = written
     docs = Path(__file__).parents[2] / "docs"
-    documented = "".join((docs / name).read_text(encoding="utf-8") for name in ("reproduce.md", "results.md"))
+    documented = "".join(
+        (docs / name).read_text(encoding="utf-8") for name in ("reproduce.md", "results.md")
+    )
     figures = {path.stem.removesuffix("_physical") for path in target.glob("*.png")}
     with xr.open_dataset(target / "study_physical.nc", engine="h5netcdf") as stored:
         names = [*summary, *stored.data_vars, *(name.removeprefix("figure_") for name in figures)]
-    assert [name for name in names if f"`{name}`" not in documented and f"`figure_{name}`" not in documented] == []
+    assert [
+        name
+        for name in names
+        if f"`{name}`" not in documented and f"`figure_{name}`" not in documented
+    ] == []
 
 
-def test_a_failed_roller_is_seen_on_the_page_and_never_averaged_over(quick, written, study, monkeypatch, tmp_path):
+def test_a_failed_roller_is_seen_on_the_page_and_never_averaged_over(
+    quick, written, study, monkeypatch, tmp_path
+):
     shutil.copytree(written[0] / "studies", tmp_path / "results" / "studies")
     failed = study.copy(deep=True)
     failed.energy.loc[{"case": "14B", "row": "upwind", "roller": 14}] = np.nan
@@ -136,7 +173,9 @@ def test_a_failed_roller_is_seen_on_the_page_and_never_averaged_over(quick, writ
     failed.peak_power_mean.loc[{"case": "14B", "row": "upwind"}] = np.nan
     failed.status.loc[{"case": "14B", "row": "upwind", "roller": 14}] = 3
     read = studies.paper_study
-    monkeypatch.setattr(studies, "paper_study", lambda path: failed if path.name == "study_paper" else read(path))
+    monkeypatch.setattr(
+        studies, "paper_study", lambda path: failed if path.name == "study_paper" else read(path)
+    )
     monkeypatch.setattr(reproduce, "save", lambda *arguments: None)
     summary = quick(tmp_path / "results")
     assert "uncertainty_physical" in summary["reused"] and len(summary["reused"]) == 5
@@ -150,7 +189,9 @@ def test_a_failed_roller_is_seen_on_the_page_and_never_averaged_over(quick, writ
     assert f'<span class="cannot-be-judged">{UNKNOWN}</span>' in page
 
 
-def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(quick, written, monkeypatch, tmp_path):
+def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(
+    quick, written, monkeypatch, tmp_path
+):
     target = tmp_path / "results"
     shutil.copytree(written[0] / "studies", target / "studies")
     (target / "summary.json").write_text("old")
@@ -162,7 +203,9 @@ def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(quick, writt
     with pytest.raises(RuntimeError, match="out of paper"):
         quick(target)
     # What was computed stays, for the next run to go on from.
-    left = sorted(str(path.relative_to(tmp_path)) for path in [*tmp_path.iterdir(), *target.iterdir()])
+    left = sorted(
+        str(path.relative_to(tmp_path)) for path in [*tmp_path.iterdir(), *target.iterdir()]
+    )
     assert left == ["results", "results/studies", "results/summary.json"]
 
 

@@ -17,7 +17,11 @@ def test_thrust_is_shared_by_the_rollers_of_one_row():
 
 
 def test_a_radial_load_is_shared_by_both_rows_and_leaves_the_top_free():
-    found = row_loads(Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 2.1, 10.0), laws=Laws.paper()), 0.0, 10.0)
+    found = row_loads(
+        Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 2.1, 10.0), laws=Laws.paper()),
+        0.0,
+        10.0,
+    )
     assert float(found.roller_load[0]) == pytest.approx(float(found.roller_load[1]), rel=0.01)
     assert (found.loaded_share > 0.1).all()
     assert (found.loaded_share < 0.5).all()

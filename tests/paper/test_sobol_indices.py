@@ -26,7 +26,12 @@ def test_a_polynomial_of_second_degree_is_found_again_exactly():
     whole = 4.0 / 3.0 + 1.0 / 9.0 + 0.05
     expected_first, expected_total = np.zeros(12), np.zeros(12)
     expected_first[[0, 2]] = 4.0 / 3.0 / whole, 0.05 / whole
-    expected_total[[0, 2, 4, 7]] = 4.0 / 3.0 / whole, 0.05 / whole, 1.0 / 9.0 / whole, 1.0 / 9.0 / whole
+    expected_total[[0, 2, 4, 7]] = (
+        4.0 / 3.0 / whole,
+        0.05 / whole,
+        1.0 / 9.0 / whole,
+        1.0 / 9.0 / whole,
+    )
     np.testing.assert_allclose(first, expected_first, atol=1e-9)
     np.testing.assert_allclose(total, expected_total, atol=1e-9)
     assert explained_variance(places, values) == pytest.approx(1.0, abs=1e-9)
@@ -41,7 +46,9 @@ def test_indices_are_those_that_scipy_estimates_of_the_polynomial():
     from scipy import stats
 
     places = sample(6)
-    polynomial = fit(places, np.exp(places[:, 0] + 0.4 * places[:, 1] * places[:, 2]) + 0.2 * places[:, 3])
+    polynomial = fit(
+        places, np.exp(places[:, 0] + 0.4 * places[:, 1] * places[:, 2]) + 0.2 * places[:, 3]
+    )
     first, total = sobol_indices(polynomial)
     dists, rng = [stats.uniform()] * 6, np.random.default_rng(1)
     found = stats.sobol_indices(func=lambda x: polynomial(x.T)[None], n=4096, dists=dists, rng=rng)

@@ -26,7 +26,9 @@ def test_the_detailed_case_is_one_of_the_study():
 
 
 def test_a_second_run_computes_nothing(small, tmp_path):
-    made = study_of(small("study", "paper", bundled=["14A", "14B"], rollers=[0], window={"end": "20 s"}))
+    made = study_of(
+        small("study", "paper", bundled=["14A", "14B"], rollers=[0], window={"end": "20 s"})
+    )
     calls = []
     assert compute(made, tmp_path / "out", progress=lambda *call: calls.append(call))
     assert calls[-1] == (2, 2) and calls == sorted(calls)
@@ -34,14 +36,23 @@ def test_a_second_run_computes_nothing(small, tmp_path):
 
 
 def test_a_window_without_an_orbit_is_refused(small, tmp_path):
-    made = small("study", "paper", bundled=["14B"], rollers=[0], window={"start": "1 s", "end": "2 s"})
+    made = small(
+        "study", "paper", bundled=["14B"], rollers=[0], window={"start": "1 s", "end": "2 s"}
+    )
     compute(study_of(made), tmp_path / "out")
     with pytest.raises(InputError, match="no complete orbit"):
         paper_study(tmp_path / "out")
 
 
 def test_study_holds_what_the_simulation_gives(study):
-    result = simulate(Case(loads=HubLoads.bundled("14A"), laws=Laws.paper(), rollers=[0, 14], window=Window(end=30.0)))
+    result = simulate(
+        Case(
+            loads=HubLoads.bundled("14A"),
+            laws=Laws.paper(),
+            rollers=[0, 14],
+            window=Window(end=30.0),
+        )
+    )
     one = study.sel(case="14A")
     np.testing.assert_array_equal(one.energy, result.energy)
     samples = result.peak_power.max("interface").values.reshape(2, -1)
@@ -59,7 +70,9 @@ def test_numbers_are_normalised_by_the_reference_case(study):
     assert (numbers.peak_power_mean_normalised.sel(case="14A") == 1.0).all()
     total = study.energy.sum("interface").mean("roller")
     np.testing.assert_allclose(numbers.energy, total, rtol=1e-15)
-    np.testing.assert_allclose(numbers.energy_ratio, total.sel(row="downwind") / total.sel(row="upwind"), rtol=1e-15)
+    np.testing.assert_allclose(
+        numbers.energy_ratio, total.sel(row="downwind") / total.sel(row="upwind"), rtol=1e-15
+    )
     assert (numbers.energy_min <= numbers.energy).all()
     assert (numbers.energy <= numbers.energy_max).all()
 
@@ -69,9 +82,15 @@ def test_parts_and_stations_add_up_to_the_energy_per_orbit(physical_study):
     per_orbit = physical_study.energy.mean("roller") / physical_study.orbits
     np.testing.assert_allclose(parts.part_energy.sum("part"), per_orbit.sum("interface"), rtol=1e-6)
     width = float(np.diff(physical_study.station).mean())
-    along = (parts.station_energy * width).sum("station").sel(raceway=["inner", "outer"], row="downwind")
+    along = (
+        (parts.station_energy * width)
+        .sum("station")
+        .sel(raceway=["inner", "outer"], row="downwind")
+    )
     # A contact without load but a roller's weight may be shorter than a station.
-    np.testing.assert_allclose(along, per_orbit.sel(interface=["inner", "outer"], row="downwind"), rtol=1e-3)
+    np.testing.assert_allclose(
+        along, per_orbit.sel(interface=["inner", "outer"], row="downwind"), rtol=1e-3
+    )
     down = parts.part_energy.sel(row="downwind")
     micro = down.sel(part=[one for one in PARTS if "," in one and "sliding" not in one]).sum("part")
     assert (micro > 0.85 * (down.sum("part") - down.sel(part="cage"))).all()
@@ -82,7 +101,9 @@ def test_parts_and_stations_add_up_to_the_energy_per_orbit(physical_study):
 
 def test_the_exponent_is_that_of_a_power_law(physical_study):
     study = physical_study
-    load = xr.DataArray([[1e4, 1e2], [2e4, 0.0], [4e4, 1e2]], dims=("case", "row"), coords={"row": study.row})
+    load = xr.DataArray(
+        [[1e4, 1e2], [2e4, 0.0], [4e4, 1e2]], dims=("case", "row"), coords={"row": study.row}
+    )
     scaled = study.assign(roller_load=load)
     weight = (load.sel(row="downwind") ** 1.5).drop_vars("row")
     for name in ("energy", "mechanism_energy"):

@@ -10,7 +10,14 @@ from macroslip.result.heat_balance import bearing_friction_power
 from macroslip.study.settings import template
 from macroslip.study.study_file import study_of
 from paper.studies import compute
-from paper.uncertainty import drivers, quantities, robust, strongest, uncertainty, uncertainty_summary
+from paper.uncertainty import (
+    drivers,
+    quantities,
+    robust,
+    strongest,
+    uncertainty,
+    uncertainty_summary,
+)
 from paper.values import VALUES, sample_places
 
 pytestmark = pytest.mark.slow
@@ -36,7 +43,9 @@ def sample(made, tmp_path_factory):
 def case_of(made, point, name):
     """The case of a point of the sample under bundled loads."""
     study = study_of(made)
-    records = {noun: next(iter(getattr(study, f"{noun}s").values())) for noun in ("bearing", "lubricant")}
+    records = {
+        noun: next(iter(getattr(study, f"{noun}s").values())) for noun in ("bearing", "lubricant")
+    }
     case, _ = template(study.case, list(study.variations[point]), records)
     return replace(case, loads=HubLoads.bundled(name).window(None, 14.0))
 
@@ -47,7 +56,9 @@ def test_every_sample_is_a_run_of_its_own(made, sample):
     for k in (0, 3):
         result = simulate(case_of(made, k, "24B"))
         found = sample.sel(case="24B").isel(sample=k)
-        np.testing.assert_allclose(found.orbit_energy, result.orbit_energy.mean(("roller", "orbit")), rtol=1e-12)
+        np.testing.assert_allclose(
+            found.orbit_energy, result.orbit_energy.mean(("roller", "orbit")), rtol=1e-12
+        )
         peak = result.peak_power.max("interface").mean(("roller", "orbit"))
         np.testing.assert_allclose(found.peak_power, peak, rtol=1e-12)
         assert float(found.window_energy) == pytest.approx(float(result.energy.sum()), rel=1e-12)
@@ -123,22 +134,30 @@ def test_ranges_drivers_and_trends_follow_the_numbers(sample):
     assert drivers(summary, "energy in 12B / 24B") == []
     assert drivers(summary, name)[0] == (str(VALUES[0].name), pytest.approx(1.0))
     # The one value that moves it has all of its variance, and the fit foretells it.
-    assert strongest(summary, name) == [(VALUES[0].name, pytest.approx(1.0, abs=0.02), pytest.approx(1.0, abs=0.02))]
+    assert strongest(summary, name) == [
+        (VALUES[0].name, pytest.approx(1.0, abs=0.02), pytest.approx(1.0, abs=0.02))
+    ]
     assert float(summary.explained.sel(quantity=name)) > 0.99
     low, middle, high = summary.range.sel(quantity=name).values
     assert low < middle < high
     assert middle == pytest.approx(9.5, abs=0.05)
-    shares = dict(zip(summary.trend.values.tolist(), summary.trend_share.values.tolist(), strict=True))
+    shares = dict(
+        zip(summary.trend.values.tolist(), summary.trend_share.values.tolist(), strict=True)
+    )
     assert shares["energy ratio within a factor of 2 of 10, any case"] == 1.0
     assert shares["ratio of peak powers falls from case to case of 12B, 24B"] == 1.0
     assert shares["cage takes at least half of the energy of both rows, any case"] == 0.0
     words = dict(robust(summary))
     assert words["energy highest in 12B of 12B, 24B"] == "robust"
-    assert words["cage takes at least half of the energy of both rows, any case"] == "robustly not so"
+    assert (
+        words["cage takes at least half of the energy of both rows, any case"] == "robustly not so"
+    )
     half = made.window_energy.copy()
     half[1:9] = half[1:9, ::-1].values
     assert (
-        dict(robust(uncertainty_summary(made.assign(window_energy=half))))["energy highest in 12B of 12B, 24B"]
+        dict(robust(uncertainty_summary(made.assign(window_energy=half))))[
+            "energy highest in 12B of 12B, 24B"
+        ]
         == "not robust"
     )
     swapped = made.peak_power.isel(case=[1, 0]).assign_coords(case=made.case)

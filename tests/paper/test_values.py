@@ -24,7 +24,10 @@ def study():
 
 @pytest.fixture(scope="module")
 def records(study):
-    return {"bearing": next(iter(study.bearings.values())), "lubricant": next(iter(study.lubricants.values()))}
+    return {
+        "bearing": next(iter(study.bearings.values())),
+        "lubricant": next(iter(study.lubricants.values())),
+    }
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +44,10 @@ def points(study):
 def in_si_units(settings):
     """Values of settings by key, in SI units."""
     units = {one.key: one.unit for one in VALUES if not one.choices}
-    return {one.key: in_si(one.value, units[one.key]) if one.key in units else one.value for one in settings}
+    return {
+        one.key: in_si(one.value, units[one.key]) if one.key in units else one.value
+        for one in settings
+    }
 
 
 #: SI units in the units of the ranges.
@@ -61,7 +67,11 @@ def own(case, key):
 
 
 def parts_of(key):
-    return key.replace("lubricant.at", "lubricant.inlet_temperature").replace("round.second", "round_second").split(".")
+    return (
+        key.replace("lubricant.at", "lubricant.inlet_temperature")
+        .replace("round.second", "round_second")
+        .split(".")
+    )
 
 
 def test_ends_of_a_range_are_its_first_and_last_place():
@@ -76,7 +86,11 @@ def test_the_base_values_are_in_the_ranges(base):
             assert own(base, one.key) in one.choices
             continue
         # Stress and Roelands' slope at the lubricant's own temperature, as the study's base case has it.
-        assert in_si(one.low, one.unit) <= own(base, one.key) <= in_si(one.high, one.unit) * (1 + 1e-12), one.name
+        assert (
+            in_si(one.low, one.unit)
+            <= own(base, one.key)
+            <= in_si(one.high, one.unit) * (1 + 1e-12)
+        ), one.name
 
 
 def test_tags_are_those_of_the_catalogue(base):
@@ -109,17 +123,25 @@ def test_the_points_are_a_scrambled_sobol_sequence_with_the_seed(points):
         else:
             ends = [math.log(end) if one.kind == "log" else end for end in (one.low, one.high)]
             drawn = ends[0] + unit[:, k] * (ends[1] - ends[0])
-            expected = [in_si(value, one.unit) for value in (np.exp(drawn) if one.kind == "log" else drawn)]
+            expected = [
+                in_si(value, one.unit) for value in (np.exp(drawn) if one.kind == "log" else drawn)
+            ]
             np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-15)
 
 
 def test_values_that_follow_from_others_are_right(base, points):
     bearing = base.bearing
     for point in points[1:]:
-        of_bearing = SimpleNamespace(**{key.partition(".")[2]: value for key, value in point.items()})
+        of_bearing = SimpleNamespace(
+            **{key.partition(".")[2]: value for key, value in point.items()}
+        )
         centre = bearing.outer_raceway_radius - 0.5 * of_bearing.roller_diameter
-        assert of_bearing.pitch_radius == pytest.approx(centre * math.cos(of_bearing.contact_angle), rel=1e-11)
-        assert of_bearing.row_offset == pytest.approx(centre * math.sin(of_bearing.contact_angle), rel=1e-11)
+        assert of_bearing.pitch_radius == pytest.approx(
+            centre * math.cos(of_bearing.contact_angle), rel=1e-11
+        )
+        assert of_bearing.row_offset == pytest.approx(
+            centre * math.sin(of_bearing.contact_angle), rel=1e-11
+        )
         assert of_bearing.osculation_inner == of_bearing.osculation_outer
 
 
@@ -132,10 +154,12 @@ def test_every_point_makes_a_case_with_its_values(study, records):
         values = in_si_units(settings)
         for key in values.keys() - set(moved):
             expected = values[key]
-            assert own(case, key) == (expected if isinstance(expected, str) else pytest.approx(expected, rel=1e-14)), (
-                key
-            )
+            assert own(case, key) == (
+                expected if isinstance(expected, str) else pytest.approx(expected, rel=1e-14)
+            ), key
         oil = records["lubricant"].replace(**{key.partition(".")[2]: values[key] for key in moved})
         oil = oil.at(values["lubricant.at"])
         for key in moved:
-            assert own(case, key) == pytest.approx(getattr(oil, key.partition(".")[2]), rel=1e-13), key
+            assert own(case, key) == pytest.approx(
+                getattr(oil, key.partition(".")[2]), rel=1e-13
+            ), key

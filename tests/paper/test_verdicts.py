@@ -38,8 +38,17 @@ def by_row(values):
 
 
 def test_a_verdict_counts_what_is_as_stated():
-    good, bad, told = Row("a", "", 1.0, "", "1", 1.0, 1.0), Row("b", "", 2.0, "", "1", 1.0, 1.0), Row("c", "", 5.0)
-    for rows, expected in (((good, told), AGREES), ((good, bad), PARTLY), ((bad, told), DIFFERS), ((), NOT_COMPUTED)):
+    good, bad, told = (
+        Row("a", "", 1.0, "", "1", 1.0, 1.0),
+        Row("b", "", 2.0, "", "1", 1.0, 1.0),
+        Row("c", "", 5.0),
+    )
+    for rows, expected in (
+        ((good, told), AGREES),
+        ((good, bad), PARTLY),
+        ((bad, told), DIFFERS),
+        ((), NOT_COMPUTED),
+    ):
         assert verdict(rows) == expected
     # A number that is missing leaves nothing to judge, whether anything is stated of it or not.
     assert verdict((good, Row("d", "", math.nan))) == UNKNOWN
@@ -56,7 +65,11 @@ def test_a_reason_is_given_where_something_differs():
 
 def test_energy_is_highest_at_the_two_lowest_wind_speeds_or_not():
     orbits = xr.Dataset({"orbits": ("case", SPEEDS), "orbit_energy": by_row(np.ones(7))}, COORDS)
-    for energy, expected in ((1.0 / SPEEDS, AGREES), (SPEEDS, DIFFERS), (1.0 + np.abs(SPEEDS - 14.0), DIFFERS)):
+    for energy, expected in (
+        (1.0 / SPEEDS, AGREES),
+        (SPEEDS, DIFFERS),
+        (1.0 + np.abs(SPEEDS - 14.0), DIFFERS),
+    ):
         numbers = xr.Dataset({"both_rows_normalised": ("case", energy)}, COORDS)
         assert verdict(energy_over_wind_speed(numbers, orbits)) == expected
     numbers.both_rows_normalised[3] = np.nan
@@ -66,14 +79,26 @@ def test_energy_is_highest_at_the_two_lowest_wind_speeds_or_not():
 
 
 def test_energy_between_rows_is_about_ten():
-    for ratio, expected in ((9.0, AGREES), (1.2, DIFFERS), (np.linspace(9.0, 30.0, 7), PARTLY), (np.nan, UNKNOWN)):
-        values = xr.Dataset({"energy_ratio": ("case", np.ones(7) * ratio), "orbit_energy": by_row(np.ones(7))}, COORDS)
+    for ratio, expected in (
+        (9.0, AGREES),
+        (1.2, DIFFERS),
+        (np.linspace(9.0, 30.0, 7), PARTLY),
+        (np.nan, UNKNOWN),
+    ):
+        values = xr.Dataset(
+            {"energy_ratio": ("case", np.ones(7) * ratio), "orbit_energy": by_row(np.ones(7))},
+            COORDS,
+        )
         assert verdict(energy_between_rows(values, 1.0)) == expected
 
 
 def test_peak_power_verdicts_follow_the_numbers():
     def numbers(mean, std, ratio):
-        values = {"peak_power_mean": by_row(mean), "peak_power_std": by_row(std), "peak_power_ratio": ("case", ratio)}
+        values = {
+            "peak_power_mean": by_row(mean),
+            "peak_power_std": by_row(std),
+            "peak_power_ratio": ("case", ratio),
+        }
         return xr.Dataset(values, COORDS)
 
     level = np.array([1.0, 1.2, 0.9, 1.1, 1.0, 1.05, 0.95])
@@ -105,7 +130,12 @@ def test_dominance_follows_the_numbers():
 
 def test_an_unloaded_roller_is_judged_by_its_turn():
     def judged(inflexion, lowest, recovery):
-        values = {"lowest_spin_ratio": lowest, "recovery_time_s": recovery, "start_s": 0.0, "end_s": 6.0}
+        values = {
+            "lowest_spin_ratio": lowest,
+            "recovery_time_s": recovery,
+            "start_s": 0.0,
+            "end_s": 6.0,
+        }
         return verdict(unloaded_roller(xr.Dataset(attrs=values), inflexion))
 
     assert judged(178.0, 0.6, 0.05) == AGREES
@@ -118,7 +148,9 @@ def test_an_unloaded_roller_is_judged_by_its_turn():
 def test_euler_is_judged_by_its_deviation_or_by_being_stopped():
     def judged(explicit, backward, status=0):
         values = {"largest_deviation_explicit": explicit, "largest_deviation_backward": backward}
-        return verdict(euler_stability(xr.Dataset(attrs=values | {"status_explicit": status, "step_s": 1e-3})))
+        return verdict(
+            euler_stability(xr.Dataset(attrs=values | {"status_explicit": status, "step_s": 1e-3}))
+        )
 
     assert judged(0.5, 0.01) == AGREES
     assert judged(math.nan, 0.01, status=2) == AGREES

@@ -48,7 +48,9 @@ def run(loads, laws=FULL, rollers=(0, 9), **settings):
 def coulomb():
     """Constant friction 0.05: a film so thin and cool that its stress is at the limit all over."""
     oil = OIL.replace(limiting_shear=0.05)
-    return roller_model(BEARING, oil, 1, tilt=0.0, laws=LIMITED.but(heating=False, asperities="none"))
+    return roller_model(
+        BEARING, oil, 1, tilt=0.0, laws=LIMITED.but(heating=False, asperities="none")
+    )
 
 
 def slip_along(contact, z, slip, ring_speed):
@@ -67,7 +69,14 @@ def constant_friction(contact, load, slip, ring_speed):
     carried = 0.75 * load / across * (1 - (z / across) ** 2) * (z[1] - z[0])
     pull = 0.05 * carried * np.sign(v)
     mean = (carried * np.abs(v)).sum() / load
-    return (pull * v).sum(), pull.sum(), (pull * (1 - drop / RADIUS)).sum(), (pull * z).sum(), np.abs(v).max(), mean
+    return (
+        (pull * v).sum(),
+        pull.sum(),
+        (pull * (1 - drop / RADIUS)).sum(),
+        (pull * z).sum(),
+        np.abs(v).max(),
+        mean,
+    )
 
 
 class Film:
@@ -93,9 +102,12 @@ class Film:
 
 
 @pytest.mark.parametrize(
-    ("ring", "power", "fastest", "mean"), [("inner", 8.7, 23e-3, 3.5e-3), ("outer", 7.1, 19e-3, 2.9e-3)]
+    ("ring", "power", "fastest", "mean"),
+    [("inner", 8.7, 23e-3, 3.5e-3), ("outer", 7.1, 19e-3, 2.9e-3)],
 )
-def test_a_loaded_contact_dissipates_what_constant_friction_does(coulomb, ring, power, fastest, mean):
+def test_a_loaded_contact_dissipates_what_constant_friction_does(
+    coulomb, ring, power, fastest, mean
+):
     contact = getattr(coulomb.laws, ring)
     ring_speed = -RATED * coulomb.orbit_ratio * coulomb.outer_radius
     film = Film(contact, 1e-11, ring_speed)
@@ -103,15 +115,24 @@ def test_a_loaded_contact_dissipates_what_constant_friction_does(coulomb, ring, 
     spent, skew = film.power(still), film(still)[2]
     assert spent == pytest.approx(power, rel=0.03)
     assert abs(skew) == pytest.approx(17.0, rel=0.03)
-    hand = brentq(lambda s: constant_friction(contact, 5e4, s, ring_speed)[2], -0.02, 0.02, xtol=1e-12)
+    hand = brentq(
+        lambda s: constant_friction(contact, 5e4, s, ring_speed)[2], -0.02, 0.02, xtol=1e-12
+    )
     exact = constant_friction(contact, 5e4, hand, ring_speed)
     # A patch has its axis tilted to the positive side.
-    assert (spent, skew) == pytest.approx((exact[0], math.copysign(1.0, contact.shape.spin_ratio) * exact[3]), rel=5e-3)
+    assert (spent, skew) == pytest.approx(
+        (exact[0], math.copysign(1.0, contact.shape.spin_ratio) * exact[3]), rel=5e-3
+    )
     assert still == pytest.approx(hand, rel=0.02)
-    assert exact[4] == pytest.approx(fastest, rel=0.03) and exact[5] == pytest.approx(mean, rel=0.03)
+    assert exact[4] == pytest.approx(fastest, rel=0.03) and exact[5] == pytest.approx(
+        mean, rel=0.03
+    )
     # Where both raceways share one slip the sizes hardly change.
     both = brentq(
-        lambda s: sum(constant_friction(c, 5e4, s, ring_speed)[2] for c in (coulomb.laws.inner, coulomb.laws.outer)),
+        lambda s: sum(
+            constant_friction(c, 5e4, s, ring_speed)[2]
+            for c in (coulomb.laws.inner, coulomb.laws.outer)
+        ),
         -0.02,
         0.02,
     )
@@ -129,13 +150,21 @@ def gusty():
 @pytest.fixture(scope="module")
 def blown(gusty):
     return simulate(
-        Case(loads=gusty, laws=FULL, rollers=[0, 9, 20], traces=Traces(step=0.01), window=Window(start=30.0))
+        Case(
+            loads=gusty,
+            laws=FULL,
+            rollers=[0, 9, 20],
+            traces=Traces(step=0.01),
+            window=Window(start=30.0),
+        )
     )
 
 
 def test_energies_add_up(blown):
     energy = blown.energy
-    assert (blown.status == Status.COMPLETED).all() and blown.attrs["model"] == "physical, but rolling none"
+    assert (blown.status == Status.COMPLETED).all() and blown.attrs[
+        "model"
+    ] == "physical, but rolling none"
     assert (energy >= 0.0).all() and float(energy.sum()) > 1.0
     total = blown.mechanism_energy.sum("mechanism")
     assert total.values == pytest.approx(energy.values, rel=1e-9, abs=1e-12)
@@ -143,9 +172,14 @@ def test_energies_add_up(blown):
     assert (stations >= 0.0).all()
     raceways = energy.sel(interface=["inner", "outer"]).values
     assert stations.sum("station").values == pytest.approx(raceways, rel=1e-9, abs=1e-12)
-    assert (blown.asperity_energy <= energy * (1 + 1e-9) + 1e-12).all() and (blown.asperity_energy >= 0.0).all()
+    assert (blown.asperity_energy <= energy * (1 + 1e-9) + 1e-12).all() and (
+        blown.asperity_energy >= 0.0
+    ).all()
     # The cage contact has no curvature and no spin.
-    assert (blown.mechanism_energy.sel(interface="cage", mechanism=["curvature", "contact angle"]) == 0.0).all()
+    assert (
+        blown.mechanism_energy.sel(interface="cage", mechanism=["curvature", "contact angle"])
+        == 0.0
+    ).all()
 
 
 def test_energy_is_the_integral_of_the_power_traced(blown):
@@ -200,8 +234,14 @@ def test_microslip_needs_a_load(blown):
 
 def test_mirror_at_the_vertical_plane():
     force = np.array([40e3, -343e3, 60e3])
-    ahead = run(BearingLoads.constant(force, 2.1, 5.0), rollers=[0], integrator=Radau(tolerance=1e-6))
-    back = run(BearingLoads.constant(force * [-1, 1, 1], -2.1, 5.0), rollers=[0], integrator=Radau(tolerance=1e-6))
+    ahead = run(
+        BearingLoads.constant(force, 2.1, 5.0), rollers=[0], integrator=Radau(tolerance=1e-6)
+    )
+    back = run(
+        BearingLoads.constant(force * [-1, 1, 1], -2.1, 5.0),
+        rollers=[0],
+        integrator=Radau(tolerance=1e-6),
+    )
     # Roller 0 of the downwind row starts at the bottom, on the plane itself.
     for name in ("energy", "mechanism_energy", "asperity_energy", "station_energy"):
         here, there = (x[name].sel(row="downwind").values for x in (ahead, back))
@@ -210,13 +250,21 @@ def test_mirror_at_the_vertical_plane():
 
 def test_reversed_thrust_swaps_the_rows():
     """Without weight and under thrust alone all rollers of the pressed row are alike, and the rows mirror images."""
-    settings = {"gravity": False, "drag": False, "rollers": [0, 5], "drivetrain": Drivetrain(tilt=0.0)}
+    settings = {
+        "gravity": False,
+        "drag": False,
+        "rollers": [0, 5],
+        "drivetrain": Drivetrain(tilt=0.0),
+    }
     push = run(BearingLoads.constant([0.0, 0.0, 300e3], 2.1, 4.0), **settings)
     pull = run(BearingLoads.constant([0.0, 0.0, -300e3], 2.1, 4.0), **settings)
     for name in ("energy", "mechanism_energy"):
         here, there = push[name].sel(row="downwind"), pull[name].sel(row="upwind")
         assert there.values == pytest.approx(here.values, rel=1e-6, abs=1e-9)
-    here, there = push.station_energy.sel(row="downwind").values, pull.station_energy.sel(row="upwind").values
+    here, there = (
+        push.station_energy.sel(row="downwind").values,
+        pull.station_energy.sel(row="upwind").values,
+    )
     assert there[..., ::-1] == pytest.approx(here, rel=1e-6, abs=1e-9)
     # The end at which curvature and contact angle add up is the other one in the other row.
     assert not np.allclose(there, here, rtol=0.1)
@@ -281,7 +329,9 @@ def test_starved_and_heated_inlets_thin_the_film_and_raise_friction(energies, st
     assert ((thin < 1.0001 * thinner) | ~loaded).all()
     pressed = trace_of(base).roller_load > 5e3
     assert pressed.any() and ((thin > 0.999 * thinner) | ~pressed).all()
-    assert ((film(heated) < film(cool)) | ~loaded).all() and ((film(heated) > 0.95 * film(cool)) | ~loaded).all()
+    assert ((film(heated) < film(cool)) | ~loaded).all() and (
+        (film(heated) > 0.95 * film(cool)) | ~loaded
+    ).all()
     short = run(steady, starved, rollers=[0, 14], oil_supply=0.7).sel(row="downwind")
     assert total(short, "inner") > total(energies(fed), "inner")
 
@@ -314,7 +364,9 @@ def test_a_floating_roller_leaves_no_heat_in_the_ellipse_of_its_cage_contact():
     for name in ("flash_temperature", "power_density"):
         largest = floating[name].max(("roller", "orbit"))
         # The film of the pocket, tens of micrometres thick, leaves less in the small ellipse than a loaded raceway has.
-        assert float(largest.sel(interface="cage").max()) < 0.1 * float(largest.sel(interface="inner").max())
+        assert float(largest.sel(interface="cage").max()) < 0.1 * float(
+            largest.sel(interface="inner").max()
+        )
         assert float(largest.sel(interface=["inner", "outer"]).min()) > 0.0
         assert float(dry[name].sel(interface="cage").min()) > 0.0
 
@@ -326,7 +378,9 @@ def test_the_largest_power_per_area_at_the_cage_is_that_of_its_contact():
     case = Case(loads=loads, laws=Laws.physical(), rollers=[0], window=Window(start=8.0))
     extremes = simulate(case).power_density.sel(interface="cage").isel(roller=0)
     result = simulate(replace(case, traces=Traces(step=0.01)))
-    cage = roller_model(BEARING, case.oil, 1, tilt=math.radians(5.0), laws=Laws.physical()).laws.cage
+    cage = roller_model(
+        BEARING, case.oil, 1, tilt=math.radians(5.0), laws=Laws.physical()
+    ).laws.cage
     hertz = cage.interface.hertz
     area = 2.0 * hertz.semi_axis_across * hertz.semi_axis_along
     for row in result.row.values:
@@ -334,11 +388,15 @@ def test_the_largest_power_per_area_at_the_cage_is_that_of_its_contact():
         pushes, surfaces = np.abs(trace.cage_force.values), RADIUS * trace.spin.values
         pressed = pushes > 0.0
         thickness = cage.film_thickness(pushes[pressed], 0.5 * np.abs(surfaces[pressed]))
-        power = np.abs(surfaces[pressed]) * cage.uniform_traction(pushes[pressed], thickness, np.abs(surfaces[pressed]))
+        power = np.abs(surfaces[pressed]) * cage.uniform_traction(
+            pushes[pressed], thickness, np.abs(surfaces[pressed])
+        )
         density = np.zeros(pushes.size)
         density[pressed] = 0.75 * power / (area * pushes[pressed] ** (2.0 / 3.0))
         for orbit in range(result.sizes["orbit"]):
-            inside = (result.time >= result.orbit_start[orbit]) & (result.time <= result.orbit_end[orbit])
+            inside = (result.time >= result.orbit_start[orbit]) & (
+                result.time <= result.orbit_end[orbit]
+            )
             largest = float(extremes.sel(row=row)[orbit])
             # Contacts are looked at every ten degrees.
             assert 0.7 < largest / density[inside.values].max() < 1.02

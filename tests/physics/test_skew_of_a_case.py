@@ -23,12 +23,16 @@ RACEWAYS = {"interface": ["inner", "outer"]}
 
 def case(laws=SKEWED, **cage):
     traces = Traces(step=0.1)
-    return Case(loads=LOADS, rollers=[0], laws=laws, cage=Cage(**cage), traces=traces, contact_details=False)
+    return Case(
+        loads=LOADS, rollers=[0], laws=laws, cage=Cage(**cage), traces=traces, contact_details=False
+    )
 
 
 def assert_nothing_but_ends_adds(found, straight):
     """A pocket without play holds rollers straight, and friction of its ends alone is added, at the cage."""
-    assert np.array_equal(found.slip, straight.slip) and np.array_equal(found.cage_force, straight.cage_force)
+    assert np.array_equal(found.slip, straight.slip) and np.array_equal(
+        found.cage_force, straight.cage_force
+    )
     for name in ("energy", "orbit_energy", "peak_power", "power"):
         assert np.array_equal(found[name].sel(RACEWAYS), straight[name].sel(RACEWAYS)), name
     assert (found.skew_energy == 0.0).all()
@@ -54,7 +58,9 @@ def test_without_play_nothing_changes(straight):
 def test_energy_is_that_of_a_straight_roller_and_of_skew():
     """Under given loads, which skew does not change; in both rows."""
     places = np.radians(np.tile(np.arange(0.0, 360.0, 45.0), (2, 2, 1)))
-    loads = RollerLoads(np.array([0.0, 10.0]), np.full(2, 2.143), places, np.full(places.shape, 9e3), "even")
+    loads = RollerLoads(
+        np.array([0.0, 10.0]), np.full(2, 2.143), places, np.full(places.shape, 9e3), "even"
+    )
     straight, found = (
         simulate(replace(case(laws, **cage), loads=loads), threads=1)
         for laws, cage in ((Laws.physical(), {}), (SKEWED, {"alignment": "none"}))
@@ -67,7 +73,9 @@ def test_energy_is_that_of_a_straight_roller_and_of_skew():
     stop = pocket(Case(loads=loads).bearing, "conforming-pocket", 0.5e-3)
     for row, sign in (("downwind", 1.0), ("upwind", -1.0)):
         one = found.sel(row=row, roller=0)
-        assert one.skew_angle.values == pytest.approx(np.full(one.time.size, sign * stop.largest), rel=1e-9)
+        assert one.skew_angle.values == pytest.approx(
+            np.full(one.time.size, sign * stop.largest), rel=1e-9
+        )
         assert (sign * one.axial_force > 0.0).all()
         assert sign * one.frictional_thrust > 0.0
         assert one.stop_force.values == pytest.approx(
@@ -81,9 +89,13 @@ def test_the_ring_feels_the_force_that_a_result_shows():
     every = replace(case(), rollers="all", traces=None)
     found, ready = simulate(every), prepare(every)
     model = ready.model
-    on_ring = thrust_on_ring(every, model, ring_geometry(every.bearing, model), ready.motion, ready.box)
+    on_ring = thrust_on_ring(
+        every, model, ring_geometry(every.bearing, model), ready.motion, ready.box
+    )
     inside = ready.motion.time >= found.window_start
-    mean = np.trapezoid(on_ring[inside, 2], ready.motion.time[inside]) / (found.window_end - found.window_start)
+    mean = np.trapezoid(on_ring[inside, 2], ready.motion.time[inside]) / (
+        found.window_end - found.window_start
+    )
     assert float(found.frictional_thrust.sum()) == pytest.approx(mean, rel=0.02)
     # Rollers carry the load and this force.
     loads = elastic_loads(every.ring_loads, ring_geometry(every.bearing, model), ready.motion)

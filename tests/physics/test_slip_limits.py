@@ -7,7 +7,18 @@ import math
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Laws, Radau, Traces, Window, main_bearing_load, simulate
+from macroslip import (
+    BearingLoads,
+    Case,
+    Drivetrain,
+    HubLoads,
+    Laws,
+    Radau,
+    Traces,
+    Window,
+    main_bearing_load,
+    simulate,
+)
 from macroslip.bearing import geometry
 
 pytestmark = pytest.mark.slow
@@ -56,7 +67,9 @@ def test_traction_balances_inertia_and_cage_friction(gusty):
     assert int(gripped.sum()) > 1000
     total = found.traction.sel(interface="inner") + found.traction.sel(interface="outer")
     mass = geometry.roller_mass(7850.0, 0.035, 0.106)
-    sample = np.clip(np.searchsorted(loads.time, found.time.values, side="left") - 1, 0, loads.time.size - 2)
+    sample = np.clip(
+        np.searchsorted(loads.time, found.time.values, side="left") - 1, 0, loads.time.size - 2
+    )
     acceleration = np.diff(loads.shaft_speed)[sample] / np.diff(loads.time)[sample]
     spin_rate = -ORBIT_RATIO * acceleration * 0.4070334304372217 / 0.035
     needed = 0.5 * mass * 0.035 * spin_rate - found.traction.sel(interface="cage")

@@ -19,5 +19,7 @@ def downwind_energy(oil, rheology):
 
 @pytest.mark.parametrize("rheology", ["limiting-shear", "eyring"])
 def test_friction_of_a_loaded_row_falls_with_temperature(rheology):
-    cold, own, warm = (downwind_energy(OIL.at(f"{celsius} degC"), rheology) for celsius in (20, 35, 50))
+    cold, own, warm = (
+        downwind_energy(OIL.at(f"{celsius} degC"), rheology) for celsius in (20, 35, 50)
+    )
     assert cold > 1.1 * own > 1.2 * warm

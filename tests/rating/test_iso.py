@@ -11,7 +11,14 @@ from scipy.integrate import quad
 
 from macroslip.bearing.load_ratings import geometry_factor
 from macroslip.rating import iso
-from macroslip.rating.iso import LAMINAE, REDUCTION, damage_series, life_modification, reference_life, ring_ratings
+from macroslip.rating.iso import (
+    LAMINAE,
+    REDUCTION,
+    damage_series,
+    life_modification,
+    reference_life,
+    ring_ratings,
+)
 
 
 def test_static_equivalent_load():
@@ -21,7 +28,9 @@ def test_static_equivalent_load():
         == iso.static_equivalent_load(0.0, -100e3, 2.2)
         == pytest.approx(220e3)
     )
-    np.testing.assert_allclose(iso.static_equivalent_load([1.0, 2.0], [-3.0, 4.0], 2.0), [7.0, 10.0])
+    np.testing.assert_allclose(
+        iso.static_equivalent_load([1.0, 2.0], [-3.0, 4.0], 2.0), [7.0, 10.0]
+    )
 
 
 def test_static_safety():
@@ -33,7 +42,9 @@ def test_equivalent_load_is_continuous_with_the_standards_factors():
     # e = 1.5 tan, Y1 = 0.45 cot, Y2 = 0.67 cot: at Fa = e Fr both branches give 1.675 Fr.
     alpha = math.radians(11.31)
     factors = 1.5 * math.tan(alpha), 0.45 / math.tan(alpha), 0.67 / math.tan(alpha)
-    below, above = iso.dynamic_equivalent_load(1.0, factors[0] * np.array([1 - 1e-12, 1 + 1e-12]), *factors)
+    below, above = iso.dynamic_equivalent_load(
+        1.0, factors[0] * np.array([1 - 1e-12, 1 + 1e-12]), *factors
+    )
     assert below == pytest.approx(1 + 1.5 * 0.45, rel=1e-9)
     assert above == pytest.approx(below, rel=1e-9)
     assert iso.dynamic_equivalent_load(1.0, 0.0, *factors) == 1.0
@@ -50,7 +61,9 @@ def test_basic_life():
 def test_mean_load_has_the_life_of_palmgren_and_miner(parts):
     load, turns = np.array(parts).T
     mean = iso.mean_equivalent_load(load, turns)
-    assert turns.sum() / iso.basic_life(1e6, mean) == pytest.approx(np.sum(turns / iso.basic_life(1e6, load)), rel=1e-9)
+    assert turns.sum() / iso.basic_life(1e6, mean) == pytest.approx(
+        np.sum(turns / iso.basic_life(1e6, load)), rel=1e-9
+    )
     assert load.min() * (1 - 1e-12) <= mean <= load.max() * (1 + 1e-12)
 
 
@@ -88,7 +101,8 @@ def test_modification_factor_has_the_limits_of_the_standards_figure():
         np.testing.assert_allclose(below, above, rtol=2e-3)
     assert np.array_equal(life_modification(7.0, 0.6, ratio), life_modification(4.0, 0.6, ratio))
     assert (
-        np.isnan(life_modification(0.09, 1.0, ratio)).all() and np.isnan(life_modification(math.nan, 1.0, ratio)).all()
+        np.isnan(life_modification(0.09, 1.0, ratio)).all()
+        and np.isnan(life_modification(math.nan, 1.0, ratio)).all()
     )
 
 
@@ -110,7 +124,11 @@ def lamina_loads(load, semi_axis, length):
         place = np.minimum(edges / np.where(load > 0.0, semi_axis, np.inf)[..., None], 1.0)
     reached = 1.5 * place - 0.5 * place**3
     share, total = np.diff(reached, axis=-1), reached[..., -1:]
-    return load[..., None] * np.divide(share, total, out=np.full_like(share, 1 / count), where=total > 0.0) * count
+    return (
+        load[..., None]
+        * np.divide(share, total, out=np.full_like(share, 1 / count), where=total > 0.0)
+        * count
+    )
 
 
 def ring_damage(load, rating, *, stationary):
@@ -121,11 +139,15 @@ def ring_damage(load, rating, *, stationary):
 
 def load_integral(power):
     """Mean over the circumference of cos^(1.1 power) in the loaded half."""
-    return quad(lambda angle: math.cos(angle) ** (1.1 * power), -math.pi / 2, math.pi / 2)[0] / (2 * math.pi)
+    return quad(lambda angle: math.cos(angle) ** (1.1 * power), -math.pi / 2, math.pi / 2)[0] / (
+        2 * math.pi
+    )
 
 
 def test_the_standards_constants_are_load_integrals():
-    radial = quad(lambda angle: math.cos(angle) ** 2.1, -math.pi / 2, math.pi / 2)[0] / (2 * math.pi)
+    radial = quad(lambda angle: math.cos(angle) ** 2.1, -math.pi / 2, math.pi / 2)[0] / (
+        2 * math.pi
+    )
     inner, outer = load_integral(4.0) ** (1 / 4), load_integral(4.5) ** (1 / 4.5)
     # The standard's come from tables of these integrals with four digits and an exponent between 1.08 and 10/9.
     assert radial / inner == pytest.approx(0.378, rel=4e-3)
@@ -142,7 +164,10 @@ def test_a_bearing_loaded_over_half_its_circumference_lives_as_iso_281_has_it(ga
     shape = np.maximum(np.cos(angle), 0.0) ** 1.1
     load = shape * rating / rows / (math.cos(alpha) * np.sum(shape * np.cos(angle)))
     inner, outer = ring_ratings(rating, rows, count, alpha, gamma)
-    damages = [ring_damage(load[:, None], inner, stationary=False), ring_damage(load[:, None], outer, stationary=True)]
+    damages = [
+        ring_damage(load[:, None], inner, stationary=False),
+        ring_damage(load[:, None], outer, stationary=True),
+    ]
     life = reference_life(np.repeat(damages, rows))
     assert life == pytest.approx(1e6, rel=0.02)
     # Twice the load: the exponent of the reference life is 4.
@@ -174,8 +199,12 @@ def test_laminae_carry_the_load_of_a_hertz_ellipse():
         assert found[k] == pytest.approx(carried / (end - start) * length, rel=1e-9, abs=1e-6)
     # Cut off at the ends, what is left carries all; no load, no lamina load.
     for semi_axis in (0.03, 0.06, 10.0):
-        assert lamina_loads(np.array([load]), np.array([semi_axis]), length).mean() == pytest.approx(load, rel=1e-12)
-    np.testing.assert_allclose(lamina_loads(np.array([load]), np.array([10.0]), length)[0], load, rtol=1e-4)
+        assert lamina_loads(
+            np.array([load]), np.array([semi_axis]), length
+        ).mean() == pytest.approx(load, rel=1e-12)
+    np.testing.assert_allclose(
+        lamina_loads(np.array([load]), np.array([10.0]), length)[0], load, rtol=1e-4
+    )
     assert not lamina_loads(np.array([0.0]), np.array([0.0]), length).any()
 
 
@@ -193,7 +222,9 @@ def test_rings_together_live_shorter_than_the_weakest():
     lives = reference_life(damages, axis=())
     assert np.isinf(lives[1, 0]) and reference_life(damages) < lives.min()
     # Weibull's product law with slope 9/8: L^(-9/8) add up.
-    assert np.sum((lives / 1e6) ** (-9 / 8)) == pytest.approx((reference_life(damages) / 1e6) ** (-9 / 8))
+    assert np.sum((lives / 1e6) ** (-9 / 8)) == pytest.approx(
+        (reference_life(damages) / 1e6) ** (-9 / 8)
+    )
 
 
 @pytest.mark.parametrize("stationary", [False, True])
@@ -206,5 +237,9 @@ def test_the_damage_of_a_series_is_that_of_its_samples(stationary):
     per_sample = load.T
     laminae = lamina_loads(per_sample, semi_axis * np.cbrt(per_sample), length)
     found = damage_series(load, semi_axis, length, rating, stationary)
-    np.testing.assert_allclose(found[0], ring_damage(laminae, rating / REDUCTION, stationary=stationary), rtol=1e-12)
-    np.testing.assert_allclose(found[1], ring_damage(per_sample[..., None], rating, stationary=stationary), rtol=1e-12)
+    np.testing.assert_allclose(
+        found[0], ring_damage(laminae, rating / REDUCTION, stationary=stationary), rtol=1e-12
+    )
+    np.testing.assert_allclose(
+        found[1], ring_damage(per_sample[..., None], rating, stationary=stationary), rtol=1e-12
+    )

@@ -37,9 +37,17 @@ def test_a_constant_load_by_hand(bearing):
     kappa = 0.54 / 900 / reference_viscosity(SPEED, 0.7454)
     assert found["viscosity_ratio"] == pytest.approx(kappa, rel=1e-12)
     bracket = 1 - (1.5859 - 1.2348 / 4**0.071739) * (0.5 * 1100e3 / p) ** 0.4
-    assert kappa > 4 and found["life_modification"] == pytest.approx(min(50.0, 0.1 * bracket**-9.185), rel=1e-9)
-    assert found["modified_life"] == pytest.approx(found["basic_life"] * found["life_modification"], rel=1e-12)
-    assert (found["minimum_load"], found["share_below_minimum_load"], found["share_below_fatigue_load_limit"]) == (
+    assert kappa > 4 and found["life_modification"] == pytest.approx(
+        min(50.0, 0.1 * bracket**-9.185), rel=1e-9
+    )
+    assert found["modified_life"] == pytest.approx(
+        found["basic_life"] * found["life_modification"], rel=1e-12
+    )
+    assert (
+        found["minimum_load"],
+        found["share_below_minimum_load"],
+        found["share_below_fatigue_load_limit"],
+    ) == (
         163e3,
         0.0,
         1.0,
@@ -75,7 +83,9 @@ def test_reference_life_falls_with_the_fourth_power_of_the_load(bearing):
     assert ratio.sel(load_along_roller="uniform").item() == pytest.approx(16.0, rel=1e-9)
     # Load per length grows as Q^(2/3) on a length that grows as Q^(1/3): damage as 2^(10/3), life as its power 8/9.
     assert ratio.sel(load_along_roller="hertz").item() == pytest.approx(2 ** (80 / 27), rel=3e-3)
-    assert twice.largest_pressure.values == pytest.approx(once.largest_pressure.values * 2 ** (1 / 3), rel=1e-12)
+    assert twice.largest_pressure.values == pytest.approx(
+        once.largest_pressure.values * 2 ** (1 / 3), rel=1e-12
+    )
 
 
 def test_mirrored_loads_give_mirrored_rows(bearing):
@@ -83,7 +93,9 @@ def test_mirrored_loads_give_mirrored_rows(bearing):
     there, back = (rated(bearing, [0.0, -500e3, sign * 80e3]) for sign in (1, -1))
     for name in ("largest_roller_load", "largest_pressure"):
         np.testing.assert_allclose(there[name].values, back[name].values[::-1], rtol=0.02)
-    assert there.equivalent_load == back.equivalent_load and there.static_safety == back.static_safety
+    assert (
+        there.equivalent_load == back.equivalent_load and there.static_safety == back.static_safety
+    )
 
 
 def test_largest_pressure_is_hertz(bearing):
@@ -91,7 +103,9 @@ def test_largest_pressure_is_hertz(bearing):
     load = float(found.largest_roller_load.max())
     # The textbook form with complete elliptic integrals of m = 1 - (b/a)^2, which the program does not use: Johnson,
     # Contact Mechanics (1985), equations (4.28) to (4.31).
-    along = 1 / 0.035 + math.cos(bearing.contact_angle) / (0.3727 - 0.035 * math.cos(bearing.contact_angle))
+    along = 1 / 0.035 + math.cos(bearing.contact_angle) / (
+        0.3727 - 0.035 * math.cos(bearing.contact_angle)
+    )
     across = (1 - 0.98) / (0.98 * 0.4149)
 
     def mismatch(ratio):
@@ -104,14 +118,20 @@ def test_largest_pressure_is_hertz(bearing):
     # Curvature across: 1/R = 2 p0/E* (b/a^2) [K - E]/e^2, with p0 = 3Q/(2 pi a b), so that a^3 follows.
     semi_axis = (3 * load * (ellipk(m) - ellipe(m)) / (math.pi * modulus * across * m)) ** (1 / 3)
     pressure = 1.5 * load / (math.pi * semi_axis**2 * ratio)
-    assert found.largest_pressure.sel(raceway="inner").max().item() == pytest.approx(pressure, rel=1e-6)
+    assert found.largest_pressure.sel(raceway="inner").max().item() == pytest.approx(
+        pressure, rel=1e-6
+    )
 
 
 def test_spectra_balance(bearing):
     rng = np.random.default_rng(3)
     time = np.arange(0.0, 20.0, 0.05)
     force = np.column_stack(
-        [rng.normal(0, 5e4, time.size), rng.normal(-4e5, 5e4, time.size), rng.normal(5e4, 5e4, time.size)]
+        [
+            rng.normal(0, 5e4, time.size),
+            rng.normal(-4e5, 5e4, time.size),
+            rng.normal(5e4, 5e4, time.size),
+        ]
     )
     loads = BearingLoads(time, np.linspace(1.0, 2.0, time.size), force, "noise")
     found = rate(bearing, OIL, *roller_load_history(bearing, OIL, loads))
@@ -127,14 +147,24 @@ def test_spectra_balance(bearing):
 def test_a_shaft_that_stands_has_no_life_but_a_safety(bearing):
     found = rated(bearing, [0.0, -400e3, 60e3], speed=0.0)
     assert found.static_safety > 0 and np.isfinite(found.largest_pressure).all()
-    for name in ("equivalent_load", "basic_life", "modified_life", "viscosity_ratio", "life_modification"):
+    for name in (
+        "equivalent_load",
+        "basic_life",
+        "modified_life",
+        "viscosity_ratio",
+        "life_modification",
+    ):
         assert np.isnan(found[name]), name
     assert np.isnan(found.reference_life).all() and np.isnan(found.film_ratio).all()
 
 
 def test_a_bearing_without_load(bearing):
     found = rated(bearing, [0.0, 0.0, 0.0])
-    assert math.isinf(found.static_safety) and math.isinf(found.basic_life) and np.isinf(found.reference_life).all()
+    assert (
+        math.isinf(found.static_safety)
+        and math.isinf(found.basic_life)
+        and np.isinf(found.reference_life).all()
+    )
     assert (found.share_below_minimum_load, found.largest_pressure.max()) == (1.0, 0.0)
     assert found.loaded_share.values.tolist() == [0.0, 0.0]
     # Under thrust alone one row carries all round, and the other nothing.
@@ -149,7 +179,9 @@ def test_speed_without_direction(bearing):
 
 def test_published_fatigue_limit_or_the_standards(bearing):
     own = rated(bearing.replace(fatigue_load_limit=None), [0.0, -400e3, 0.0])
-    assert own.fatigue_load_limit.item() == pytest.approx(16300e3 / 8.2 * (100 / 745.4) ** 0.3, rel=1e-12)
+    assert own.fatigue_load_limit.item() == pytest.approx(
+        16300e3 / 8.2 * (100 / 745.4) ** 0.3, rel=1e-12
+    )
     assert rated(bearing, [0.0, -400e3, 0.0]).fatigue_load_limit == 1100e3
 
 

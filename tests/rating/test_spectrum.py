@@ -5,7 +5,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from macroslip.rating.spectrum import damage_equivalent_load, load_duration, rainflow_ranges, sample_durations
+from macroslip.rating.spectrum import (
+    damage_equivalent_load,
+    load_duration,
+    rainflow_ranges,
+    sample_durations,
+)
 
 
 def test_durations_add_up():
@@ -22,7 +27,9 @@ def test_shares_add_up_to_one_and_keep_the_mean(seed, classes):
     shares = load_duration(load, weight, edges)
     assert shares.sum() == pytest.approx(1.0, rel=1e-12)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    assert abs(np.dot(shares, middle) - np.average(load, weights=weight)) <= 0.5 * (edges[1] - edges[0]) * (1 + 1e-9)
+    assert abs(np.dot(shares, middle) - np.average(load, weights=weight)) <= 0.5 * (
+        edges[1] - edges[0]
+    ) * (1 + 1e-9)
 
 
 def test_a_sinusoid_is_its_own_equivalent():
@@ -34,9 +41,9 @@ def test_a_sinusoid_is_its_own_equivalent():
     # Four times as many cycles: 4^(1/m).
     faster = damage_equivalent_load(3e4 * np.sin(8 * np.pi * time), 10.0, 4.0)
     assert faster == pytest.approx(6e4 * 4**0.25, rel=0.01)
-    assert damage_equivalent_load(3e4 * np.sin(2 * np.pi * time), 10.0, 4.0, frequency=16.0) == pytest.approx(
-        3e4, rel=0.01
-    )
+    assert damage_equivalent_load(
+        3e4 * np.sin(2 * np.pi * time), 10.0, 4.0, frequency=16.0
+    ) == pytest.approx(3e4, rel=0.01)
 
 
 def test_a_small_cycle_on_a_large_one():

@@ -19,14 +19,20 @@ def hostile():
 @pytest.fixture(scope="session")
 def result():
     loads = HubLoads.bundled("14B").window(0.0, 20.0)
-    return simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0, 7, 14, 21], traces=Traces(step=0.05)))
+    return simulate(
+        Case(loads=loads, laws=Laws.paper(), rollers=[0, 7, 14, 21], traces=Traces(step=0.05))
+    )
 
 
 @pytest.fixture(scope="module")
 def browser():
     """Debian's Chromium, driven over its own protocol."""
-    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: pip install '.[test]'")
-    path = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    playwright = pytest.importorskip(
+        "playwright.sync_api", reason="playwright is not installed: pip install '.[test]'"
+    )
+    path = next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+    )
     if path is None:
         pytest.skip("there is no browser: apt-get install chromium")
     options = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []

@@ -18,7 +18,9 @@ matplotlib.use("agg")
 @pytest.fixture(scope="module")
 def result():
     loads = BearingLoads.constant([0.0, -343.5e3, 100e3], 2.143, 14.0)
-    return simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0, 7, 14, 21], traces=Traces(step=0.02)))
+    return simulate(
+        Case(loads=loads, laws=Laws.paper(), rollers=[0, 7, 14, 21], traces=Traces(step=0.02))
+    )
 
 
 @pytest.fixture(autouse=True)
@@ -43,7 +45,9 @@ def test_energy_bars_are_the_means_over_the_rollers(result):
     assert heights == pytest.approx(result.energy.mean("roller").values.ravel(), rel=1e-12)
 
 
-@pytest.mark.parametrize("name", ["energy", "peaks", "rollers", "spin", "load_zone", "orbit", "bearing"])
+@pytest.mark.parametrize(
+    "name", ["energy", "peaks", "rollers", "spin", "load_zone", "orbit", "bearing"]
+)
 def test_every_picture_is_drawn_on_new_axes_or_on_those_given(result, name):
     from matplotlib.figure import Figure
 
@@ -60,15 +64,25 @@ def test_maps_are_those_of_the_result():
 
     loads = BearingLoads.constant([0.0, -343.5e3, 100e3], 2.143, 8.0)
     result = simulate(Case(loads=loads, rollers=[0], laws=Laws.physical()))
-    for quantity, density in (("energy", energy_density(result)), ("power", result.surface_power_density)):
+    for quantity, density in (
+        ("energy", energy_density(result)),
+        ("power", result.surface_power_density),
+    ):
         drawn = result.macroslip.plot.maps(quantity)
         assert [axes.get_title(loc="left") for axes in drawn] == [
-            f"{row} row, {raceway} raceway" for row in ("downwind", "upwind") for raceway in ("outer", "inner")
+            f"{row} row, {raceway} raceway"
+            for row in ("downwind", "upwind")
+            for raceway in ("outer", "inner")
         ]
-        for axes, row, raceway in zip(drawn, ["downwind"] * 2 + ["upwind"] * 2, ["outer", "inner"] * 2, strict=True):
+        for axes, row, raceway in zip(
+            drawn, ["downwind"] * 2 + ["upwind"] * 2, ["outer", "inner"] * 2, strict=True
+        ):
             (image,) = axes.images
             values = 1e-6 * density.sel(row=row, raceway=raceway).values
-            assert image.get_array().sum() == pytest.approx(values.sum(), rel=1e-12) and values.sum() >= 0.0
+            assert (
+                image.get_array().sum() == pytest.approx(values.sum(), rel=1e-12)
+                and values.sum() >= 0.0
+            )
     _, own = pyplot.subplots(1, 4)
     assert result.macroslip.plot.maps(axes=own)[3] is own[3]
     with pytest.raises(InputError, match="'energy' or 'power'"):
@@ -85,7 +99,9 @@ def test_time_and_passes_by_film_and_slip_add_up_to_a_hundred_percent(result):
     detailed = simulate(Case(loads=loads, rollers=[0], laws=Laws.physical()))
     for quantity in ("time", "passes"):
         for axes, raceway in zip(
-            detailed.macroslip.plot.film_and_slip("downwind", quantity), ["inner", "outer"], strict=True
+            detailed.macroslip.plot.film_and_slip("downwind", quantity),
+            ["inner", "outer"],
+            strict=True,
         ):
             shares = 0.01 * 10.0 ** np.asarray(axes.collections[0].get_array())
             amounts = detailed[f"film_slip_{quantity}"].sel(row="downwind", raceway=raceway)

@@ -23,7 +23,12 @@ def file(result, hostile, tmp_path_factory):
     given = json.loads(result.attrs["input"])
     given["lubricant"]["title"] = given["bearing"]["name"] = given["loads"]["source"] = hostile
     given["bearing"]["hardness"]["note"] = hostile
-    attributes = {"title": hostile, "source": hostile, "citations": hostile, "film_range_notes": hostile}
+    attributes = {
+        "title": hostile,
+        "source": hostile,
+        "citations": hostile,
+        "film_range_notes": hostile,
+    }
     dangerous = result.assign_attrs(attributes, input=json.dumps(given))
     path = tmp_path_factory.mktemp("page") / "report.html"
     path.write_text(results_page({hostile: dangerous}, title=hostile), encoding="utf-8")
@@ -36,7 +41,9 @@ def opened(browser, file):
     contexts = []
 
     def at(width=1280, anchor="#bearing", **options):
-        context = browser.new_context(viewport={"width": width, "height": 900}, offline=True, **options)
+        context = browser.new_context(
+            viewport={"width": width, "height": 900}, offline=True, **options
+        )
         contexts.append(context)
         page = context.new_page()
         page.requests, page.complaints = [], []
@@ -61,11 +68,15 @@ def centre(circle):
 
 
 def places(page):
-    return page.eval_on_selector_all("circle.roller", "all => all.map(one => one.getAttribute('transform'))")
+    return page.eval_on_selector_all(
+        "circle.roller", "all => all.map(one => one.getAttribute('transform'))"
+    )
 
 
 @pytest.mark.parametrize("width", [1280, 390])
-def test_it_opens_without_network_errors_or_sideways_scrolling(opened, file, width, record_property):
+def test_it_opens_without_network_errors_or_sideways_scrolling(
+    opened, file, width, record_property
+):
     page = opened(width)
     ready = page.evaluate("document.documentElement.dataset.ready")
     record_property("ready_ms", ready)
@@ -75,11 +86,15 @@ def test_it_opens_without_network_errors_or_sideways_scrolling(opened, file, wid
     if width == 390:
         page.get_by_text("Contents").click()
     page.get_by_role("button", name="Open all").click()
-    wide = page.evaluate("[document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+    wide = page.evaluate(
+        "[document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+    )
     assert wide[0] <= wide[1] <= width
     broken = page.eval_on_selector_all("img", "all => all.filter(one => !one.naturalWidth).length")
     assert broken == 0 < page.locator("img").count()
-    sizes = page.eval_on_selector_all("p, td, li", "all => all.map(one => parseFloat(getComputedStyle(one).fontSize))")
+    sizes = page.eval_on_selector_all(
+        "p, td, li", "all => all.map(one => parseFloat(getComputedStyle(one).fontSize))"
+    )
     assert min(sizes) >= 12
 
 
@@ -123,7 +138,9 @@ def test_the_slider_moves_the_rollers_to_their_places(opened, result):
     angles = np.radians((part.angle + part.travelled[7]).values.ravel())
     for text, angle in zip(moved, angles, strict=True):
         x, y = map(float, re.findall(r"[-\d.]+", text))
-        assert (x, y) == pytest.approx((-radius * math.sin(angle), radius * math.cos(angle)), abs=0.02)
+        assert (x, y) == pytest.approx(
+            (-radius * math.sin(angle), radius * math.cos(angle)), abs=0.02
+        )
 
 
 def test_play_and_pause(opened):
@@ -131,14 +148,18 @@ def test_play_and_pause(opened):
     clock, play = page.locator("output"), page.get_by_role("button", name="Play")
     start = clock.inner_text()
     play.click()
-    page.wait_for_function("start => document.querySelector('output').textContent !== start", arg=start)
+    page.wait_for_function(
+        "start => document.querySelector('output').textContent !== start", arg=start
+    )
     page.get_by_role("button", name="Pause").click()
     stopped = clock.inner_text()
     page.wait_for_timeout(150)
     assert clock.inner_text() == stopped
     page.locator("input[type=range]").press("End")
     play.click()
-    page.wait_for_function("stop => document.querySelector('output').textContent !== stop", arg=clock.inner_text())
+    page.wait_for_function(
+        "stop => document.querySelector('output').textContent !== stop", arg=clock.inner_text()
+    )
 
 
 def test_hovering_shows_values_with_units(opened, result):
@@ -153,7 +174,9 @@ def test_hovering_shows_values_with_units(opened, result):
     assert words.startswith("downwind roller 7, ")
     now = int(page.locator("input[type=range]").input_value())
     load = float(scene(result).roller_load.sel(row="downwind", roller=7)[now]) / 1e3
-    assert float(re.search(r"load ([\d.]+) kN", words).group(1)) == pytest.approx(load, rel=5e-3, abs=2e-3)
+    assert float(re.search(r"load ([\d.]+) kN", words).group(1)) == pytest.approx(
+        load, rel=5e-3, abs=2e-3
+    )
     assert re.search(r"slip (below )?-?[\d.e-]+ mm/s", words)
     assert re.search(r"frictional power (below )?[\d.e-]+ W", words)
     page.mouse.move(5, 5)
@@ -171,7 +194,9 @@ def test_a_chosen_roller_has_its_traces_and_a_trace_moves_time(opened, result):
     assert page.locator(".trace").first.get_attribute("d") != before
     title = page.locator(".chart h4").nth(1).inner_text()
     largest = float(result.roller_load.sel(row="upwind", roller=14).max()) / 1e3
-    assert float(re.search(r"to ([\d.]+) kN", title).group(1)) == pytest.approx(largest, rel=5e-3, abs=1e-2)
+    assert float(re.search(r"to ([\d.]+) kN", title).group(1)) == pytest.approx(
+        largest, rel=5e-3, abs=1e-2
+    )
     chart = page.locator(".chart svg").first
     chart.scroll_into_view_if_needed()
     box = chart.bounding_box()
@@ -179,7 +204,9 @@ def test_a_chosen_roller_has_its_traces_and_a_trace_moves_time(opened, result):
     half = (scene(result).sizes["time"] - 1) / 2
     assert abs(int(page.locator("input[type=range]").input_value()) - half) <= 1
     assert float(page.locator(".cursor").first.get_attribute("x1")) == pytest.approx(500, abs=3)
-    assert re.search(r"^upwind roller 14 at [\d.]+ s\s+slip .* mm/s$", page.locator(".tip").inner_text())
+    assert re.search(
+        r"^upwind roller 14 at [\d.]+ s\s+slip .* mm/s$", page.locator(".tip").inner_text()
+    )
 
 
 def test_colour_follows_the_choice(opened):
@@ -297,15 +324,21 @@ def test_a_keyboard_opens_a_section(opened):
 
 @pytest.mark.parametrize("width", [1280, 390])
 def test_no_part_makes_the_page_scroll_sideways(browser, tmp_path, width):
-    drawn = [picture(lambda axes: axes.plot([0.0, 1.0]), "a line", width=size) for size in (4.2, 9.0)]
+    drawn = [
+        picture(lambda axes: axes.plot([0.0, 1.0]), "a line", width=size) for size in (4.2, 9.0)
+    ]
     long, parts = "word " * 40 + "a" * 80, words("parts.html")
-    call = "{% from 'parts.html' import pictures %}{% call pictures(shown) %}{{ long }}{% endcall %}"
+    call = (
+        "{% from 'parts.html' import pictures %}{% call pictures(shown) %}{{ long }}{% endcall %}"
+    )
     body = Markup(environment().from_string(call).render(shown=drawn, long=long))
     body += parts.verbatim(f"@misc{{a, note = {{{long}}}}}", long)
     body += parts.table(Table(tuple("abcdefgh"), (("a long cell of text",) * 8,), long))
     path = tmp_path / "page.html"
     opening = Opening(Markup("<p>{}</p>").format(long) * 5, (drawn[0],) * 4)
-    path.write_text(render("Title", long, opening, (Section("one", long, body, long, long),)), encoding="utf-8")
+    path.write_text(
+        render("Title", long, opening, (Section("one", long, body, long, long),)), encoding="utf-8"
+    )
     context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
     try:
         page = context.new_page()

@@ -76,8 +76,13 @@ def test_the_range_holds_the_true_difference_in_95_of_100_cases():
         rng = np.random.default_rng(seed)
         one, other = result(1.0), result(1.0, osculation=0.98)
         true = 0.02
-        orbits = other.orbit_energy * (1.0 + true) + 18.0 / 3.0 * 0.2 * rng.standard_normal(20)[None, None, :, None]
-        other = other.assign(orbit_energy=orbits, energy=orbits.sum("orbit").transpose("row", "roller", "interface"))
+        orbits = (
+            other.orbit_energy * (1.0 + true)
+            + 18.0 / 3.0 * 0.2 * rng.standard_normal(20)[None, None, :, None]
+        )
+        other = other.assign(
+            orbit_energy=orbits, energy=orbits.sum("orbit").transpose("row", "roller", "interface")
+        )
         found = energies(compare(one, other))
         held += found["low [%]"][1] <= 100.0 * true <= found["high [%]"][1]
     assert 88 <= held <= 100
@@ -85,7 +90,10 @@ def test_the_range_holds_the_true_difference_in_95_of_100_cases():
 
 def test_a_difference_within_its_scatter_is_not_told_apart():
     found = compare(result(1.0), result(1.001, noise=0.5, osculation=0.98))
-    assert "is smaller than its scatter of" in found.attrs["ranking"] and "not told apart" in found.attrs["ranking"]
+    assert (
+        "is smaller than its scatter of" in found.attrs["ranking"]
+        and "not told apart" in found.attrs["ranking"]
+    )
 
 
 def test_inputs_that_differ_and_what_restricts_the_comparison():
@@ -93,16 +101,24 @@ def test_inputs_that_differ_and_what_restricts_the_comparison():
     assert found.attrs["inputs"]["bearing.osculation"] == {"result 1": 0.97, "result 2": 0.98}
     assert found.attrs["inputs"]["bearing.diametral_clearance"]["result 1"] == "9.7 mm"
     notes = " ".join(found.attrs["notes"])
-    assert "different models of the contacts" in notes and "2 of 2 values" in notes and "different loads" not in notes
+    assert (
+        "different models of the contacts" in notes
+        and "2 of 2 values" in notes
+        and "different loads" not in notes
+    )
     other = compare(result(), result(1.1, sha="y"))
     assert "different loads" in other.attrs["notes"][0] and np.isnan(energies(other)["low [%]"][1])
     same = compare(result(), result())
-    assert same.attrs["notes"] == ["The results differ in nothing: they were computed from the same input."]
+    assert same.attrs["notes"] == [
+        "The results differ in nothing: they were computed from the same input."
+    ]
     assert same.attrs["ranking"] == "All dissipate the same energy."
 
 
 def test_three_results_are_ranked():
-    ranking = compare(result(2.0), result(1.0, osculation=0.98), result(3.0, osculation=0.99)).attrs["ranking"]
+    ranking = compare(
+        result(2.0), result(1.0, osculation=0.98), result(3.0, osculation=0.99)
+    ).attrs["ranking"]
     assert ranking.startswith("result 2 dissipates least, 7200 J/h")
     assert ranking.index("result 1 100 % more") < ranking.index("result 3 200 % more")
 
@@ -112,9 +128,9 @@ def test_a_failed_roller_leaves_its_result_out_of_the_ranking():
     failed["energy"][0, 0] = np.nan
     failed["status"][0, 0] = 1
     found = compare(result(), failed)
-    assert "cannot be ranked" in found.attrs["ranking"] and "Rollers failed in result 2" in " ".join(
-        found.attrs["notes"]
-    )
+    assert "cannot be ranked" in found.attrs[
+        "ranking"
+    ] and "Rollers failed in result 2" in " ".join(found.attrs["notes"])
 
 
 def study(better=0.8):
@@ -132,7 +148,9 @@ def study(better=0.8):
 def test_designs_of_a_study_are_compared_over_a_year():
     found = compare(study(), by="bearing")
     one = energies(found)
-    assert one.design.tolist() == ["A", "B"] and one["difference [%]"][1] == pytest.approx(-20.0, rel=1e-9)
+    assert one.design.tolist() == ["A", "B"] and one["difference [%]"][1] == pytest.approx(
+        -20.0, rel=1e-9
+    )
     # All designs saw the same winds: of their scatter only that of the difference is left, a fifth of it.
     assert one["high [%]"][1] - one["low [%]"][1] > 0.0
     assert found.attrs["ranking"].startswith("B dissipates least")
@@ -144,7 +162,9 @@ def test_designs_of_a_study_are_compared_over_a_year():
 def test_a_key_of_a_case_without_a_dot_distinguishes_designs():
     labels = {"oil_supply": ("case", np.repeat(np.array(["0.5", "flooded"], dtype=object), 3))}
     one = study().assign_coords(labels).assign_coords(bearing=("case", ["A"] * 6))
-    one.attrs["study"] = json.dumps({"variations": {"list": [{"oil_supply": 0.5}, {"oil_supply": "flooded"}]}})
+    one.attrs["study"] = json.dumps(
+        {"variations": {"list": [{"oil_supply": 0.5}, {"oil_supply": "flooded"}]}}
+    )
     assert energies(compare(one)).design.tolist() == ["oil supply 0.5", "oil supply flooded"]
 
 
@@ -181,7 +201,9 @@ def with_maps(one, places):
 
 def test_maps_have_one_scale_and_their_difference_another(monkeypatch):
     drawn, draw = [], bearing_figures.plot_map
-    monkeypatch.setattr(bearing_figures, "plot_map", lambda axes, *_, **more: drawn.append(draw(axes, *_, **more)))
+    monkeypatch.setattr(
+        bearing_figures, "plot_map", lambda axes, *_, **more: drawn.append(draw(axes, *_, **more))
+    )
     results = {"a": with_maps(result(), 2.0), "b": with_maps(result(1.1, osculation=0.98), 8.0)}
     page = comparison_page(compare_results(results), results)
     images = {one.get_title(loc="left"): one.images[0] for one in drawn}
@@ -190,7 +212,9 @@ def test_maps_have_one_scale_and_their_difference_another(monkeypatch):
     less = {name: one for name, one in images.items() if name.endswith("\nb − a")}
     assert {one.get_clim() for one in less.values()} == {(-30.0, 30.0)}
     whole = {name: np.abs(one.get_array()).sum() for name, one in less.items()}
-    assert whole.pop("downwind row, inner raceway\nb − a") == pytest.approx(30.0) and not any(whole.values())
+    assert whole.pop("downwind row, inner raceway\nb − a") == pytest.approx(30.0) and not any(
+        whole.values()
+    )
 
 
 def test_pages():

@@ -26,7 +26,13 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def bare():
     """A result without traces and without a complete orbit."""
-    return simulate(Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.5), laws=Laws.paper(), rollers=[0, 14]))
+    return simulate(
+        Case(
+            loads=BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.5),
+            laws=Laws.paper(),
+            rollers=[0, 14],
+        )
+    )
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +47,9 @@ def opening(page):
 
 def sentences(page):
     """The paragraphs of the opening, their white space as a browser shows it."""
-    return [" ".join(one.split()) for one in re.findall(r"<p[^>]*>(.*?)</p>", opening(page), re.DOTALL)]
+    return [
+        " ".join(one.split()) for one in re.findall(r"<p[^>]*>(.*?)</p>", opening(page), re.DOTALL)
+    ]
 
 
 def test_the_opening_has_the_numbers_in_five_sentences_and_four_figures(page, result):
@@ -50,16 +58,30 @@ def test_the_opening_has_the_numbers_in_five_sentences_and_four_figures(page, re
     energy = result.energy.sum("interface").mean("roller")
     for row in ("downwind", "upwind"):
         assert f"{float(energy.sel(row=row)):.3g} J {row}" in reported[0]
-        assert f"{float(result.min_spin_ratio.sel(row=row).min()):.3g} of pure rolling {row}" in reported[2]
+        assert (
+            f"{float(result.min_spin_ratio.sel(row=row).min()):.3g} of pure rolling {row}"
+            in reported[2]
+        )
         load = result.roller_load.sel(row=row)
         found = float(re.search(rf"([\d.e-]+) % {row}", reported[2])[1])
         assert found == pytest.approx(100.0 * float((load > 0.0).mean()), rel=5e-3)
     place = result.peak_power.where(result.peak_power == result.peak_power.max(), drop=True)
     where = "cage" if (interface := place.interface.item()) == "cage" else f"{interface} raceway"
-    assert f"{float(place.max()):.3g} W, at the {where} of a roller of the {place.row.item()} row" in reported[1]
+    assert (
+        f"{float(place.max()):.3g} W, at the {where} of a roller of the {place.row.item()} row"
+        in reported[1]
+    )
     given = json.loads(result.attrs["input"])
-    tags = [one["tag"] for part in ("bearing", "lubricant") for one in given[part].values() if isinstance(one, dict)]
-    assert f"{tags.count('E')} of {len(tags)} values of bearing and lubricant are engineering estimates" in reported[3]
+    tags = [
+        one["tag"]
+        for part in ("bearing", "lubricant")
+        for one in given[part].values()
+        if isinstance(one, dict)
+    ]
+    assert (
+        f"{tags.count('E')} of {len(tags)} values of bearing and lubricant are engineering estimates"
+        in reported[3]
+    )
     assert reported[4] == "All 8 rollers completed."
 
 
@@ -70,7 +92,10 @@ def test_several_results_are_compared_in_the_opening(result):
     assert "the " not in sentences(page)[0] and "2 results are compared" in sentences(page)[0]
     energy = result.energy.sum("interface").mean("roller")
     most = str(energy.row[int(np.argmax(energy.values))].item())
-    assert f"The {most} row of whole dissipates most, {float(energy.max()):.3g} J a roller." in sentences(page)
+    assert (
+        f"The {most} row of whole dissipates most, {float(energy.max()):.3g} J a roller."
+        in sentences(page)
+    )
     assert opening(page).count("<img") == 4
     # Their sections are distinguished, in the contents too.
     assert page.count('<span class="group">whole</span>') > 3 and 'id="energy-1"' in page
@@ -85,7 +110,16 @@ def test_every_section_is_in_the_contents_and_can_be_folded(page):
     names = re.findall(r'<section id="([^"]+)"', page)
     assert re.findall(r'<li><a href="#([^"]+)"', page) == names
     assert page.count('<details class="fold">') == len(names) - 1
-    assert {"answer", "numbers", "bearing", "energy", "power", "load-zone", "films", "provenance"} <= set(names)
+    assert {
+        "answer",
+        "numbers",
+        "bearing",
+        "energy",
+        "power",
+        "load-zone",
+        "films",
+        "provenance",
+    } <= set(names)
 
 
 def test_a_page_refers_to_nothing_outside_itself(page):
@@ -102,7 +136,10 @@ def test_a_page_is_the_same_for_the_same_results(page, result):
 def test_every_picture_says_what_it_shows(page):
     pictures = re.findall(r"<img [^>]*>", page)
     assert len(pictures) > 8
-    assert all(re.search(r'alt="[^"]{10,}"', one) and re.search(r'width="\d+" height="\d+"', one) for one in pictures)
+    assert all(
+        re.search(r'alt="[^"]{10,}"', one) and re.search(r'width="\d+" height="\d+"', one)
+        for one in pictures
+    )
 
 
 def test_typefaces_are_two_at_most(page):
@@ -112,7 +149,12 @@ def test_typefaces_are_two_at_most(page):
 
 def test_the_overview_has_the_numbers(page, result):
     energy = result.energy.sum("interface").sel(row="upwind")
-    for value in (energy.mean(), energy.min(), energy.max(), result.peak_power.sel(row="upwind").max()):
+    for value in (
+        energy.mean(),
+        energy.min(),
+        energy.max(),
+        result.peak_power.sel(row="upwind").max(),
+    ):
         assert f'class="number">{float(value):.4g}</td>' in page
     assert "All 8 rollers completed." in page
 
@@ -134,7 +176,9 @@ def test_provenance_is_complete(page):
 
 def test_without_traces_the_page_says_what_would_give_more(bare):
     page = results_page({"bare": bare})
-    assert "Give the case traces" in opening(page) and "over the mean of the row" not in opening(page)
+    assert "Give the case traces" in opening(page) and "over the mean of the row" not in opening(
+        page
+    )
     assert "data-view" not in page.split("<main>")[1].split("<script>")[0]
 
 
@@ -145,12 +189,17 @@ def test_failed_rollers_are_reported_first(result):
         failed[name].loc[{"row": "upwind", "roller": 7}] = np.nan
     page = results_page({"one": failed})
     assert "1 of 8 rollers FAILED" in sentences(page)[0]
-    assert "roller 7 of the upwind row ended at t = " in page and "the step limit was reached" in page
+    assert (
+        "roller 7 of the upwind row ended at t = " in page and "the step limit was reached" in page
+    )
 
 
 @pytest.mark.parametrize(
     ("results", "message"),
-    [({}, "no result"), ({"a": xr.Dataset({"x": 1})}, "^a: the dataset has no energy, no status, no row")],
+    [
+        ({}, "no result"),
+        ({"a": xr.Dataset({"x": 1})}, "^a: the dataset has no energy, no status, no row"),
+    ],
 )
 def test_what_is_no_result_is_refused(results, message):
     with pytest.raises(InputError, match=message):
@@ -160,7 +209,12 @@ def test_what_is_no_result_is_refused(results, message):
 def test_names_are_escaped_wherever_they_stand(hostile):
     parts, table = words("parts.html"), Table((hostile,), ((hostile,),), hostile)
     body = parts.table(table) + parts.verbatim(hostile, hostile) + parts.view({hostile: {}})
-    page = render(hostile, hostile, Opening(Markup("<p></p>"), ()), (Section("a", hostile, body, hostile, hostile),))
+    page = render(
+        hostile,
+        hostile,
+        Opening(Markup("<p></p>"), ()),
+        (Section("a", hostile, body, hostile, hostile),),
+    )
     assert "<img" not in page and "7*7" in page
     assert page.count("<script") == page.count("</script>") == 2
     assert "</script><" not in page.split('class="scenes">')[1].split("</script>")[0]
@@ -170,7 +224,9 @@ def test_scene_survives_the_way_to_the_page(result):
     part = scene(result)
     data = scene_data(part, Bearing.read("skf-240-600-bc"))
     assert data["count"] == part.sizes["time"] and data["radii"]["pitch"] == pytest.approx(372.7)
-    for name, one, factor in zip(("slip", "roller_load", "power"), data["quantities"], (1e3, 1e-3, 1.0), strict=True):
+    for name, one, factor in zip(
+        ("slip", "roller_load", "power"), data["quantities"], (1e3, 1e-3, 1.0), strict=True
+    ):
         codes = np.frombuffer(base64.b64decode(one["codes"]), "<u2").reshape(part[name].shape)
         found = one["low"] + (one["high"] - one["low"]) * codes / 65534.0
         expected = factor * part[name].values.astype(float)
@@ -178,7 +234,9 @@ def test_scene_survives_the_way_to_the_page(result):
             found, expected = 10.0**found, np.maximum(expected, LEAST_POWER)
             np.testing.assert_allclose(found, expected, rtol=2e-4)
         else:
-            np.testing.assert_allclose(found, expected, atol=1.01 * (one["high"] - one["low"]) / 65534.0)
+            np.testing.assert_allclose(
+                found, expected, atol=1.01 * (one["high"] - one["low"]) / 65534.0
+            )
             if name == "roller_load":
                 np.testing.assert_array_equal(codes == 0, expected == 0.0)
     assert np.frombuffer(quantise(np.array([np.nan]), 0.0, 1.0), "<u2").tolist() == [MISSING]
@@ -207,7 +265,9 @@ def test_works_that_are_not_known_by_name_are_cited_all_the_same():
 
 def test_doubts_stand_on_the_first_screen():
     """A film beyond its formula's range, with loads that are far too small for the bearing."""
-    case = Case(loads=BearingLoads.constant([0.0, -300.0, 60.0], 2.1, 0.5), laws=Laws.paper(), rollers=[0])
+    case = Case(
+        loads=BearingLoads.constant([0.0, -300.0, 60.0], 2.1, 0.5), laws=Laws.paper(), rollers=[0]
+    )
     page = results_page({"one": with_rating(simulate(case), case)})
     assert page.count("<b>Doubtful</b>") >= 2 and "static safety is" in page
     upwards = HubLoads.constant((160e3, 0.0, 260e3), (0.0, 0.0, 0.0), 2.0, 0.5)
@@ -216,14 +276,22 @@ def test_doubts_stand_on_the_first_screen():
 
 
 def test_the_first_screen_has_slip_before_a_line_for_every_criterion():
-    case = Case(loads=HubLoads.bundled("14B").window(0.0, 12.0), rollers=[0, 14], traces=Traces(step=0.05))
+    case = Case(
+        loads=HubLoads.bundled("14B").window(0.0, 12.0), rollers=[0, 14], traces=Traces(step=0.05)
+    )
     result = simulate(case)
     whole = results_page({"one": result})
-    assert "energy by mechanism and row" in whole and "Energy per area along the rollers of the downwind row" in whole
+    assert (
+        "energy by mechanism and row" in whole
+        and "Energy per area along the rollers of the downwind row" in whole
+    )
     page, (found, _) = opening(whole), lines(result)
     first = page.index("Both rows of rollers, coloured by slip")
     assert (
-        first < page.index("roller load of the") < page.index("Slip of the rollers of both rows") < page.index("<table")
+        first
+        < page.index("roller load of the")
+        < page.index("Slip of the rollers of both rows")
+        < page.index("<table")
     )
     table = page[page.index("<table") : page.index("</table>")]
     assert table.count("<tr>") == 1 + len(found) and all(one["how sure"] in table for one in found)
@@ -239,12 +307,18 @@ def test_the_first_screen_has_slip_before_a_line_for_every_criterion():
     power = in_window(result).power.sum("interface").max(("row", "roller"))
     assert float(with_bearing.time) == float(power.time[int(power.argmax("time"))])
     one = result.sel(time=with_bearing.time, row="downwind", roller=14)
-    assert float(with_bearing.slip.sel(row="downwind", roller=14)) == float(1.0 - one.spin / one.spin_pure)
+    assert float(with_bearing.slip.sel(row="downwind", roller=14)) == float(
+        1.0 - one.spin / one.spin_pure
+    )
 
 
 def test_panels_that_are_compared_share_their_scales():
     drawn = []
-    compared(lambda axes, most: drawn.append(axes.plot([0.0, most])[0].axes), {"a": (1.0,), "b": (5.0,)})
+    compared(
+        lambda axes, most: drawn.append(axes.plot([0.0, most])[0].axes), {"a": (1.0,), "b": (5.0,)}
+    )
     assert drawn[0].get_ylim() == drawn[1].get_ylim() and drawn[0].get_ylim()[1] >= 5.0
-    compared(lambda axes, most: drawn.append(axes.imshow([[0.0, most]]).axes), {"a": (1.0,), "b": (5.0,)})
+    compared(
+        lambda axes, most: drawn.append(axes.imshow([[0.0, most]]).axes), {"a": (1.0,), "b": (5.0,)}
+    )
     assert [one.images[0].get_clim() for one in drawn[2:]] == [(0.0, 5.0)] * 2

@@ -14,7 +14,10 @@ def test_the_bottom_of_the_bearing_is_at_the_left_of_the_picture():
     skew = np.zeros((2, 72))
     skew[0, np.argmin(np.abs(places - 1.5 * np.pi))] = 2e-3  # at the bottom
     result = xr.Dataset(
-        {"skew_by_position": (("row", "position"), skew), "skew_power_by_position": (("row", "position"), skew)},
+        {
+            "skew_by_position": (("row", "position"), skew),
+            "skew_power_by_position": (("row", "position"), skew),
+        },
         {"row": ["downwind", "upwind"], "position": places},
     )
     axes = plot_skew_over_orbit(Figure().subplots(), result)

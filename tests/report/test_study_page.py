@@ -64,7 +64,10 @@ def test_the_opening_has_designs_and_largest_values(page, study):
     power = float((kept.energy_mean / kept.window_length).sum("row").mean())
     table = opening.split("<tbody>")[1].split("</tbody>")[0]
     assert f">{1e-6 * YEAR * power:.3g}<" in table and "1 base" in table and "2 refused" in table
-    assert "all its cases count alike" in reported[1] and "2 runs without a result are left out." in reported[1]
+    assert (
+        "all its cases count alike" in reported[1]
+        and "2 runs without a result are left out." in reported[1]
+    )
     assert "did not keep what it takes or the model has none: wear" in reported[1]
     for name in ("energy_mean", "peak_power_max"):
         first = worst(study, name, count=1).isel(rank=0)
@@ -81,7 +84,10 @@ def test_designs_are_ranked_by_energy(study):
     both = xr.concat([other, kept], "case", data_vars="minimal", combine_attrs="override")
     opening = section(study_page(both, title="Two"), "answer")
     assert opening.index("1 base") < opening.index("2 twice")
-    assert paragraphs(opening)[0].startswith("base dissipates least") and "twice 100 % more" in paragraphs(opening)[0]
+    assert (
+        paragraphs(opening)[0].startswith("base dissipates least")
+        and "twice 100 % more" in paragraphs(opening)[0]
+    )
 
 
 def in_full(energy):
@@ -100,7 +106,9 @@ def test_lifetime_energy_is_that_of_the_function(page, study):
 def test_class_one_has_a_mean_of_ten_metres_a_second():
     from scipy.stats import weibull_min
 
-    assert weibull_min(CLASS_ONE.shape, scale=CLASS_ONE.scale).mean() == pytest.approx(10.0, rel=1e-4)
+    assert weibull_min(CLASS_ONE.shape, scale=CLASS_ONE.scale).mean() == pytest.approx(
+        10.0, rel=1e-4
+    )
 
 
 def test_weights_of_ones_own(study):
@@ -150,7 +158,11 @@ def test_the_page_has_no_folders_of_the_computer():
         "bearings": ["/home/me/own.yaml"],
         "title": "a / b",
     }
-    expected = {"loads": {"files": ["{a}.csv", "runs/b.csv"]}, "bearings": ["own.yaml"], "title": "a / b"}
+    expected = {
+        "loads": {"files": ["{a}.csv", "runs/b.csv"]},
+        "bearings": ["own.yaml"],
+        "title": "a / b",
+    }
     assert json.loads(_without_folders(json.dumps(given))) == expected
 
 
@@ -164,7 +176,9 @@ def test_runs_are_named_by_case_and_design_not_by_file():
         "model": ["base"] * 4,
         "drivetrain.tilt": [5.0] * 4,
     }
-    study = xr.Dataset(coords={name: ("case", values, {"units": "1"}) for name, values in labels.items()})
+    study = xr.Dataset(
+        coords={name: ("case", values, {"units": "1"}) for name, values in labels.items()}
+    )
     study.wind_speed.attrs["units"] = "m/s"
     assert run_names(study)[:3] == ["12 m/s, seed 1, A", "14 m/s, seed 2, A", "12 m/s, seed 1, B"]
     # Fields that do not tell files apart are no names.

@@ -80,11 +80,15 @@ def test_the_moving_bearing_has_pockets(results):
     coupled = results["coupled"]
     data = scene_data(scene(coupled), bearing)
     pockets = data["pockets"]
-    codes = np.frombuffer(base64.b64decode(pockets["codes"]), "<u2").reshape(coupled.pocket_offset.shape)
+    codes = np.frombuffer(base64.b64decode(pockets["codes"]), "<u2").reshape(
+        coupled.pocket_offset.shape
+    )
     offsets = pockets["reach"] * (2.0 * codes / 65534 - 1.0)
     assert offsets == pytest.approx(1e3 * coupled.pocket_offset.values, abs=1e-4 * pockets["reach"])
     lead = np.frombuffer(base64.b64decode(pockets["lead"]), "<f4").reshape(2, -1)
-    assert lead[0] == pytest.approx(np.degrees(coupled.cage_lag.values[0] / bearing.pitch_radius), abs=1e-6)
+    assert lead[0] == pytest.approx(
+        np.degrees(coupled.cage_lag.values[0] / bearing.pitch_radius), abs=1e-6
+    )
     assert data["quantities"][pockets["force"]]["unit"] == "N"
     # Neighbouring pockets do not meet in the drawing.
     free = 2.0 * np.pi * bearing.pitch_radius / bearing.rollers_per_row - bearing.roller_diameter

@@ -20,7 +20,9 @@ CASE = Case(loads=LOADS, laws=Laws.physical(), rollers=[7], traces=Traces(step=0
     [
         {},
         {"integrator": BackwardEuler(step=2e-3), "loads": LOADS.window(30.0, 31.0)},
-        pytest.param({"dynamics": "whole-bearing", "loads": LOADS.window(30.0, 31.0)}, marks=pytest.mark.slow),
+        pytest.param(
+            {"dynamics": "whole-bearing", "loads": LOADS.window(30.0, 31.0)}, marks=pytest.mark.slow
+        ),
     ],
     ids=["radau", "backward-euler", "whole-bearing"],
 )
@@ -29,7 +31,9 @@ def test_everything_else_is_the_same_to_the_last_bit(changes):
     full, lean = simulate(case), simulate(replace(case, contact_details=False))
     assert set(full.data_vars) - set(lean.data_vars) == set(CONTACT_DETAILS)
     assert set(lean.data_vars) < set(full.data_vars)
-    xr.testing.assert_equal(full.drop_vars([*CONTACT_DETAILS, *(set(full.coords) - set(lean.coords))]), lean)
+    xr.testing.assert_equal(
+        full.drop_vars([*CONTACT_DETAILS, *(set(full.coords) - set(lean.coords))]), lean
+    )
     assert not {"station", "angle", "cell_area"} & {*lean.coords, *lean.dims}
 
 

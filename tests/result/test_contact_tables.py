@@ -5,7 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Case, HubLoads, InputError, Laws, Radau, Traces, read_case, simulate
+from macroslip import (
+    BearingLoads,
+    Case,
+    HubLoads,
+    InputError,
+    Laws,
+    Radau,
+    Traces,
+    read_case,
+    simulate,
+)
 from macroslip.contact.table import tractions
 from macroslip.imposed.status import Status
 from macroslip.result import prepared
@@ -25,7 +35,9 @@ LAWS = {
 @pytest.fixture(scope="module", params=LAWS)
 def traced(request):
     loads = HubLoads.bundled("14B").window(30.0, 45.0)
-    return simulate(Case(loads=loads, laws=LAWS[request.param], rollers=[7], traces=Traces(step=0.01)))
+    return simulate(
+        Case(loads=loads, laws=LAWS[request.param], rollers=[7], traces=Traces(step=0.01))
+    )
 
 
 def test_a_result_tells_the_errors_of_its_tables(traced):
@@ -40,7 +52,9 @@ def raceway_loads(model, row, angle):
     """Normal loads at inner and outer raceway with weight and centrifugal force."""
     orbital = row.spin_pure.values * model.radius / model.outer_radius
     height = -np.cos(np.radians(angle))  # sine of the position φ
-    outward = (model.centrifugal * orbital**2 - model.weight_in_plane * height) * model.cos_contact_angle
+    outward = (
+        model.centrifugal * orbital**2 - model.weight_in_plane * height
+    ) * model.cos_contact_angle
     outward = outward + model.weight_along_axis * model.sin_contact_angle
     load = row.roller_load.values
     return np.stack([load + np.maximum(-outward, 0.0), load + np.maximum(outward, 0.0)], axis=-1)
@@ -56,7 +70,9 @@ def test_traction_all_the_way_round_is_that_of_the_laws(traced):
         for i, ring in enumerate(("inner", "outer")):
             found, load = one.traction.sel(interface=ring).values[0], loads[..., i]
             pressed = load > 0.0
-            pull, lag, _, _ = tractions(getattr(model.laws, ring), load[pressed], ring_speed[pressed], slip[pressed])
+            pull, lag, _, _ = tractions(
+                getattr(model.laws, ring), load[pressed], ring_speed[pressed], slip[pressed]
+            )
             wanted = pull - lag
             off = np.abs(np.abs(found[pressed]) - np.abs(wanted))
             assert (found[~pressed] == 0.0).all()
@@ -69,7 +85,9 @@ def test_finer_tables_change_nothing_that_is_promised(monkeypatch):
     case = Case(loads=HubLoads.bundled("14B").window(30.0, 60.0), laws=Laws.physical(), rollers=[7])
     found = simulate(case)
     table_box = prepared.table_box
-    monkeypatch.setattr(prepared, "table_box", lambda *given: table_box(*given)._replace(fineness=0.5))
+    monkeypatch.setattr(
+        prepared, "table_box", lambda *given: table_box(*given)._replace(fineness=0.5)
+    )
     fine = simulate(case)
     assert fine.attrs["table_size"] > 3 * found.attrs["table_size"]
     assert (found.status == Status.COMPLETED).all() and (fine.status == Status.COMPLETED).all()
@@ -89,7 +107,9 @@ def test_finer_tables_change_nothing_that_is_promised(monkeypatch):
 def test_a_shaft_that_turns_round(model):
     """Through standstill and back: energies hold at a tighter tolerance, with finer tables."""
     time = np.array([0.0, 6.0, 12.0])
-    loads = BearingLoads(time, np.array([1.5, -1.5, -1.0]), np.tile([0.0, -2e5, 1e5], (3, 1)), "made")
+    loads = BearingLoads(
+        time, np.array([1.5, -1.5, -1.0]), np.tile([0.0, -2e5, 1e5], (3, 1)), "made"
+    )
     case = Case(loads=loads, laws=model, rollers=[0])
     found, exact = simulate(case), simulate(replace(case, integrator=Radau(tolerance=1e-5)))
     assert (found.status == Status.COMPLETED).all() and (exact.status == Status.COMPLETED).all()
@@ -99,11 +119,17 @@ def test_a_shaft_that_turns_round(model):
 
 @pytest.mark.parametrize("dynamics", ["imposed-orbit", "whole-bearing"])
 def test_a_state_beyond_the_tables_makes_them_larger(monkeypatch, dynamics):
-    case = Case(loads=BearingLoads.constant([0.0, -300e3, 50e3], 2.1, 1.0), laws=Laws.physical(), rollers=[0])
+    case = Case(
+        loads=BearingLoads.constant([0.0, -300e3, 50e3], 2.1, 1.0),
+        laws=Laws.physical(),
+        rollers=[0],
+    )
     case = replace(case, dynamics=dynamics)
     wanted = simulate(case)
     table_box = prepared.table_box
-    monkeypatch.setattr(prepared, "table_box", lambda *given: table_box(*given)._replace(load=8192.0))
+    monkeypatch.setattr(
+        prepared, "table_box", lambda *given: table_box(*given)._replace(load=8192.0)
+    )
     found = simulate(case)
     assert (wanted.status == Status.COMPLETED).all() and (found.status == Status.COMPLETED).all()
     total = found.energy.sum("interface") / wanted.energy.sum("interface") - 1.0
@@ -116,5 +142,7 @@ def test_a_state_beyond_the_tables_makes_them_larger(monkeypatch, dynamics):
 def test_tables_are_no_choice_of_a_case(tmp_path):
     path = tmp_path / "case.yaml"
     path.write_text("loads: {bundled: 14B}\nintegrator: {tables: false}\n")
-    with pytest.raises(InputError, match=r"line 2: the key .tables. inside integrator is gone.*remove the key"):
+    with pytest.raises(
+        InputError, match=r"line 2: the key .tables. inside integrator is gone.*remove the key"
+    ):
         read_case(path)

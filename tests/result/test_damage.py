@@ -22,19 +22,32 @@ def thrust(load: float) -> Case:
     """A downwind row whose every roller carries a load [N]."""
     force = [0.0, 0.0, 28 * load * math.sin(BEARING.contact_angle)]
     loads = BearingLoads.constant(force, RATED, 30.0)
-    return Case(loads=loads, laws=Laws.physical(), oil_supply=0.7, rollers=[0, 14], gravity=False, drag=False)
+    return Case(
+        loads=loads,
+        laws=Laws.physical(),
+        oil_supply=0.7,
+        rollers=[0, 14],
+        gravity=False,
+        drag=False,
+    )
 
 
 @pytest.fixture(scope="module")
 def result():
     """Thrust and weight that turn in direction, so that rollers leave the load zone and enter it."""
     return simulate(
-        Case(loads=HubLoads.bundled("14B").window(0.0, 30.0), laws=Laws.physical(), rollers=[0, 14], temperature=323.15)
+        Case(
+            loads=HubLoads.bundled("14B").window(0.0, 30.0),
+            laws=Laws.physical(),
+            rollers=[0, 14],
+            temperature=323.15,
+        )
     )
 
 
 @pytest.mark.parametrize(
-    ("load", "inner", "outer"), [(20e3, 0.59e4, 0.48e4), (35e3, 1.15e4, 0.93e4), (50e3, 1.74e4, 1.41e4)]
+    ("load", "inner", "outer"),
+    [(20e3, 0.59e4, 0.48e4), (35e3, 1.15e4, 0.93e4), (50e3, 1.74e4, 1.41e4)],
 )
 def test_pressure_times_slip_of_a_pass(load, inner, outer):
     """Derived apart from this code for films of 0.7 times the flooded thickness: largest ∫ p |v| dt of a pass [J/m²], and passes a second at rated speed."""
@@ -43,19 +56,33 @@ def test_pressure_times_slip_of_a_pass(load, inner, outer):
     passes = found.pass_rate.values
     assert passes[:2] == pytest.approx([5.21, 4.33], rel=2e-3)
     spin = (
-        RATED * geometry.orbit_ratio(BEARING) * geometry.outer_contact_radius(BEARING) / geometry.roller_radius(BEARING)
+        RATED
+        * geometry.orbit_ratio(BEARING)
+        * geometry.outer_contact_radius(BEARING)
+        / geometry.roller_radius(BEARING)
     )
     assert passes[2] == pytest.approx(2.0 * spin / (2.0 * math.pi), rel=1e-6)
-    inner_pass = float(found.pressure_slip_rate.sel(row="downwind", place="inner").max()) / passes[0]
+    inner_pass = (
+        float(found.pressure_slip_rate.sel(row="downwind", place="inner").max()) / passes[0]
+    )
     # Two rollers pass one place of the ring at rest once more than another in a window of a few orbits: its mean.
     one = result.sel(row="downwind", raceway="outer")
     seconds = result.attrs["window_end"] - result.attrs["window_start"]
-    outer_pass = float((one.surface_work.mean("angle") / one.cell_area).max()) * 14.0 / seconds / passes[1]
+    outer_pass = (
+        float((one.surface_work.mean("angle") / one.cell_area).max()) * 14.0 / seconds / passes[1]
+    )
     # Stations of 4.4 mm do not catch the very top.
     assert [inner_pass, outer_pass] == pytest.approx([inner, outer], rel=0.025)
-    where = 1e3 * result.station.values[found.pressure_slip_rate.sel(row="downwind", place="inner").argmax("station")]
+    where = (
+        1e3
+        * result.station.values[
+            found.pressure_slip_rate.sel(row="downwind", place="inner").argmax("station")
+        ]
+    )
     assert 15.0 < abs(where) < 25.0
-    assert float(result.working_load.sel(row="downwind", raceway="inner")) == pytest.approx(load, rel=1e-6)
+    assert float(result.working_load.sel(row="downwind", raceway="inner")) == pytest.approx(
+        load, rel=1e-6
+    )
     # Full contact at k = 1e-17 m²/N for a year: 9.8, 18.9, 28.7 µm.
     full = 1e-17 * YEAR * float(found.pressure_slip_rate.sel(row="downwind", place="inner").max())
     assert 1e6 * full == pytest.approx({20e3: 9.8, 35e3: 18.9, 50e3: 28.7}[load], rel=0.025)
@@ -63,15 +90,25 @@ def test_pressure_times_slip_of_a_pass(load, inner, outer):
 
 def test_maps_hold_all_that_asperities_dissipate(result):
     by_row = result.surface_asperity_energy.sum(("angle", "station"))
-    total = result.asperity_energy.sel(interface=["inner", "outer"]).sum("roller").rename(interface="raceway")
+    total = (
+        result.asperity_energy.sel(interface=["inner", "outer"])
+        .sum("roller")
+        .rename(interface="raceway")
+    )
     assert (total > 0.0).all()
     np.testing.assert_allclose(by_row.values, total.transpose("row", "raceway").values, rtol=1e-9)
     # Asperities dissipate no more than µ_b times pressure times slip, nor more than the contact does.
     friction = json.loads(result.attrs["input"])["lubricant"]["boundary_friction"]["value"]
     places = ("angle", "station")
-    assert (result.surface_asperity_energy.sum(places) <= friction * result.surface_work.sum(places)).all()
+    assert (
+        result.surface_asperity_energy.sum(places) <= friction * result.surface_work.sum(places)
+    ).all()
     energy = result.surface_energy.sum(("slip_sign", "film_regime"))
-    assert float(result.surface_asperity_energy.sum()) < float(energy.sum()) < float(result.surface_work.sum())
+    assert (
+        float(result.surface_asperity_energy.sum())
+        < float(energy.sum())
+        < float(result.surface_work.sum())
+    )
 
 
 def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
@@ -81,12 +118,18 @@ def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
     seconds = result.attrs["window_end"] - result.attrs["window_start"]
     area = result.cell_area.sel(raceway="inner") * result.sizes["angle"]
     volume = (found.asperity_work_rate.sel(place="inner", drop=True) * area).sum("station")
-    energy = result.asperity_energy.sel(interface="inner").sum("roller") * (28 / result.sizes["roller"])
+    energy = result.asperity_energy.sel(interface="inner").sum("roller") * (
+        28 / result.sizes["roller"]
+    )
     np.testing.assert_allclose(volume.values, energy.values / friction / seconds, rtol=1e-9)
     half = damage(result, wear_coefficients=[5e-18])
-    np.testing.assert_allclose(half.wear_time.values[..., 0], 2.0 * found.wear_time.values[..., 1], rtol=1e-12)
+    np.testing.assert_allclose(
+        half.wear_time.values[..., 0], 2.0 * found.wear_time.values[..., 1], rtol=1e-12
+    )
     hard = damage(result, wear_coefficients=[7e-8], hardness=7e9)
-    np.testing.assert_allclose(hard.wear_time.values[..., 0], found.wear_time.values[..., 1], rtol=1e-12)
+    np.testing.assert_allclose(
+        hard.wear_time.values[..., 0], found.wear_time.values[..., 1], rtol=1e-12
+    )
     # A thousandth of the time to 1 µm wears a thousandth of it, at the place that wears most.
     rate = found.asperity_work_rate.max("station")
     first = found.wear_time.isel(depth=0, wear_coefficient=1) * 1e-17 * rate
@@ -101,9 +144,15 @@ def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
 @pytest.mark.slow
 def test_free_orbits_change_the_criteria_little(result):
     """The whole bearing has its rollers on orbits of their own; the loads and the slip under them are nearly the same."""
-    case = Case(loads=HubLoads.bundled("14B").window(0.0, 20.0), laws=Laws.physical(), temperature=323.15)
-    imposed, free = (damage(simulate(replace(case, dynamics=one))) for one in ("imposed-orbit", "whole-bearing"))
-    value = (free.value / imposed.value).sel(criterion=["entry_slide_roll_ratio", "friction_energy_rate"])
+    case = Case(
+        loads=HubLoads.bundled("14B").window(0.0, 20.0), laws=Laws.physical(), temperature=323.15
+    )
+    imposed, free = (
+        damage(simulate(replace(case, dynamics=one))) for one in ("imposed-orbit", "whole-bearing")
+    )
+    value = (free.value / imposed.value).sel(
+        criterion=["entry_slide_roll_ratio", "friction_energy_rate"]
+    )
     np.testing.assert_allclose(value.values, 1.0, rtol=0.03)
     times = (free.wear_time / imposed.wear_time).isel(wear_coefficient=1)
     np.testing.assert_allclose(times.sel(row="downwind").values, 1.0, rtol=0.05)
@@ -115,10 +164,14 @@ def test_films_and_slip_are_shares_of_loaded_time(result):
     assert (np.diff(mixed, axis=-1) >= 0.0).all() and (mixed <= 1.0).all() and mixed.max() > 0.9
     loaded = result.film_slip_time.sum(("film_class", "slip_class"))
     seconds = result.attrs["window_end"] - result.attrs["window_start"]
-    assert (loaded <= seconds * result.sizes["roller"]).all() and (loaded.sel(row="downwind") > 0.0).all()
+    assert (loaded <= seconds * result.sizes["roller"]).all() and (
+        loaded.sel(row="downwind") > 0.0
+    ).all()
     passes = result.film_slip_passes.sum(("film_class", "slip_class")) / loaded
     # Over either ring a roller travels as its orbit does against it.
-    np.testing.assert_allclose(passes.sel(row="downwind").values * 28, found.pass_rate.values[:2], rtol=0.05)
+    np.testing.assert_allclose(
+        passes.sel(row="downwind").values * 28, found.pass_rate.values[:2], rtol=0.05
+    )
 
 
 def test_entries_into_the_load_zone(result):
@@ -137,22 +190,36 @@ def test_entries_into_the_load_zone(result):
 
 def test_a_line_a_criterion_and_own_thresholds(result):
     found, missing = lines(result)
-    assert all(one["value"] >= 0.0 and one["how sure"].startswith("factor") for one in found) and len(found) >= 7
+    assert (
+        all(one["value"] >= 0.0 and one["how sure"].startswith("factor") for one in found)
+        and len(found) >= 7
+    )
     assert not any("zero" in one for one in missing)
     own = damage(result, thresholds={"entry_power_density": Threshold(2e6, "our rig")}).sel(
         criterion="entry_power_density"
     )
-    assert float(own.ratio) == float(own.value) / 2e6 and own.compared_with.item() == "your threshold: our rig"
-    assert {one.attrs["units"] for one in damage(result).data_vars.values()} and len(to_netcdf(damage(result))) > 0
+    assert (
+        float(own.ratio) == float(own.value) / 2e6
+        and own.compared_with.item() == "your threshold: our rig"
+    )
+    assert {one.attrs["units"] for one in damage(result).data_vars.values()} and len(
+        to_netcdf(damage(result))
+    ) > 0
 
 
 def test_what_was_not_kept_is_said_and_no_zero(result):
     found, (sentence,) = lines(
-        simulate(Case(loads=HubLoads.bundled("14B").window(0.0, 10.0), rollers=[0], laws=Laws.paper()))
+        simulate(
+            Case(loads=HubLoads.bundled("14B").window(0.0, 10.0), rollers=[0], laws=Laws.paper())
+        )
     )
     assert found == [] and "contact_details: true" in sentence
-    found, missing = lines(simulate(Case(loads=HubLoads.bundled("parked-12").window(0.0, 20.0), rollers=[0])))
-    assert not any("entry" in one["criterion"] for one in found) and any("No roller entered" in one for one in missing)
+    found, missing = lines(
+        simulate(Case(loads=HubLoads.bundled("parked-12").window(0.0, 20.0), rollers=[0]))
+    )
+    assert not any("entry" in one["criterion"] for one in found) and any(
+        "No roller entered" in one for one in missing
+    )
     bare = simulate(thrust(20e3))
     found, missing = lines(bare)
     assert not any(one["criterion"].startswith("entry") for one in found) and any(
@@ -161,7 +228,9 @@ def test_what_was_not_kept_is_said_and_no_zero(result):
 
 
 def test_wear_without_asperities_names_the_law_to_choose():
-    smooth = simulate(Case(loads=thrust(20e3).loads, laws=Laws.physical().but(asperities="none"), rollers=[0]))
+    smooth = simulate(
+        Case(loads=thrust(20e3).loads, laws=Laws.physical().but(asperities="none"), rollers=[0])
+    )
     found, missing = lines(smooth)
     assert not any(one["criterion"] == "wear_time" for one in found) and any(
         "masjedi-khonsari" in one for one in missing

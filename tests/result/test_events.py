@@ -23,7 +23,9 @@ def test_an_event_is_computed_from_its_first_sample(bearing):
     assert other.attrs["window_start"] == pytest.approx(event.orbit_end[0].item(), abs=1e-9)
     assert other.sizes["orbit"] == 1
     # The second orbit is the same in both; the first one is in the event alone.
-    np.testing.assert_allclose(other.orbit_energy.isel(orbit=0), event.orbit_energy.isel(orbit=1), rtol=1e-3)
+    np.testing.assert_allclose(
+        other.orbit_energy.isel(orbit=0), event.orbit_energy.isel(orbit=1), rtol=1e-3
+    )
     assert (event.energy.sum("interface") > 1.2 * other.energy.sum("interface")).all()
 
 
@@ -80,12 +82,18 @@ def test_a_slice_of_bundled_events_under_the_paper_s_model(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["start-8", "idle-25", "stop-24"])
 def test_a_slice_of_bundled_events_under_the_physical_model(name):
-    found = simulate(Case(loads=HubLoads.bundled(name).window(38.0, 48.0), rollers=[0], laws=Laws.physical()))
+    found = simulate(
+        Case(loads=HubLoads.bundled(name).window(38.0, 48.0), rollers=[0], laws=Laws.physical())
+    )
     assert (found.status == 0).all() and bool((found.window_peak_power >= 0.0).all())
 
 
 @pytest.mark.slow
 def test_a_slice_of_an_emergency_stop_of_the_whole_bearing():
-    case = Case(loads=HubLoads.bundled("estop-20").window(46.0, 49.0), dynamics="whole-bearing", rollers=[0, 14])
+    case = Case(
+        loads=HubLoads.bundled("estop-20").window(46.0, 49.0),
+        dynamics="whole-bearing",
+        rollers=[0, 14],
+    )
     found = simulate(case)
     assert (found.status == 0).all() and bool((found.window_peak_power > 0.0).any())

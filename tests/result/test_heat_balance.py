@@ -11,13 +11,20 @@ from scipy.special import lambertw
 
 from macroslip import Heat
 from macroslip.errors import InputError
-from macroslip.result.heat_balance import HOTTEST, balance_temperature, ring_temperatures, tabulated_power
+from macroslip.result.heat_balance import (
+    HOTTEST,
+    balance_temperature,
+    ring_temperatures,
+    tabulated_power,
+)
 
 
 @given(st.floats(0.0, 3000.0), st.floats(40.0, 80.0), st.floats(250.0, 310.0))
 def test_constant_power_warms_by_power_over_conductance(power, conductance, ambient):
     expected = ambient + power / conductance
-    assert balance_temperature(lambda _: power, conductance, ambient) == pytest.approx(expected, abs=1e-8)
+    assert balance_temperature(lambda _: power, conductance, ambient) == pytest.approx(
+        expected, abs=1e-8
+    )
 
 
 @given(st.floats(10.0, 3000.0), st.floats(0.0, 50.0), st.floats(250.0, 310.0))
@@ -36,13 +43,18 @@ def test_power_that_falls_exponentially(beta):
 
 
 def test_a_better_cooled_bearing_is_colder_and_no_friction_leaves_it_at_ambient():
-    found = [balance_temperature(lambda t: 3e5 / t, conductance, 288.15) for conductance in (40.0, 60.0, 80.0)]
+    found = [
+        balance_temperature(lambda t: 3e5 / t, conductance, 288.15)
+        for conductance in (40.0, 60.0, 80.0)
+    ]
     assert found[0] > found[1] > found[2] > 288.15
     assert balance_temperature(lambda _: 0.0, 60.0, 288.15) == 288.15
 
 
 def test_no_balance_is_an_error():
-    with pytest.raises(InputError, match=f"^there is no heat balance up to {HOTTEST:g} K: .* by 3700 W. Allowed: "):
+    with pytest.raises(
+        InputError, match=f"^there is no heat balance up to {HOTTEST:g} K: .* by 3700 W. Allowed: "
+    ):
         balance_temperature(lambda _: 10_000.0, 60.0, 288.15)
     with pytest.raises(InputError, match="^there is no heat balance up to 320 K: .* by 89 W"):
         balance_temperature(lambda _: 2000.0, 60.0, 288.15, hottest=320.0)
@@ -51,7 +63,8 @@ def test_no_balance_is_an_error():
 @pytest.mark.parametrize("power", [math.nan, math.inf, -1.0])
 def test_a_power_that_is_none(power):
     with pytest.raises(
-        InputError, match="^the friction power at 288.15 K is .* Allowed: a finite number, not negative"
+        InputError,
+        match="^the friction power at 288.15 K is .* Allowed: a finite number, not negative",
     ):
         balance_temperature(lambda _: power, 60.0, 288.15)
 
@@ -71,7 +84,9 @@ def test_a_table_is_met_at_its_points_and_stays_between_them():
     assert max(fine) == 1200.0 and min(fine) == 350.0 and (np.diff(fine) <= 0.0).all()
     # A table of a straight line is the line.
     line = tabulated_power([280.0, 300.0, 320.0], [1000.0, 800.0, 600.0])
-    assert balance_temperature(line, 60.0, 288.15) == pytest.approx((1000.0 + 10.0 * 280.0 + 60.0 * 288.15) / 70.0)
+    assert balance_temperature(line, 60.0, 288.15) == pytest.approx(
+        (1000.0 + 10.0 * 280.0 + 60.0 * 288.15) / 70.0
+    )
 
 
 @pytest.mark.parametrize(
@@ -84,7 +99,9 @@ def test_a_table_that_is_none(temperatures, powers):
         tabulated_power(temperatures, powers)
 
 
-RINGS = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=2500.0, ring_conductance=100.0)
+RINGS = Heat(
+    conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=2500.0, ring_conductance=100.0
+)
 
 
 def test_rings_warm_as_their_equations_say():
@@ -93,7 +110,10 @@ def test_rings_warm_as_their_equations_say():
 
     def rise(_, now):
         flow = 100.0 * (now[0] - now[1])
-        return [(600.0 - flow) / (4000.0 * 460.0), (600.0 + flow - 60.0 * (now[1] - 293.15)) / (2500.0 * 460.0)]
+        return [
+            (600.0 - flow) / (4000.0 * 460.0),
+            (600.0 + flow - 60.0 * (now[1] - 293.15)) / (2500.0 * 460.0),
+        ]
 
     known = solve_ivp(rise, (0.0, 36000.0), [300.0, 290.0], t_eval=time, rtol=1e-10, atol=1e-9).y.T
     assert found == pytest.approx(known, abs=1e-5)
@@ -110,16 +130,24 @@ def test_rings_in_the_steady_state_lose_what_they_get():
 def test_one_node_is_the_limit_of_rings_that_conduct_well():
     one = Heat(conductance=60.0, ambient=293.15)
     assert one.to_oil == 60.0
-    close = Heat(conductance=60.0, ambient=293.15, inner_mass=1.0, outer_mass=1.0, ring_conductance=1e9)
+    close = Heat(
+        conductance=60.0, ambient=293.15, inner_mass=1.0, outer_mass=1.0, ring_conductance=1e9
+    )
     assert close.to_oil == pytest.approx(60.0, rel=1e-7)
     # Cooling, the masses lose their heat at one rate: exp(−G t/((m_i + m_o) c)).
-    both = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=2500.0, ring_conductance=1e6)
+    both = Heat(
+        conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=2500.0, ring_conductance=1e6
+    )
     cooled = ring_temperatures(both, 0.0, [36000.0], (313.15, 313.15))[0]
-    assert cooled - 293.15 == pytest.approx(20.0 * math.exp(-60.0 * 36000.0 / (6500.0 * 460.0)), rel=1e-4)
+    assert cooled - 293.15 == pytest.approx(
+        20.0 * math.exp(-60.0 * 36000.0 / (6500.0 * 460.0)), rel=1e-4
+    )
 
 
 def test_part_of_the_rings_is_refused():
-    with pytest.raises(InputError, match="need inner_mass, outer_mass and ring_conductance. Allowed: all three"):
+    with pytest.raises(
+        InputError, match="need inner_mass, outer_mass and ring_conductance. Allowed: all three"
+    ):
         Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0)
     with pytest.raises(InputError, match="the masses of the rings are not given"):
         ring_temperatures(Heat(conductance=60.0, ambient=293.15), 1.0, [0.0], (1.0, 1.0))

@@ -43,7 +43,11 @@ except KeyboardInterrupt:
 
 #: Two runs of two rollers each, which take seven seconds; without tables, whose making is waited for.
 STUDY = {
-    "case": {"rollers": [0], "laws": {"model": "paper"}, "integrator": {"tolerance": 1e-10, "max_steps": 10**9}},
+    "case": {
+        "rollers": [0],
+        "laws": {"model": "paper"},
+        "integrator": {"tolerance": 1e-10, "max_steps": 10**9},
+    },
     "loads": {"bundled": ["14B", "24A"]},
 }
 
@@ -53,7 +57,10 @@ STUDY = {
     ("integrator", "slow"),
     [
         ("Radau()", "simulate(of(1e4, Radau(tolerance=1e-10, max_steps=10**12)))"),
-        ("BackwardEuler(step=0.01, tolerance=1e-9)", "simulate(of(1e4, BackwardEuler(step=1e-5, tolerance=1e-9)))"),
+        (
+            "BackwardEuler(step=0.01, tolerance=1e-9)",
+            "simulate(of(1e4, BackwardEuler(step=1e-5, tolerance=1e-9)))",
+        ),
         ("Radau()", f"run_study(study_of({STUDY}, '.'), 'out', threads=2)"),
     ],
     ids=["radau", "backward-euler", "two runs of a study at once"],

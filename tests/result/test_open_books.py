@@ -19,9 +19,18 @@ def books(**flows):
 @pytest.mark.parametrize(
     ("flows", "words"),
     [
-        ({"shaft_work": 100.4, "raceway_loss": 60.0, "friction_loss": 30.0, "pocket_work": 10.0}, ""),
-        ({"shaft_work": 99.6, "raceway_loss": 60.0, "friction_loss": 30.0, "pocket_work": 10.0}, ""),
-        ({"shaft_work": 100.7, "raceway_loss": 60.0, "friction_loss": 40.0}, "energy to 0.7 % of what is dissipated"),
+        (
+            {"shaft_work": 100.4, "raceway_loss": 60.0, "friction_loss": 30.0, "pocket_work": 10.0},
+            "",
+        ),
+        (
+            {"shaft_work": 99.6, "raceway_loss": 60.0, "friction_loss": 30.0, "pocket_work": 10.0},
+            "",
+        ),
+        (
+            {"shaft_work": 100.7, "raceway_loss": 60.0, "friction_loss": 40.0},
+            "energy to 0.7 % of what is dissipated",
+        ),
         ({"shaft_work": 93.0, "raceway_loss": 100.0}, "energy to 7 % of what is dissipated"),
         ({"outer_impulse": 50.0, "inner_impulse": -50.2}, ""),
         ({"outer_impulse": 1e-12, "inner_impulse": -3e-12}, ""),  # rounding at standstill
@@ -45,7 +54,9 @@ def test_friction_that_drives_is_told():
     found.driven = 0.05
     assert _open_books(found) == ""
     found.driven = 0.4
-    assert _open_books(found).startswith("friction gave back 0.4 % of what is dissipated, which it cannot; results")
+    assert _open_books(found).startswith(
+        "friction gave back 0.4 % of what is dissipated, which it cannot; results"
+    )
 
 
 def test_books_that_ended_early_say_nothing():

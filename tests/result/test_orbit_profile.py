@@ -5,7 +5,15 @@ import pytest
 
 from macroslip import BearingLoads, Case, HubLoads, InputError, Laws, Traces, simulate
 from macroslip.bearing import geometry
-from macroslip.result.orbit import energy_over_orbit, in_window, load_zone, orbit_profile, over_orbit, position, scene
+from macroslip.result.orbit import (
+    energy_over_orbit,
+    in_window,
+    load_zone,
+    orbit_profile,
+    over_orbit,
+    position,
+    scene,
+)
 from macroslip.result.run_input import run_input
 
 pytestmark = pytest.mark.slow
@@ -17,7 +25,9 @@ SPEED = 2.1
 def varying():
     loads = HubLoads.bundled("20A").window(0.0, 40.0)
     # As fine as the milliseconds in which rollers recover.
-    return simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0, 9, 18], traces=Traces(step=0.002)))
+    return simulate(
+        Case(loads=loads, laws=Laws.paper(), rollers=[0, 9, 18], traces=Traces(step=0.002))
+    )
 
 
 @pytest.fixture(scope="module")
@@ -27,12 +37,16 @@ def constant():
 
 
 def test_position_is_that_of_a_uniform_orbit(constant):
-    ratio = geometry.inner_contact_radius(run_input(constant).bearing) / (2 * run_input(constant).bearing.pitch_radius)
+    ratio = geometry.inner_contact_radius(run_input(constant).bearing) / (
+        2 * run_input(constant).bearing.pitch_radius
+    )
     turned = np.degrees(SPEED * ratio * constant.time.values)
     angle = position(constant)
     np.testing.assert_allclose(angle.sel(row="downwind", roller=0), turned % 360.0, atol=1e-6)
     pitch = 360.0 / 28
-    np.testing.assert_allclose(angle.sel(row="upwind", roller=3), (3.5 * pitch + turned) % 360.0, atol=1e-6)
+    np.testing.assert_allclose(
+        angle.sel(row="upwind", roller=3), (3.5 * pitch + turned) % 360.0, atol=1e-6
+    )
 
 
 def test_energy_over_the_orbit_adds_up_to_the_integrators_own(varying):
@@ -48,7 +62,9 @@ def test_energy_over_the_orbit_adds_up_to_the_integrators_own(varying):
 
 def test_a_gripped_roller_spends_energy_where_its_weight_presses_on_the_cage():
     loads = BearingLoads.constant([0.0, -300e3, 400e3], SPEED, 20.0)
-    energy = energy_over_orbit(simulate(Case(loads=loads, laws=Laws.paper(), traces=Traces(step=0.02))))
+    energy = energy_over_orbit(
+        simulate(Case(loads=loads, laws=Laws.paper(), traces=Traces(step=0.02)))
+    )
     cage = energy.sel(row="downwind", interface="cage")
     sides, ends = cage.sel(angle=[92.5, 267.5]), cage.sel(angle=[2.5, 177.5])
     assert sides.min() > 8.0 * ends.max()  # sectors of 5 degrees, not points
@@ -60,7 +76,9 @@ def test_power_is_force_times_slip(varying):
     radius = geometry.roller_radius(run_input(varying).bearing)
     one = varying.sel(row="upwind", roller=9).isel(time=3500)
     power = varying.power.sel(row="upwind", roller=9).isel(time=3500)
-    assert float(power.sel(interface="inner")) == abs(float(one.traction.sel(interface="inner")) * float(one.slip))
+    assert float(power.sel(interface="inner")) == abs(
+        float(one.traction.sel(interface="inner")) * float(one.slip)
+    )
     assert float(power.sel(interface="cage")) == pytest.approx(
         abs(float(one.traction.sel(interface="cage")) * float(one.spin)) * radius
     )
@@ -79,7 +97,9 @@ def test_films_are_those_of_the_law(constant):
     assert float(one.film_thickness.sel(interface="outer")) == pytest.approx(thickness, rel=1e-9)
     orbit = orbit_profile(constant)["orbit"]
     ratio = (orbit.film_parameter / orbit.film_thickness).values
-    np.testing.assert_allclose(ratio[np.isfinite(ratio)], 1.0 / run_input(constant).bearing.composite_roughness)
+    np.testing.assert_allclose(
+        ratio[np.isfinite(ratio)], 1.0 / run_input(constant).bearing.composite_roughness
+    )
 
 
 def test_quantiles_over_the_orbit(varying):
@@ -87,7 +107,9 @@ def test_quantiles_over_the_orbit(varying):
     middle = over_orbit(film, angle, sectors=4)
     here = film.where((angle >= 90.0) & (angle < 180.0))
     expected = here.sel(row="upwind", interface="cage").median()
-    assert float(middle.sel(row="upwind", interface="cage", quantile=0.5)[1]) == pytest.approx(float(expected))
+    assert float(middle.sel(row="upwind", interface="cage", quantile=0.5)[1]) == pytest.approx(
+        float(expected)
+    )
     wide = middle.sel(interface="cage")
     assert (wide.sel(quantile=0.05) <= wide.sel(quantile=0.95)).all()
 
@@ -137,4 +159,6 @@ def test_failed_rollers_are_left_out(varying):
     energy = energy_over_orbit(failed)
     assert np.isfinite(energy).all()
     others = varying.isel(roller=[1, 2])
-    np.testing.assert_allclose(energy.sel(row="upwind"), energy_over_orbit(others).sel(row="upwind"), rtol=1e-5)
+    np.testing.assert_allclose(
+        energy.sel(row="upwind"), energy_over_orbit(others).sel(row="upwind"), rtol=1e-5
+    )

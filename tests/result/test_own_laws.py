@@ -30,7 +30,9 @@ def test_a_copy_of_a_law_of_the_package_gives_its_results():
     """The shipped film under another name: the same tables, so the same energies."""
     case = Case(loads=LOADS, rollers=[0], laws=Laws.paper())
     mine = registry.FILM_LAWS.named(case.laws.film).function
-    register_film("copy", lambda interface, load, speed: mine(interface, load, speed), reference="none")
+    register_film(
+        "copy", lambda interface, load, speed: mine(interface, load, speed), reference="none"
+    )
     found = simulate(Case(loads=LOADS, rollers=[0], laws=Laws.paper().but(film="copy")))
     np.testing.assert_array_equal(found.energy, simulate(case).energy)
 

@@ -6,7 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Traces, Window, bundled_cases, simulate
+from macroslip import (
+    Bearing,
+    BearingLoads,
+    Case,
+    HubLoads,
+    Laws,
+    Traces,
+    Window,
+    bundled_cases,
+    simulate,
+)
 from macroslip.result.plausibility import doubtful_loads, doubtful_result
 from macroslip.result.rating import with_rating
 
@@ -21,8 +31,16 @@ def test_bundled_loads_are_plausible():
 @pytest.mark.parametrize(
     ("force", "speed", "words"),
     [
-        ((164.0, -2.0, -263.0), 2.14, "the rotor weighs 0.263 kN, which is 1/"),  # kN in a column named N
-        ((164e3, 0.0, 263e3), 2.14, "the rotor's weight acts upwards: the mean of the vertical force is +263 kN"),
+        (
+            (164.0, -2.0, -263.0),
+            2.14,
+            "the rotor weighs 0.263 kN, which is 1/",
+        ),  # kN in a column named N
+        (
+            (164e3, 0.0, 263e3),
+            2.14,
+            "the rotor's weight acts upwards: the mean of the vertical force is +263 kN",
+        ),
         ((-164e3, 0.0, -263e3), 2.14, "the mean thrust is -164 kN, against the wind"),
         (FORCE, 20.0, "the shaft turns at up to 191 rpm"),
     ],
@@ -38,7 +56,9 @@ def test_without_a_bearing_a_rotor_is_neither_a_hundredweight_nor_a_ship():
 
 
 def test_a_rating_by_an_estimated_c_is_told():
-    case = Case(loads=BearingLoads.constant([0.0, -300e3, 60e3], 2.1, 0.5), laws=Laws.paper(), rollers=[0])
+    case = Case(
+        loads=BearingLoads.constant([0.0, -300e3, 60e3], 2.1, 0.5), laws=Laws.paper(), rollers=[0]
+    )
     result = with_rating(simulate(case), case)
     assert not any("lives are 0.5 to 0.9" in line for line in doubtful_result(result))
     given = json.loads(result.attrs["input"])
@@ -53,16 +73,22 @@ def test_means_count_and_not_samples():
     force = np.tile(FORCE, (times.size, 1))
     force[:20] *= -1.0
     assert (
-        doubtful_loads(HubLoads(times, np.full_like(times, 2.1), force, np.tile(MOMENT, (101, 1)), "gust"), BEARING)
+        doubtful_loads(
+            HubLoads(times, np.full_like(times, 2.1), force, np.tile(MOMENT, (101, 1)), "gust"),
+            BEARING,
+        )
         == []
     )
 
 
 def test_loads_in_another_unit_show_in_the_result():
-    case = Case(loads=BearingLoads.constant([0.0, -300.0, 60.0], 2.1, 0.5), laws=Laws.paper(), rollers=[0])
+    case = Case(
+        loads=BearingLoads.constant([0.0, -300.0, 60.0], 2.1, 0.5), laws=Laws.paper(), rollers=[0]
+    )
     found = " ".join(doubtful_result(with_rating(simulate(case), case)))
     assert (
-        "the static safety is" in found and "below the minimum that the maker requires for 100 % of the time" in found
+        "the static safety is" in found
+        and "below the minimum that the maker requires for 100 % of the time" in found
     )
     pressed = with_rating(simulate(case), case)
     pressed["largest_pressure"] = pressed.largest_pressure + 5e9
@@ -85,4 +111,6 @@ def test_films_that_carry_what_the_rings_do_not_know_are_told(load, doubted):
     assert any("films of oil carry" in one for one in doubtful_result(result)) == doubted
     assert (result.mean_film_load.values > 0.0).all()
     everything = simulate(replace(case, rollers="all", laws=Laws.paper(), traces=Traces(step=0.02)))
-    assert everything.attrs["mean_elastic_load"] == pytest.approx(float(everything.roller_load.mean()), rel=1e-2)
+    assert everything.attrs["mean_elastic_load"] == pytest.approx(
+        float(everything.roller_load.mean()), rel=1e-2
+    )

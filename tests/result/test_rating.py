@@ -14,7 +14,9 @@ def test_hub_loads_go_through_the_statics():
     hub = HubLoads.bundled("14B").window(100.0, 102.0)
     case = Case(loads=hub, laws=Laws.paper())
     loads = main_bearing_load(hub, case.drivetrain)
-    by_hand = rate(case.bearing, case.lubricant, *roller_load_history(case.bearing, case.lubricant, loads))
+    by_hand = rate(
+        case.bearing, case.lubricant, *roller_load_history(case.bearing, case.lubricant, loads)
+    )
     xr.testing.assert_identical(rate_case(case), by_hand)
 
 

@@ -5,7 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from macroslip import BackwardEuler, BearingLoads, Case, HubLoads, InputError, Laws, Traces, simulate
+from macroslip import (
+    BackwardEuler,
+    BearingLoads,
+    Case,
+    HubLoads,
+    InputError,
+    Laws,
+    Traces,
+    simulate,
+)
 from macroslip.result.surface_maps import energy_density, roller_energy_density, share_above
 
 pytestmark = pytest.mark.slow
@@ -36,14 +45,20 @@ def test_sums_over_the_maps_are_the_energies(turbulent):
 
 
 def test_sums_along_the_roller_are_those_of_the_stations(turbulent):
-    along = turbulent.surface_energy.sum(("angle", *SPLIT)).transpose("row", "raceway", "station").values
+    along = (
+        turbulent.surface_energy.sum(("angle", *SPLIT))
+        .transpose("row", "raceway", "station")
+        .values
+    )
     expected = turbulent.station_energy.sum("roller").transpose("row", "raceway", "station").values
     np.testing.assert_allclose(along, expected, rtol=1e-9, atol=1e-12 * expected.max())
 
 
 def test_densities_times_areas_are_the_energies(turbulent):
     density = energy_density(turbulent)
-    total = (density * turbulent.cell_area).sum(("angle", "station")).transpose("row", "raceway").values
+    total = (
+        (density * turbulent.cell_area).sum(("angle", "station")).transpose("row", "raceway").values
+    )
     np.testing.assert_allclose(
         total, turbulent.energy.sel(interface=["inner", "outer"]).sum("roller").values, rtol=1e-9
     )
@@ -60,14 +75,20 @@ def test_areas_add_up_to_the_raceway_between_its_edges(turbulent):
     bearing = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing
     total = (turbulent.cell_area.sum("station") * turbulent.sizes["angle"]).values
     cosine = math.cos(bearing.contact_angle)
-    radii = np.array([bearing.pitch_radius + sign * 0.5 * bearing.roller_diameter * cosine for sign in (-1, 1)])
-    np.testing.assert_allclose(total, np.tile(2.0 * math.pi * radii * bearing.roller_length, (2, 1)), rtol=1e-12)
+    radii = np.array(
+        [bearing.pitch_radius + sign * 0.5 * bearing.roller_diameter * cosine for sign in (-1, 1)]
+    )
+    np.testing.assert_allclose(
+        total, np.tile(2.0 * math.pi * radii * bearing.roller_length, (2, 1)), rtol=1e-12
+    )
 
 
 def test_the_outer_raceway_suffers_in_the_load_zone(weight):
     """A weight loads the rollers at the bottom."""
     outer = weight.surface_energy.sel(row="downwind", raceway="outer").sum(("station", *SPLIT))
-    loaded = outer.where(outer.angle % (2 * math.pi) > math.pi, drop=True)  # the lower half, 180° to 360°
+    loaded = outer.where(
+        outer.angle % (2 * math.pi) > math.pi, drop=True
+    )  # the lower half, 180° to 360°
     assert float(loaded.sum()) > 0.99 * float(outer.sum())
     assert float(outer.angle[outer.argmax("angle")]) == pytest.approx(1.5 * math.pi, abs=0.2)
 
@@ -85,9 +106,13 @@ def test_the_power_over_the_angle_is_that_of_the_traces(weight):
         power = one.power.sel(interface=raceway).values
         inside = time[1:] > weight.attrs["window_start"]
         energy = (0.5 * (power[1:] + power[:-1]) * np.diff(time))[inside]
-        place = (np.floor(0.5 * (angle[1:] + angle[:-1]) / (2 * math.pi) * sectors).astype(int) % sectors)[inside]
+        place = (
+            np.floor(0.5 * (angle[1:] + angle[:-1]) / (2 * math.pi) * sectors).astype(int) % sectors
+        )[inside]
         expected = np.bincount(place, weights=energy, minlength=sectors)
-        found = weight.surface_energy.isel(row=0).sel(raceway=raceway).sum(("station", *SPLIT)).values
+        found = (
+            weight.surface_energy.isel(row=0).sel(raceway=raceway).sum(("station", *SPLIT)).values
+        )
         # A step is spread evenly by stages, so neighbouring sectors may exchange a little.
         reached = np.abs(np.cumsum(found) - np.cumsum(expected)).max()
         assert reached < 0.02 * expected.sum()
@@ -101,14 +126,19 @@ def test_the_sign_of_slip_follows_the_contour(weight):
         one = by_sign.sel(raceway=raceway)
         share = one.sel(slip_sign="positive") / one.sum("slip_sign")
         share = share.where(one.sum("slip_sign") > 1e-3 * one.sum("slip_sign").max(), drop=True)
-        middle, ends = float(share.sel(station=0.0, method="nearest")), share.isel(station=[0, -1]).values
+        middle, ends = (
+            float(share.sel(station=0.0, method="nearest")),
+            share.isel(station=[0, -1]).values,
+        )
         assert abs(middle - ends.mean()) > 0.5
 
 
 def test_film_regimes_follow_the_films(weight):
     """No film below the roughness in the traces, no energy below; and the other way round."""
     film = weight.film_thickness.sel(interface=["inner", "outer"])
-    ratio = film / Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing.composite_roughness
+    ratio = (
+        film / Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing.composite_roughness
+    )
     energy = weight.surface_energy.sum(("row", "raceway", "angle", "station", "slip_sign"))
     assert float(ratio.min()) > 1.0
     assert float(energy.sel(film_regime="below 1")) == 0.0
@@ -118,8 +148,12 @@ def test_film_regimes_follow_the_films(weight):
 def test_the_largest_power_per_area_is_that_of_the_orbits():
     loads = HubLoads.bundled("14B").window(0.0, 16.0)
     result = simulate(Case(loads=loads, laws=Laws.physical(), rollers=[0]))
-    found = result.surface_power_density.max(("angle", "station")).transpose("row", "raceway").values
-    expected = result.power_density.sel(interface=["inner", "outer"]).max(("roller", "orbit")).values
+    found = (
+        result.surface_power_density.max(("angle", "station")).transpose("row", "raceway").values
+    )
+    expected = (
+        result.power_density.sel(interface=["inner", "outer"]).max(("roller", "orbit")).values
+    )
     assert result.sizes["orbit"] >= 1
     # The maps take the time before the first and after the last whole orbit too.
     assert (found >= expected * (1.0 - 1e-12)).all() and (expected > 0.0).all()
@@ -138,11 +172,19 @@ def test_fixed_steps_fill_the_maps_too():
     loads = BearingLoads.constant([0.0, -400e3, 0.0], 2.1, 0.3)
     case = Case(loads=loads, laws=Laws.physical(), rollers=[0], integrator=BackwardEuler(step=1e-3))
     result = simulate(case)
-    total = result.surface_energy.sum(("angle", "station", *SPLIT)).transpose("row", "raceway").values
-    np.testing.assert_allclose(total, result.energy.sel(interface=["inner", "outer"]).sum("roller").values, rtol=1e-9)
+    total = (
+        result.surface_energy.sum(("angle", "station", *SPLIT)).transpose("row", "raceway").values
+    )
+    np.testing.assert_allclose(
+        total, result.energy.sel(interface=["inner", "outer"]).sum("roller").values, rtol=1e-9
+    )
 
 
 def test_results_without_microslip_have_no_maps():
-    result = simulate(Case(loads=BearingLoads.constant([0.0, -4e5, 0.0], 0.0, 1.0), laws=Laws.paper(), rollers=[0]))
+    result = simulate(
+        Case(
+            loads=BearingLoads.constant([0.0, -4e5, 0.0], 0.0, 1.0), laws=Laws.paper(), rollers=[0]
+        )
+    )
     with pytest.raises(InputError, match="no maps of the raceways.*model: physical"):
         energy_density(result)

@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from macroslip import Bearing, BearingLoads, Case, Heat, Laws, Lubricant, Traces, read_case, simulate
+from macroslip import (
+    Bearing,
+    BearingLoads,
+    Case,
+    Heat,
+    Laws,
+    Lubricant,
+    Traces,
+    read_case,
+    simulate,
+)
 from macroslip.errors import InputError
 from macroslip.result.heat_balance import bearing_friction_power
 from macroslip.result.plausibility import doubtful_result
@@ -59,7 +69,13 @@ def test_the_oil_given_is_the_oil_at_that_temperature(by_temperature):
 
 
 def test_at_the_balance_friction_heats_as_much_as_is_lost():
-    result = simulate(case(temperature="balance", heat=Heat(conductance=60.0, ambient=288.15), traces=Traces(step=1.0)))
+    result = simulate(
+        case(
+            temperature="balance",
+            heat=Heat(conductance=60.0, ambient=288.15),
+            traces=Traces(step=1.0),
+        )
+    )
     lost = 60.0 * (float(result.inlet_temperature) - 288.15)
     # 0.2 K of 60 W/K.
     assert bearing_friction_power(result) == pytest.approx(lost, abs=0.4 * 60.0)
@@ -68,7 +84,9 @@ def test_at_the_balance_friction_heats_as_much_as_is_lost():
     assert 288.15 < float(less.inlet_temperature) < float(result.inlet_temperature)
 
 
-@pytest.mark.parametrize(("text", "expected"), [("50 degC", 323.15), ("323 K", 323.0), ("balance", "balance")])
+@pytest.mark.parametrize(
+    ("text", "expected"), [("50 degC", 323.15), ("323 K", 323.0), ("balance", "balance")]
+)
 def test_keys_of_a_case_file(tmp_path, text, expected):
     path = tmp_path / "case.yaml"
     loads, heat = (
@@ -81,7 +99,11 @@ def test_keys_of_a_case_file(tmp_path, text, expected):
             read_case(path)
         path.write_text(loads)
     found = read_case(path)
-    assert found.temperature == pytest.approx(expected) if expected != "balance" else found.temperature == expected
+    assert (
+        found.temperature == pytest.approx(expected)
+        if expected != "balance"
+        else found.temperature == expected
+    )
     assert found.heat == (Heat(conductance=60.0, ambient=293.15) if expected == "balance" else None)
 
 
@@ -105,7 +127,13 @@ def test_an_oil_whose_temperature_is_not_found_yet_is_refused():
 
 
 def test_rings_of_their_own_temperature_share_the_balance():
-    heat = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=3000.0, ring_conductance=100.0)
+    heat = Heat(
+        conductance=60.0,
+        ambient=293.15,
+        inner_mass=4000.0,
+        outer_mass=3000.0,
+        ring_conductance=100.0,
+    )
     result = simulate(case(temperature="balance", heat=heat))
     inner, outer = result.attrs["inner_ring_temperature"], result.attrs["outer_ring_temperature"]
     assert 293.15 < outer < inner
@@ -118,14 +146,21 @@ def test_rings_of_their_own_temperature_share_the_balance():
     left = bearing.diametral_clearance - loss
     assert 0.0 < left == pytest.approx(run_input(result).bearing.diametral_clearance)
     alone = simulate(
-        case(temperature=float(result.inlet_temperature), bearing=bearing.replace(diametral_clearance=left))
+        case(
+            temperature=float(result.inlet_temperature),
+            bearing=bearing.replace(diametral_clearance=left),
+        )
     )
     np.testing.assert_array_equal(alone.energy, result.energy)
-    assert not (alone.energy == simulate(case(temperature=float(result.inlet_temperature))).energy).all()
+    assert not (
+        alone.energy == simulate(case(temperature=float(result.inlet_temperature))).energy
+    ).all()
 
 
 def test_rings_that_leave_no_clearance_say_so():
-    heat = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=3000.0, ring_conductance=5.0)
+    heat = Heat(
+        conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=3000.0, ring_conductance=5.0
+    )
     result = simulate(case(temperature="balance", heat=heat))
     assert run_input(result).bearing.diametral_clearance == 0.0
     assert result.attrs["clearance_loss"] > Bearing.read("skf-240-600-bc").diametral_clearance

@@ -22,7 +22,9 @@ from macroslip.roller.model import ring_geometry, roller_model
 
 COUNT, ALPHA, PLAY, STIFFNESS, RATIO = 28, math.radians(11.2), 1e-4, 9.258e10, 0.4539
 PITCH = 2 * math.pi / COUNT
-angles = np.concatenate([-np.pi / 2 + PITCH * np.arange(COUNT), -np.pi / 2 + PITCH * (np.arange(COUNT) + 0.5)])
+angles = np.concatenate(
+    [-np.pi / 2 + PITCH * np.arange(COUNT), -np.pi / 2 + PITCH * (np.arange(COUNT) + 0.5)]
+)
 signs = np.repeat([1.0, -1.0], COUNT)
 
 directions = st.tuples(*[st.floats(-1.0, 1.0)] * 3).filter(lambda d: np.linalg.norm(d) > 1e-3)
@@ -32,14 +34,24 @@ plays = st.sampled_from([1e-4, 5e-4, 0.0, -2e-5, -1e-4])
 
 def ring(play=PLAY, stiffness=STIFFNESS, alpha=ALPHA):
     return RingGeometry(
-        np.cos(angles), np.sin(angles), signs * math.sin(alpha), math.cos(alpha), play, stiffness, RATIO
+        np.cos(angles),
+        np.sin(angles),
+        signs * math.sin(alpha),
+        math.cos(alpha),
+        play,
+        stiffness,
+        RATIO,
     )
 
 
 def normals(shaft_angle=0.0):
     turned = angles + RATIO * shaft_angle
     return np.column_stack(
-        [np.cos(turned) * math.cos(ALPHA), np.sin(turned) * math.cos(ALPHA), signs * math.sin(ALPHA)]
+        [
+            np.cos(turned) * math.cos(ALPHA),
+            np.sin(turned) * math.cos(ALPHA),
+            signs * math.sin(ALPHA),
+        ]
     )
 
 
@@ -121,8 +133,13 @@ def test_series_equals_single_solutions():
         warm = direct_loads(displacement[k], shaft_angle[k])
         assert warm == pytest.approx(cold, rel=1e-5, abs=1e-6 * size[k] + 1e-5)
     largest, sample = largest_load(ring(), shaft_angle, displacement)
-    loads = np.array([direct_loads(d, angle) for d, angle in zip(displacement, shaft_angle, strict=True)])
-    assert (largest, sample) == (pytest.approx(loads.max(), rel=1e-12, abs=0.0), loads.max(axis=1).argmax())
+    loads = np.array(
+        [direct_loads(d, angle) for d, angle in zip(displacement, shaft_angle, strict=True)]
+    )
+    assert (largest, sample) == (
+        pytest.approx(loads.max(), rel=1e-12, abs=0.0),
+        loads.max(axis=1).argmax(),
+    )
 
 
 def test_bearing_without_contact_angle_has_no_axial_balance():
@@ -142,7 +159,9 @@ def test_ring_geometry_is_the_bearings(bearing, model):
     assert found.cosine == pytest.approx(np.cos(angles), abs=1e-15)
     assert found.sine == pytest.approx(np.sin(angles), abs=1e-15)
     assert found.axial == pytest.approx(signs * math.sin(ALPHA), abs=1e-15)
-    assert (found.cos_contact_angle, found.radial_play) == pytest.approx((math.cos(ALPHA), 1e-4), rel=1e-14, abs=0.0)
+    assert (found.cos_contact_angle, found.radial_play) == pytest.approx(
+        (math.cos(ALPHA), 1e-4), rel=1e-14, abs=0.0
+    )
     inner, outer = (0.3727 + sign * 0.035 * math.cos(ALPHA) for sign in (-1.0, 1.0))
     assert found.orbit_ratio == pytest.approx(inner / (inner + outer), rel=1e-14, abs=0.0)
     assert found.stiffness == pytest.approx(9.26e10, rel=5e-4, abs=0.0)
@@ -164,7 +183,9 @@ def test_motion_balances_every_sample_with_rollers_where_they_are(bearing, model
     peak = 0.0
     for k in range(3):
         turned = angles + found.orbit_ratio * motion.shaft_angle[k]
-        n = np.column_stack([np.cos(turned) * math.cos(ALPHA), np.sin(turned) * math.cos(ALPHA), found.axial])
+        n = np.column_stack(
+            [np.cos(turned) * math.cos(ALPHA), np.sin(turned) * math.cos(ALPHA), found.axial]
+        )
         roller_loads(found, motion.shaft_angle[k], motion.displacement[k], loads)
         assert n.T @ loads == pytest.approx(force[k], abs=1e-8 * np.linalg.norm(force[k]))
         peak = max(peak, loads.max())
@@ -205,12 +226,16 @@ def test_added_samples_keep_the_linear_loads(bearing, model, lubricant):
     time, speed = np.array([0.0, 1.0, 1.9]), np.array([4.0, 4.0, -4.0])
     force = np.array([[0.0, -4e5, 1e5], [2e5, -4e5, 0.0], [0.0, -2e5, 2e5]])
     loads = BearingLoads(time, speed, force, "a test")
-    motion, _ = ring_motion(loads, bearing, ring_geometry(bearing, model), truncation_load(bearing, lubricant))
+    motion, _ = ring_motion(
+        loads, bearing, ring_geometry(bearing, model), truncation_load(bearing, lubricant)
+    )
     assert set(time) <= set(motion.time)
     assert np.all(np.diff(motion.time) > 0.0)
     assert motion.shaft_speed == pytest.approx(np.interp(motion.time, time, speed), abs=1e-12)
     assert motion.shaft_angle[-1] == pytest.approx(4.0, rel=1e-12, abs=0.0)
-    fastest = np.maximum(abs(motion.shaft_speed[1:]), abs(motion.shaft_speed[:-1])) * np.diff(motion.time)
+    fastest = np.maximum(abs(motion.shaft_speed[1:]), abs(motion.shaft_speed[:-1])) * np.diff(
+        motion.time
+    )
     assert model.orbit_ratio * fastest.max() <= 0.6 * PITCH
     standstill, _ = ring_motion(
         history([0.0, -4e5, 0.0], 0.0, (0.0, 100.0)), bearing, ring_geometry(bearing, model), 1e9
@@ -225,12 +250,19 @@ def oval_loads(found, bearing, d, shaft_angle=0.0):
     play = 0.5 * bearing.diametral_clearance
     play = play + (bearing.out_of_round_second or 0.0) * np.cos(2 * (place - crest))
     play = play + (bearing.out_of_round_third or 0.0) * np.cos(3 * (place - crest))
-    n = np.column_stack([np.cos(place) * math.cos(ALPHA), np.sin(place) * math.cos(ALPHA), signs * math.sin(ALPHA)])
+    n = np.column_stack(
+        [np.cos(place) * math.cos(ALPHA), np.sin(place) * math.cos(ALPHA), signs * math.sin(ALPHA)]
+    )
     return n, found.stiffness * np.maximum(n @ d - play * math.cos(ALPHA), 0.0) ** 1.5
 
 
 @pytest.mark.parametrize(
-    "waves", [{"second": 2e-5}, {"second": -4e-5, "angle": 0.7}, {"second": 1e-5, "third": 3e-5, "angle": -2.0}]
+    "waves",
+    [
+        {"second": 2e-5},
+        {"second": -4e-5, "angle": 0.7},
+        {"second": 1e-5, "third": 3e-5, "angle": -2.0},
+    ],
 )
 def test_ring_out_of_round_is_balanced_by_loads_of_its_own_definition(waves, bearing, lubricant):
     oval = bearing.replace(**{f"out_of_round_{key}": value for key, value in waves.items()})
@@ -246,8 +278,14 @@ def test_ring_out_of_round_is_balanced_by_loads_of_its_own_definition(waves, bea
     roller_loads(found, 3.0, d, loads)
     assert loads == pytest.approx(expected, rel=1e-9, abs=1e-3)
     # An independent root of the equations of force, from another start.
-    root = fsolve(lambda x: n.T @ oval_loads(found, oval, 1e-4 * x, 3.0)[1] / 1e5 - force / 1e5, 1.1e4 * d, xtol=1e-13)
-    assert oval_loads(found, oval, 1e-4 * root, 3.0)[1] == pytest.approx(expected, rel=1e-6, abs=1.0)
+    root = fsolve(
+        lambda x: n.T @ oval_loads(found, oval, 1e-4 * x, 3.0)[1] / 1e5 - force / 1e5,
+        1.1e4 * d,
+        xtol=1e-13,
+    )
+    assert oval_loads(found, oval, 1e-4 * root, 3.0)[1] == pytest.approx(
+        expected, rel=1e-6, abs=1.0
+    )
 
 
 def test_given_loads_of_a_balance_are_those_of_the_balance(bearing, model, lubricant):
@@ -271,6 +309,10 @@ def test_given_loads_of_a_balance_are_those_of_the_balance(bearing, model, lubri
     for roller in (0, 3, 30):
         one = own_motions(own, found, motion)[roller]
         place = angles[roller] + found.orbit_ratio * motion.shaft_angle
-        radial = one.displacement[:, 0] * np.cos(place) + one.displacement[:, 1] * np.sin(place) - found.radial_play
+        radial = (
+            one.displacement[:, 0] * np.cos(place)
+            + one.displacement[:, 1] * np.sin(place)
+            - found.radial_play
+        )
         load = found.stiffness * np.maximum(radial * found.cos_contact_angle, 0.0) ** 1.5
         assert load == pytest.approx(fine[:, roller], rel=1e-7, abs=1e-3)

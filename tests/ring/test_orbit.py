@@ -10,7 +10,9 @@ from macroslip.ring.orbit import Motion, instant, interval_of, shaft_angle
 
 TIME = np.array([-1.0, 0.0, 0.5, 2.0, 2.1])
 SPEED = np.array([2.0, 3.0, -1.0, -1.5, 4.0])
-DISPLACEMENT = np.array([[0.0, 1.0, 2.0], [1.0, -1.0, 3.0], [4.0, 0.0, 0.0], [-2.0, 5.0, 1.0], [0.5, 0.25, -1.0]])
+DISPLACEMENT = np.array(
+    [[0.0, 1.0, 2.0], [1.0, -1.0, 3.0], [4.0, 0.0, 0.0], [-2.0, 5.0, 1.0], [0.5, 0.25, -1.0]]
+)
 
 
 @pytest.fixture
@@ -34,7 +36,9 @@ def test_instant_is_linear_with_exact_angle(motion, time):
     now = instant(motion, interval_of(motion, time, 0), time)
     assert now.shaft_speed == pytest.approx(np.interp(time, TIME, SPEED), abs=1e-13)
     assert now.shaft_angle == pytest.approx(integral(TIME[0], time), abs=1e-12)
-    assert now[2:] == pytest.approx([np.interp(time, TIME, part) for part in DISPLACEMENT.T], abs=1e-13)
+    assert now[2:] == pytest.approx(
+        [np.interp(time, TIME, part) for part in DISPLACEMENT.T], abs=1e-13
+    )
 
 
 @given(st.floats(-1.0, 2.1), st.integers(0, 3))

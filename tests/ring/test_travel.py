@@ -42,7 +42,9 @@ def test_path_counts_forth_and_back(history):
     time, speed = arrays(history)
     path = travel(time, speed, RATIO)
     assert path[0] == 0.0 and np.all(np.diff(path) >= 0.0)
-    assert path == pytest.approx([dense_path(time, speed, RATIO, t) for t in time], rel=1e-11, abs=1e-12)
+    assert path == pytest.approx(
+        [dense_path(time, speed, RATIO, t) for t in time], rel=1e-11, abs=1e-12
+    )
     # Which way round does not matter, neither of the shaft nor of the orbit.
     assert travel(time, -speed, RATIO) == pytest.approx(path, rel=1e-15, abs=0.0)
     assert travel(time, speed, -RATIO) == pytest.approx(path, rel=1e-15, abs=0.0)
@@ -58,7 +60,9 @@ def test_orbits_end_where_the_path_says(history):
     assert np.all(np.diff(found) > 0.0)
     for number, end in enumerate(found, start=1):
         assert time[0] < end <= time[-1]
-        assert dense_path(time, speed, RATIO, end) == pytest.approx(2 * math.pi * number, rel=1e-10, abs=1e-10)
+        assert dense_path(time, speed, RATIO, end) == pytest.approx(
+            2 * math.pi * number, rel=1e-10, abs=1e-10
+        )
 
 
 def test_whole_number_of_orbits_keeps_the_last():
@@ -83,5 +87,8 @@ def test_standstill_completes_nothing():
     assert travel(time, np.zeros(3), RATIO).tolist() == [0.0, 0.0, 0.0]
     assert orbit_times(time, np.zeros(3), RATIO).size == 0
     # An orbit that ends as the shaft stops, ends there, not later.
-    time, speed = np.array([0.0, 2 * math.pi, 2 * math.pi + 1e-9, 50.0]), np.array([1.0, 1.0, 0.0, 0.0])
+    time, speed = (
+        np.array([0.0, 2 * math.pi, 2 * math.pi + 1e-9, 50.0]),
+        np.array([1.0, 1.0, 0.0, 0.0]),
+    )
     assert orbit_times(time, speed, 1.0) == pytest.approx([2 * math.pi], rel=1e-9, abs=0.0)

@@ -75,9 +75,15 @@ def test_weight_by_hand(paper, angle, row):
     found = station_of(paper[row], angle, now())
     # Weight vector in the bearing frame: the shaft falls towards downwind, so part of it points along +Z0.
     weight = WEIGHT * np.array([0.0, -math.cos(TILT), math.sin(TILT)])
-    y = [math.cos(angle) * math.cos(ALPHA), math.sin(angle) * math.cos(ALPHA), SIGNS[row] * math.sin(ALPHA)]
+    y = [
+        math.cos(angle) * math.cos(ALPHA),
+        math.sin(angle) * math.cos(ALPHA),
+        SIGNS[row] * math.sin(ALPHA),
+    ]
     outward = float(weight @ np.array(y))
-    assert found["tangential"] == pytest.approx(weight @ [math.sin(angle), -math.cos(angle), 0.0], abs=1e-12)
+    assert found["tangential"] == pytest.approx(
+        weight @ [math.sin(angle), -math.cos(angle), 0.0], abs=1e-12
+    )
     assert found["outer_load"] == pytest.approx(max(outward, 0.0), abs=1e-12)
     assert found["inner_load"] == pytest.approx(max(-outward, 0.0), abs=1e-12)
 
@@ -88,7 +94,9 @@ def test_centrifugal_force_and_drag_by_hand(angle, speed):
     made = models(Laws.paper(), tilt=0.0, gravity=False)
     found = station_of(rollers(made)["downwind"], angle, now(speed))
     orbital = speed * ORBITAL / RATED
-    assert found["outer_load"] == pytest.approx(MASS * PITCH_RADIUS * orbital**2 * math.cos(ALPHA), rel=1e-12)
+    assert found["outer_load"] == pytest.approx(
+        MASS * PITCH_RADIUS * orbital**2 * math.cos(ALPHA), rel=1e-12
+    )
     assert found["inner_load"] == 0.0
     drag = 0.5 * 1.0 * (0.7 * 900.0) * (2 * RADIUS * 0.106) * (orbital * PITCH_RADIUS) ** 2
     # Against the motion: a roller moves along −x for a positive shaft speed.
@@ -103,7 +111,11 @@ def test_centrifugal_force_and_drag_by_hand(angle, speed):
 def test_elastic_load_by_hand(paper, angle, row):
     d = np.array([1.5e-4, -2.5e-4, 3e-4])
     found = station_of(paper[row], angle, now(RATED, d))
-    n = [math.cos(angle) * math.cos(ALPHA), math.sin(angle) * math.cos(ALPHA), SIGNS[row] * math.sin(ALPHA)]
+    n = [
+        math.cos(angle) * math.cos(ALPHA),
+        math.sin(angle) * math.cos(ALPHA),
+        SIGNS[row] * math.sin(ALPHA),
+    ]
     approach = float(np.array(n) @ d) - 1e-4 * math.cos(ALPHA)
     load = paper[row].body[0]["stiffness"] * max(approach, 0.0) ** 1.5
     assert found["interference"] == pytest.approx(approach, abs=1e-18)
@@ -118,7 +130,9 @@ def test_rings_pass_with_the_speeds_of_pure_rolling_and_the_roller_moves_on(pape
     found = station_of(paper["downwind"], 0.3, now(RATED))
     assert found["ring_speed"] == pytest.approx(-(RATED - ORBITAL) * INNER_RADIUS, rel=1e-12)
     assert found["ring_speed"] == pytest.approx(-ORBITAL * OUTER_RADIUS, rel=1e-12)
-    here = station_of(paper["downwind"], 0.4 + ORBITAL / RATED * 2.5, now(RATED, (1e-4, 2e-4, 3e-4)))
+    here = station_of(
+        paper["downwind"], 0.4 + ORBITAL / RATED * 2.5, now(RATED, (1e-4, 2e-4, 3e-4))
+    )
     there = station_of(paper["downwind"], 0.4, now(RATED, (1e-4, 2e-4, 3e-4), shaft_angle=2.5))
     assert there.tolist() == pytest.approx(here.tolist(), rel=1e-12)
 
@@ -129,14 +143,25 @@ lengths = st.floats(-3e-4, 3e-4)
 
 
 @pytest.mark.parametrize("kind", ["paper", "physical"])
-@given(st.floats(-10.0, 10.0), lengths, lengths, lengths, st.floats(-0.3, 0.3).map(lambda x: round(x, 9)))
+@given(
+    st.floats(-10.0, 10.0),
+    lengths,
+    lengths,
+    lengths,
+    st.floats(-0.3, 0.3).map(lambda x: round(x, 9)),
+)
 @settings(max_examples=40)
 def test_a_shaft_that_turns_back_is_the_mirror_image(request, kind, angle, dx, dy, dz, slip):
     """Mirror at the vertical plane: φ → π − φ, dX → −dX, all speeds and tangential forces change sign."""
     roller = request.getfixturevalue(kind)["downwind"]
     here = station_of(roller, angle, now(RATED, (dx, dy, dz)))
     there = station_of(roller, math.pi - angle, now(-RATED, (-dx, dy, dz)))
-    for name, sign in (("ring_speed", -1), ("tangential", -1), ("inner_load", 1), ("outer_load", 1)):
+    for name, sign in (
+        ("ring_speed", -1),
+        ("tangential", -1),
+        ("inner_load", 1),
+        ("outer_load", 1),
+    ):
         assert there[name] == pytest.approx(sign * here[name], rel=1e-9, abs=1e-6)
     there["ring_speed"], there["tangential"] = -here["ring_speed"], -here["tangential"]
     for name in ("interference", "elastic_load", "inner_load", "outer_load"):
@@ -145,7 +170,9 @@ def test_a_shaft_that_turns_back_is_the_mirror_image(request, kind, angle, dx, d
     for name in ahead.dtype.names:
         sign = -1 if name in ODD else 1
         np.testing.assert_allclose(back[name], sign * ahead[name], rtol=1e-12, err_msg=name)
-    np.testing.assert_allclose(powers_of(roller, there, back, -slip), powers_of(roller, here, ahead, slip), rtol=1e-12)
+    np.testing.assert_allclose(
+        powers_of(roller, there, back, -slip), powers_of(roller, here, ahead, slip), rtol=1e-12
+    )
 
 
 @pytest.mark.parametrize("slip", [-0.2, 1e-3, 0.05])
@@ -157,7 +184,9 @@ def test_rows_are_mirror_images(physical, slip):
     assert (one["skew"] != 0.0).all()
     for name in set(one.dtype.names) - {"skew"}:
         np.testing.assert_array_equal(other[name], one[name], err_msg=name)
-    here, there = (powers_of(physical[row], at, forces_of(physical[row], at, slip), slip) for row in SIGNS)
+    here, there = (
+        powers_of(physical[row], at, forces_of(physical[row], at, slip), slip) for row in SIGNS
+    )
     np.testing.assert_allclose(there, here, rtol=1e-12)
 
 
@@ -175,9 +204,19 @@ class Reference:
         width = face.hertz.semi_axis_across * mpmath.cbrt(load)
         w = 3 * load / (4 * width) / (face.modulus * radius)
         u = oil.viscosity * max(speed, mpmath.mpf(1e-6)) / (face.modulus * radius)
-        g, rough, hard = oil.pressure_viscosity * face.modulus, face.roughness / radius, face.hardness / m(face.modulus)
+        g, rough, hard = (
+            oil.pressure_viscosity * face.modulus,
+            face.roughness / radius,
+            face.hardness / m(face.modulus),
+        )
         height = m("2.691") * w ** m("-0.135") * u ** m("0.705") * g ** m("0.556")
-        extra = m("0.2") * rough ** m("1.222") * hard ** m("0.223") * w ** m("-0.229") * u ** m("-0.748")
+        extra = (
+            m("0.2")
+            * rough ** m("1.222")
+            * hard ** m("0.223")
+            * w ** m("-0.229")
+            * u ** m("-0.748")
+        )
         return radius * height * (1 + extra * g ** m("-0.842"))
 
     def traction(self, face, load, slip, speed):
@@ -185,11 +224,15 @@ class Reference:
             return mpmath.mpf(0)
         oil, size = face.lubricant, mpmath.cbrt(load)
         exponent = oil.pressure_viscosity * face.hertz.pressure * size
-        heating = slip**2 * oil.temperature_viscosity * oil.viscosity / (8 * oil.thermal_conductivity)
+        heating = (
+            slip**2 * oil.temperature_viscosity * oil.viscosity / (8 * oil.thermal_conductivity)
+        )
 
         def integrand(s):
             b = heating * mpmath.exp(exponent * s)
-            reduction = mpmath.asinh(mpmath.sqrt(b)) / mpmath.sqrt(b * (1 + b)) if b else mpmath.mpf(1)
+            reduction = (
+                mpmath.asinh(mpmath.sqrt(b)) / mpmath.sqrt(b * (1 + b)) if b else mpmath.mpf(1)
+            )
             return s * mpmath.exp(exponent * s) * reduction
 
         panels = mpmath.linspace(0, 1, 2 + int(exponent / 4))
@@ -202,7 +245,9 @@ class Reference:
         slip, ring = mpmath.mpf(slip), mpmath.mpf(float(at["ring_speed"]))
         surface = ring - slip
         inner, outer = (
-            self.traction(face, mpmath.mpf(float(at[f"{face.name}_load"])), slip, abs(ring + surface) / 2)
+            self.traction(
+                face, mpmath.mpf(float(at[f"{face.name}_load"])), slip, abs(ring + surface) / 2
+            )
             for face in self.faces[:2]
         )
         push = abs(mpmath.mpf(float(at["tangential"])) + inner - outer)
@@ -228,10 +273,14 @@ def test_the_papers_forces_and_their_slope_in_high_precision(paper, at, slip):
         for name, force in zip(("inner", "outer", "cage"), expected, strict=True):
             assert found[name] == pytest.approx(float(force), rel=2e-7), name
         step = mpmath.mpf(abs(slip)) * mpmath.mpf(10) ** -8
-        slope = float((sum(reference(at, slip + step)) - sum(reference(at, slip - step))) / (2 * step))
+        slope = float(
+            (sum(reference(at, slip + step)) - sum(reference(at, slip - step))) / (2 * step)
+        )
     scale = abs(slope) + abs(net(found)) / abs(slip)
     assert found["slope"] == pytest.approx(slope, abs=1e-4 * scale)
-    assert found["cage_load"] == pytest.approx(float(at["tangential"] + found["inner"] - found["outer"]), rel=1e-14)
+    assert found["cage_load"] == pytest.approx(
+        float(at["tangential"] + found["inner"] - found["outer"]), rel=1e-14
+    )
 
 
 @pytest.mark.parametrize("kind", ["paper", "physical", "dry"])
@@ -241,9 +290,15 @@ def test_slopes_are_the_derivatives_of_all_forces(request, kind, load, slip):
     """By which Newton's iteration converges: of the net force, of each raceway's, and of the cage's load."""
     roller, at = request.getfixturevalue(kind)["downwind"], a_station(load, 8.0)
     change = 1e-7 * max(abs(slip), 1e-3)
-    here, ahead, behind = (forces_of(roller, at, one) for one in (slip, slip + change, slip - change))
-    scale = sum(abs(float(here[name])) for name in ("inner", "outer", "cage", "resistance")) / max(abs(slip), 1e-3)
-    assert here["slope"] == pytest.approx((net(ahead) - net(behind)) / (2.0 * change), rel=1e-4, abs=1e-5 * scale)
+    here, ahead, behind = (
+        forces_of(roller, at, one) for one in (slip, slip + change, slip - change)
+    )
+    scale = sum(abs(float(here[name])) for name in ("inner", "outer", "cage", "resistance")) / max(
+        abs(slip), 1e-3
+    )
+    assert here["slope"] == pytest.approx(
+        (net(ahead) - net(behind)) / (2.0 * change), rel=1e-4, abs=1e-5 * scale
+    )
     for name in ("inner", "outer", "cage_load"):
         difference = (ahead[name] - behind[name]) / (2.0 * change)
         assert here[f"{name}_slope"] == pytest.approx(difference, rel=1e-4, abs=1e-5 * scale), name
@@ -285,7 +340,9 @@ def test_what_is_not_a_number_is_never_a_plausible_one(request, kind):
     tangential=st.floats(-60.0, 60.0),
 )
 @settings(max_examples=60)
-def test_what_the_rings_give_heats_the_contacts_or_drives_the_spin(request, kind, load, slip, ring, tangential):
+def test_what_the_rings_give_heats_the_contacts_or_drives_the_spin(
+    request, kind, load, slip, ring, tangential
+):
     """Torques about the axes of ring and roller, with lever arms in space, times their speeds in the orbiting frame.
 
     The cage, at rest there, takes nothing; nor does what acts on the centre. A raceway's rolling shear acts on both surfaces along
@@ -295,10 +352,16 @@ def test_what_the_rings_give_heats_the_contacts_or_drives_the_spin(request, kind
     forces = forces_of(roller, at, slip)
     surface = ring - slip
     given_by_rings, tilt = 0.0, math.sin(ALPHA)
-    for k, (name, place, up) in enumerate((("inner", INNER_RADIUS, 1.0), ("outer", OUTER_RADIUS, -1.0))):
+    for k, (name, place, up) in enumerate(
+        (("inner", INNER_RADIUS, 1.0), ("outer", OUTER_RADIUS, -1.0))
+    ):
         # Distance from the bearing axis: r~ − ζ sin α ± h cos α, the drop being towards the roller.
         pull = forces[name] + forces["lag"][k]
-        torque = place * pull - tilt * forces["skew"][k] + up * math.cos(ALPHA) * RADIUS * forces["lag"][k]
+        torque = (
+            place * pull
+            - tilt * forces["skew"][k]
+            + up * math.cos(ALPHA) * RADIUS * forces["lag"][k]
+        )
         given_by_rings += ring / place * torque
     spent = powers_of(roller, at, forces, slip).sum()
     into_spin = surface * (forces["inner"] + forces["outer"] + forces["cage"])
@@ -323,13 +386,16 @@ def test_films_and_approach_fill_the_play(physical, play, body):
         q = math.exp(log_load)
         loads = q + max(-body, 0.0), q + max(body, 0.0)
         heights = [
-            float(light_contact(law.rolling, np.array(load), np.array(0.5 * abs(RING_SPEED)))[2]) / 1.2257
+            float(light_contact(law.rolling, np.array(load), np.array(0.5 * abs(RING_SPEED)))[2])
+            / 1.2257
             for law, load in zip((laws.inner, laws.outer), loads, strict=True)
         ]
         return sum(heights) - (q / stiffness) ** (2.0 / 3.0) - play
 
     expected = math.exp(brentq(excess, math.log(1e-6), math.log(1e5), xtol=1e-12))
-    assert carried(roller.body[0], roller.tables, play, body, RING_SPEED) == pytest.approx(expected, rel=2e-4)
+    assert carried(roller.body[0], roller.tables, play, body, RING_SPEED) == pytest.approx(
+        expected, rel=2e-4
+    )
 
 
 def test_loads_are_continuous_where_play_ends_and_films_fade(physical):
@@ -360,18 +426,25 @@ def test_what_films_carry_does_not_depend_on_where_the_search_begins(physical):
     body, tables = physical["downwind"].body[0], physical["downwind"].tables
     for play in (0.0, 1e-6, 1e-4, 3e-4):
         alone = carried(body, tables, play, 30.0, RING_SPEED)
-        again = [carried(body, tables, play, 30.0, RING_SPEED, guess) for guess in (1e-9, 1e-3, alone, 50.0, 1e6)]
+        again = [
+            carried(body, tables, play, 30.0, RING_SPEED, guess)
+            for guess in (1e-9, 1e-3, alone, 50.0, 1e6)
+        ]
         assert again == pytest.approx([alone] * 5, rel=1e-9, abs=2e-9), play
 
 
 def test_starved_films_carry_nothing_where_the_play_is_wider_than_the_oil_reaches():
     roller = rollers(models(Laws.physical(), OIL.supplied(2e-4)))["downwind"]
-    within, beyond = (carried(roller.body[0], roller.tables, play, 30.0, RING_SPEED) for play in (1e-4, 4e-4))
+    within, beyond = (
+        carried(roller.body[0], roller.tables, play, 30.0, RING_SPEED) for play in (1e-4, 4e-4)
+    )
     assert within > 0.1 and beyond < 1e-8
 
 
 def test_an_idle_roller_lies_between_two_films(physical, dry):
-    top, bottom = (station_of(physical["downwind"], angle, now(2.14)) for angle in (math.pi / 2, -math.pi / 2))
+    top, bottom = (
+        station_of(physical["downwind"], angle, now(2.14)) for angle in (math.pi / 2, -math.pi / 2)
+    )
     for at in (top, bottom):
         assert at["elastic_load"] == 0.0 < min(at["inner_load"], at["outer_load"])
     assert bottom["outer_load"] > bottom["inner_load"] and top["inner_load"] > top["outer_load"]
@@ -383,7 +456,9 @@ def test_a_gripped_roller_makes_up_for_its_rolling_resistance(physical):
     slip = brentq(lambda one: net(forces_of(roller, at, one)), -0.05, 0.05, xtol=1e-16)
     forces = forces_of(roller, at, slip)
     assert forces["resistance"] > 0.0  # against a motion along −x
-    assert forces["inner"] + forces["outer"] + forces["cage"] == pytest.approx(-forces["resistance"], rel=1e-6)
+    assert forces["inner"] + forces["outer"] + forces["cage"] == pytest.approx(
+        -forces["resistance"], rel=1e-6
+    )
     assert (forces["rolling"] > 0.0).all()
 
 
@@ -398,11 +473,21 @@ def test_oil_at_a_raceway_turns_nothing_about_the_bearing(load, slip):
     mean = RING_SPEED - 0.5 * slip
     for name, place in (("inner", INNER_RADIUS), ("outer", OUTER_RADIUS)):
         law = getattr(models(Laws.paper().but(rolling="whole-film"))["downwind"].laws, name)
-        conductance, resistance, _ = (float(one) for one in light_contact(law.rolling, np.array(load), np.array(-mean)))
-        assert with_oil[name] - without[name] == pytest.approx(conductance * slip, rel=1e-4, abs=1e-6)
-        assert with_oil["rolling"][0 if name == "inner" else 1] == pytest.approx(2.0 * resistance * abs(mean), rel=1e-4)
+        conductance, resistance, _ = (
+            float(one) for one in light_contact(law.rolling, np.array(load), np.array(-mean))
+        )
+        assert with_oil[name] - without[name] == pytest.approx(
+            conductance * slip, rel=1e-4, abs=1e-6
+        )
+        assert with_oil["rolling"][0 if name == "inner" else 1] == pytest.approx(
+            2.0 * resistance * abs(mean), rel=1e-4
+        )
         # Shear F_R acts on both surfaces at the contact's radius; the push along x at the roller's centre is (push − 1) of it.
         push = float(roller.body[0][name]["push"]) - 1.0
-        curvature = geometry.inner_curvatures(BEARING) if name == "inner" else geometry.outer_curvatures(BEARING)
+        curvature = (
+            geometry.inner_curvatures(BEARING)
+            if name == "inner"
+            else geometry.outer_curvatures(BEARING)
+        )
         assert push == pytest.approx(-2.0 / (curvature.rolling * RADIUS), rel=1e-9)
         assert 2.0 * place + push * PITCH_RADIUS == pytest.approx(0.0, abs=1e-9)

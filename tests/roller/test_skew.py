@@ -90,21 +90,28 @@ def test_mixed_film_has_an_equilibrium():
     """Where asperities press, the slope of the spin moment falls on both sides of its zero."""
     laws = prepare(Laws.physical(), BEARING, OIL.at("50 degC"), 1)
     loads, skew = np.geomspace(2e3, 5e4, 12), np.array([0.0, 1e-4, 2e-3])[:, None]
-    assert (equilibrium(raceways(laws, BEARING, 1), laws, loads, -0.498, skew).unbalanced < 1e-7).all()
+    assert (
+        equilibrium(raceways(laws, BEARING, 1), laws, loads, -0.498, skew).unbalanced < 1e-7
+    ).all()
 
 
 def test_the_law_of_shear_decides_the_side_on_which_a_roller_rests():
-    assert stable_rests(pair(constant_friction(0.05)), 5e4) == [pytest.approx(-0.26e-3, rel=0.1)]  # a second derivation
+    assert stable_rests(pair(constant_friction(0.05)), 5e4) == [
+        pytest.approx(-0.26e-3, rel=0.1)
+    ]  # a second derivation
     assert not stable_rests(pair(), 5e4)
 
 
 def test_a_pressing_spar_aligns_the_roller():
-    (held,) = stable_rests(pair(), 5e4, 73.0 * pocket(BEARING, "conforming-pocket", 0.5e-3).effective_radius)
+    (held,) = stable_rests(
+        pair(), 5e4, 73.0 * pocket(BEARING, "conforming-pocket", 0.5e-3).effective_radius
+    )
     assert held == pytest.approx(1e-3, abs=0.5e-3)
 
 
 @pytest.mark.parametrize(
-    ("guidance", "gap"), [("conforming-pocket", 0.5e-3), ("conforming-pocket", 5e-5), ("straight-bars", 0.5e-3)]
+    ("guidance", "gap"),
+    [("conforming-pocket", 0.5e-3), ("conforming-pocket", 5e-5), ("straight-bars", 0.5e-3)],
 )
 def test_a_roller_at_its_stop_touches_its_pocket(guidance, gap):
     """Arcs of roller and pocket turned against one another, with no small angle."""
@@ -117,10 +124,17 @@ def test_a_roller_at_its_stop_touches_its_pocket(guidance, gap):
             x, z = x0 * np.cos(skew) + zeta * np.sin(skew), zeta * np.cos(skew) - x0 * np.sin(skew)
             wall = r + gap / 2
             if guidance == "conforming-pocket":
-                wall -= BEARING.outer_raceway_radius - np.sqrt(BEARING.outer_raceway_radius**2 - z**2)
+                wall -= BEARING.outer_raceway_radius - np.sqrt(
+                    BEARING.outer_raceway_radius**2 - z**2
+                )
             return wall - x
 
-        return min(minimize_scalar(at, bounds=(-half, half), method="bounded", options={"xatol": 1e-9}).fun, at(half))
+        return min(
+            minimize_scalar(
+                at, bounds=(-half, half), method="bounded", options={"xatol": 1e-9}
+            ).fun,
+            at(half),
+        )
 
     found = pocket(BEARING, guidance, gap)
     touching = brentq(clearance, 1e-5, 0.1)

@@ -39,10 +39,16 @@ def test_the_table_gives_what_the_equilibrium_gives(table):
     reach = LAWS.inner.interface.hertz.semi_axis_across * np.cbrt(load)
     assert (remains < 1e-5 * np.abs(inner_moment)).all()
     # What pulls either way is .04 Q: a rest is where two moments of that size are equal.
-    left = exact.moment - push * np.clip(guide.effective_radius * skew, -0.5 * guide.arm, 0.5 * guide.arm) - held
+    left = (
+        exact.moment
+        - push * np.clip(guide.effective_radius * skew, -0.5 * guide.arm, 0.5 * guide.arm)
+        - held
+    )
     assert (np.abs(left) < 1e-3 * 0.04 * load * reach).all()
     assert (np.abs(inner_moment - exact.moments[:, 0]) < 1e-3 * 0.04 * load * reach).all()
-    assert (np.abs(np.stack([inner, outer], 1) - exact.power + straight.power) < 0.01 * exact.power).all()
+    assert (
+        np.abs(np.stack([inner, outer], 1) - exact.power + straight.power) < 0.01 * exact.power
+    ).all()
     assert (np.abs(axial - exact.axial) < 5e-4 * load).all()
     assert tilt == pytest.approx(exact.tilt, abs=0.02 * np.abs(exact.tilt).max())
     assert shift == pytest.approx(exact.shift, abs=0.02 * np.abs(exact.shift).max())
@@ -59,7 +65,13 @@ def test_a_rotor_that_stands_has_a_table():
 
 def test_a_straight_roller_has_nothing_added(table):
     found = turned(table, held(0.0), 1e4, -0.4, 20.0)
-    assert (found.skew, found.inner_power, found.outer_power, found.axial, found.tilt) == (0.0, 0.0, 0.0, 0.0, 0.0)
+    assert (found.skew, found.inner_power, found.outer_power, found.axial, found.tilt) == (
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
     exact = equilibrium(raceways(LAWS, BEARING, 1), LAWS, 1e4, -0.4, 0.0)
     assert found.held == pytest.approx(exact.moment, rel=0.02)
 
@@ -97,7 +109,10 @@ def test_the_mirrors_are_those_of_the_contacts(sign, speed):
 
 
 def test_a_spar_that_presses_harder_leaves_less_skew(table):
-    angles = [abs(turned(table, guide_of(SPAR, 1), 1e4, -0.4, push).skew) for push in (0.0, 20.0, 50.0, 200.0)]
+    angles = [
+        abs(turned(table, guide_of(SPAR, 1), 1e4, -0.4, push).skew)
+        for push in (0.0, 20.0, 50.0, 200.0)
+    ]
     assert angles == sorted(angles, reverse=True)
     assert angles[0] == pytest.approx(SPAR.largest, rel=1e-12)
     assert angles[-1] < 0.2 * angles[0]
@@ -106,7 +121,11 @@ def test_a_spar_that_presses_harder_leaves_less_skew(table):
 def test_spars_touch_no_farther_than_the_roller_s_ends(table):
     """A spar straightens by its force times half the length at most; less than that leaves the roller to both spars."""
     guide = guide_of(SPAR, 1)
-    reach = 0.5 * BEARING.roller_length * (1.0 - 0.5 * BEARING.roller_diameter / BEARING.outer_raceway_radius)
+    reach = (
+        0.5
+        * BEARING.roller_length
+        * (1.0 - 0.5 * BEARING.roller_diameter / BEARING.outer_raceway_radius)
+    )
     farthest = reach / SPAR.effective_radius
     moment = turned(table, held(farthest), 1e4, -0.4, 0.0).held
     pressed = turned(table, guide, 1e4, -0.4, 1.05 * moment / reach)
@@ -116,4 +135,6 @@ def test_spars_touch_no_farther_than_the_roller_s_ends(table):
     far = stopped.held / guide.arm
     near = far + push
     assert stopped.skew == pytest.approx(SPAR.largest, rel=1e-12) and far > 0.0
-    assert (near + far) * reach == pytest.approx(stopped.inner_moment + stopped.outer_moment, rel=1e-9)
+    assert (near + far) * reach == pytest.approx(
+        stopped.inner_moment + stopped.outer_moment, rel=1e-9
+    )

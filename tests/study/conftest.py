@@ -30,7 +30,10 @@ if __name__ == "__main__":
 def _write_loads(path, seconds=1.0, force=-300.0, step=0.05):
     """A table of main-bearing loads that turn a little about the downward direction."""
     time_s = np.arange(round(seconds / step) + 1) * step
-    lines = [f"{t:.6g},2.1,{20.0 * np.sin(t):.6g},{force + 10.0 * np.cos(3.0 * t):.6g},80" for t in time_s]
+    lines = [
+        f"{t:.6g},2.1,{20.0 * np.sin(t):.6g},{force + 10.0 * np.cos(3.0 * t):.6g},80"
+        for t in time_s
+    ]
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text("time_s,shaft_speed_rad_s,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + "\n".join(lines) + "\n")
 
@@ -40,7 +43,9 @@ def load_files(tmp_path):
     """Two wind speeds with two seeds each."""
     for speed in (12, 14):
         for seed in (1, 2):
-            _write_loads(tmp_path / "runs" / f"{speed}mps_seed{seed}.csv", force=-200.0 - 5.0 * speed - seed)
+            _write_loads(
+                tmp_path / "runs" / f"{speed}mps_seed{seed}.csv", force=-200.0 - 5.0 * speed - seed
+            )
     return tmp_path
 
 
@@ -72,7 +77,10 @@ def begin(tmp_path):
     def start(content, directory, folder=tmp_path, **options):
         given = json.dumps([content, str(folder), str(directory), options])
         process = subprocess.Popen(
-            [sys.executable, "-c", SCRIPT, given], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            [sys.executable, "-c", SCRIPT, given],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
         )
         started.append(process)
         return process
@@ -116,7 +124,10 @@ def _done(directory):
 
 def _identities(directory):
     """What changes if a result is written again: its place on the disk."""
-    return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in Path(directory).glob("cases/*/*.nc")}
+    return {
+        path.name: (path.stat().st_ino, path.stat().st_mtime_ns)
+        for path in Path(directory).glob("cases/*/*.nc")
+    }
 
 
 def _wait_for(condition, seconds=120.0):

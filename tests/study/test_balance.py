@@ -49,7 +49,12 @@ def directory(tmp_path_factory):
 def test_the_mean_power_of_all_loads_is_what_is_lost_at_one_temperature(directory):
     found = open_study(directory)
     assert np.unique(found.temperature).size == 1
-    weights = np.array([np.exp(-(((v - 1.0) / 9.5) ** 2)) - np.exp(-(((v + 1.0) / 9.5) ** 2)) for v in (12.0, 24.0)])
+    weights = np.array(
+        [
+            np.exp(-(((v - 1.0) / 9.5) ** 2)) - np.exp(-(((v + 1.0) / 9.5) ** 2))
+            for v in (12.0, 24.0)
+        ]
+    )
     mean = float((found.friction_power * weights).sum() / weights.sum())
     assert mean == pytest.approx(float(lost(found.temperature[0])), abs=0.3 * CONDUCTANCE)
     # No load history is at its own balance: 12B heats more than the mean, 24B less.
@@ -64,7 +69,9 @@ def test_every_result_was_computed_at_that_temperature(directory):
     # The way there: the surroundings' temperature, 30 K above, and ever closer, each for both load histories.
     log = (directory / BALANCE_RUNS / "log.txt").read_text()
     on_the_way = [float(one) for one in re.findall(r"temperature ([\d.]+): completed", log)]
-    assert {AMBIENT, AMBIENT + 30.0} <= set(on_the_way) and len(on_the_way) == 2 * len(set(on_the_way)) >= 6
+    assert {AMBIENT, AMBIENT + 30.0} <= set(on_the_way) and len(on_the_way) == 2 * len(
+        set(on_the_way)
+    ) >= 6
     assert min(abs(one - float(found.temperature[0])) for one in on_the_way) < 0.2
 
 
@@ -75,7 +82,11 @@ def test_going_on_computes_nothing_again(directory):
 
 def test_oils_have_a_temperature_each(tmp_path):
     """A thinner oil makes less heat; half the conductance a warmer bearing."""
-    content = made(variations={"list": [{}, {"lubricant.viscosity": "0.2 Pa s"}, {"heat.conductance": "30 W/K"}]})
+    content = made(
+        variations={
+            "list": [{}, {"lubricant.viscosity": "0.2 Pa s"}, {"heat.conductance": "30 W/K"}]
+        }
+    )
     content["case"]["laws"] = {"model": "paper"}
     content["case"]["loads"] = {"end": "7 s"}
     run_study(study_of(content), tmp_path / "out", threads=1)
@@ -105,7 +116,11 @@ def test_a_bearing_that_cannot_lose_its_heat_has_no_balance(tmp_path):
 
 def test_warmer_inner_rings_take_clearance_in_a_study_too(tmp_path):
     content = made()
-    content["case"]["heat"] |= {"inner_mass": "4000 kg", "outer_mass": "3000 kg", "ring_conductance": "100 W/K"}
+    content["case"]["heat"] |= {
+        "inner_mass": "4000 kg",
+        "outer_mass": "3000 kg",
+        "ring_conductance": "100 W/K",
+    }
     assert not run_study(study_of(content), tmp_path / "out", threads=1).failures
     found = open_study(tmp_path / "out")
     at = float(found.temperature[0])

@@ -27,12 +27,16 @@ def sample(of, lubricants=("a", "b")):
     labels = {name: ("case", ["x"] * count) for name in ("bearing", "model")}
     labels |= {"lubricant": ("case", np.array(lubricants)[oil]), "loads": ("case", ["w"] * count)}
     labels |= {
-        f"drivetrain.{name}": ("case", places[:, k], {"units": "m"}) for k, name in enumerate(("first", "second"))
+        f"drivetrain.{name}": ("case", places[:, k], {"units": "m"})
+        for k, name in enumerate(("first", "second"))
     }
     data = {
-        name: (("case", "row"), np.stack([600.0 * power] * 2, axis=1)) for name in ("energy_mean", "peak_power_max")
+        name: (("case", "row"), np.stack([600.0 * power] * 2, axis=1))
+        for name in ("energy_mean", "peak_power_max")
     }
-    content = {"variations": {"sample": {"ranges": {"drivetrain.first": {}, "drivetrain.second": {}}}}}
+    content = {
+        "variations": {"sample": {"ranges": {"drivetrain.first": {}, "drivetrain.second": {}}}}
+    }
     return xr.Dataset(
         data | {"window_length": ("case", np.full(count, 600.0))},
         labels | {"row": ["downwind", "upwind"]},
@@ -50,18 +54,25 @@ def test_effects_of_a_plane_are_its_slopes():
     assert found.probability.values[0] < 1e-9 and int(found.points) == 64
     one = effects(sample(lambda x, y: 10.0 + 4.0 * x, ("a",)))
     middle = one["range"].sel(quantity="energy", quantile=0.5)
-    assert float(middle) == pytest.approx(2.0 * 12.0 * YEAR, rel=0.02) and one.units.values[0] == "J/year"
+    assert (
+        float(middle) == pytest.approx(2.0 * 12.0 * YEAR, rel=0.02)
+        and one.units.values[0] == "J/year"
+    )
 
 
 def test_a_rank_correlation_sees_what_rises_however_it_bends():
     bent = effects(sample(lambda x, y: np.exp(8.0 * y), ("a",))).sel(quantity="energy")
-    assert bent.rank_correlation.values[1] == pytest.approx(1.0) and bent.main_effect.values[1] > 1.0
+    assert (
+        bent.rank_correlation.values[1] == pytest.approx(1.0) and bent.main_effect.values[1] > 1.0
+    )
 
 
 def test_points_without_a_value_are_left_out_and_what_does_not_change_has_no_effect():
     study = sample(lambda x, y: 10.0 + 4.0 * x, ("a",))
     study["energy_mean"][3] = np.nan
-    assert effects(study).sel(quantity="energy").main_effect.values[0] == pytest.approx(2.0 / 12.0, rel=0.1)
+    assert effects(study).sel(quantity="energy").main_effect.values[0] == pytest.approx(
+        2.0 / 12.0, rel=0.1
+    )
     ranks, chance = rank_correlations(np.ones((5, 1)), np.arange(5.0))
     assert np.isnan(ranks).all() and np.isnan(chance).all()
     assert np.isnan(main_effects([[1.0], [1.0], [1.0]], [1.0, 2.0, 3.0])).all()
@@ -95,7 +106,11 @@ def of_year():
     }
     data = {name: (("case", "row"), values) for name, values in by_row.items()}
     return xr.Dataset(
-        data | {"window_length": ("case", np.full(4, 600.0)), "basic_life": ("case", [1e5, np.inf, 2e5, np.inf])},
+        data
+        | {
+            "window_length": ("case", np.full(4, 600.0)),
+            "basic_life": ("case", [1e5, np.inf, 2e5, np.inf]),
+        },
         labels | {"row": ["downwind", "upwind"]},
     )
 
@@ -111,7 +126,9 @@ def test_designs_of_a_year_by_hand():
     covered = 0.495 + 0.01
     np.testing.assert_allclose(table.mixed_time, [0.0, 0.2 * 0.495 / covered], rtol=1e-12)
     np.testing.assert_allclose(
-        table.pressure_slip * REFERENCE_POWER, [2e5 * 0.495 / covered, 1e5 * 0.495 / covered], rtol=1e-12
+        table.pressure_slip * REFERENCE_POWER,
+        [2e5 * 0.495 / covered, 1e5 * 0.495 / covered],
+        rtol=1e-12,
     )
     assert table.peak.tolist() == [40.0, 30.0]
     # Nothing fails while parked, so that only the share with wind counts.
@@ -126,7 +143,10 @@ def test_designs_of_a_year_by_hand():
 def test_designs_that_differ_in_their_names_only_are_told():
     same = of_year().assign_coords(key=("case", ["1", "2"] * 2))
     notes = compare(same, by="lubricant").attrs["notes"]
-    assert "a and b differ in nothing but their names: they were computed from the same input." in notes
+    assert (
+        "a and b differ in nothing but their names: they were computed from the same input."
+        in notes
+    )
 
 
 def test_a_design_without_results_is_not_ranked():
@@ -145,7 +165,9 @@ def test_designs_under_other_loads_are_compared_with_a_note():
     other = of_year().assign_coords(loads=("case", ["w", "p", "v", "p"]))
     notes = compare(other, by="lubricant").attrs["notes"]
     assert "The designs have different loads, so their numbers differ for that reason too." in notes
-    assert not any("different loads" in one for one in compare(of_year(), by="lubricant").attrs["notes"])
+    assert not any(
+        "different loads" in one for one in compare(of_year(), by="lubricant").attrs["notes"]
+    )
 
 
 @pytest.mark.slow
@@ -154,7 +176,9 @@ def test_rates_of_a_run_are_those_of_its_damage():
     case = Case(loads=loads, laws=Laws.physical(), rollers=[0, 14], temperature=353.15)
     result = simulate(case)
     found, criteria = damage_values(result), damage(result)
-    assert float(found["pressure_slip_rate"].max()) == float(criteria.value.sel(criterion="friction_energy_rate"))
+    assert float(found["pressure_slip_rate"].max()) == float(
+        criteria.value.sel(criterion="friction_energy_rate")
+    )
     # Of the time under load, as the criterion has it, to all time of a roller.
     seconds = 2.0 * (result.attrs["window_end"] - result.attrs["window_start"])
     loaded = result.film_slip_time.sum(["film_class", "slip_class"]) / seconds
@@ -167,4 +191,6 @@ def test_rates_of_a_run_are_those_of_its_damage():
     assert float(worn) == pytest.approx(1.0, abs=0.2)
     # Without details nothing is known, and nothing is zero.
     without = damage_values(simulate(replace(case, contact_details=False)))
-    assert without.keys() == found.keys() and all(bool(one.isnull().all()) for one in without.values())
+    assert without.keys() == found.keys() and all(
+        bool(one.isnull().all()) for one in without.values()
+    )

@@ -43,10 +43,14 @@ def test_curves_count_orbits(study):
                 rates = []
                 for cases in ([0, 1], [2]):
                     number = int((part.isel(case=cases) > threshold).sum())
-                    seconds = float((length.isel(case=cases) * part.isel(case=cases).notnull()).sum())
+                    seconds = float(
+                        (length.isel(case=cases) * part.isel(case=cases).notnull()).sum()
+                    )
                     rates.append(number / seconds)
                 expected = YEAR * (0.6 * rates[0] + 0.3 * rates[1])
-                assert float(found[name].sel(row=row, threshold=threshold)) == pytest.approx(expected, rel=1e-12)
+                assert float(found[name].sel(row=row, threshold=threshold)) == pytest.approx(
+                    expected, rel=1e-12
+                )
 
 
 def test_curves_fall_from_all_orbits_to_none(study):
@@ -57,7 +61,9 @@ def test_curves_fall_from_all_orbits_to_none(study):
         found.power_orbits.isel(threshold=-1) == 0.0
     ).all()
     np.testing.assert_allclose(
-        found.orbits, np.maximum(found.energy_orbits, found.power_orbits).max("threshold"), rtol=1e-12
+        found.orbits,
+        np.maximum(found.energy_orbits, found.power_orbits).max("threshold"),
+        rtol=1e-12,
     )
     # About 0.15 orbits a second.
     assert 0.1 < float(found.orbits[0]) / (0.9 * YEAR) < 0.2
@@ -89,7 +95,10 @@ def test_cycles_of_a_sine(amplitude, number):
     axial = found.sel(component="axial")
     assert abs(float(axial.sum()) - number) <= 1.0
     largest = int(axial.argmax("load_range"))
-    assert RANGE_EDGES[largest] < 2.0 * amplitude * 1.03 and RANGE_EDGES[largest + 1] > 2.0 * amplitude * 0.97
+    assert (
+        RANGE_EDGES[largest] < 2.0 * amplitude * 1.03
+        and RANGE_EDGES[largest + 1] > 2.0 * amplitude * 0.97
+    )
 
 
 def test_cycles_against_the_example_of_the_standard():
@@ -98,9 +107,13 @@ def test_cycles_against_the_example_of_the_standard():
     fine = np.linspace(0, peaks.size - 1, 8 * 100 + 1)
     force = np.zeros((fine.size, 3))
     force[:, 2] = np.interp(fine, np.arange(peaks.size), peaks)
-    found = counted(BearingLoads(fine, np.full(fine.size, 2.0), force, "standard")).load_cycles.sel(component="axial")
+    found = counted(BearingLoads(fine, np.full(fine.size, 2.0), force, "standard")).load_cycles.sel(
+        component="axial"
+    )
     assert float(found.sum()) == 4.0
-    counts = {float(r): float(n) for r, n in zip(found.load_range.values, found.values, strict=True) if n}
+    counts = {
+        float(r): float(n) for r, n in zip(found.load_range.values, found.values, strict=True) if n
+    }
     assert sorted(round(r / 1e4) for r in counts) == [3, 4, 7, 9]
 
 
@@ -126,16 +139,21 @@ def test_tables_are_written_with_units(study, tmp_path, form):
     read = pd.read_csv if form == "csv" else pd.read_parquet
     cases = read(tmp_path / f"cases.{form}")
     np.testing.assert_allclose(
-        cases["energy_mean [J]"].dropna(), study.energy_mean.values[~np.isnan(study.energy_mean.values)]
+        cases["energy_mean [J]"].dropna(),
+        study.energy_mean.values[~np.isnan(study.energy_mean.values)],
     )
     assert len(read(tmp_path / f"failures.{form}")) == 3
-    assert {"lifetime_energy [J]", "covered", "drivetrain.tilt [deg]"} <= set(read(tmp_path / f"lifetime.{form}"))
+    assert {"lifetime_energy [J]", "covered", "drivetrain.tilt [deg]"} <= set(
+        read(tmp_path / f"lifetime.{form}")
+    )
     assert THRESHOLDS[0] < read(tmp_path / f"exceedance.{form}")["threshold [J or W]"].min()
 
 
 def test_text_that_a_spreadsheet_would_run_is_harmless_in_csv(tmp_path, study):
     names = study.loads.values.copy()
     names[0] = '=HYPERLINK("x")'
-    write_tables(tables(study.assign_coords(loads=("case", names, {"units": "1"})), None), tmp_path, "csv")
+    write_tables(
+        tables(study.assign_coords(loads=("case", names, {"units": "1"})), None), tmp_path, "csv"
+    )
     text = (tmp_path / "cases.csv").read_text()
     assert "'=HYPERLINK" in text and ",=HYPER" not in text and ',"=HYPER' not in text

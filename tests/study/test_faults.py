@@ -27,7 +27,8 @@ def complete(out, count):
 
 # Of two runs at once both may be entered in the journal by one flush: up to two flushes fewer.
 @pytest.mark.parametrize(
-    ("threads", "failing"), [(1, number) for number in range(1, 7)] + [(2, number) for number in range(1, 7)]
+    ("threads", "failing"),
+    [(1, number) for number in range(1, 7)] + [(2, number) for number in range(1, 7)],
 )
 def test_a_disk_that_is_full_at_any_moment(
     tmp_path, load_files, content, counted, monkeypatch, threads, failing, done, identities, resumed
@@ -44,7 +45,9 @@ def test_a_disk_that_is_full_at_any_moment(
     monkeypatch.setattr(files, "flush", flush)
     reported = []
     with pytest.raises(MacroslipError, match="No space left on device.*--resume"):
-        run_study(study, out, threads=threads, progress=lambda progress: reported.append(progress.done))
+        run_study(
+            study, out, threads=threads, progress=lambda progress: reported.append(progress.done)
+        )
     assert not list(out.rglob("*.part"))
     keys = done(out)
     assert len(keys) >= max(reported, default=0)
@@ -66,8 +69,13 @@ def small_disk(tmp_path):
     place = tmp_path / "disk"
     place.mkdir()
     command = ["mount", "-t", "tmpfs", "-o", "size=400k", "tmpfs", str(place)]
-    if shutil.which("mount") is None or subprocess.run(command, capture_output=True).returncode != 0:
-        pytest.skip("a file system may not be mounted here; test_a_disk_that_is_full_at_any_moment stands in for it")
+    if (
+        shutil.which("mount") is None
+        or subprocess.run(command, capture_output=True).returncode != 0
+    ):
+        pytest.skip(
+            "a file system may not be mounted here; test_a_disk_that_is_full_at_any_moment stands in for it"
+        )
     yield place
     subprocess.run(["umount", "-l", str(place)], check=True)
 
@@ -105,9 +113,12 @@ def test_a_damaged_result_is_found_and_computed_again(
         flipped = bytes([whole[-40] ^ 1])
         other = sorted(out.glob("cases/*/*.nc"))[0].read_bytes()
         path.write_bytes(
-            {"flip a bit": whole[:-40] + flipped + whole[-39:], "cut": whole[:-1], "empty": b"", "replace": other}[
-                damage
-            ]
+            {
+                "flip a bit": whole[:-40] + flipped + whole[-39:],
+                "cut": whole[:-1],
+                "empty": b"",
+                "replace": other,
+            }[damage]
         )
     with pytest.raises(InputError, match="damaged|cannot be read"):
         open_study(out).energy.load()
@@ -125,12 +136,18 @@ def change(out, command):
         database.execute(command)
 
 
-def test_a_damaged_row_is_found_and_only_its_run_computed_again(tmp_path, load_files, content, counted, resumed):
+def test_a_damaged_row_is_found_and_only_its_run_computed_again(
+    tmp_path, load_files, content, counted, resumed
+):
     study, out = study_of(content, load_files), tmp_path / "out"
     run_study(study, out)
-    change(out, "UPDATE results SET energy_mean_upwind = energy_mean_upwind * 1.001 WHERE rowid = 2")
+    change(
+        out, "UPDATE results SET energy_mean_upwind = energy_mean_upwind * 1.001 WHERE rowid = 2"
+    )
     found = open_study(out)
-    assert sorted(found.outcome.values) == ["completed"] * 3 + ["missing"] and "damaged" in "".join(found.reason.values)
+    assert sorted(found.outcome.values) == ["completed"] * 3 + ["missing"] and "damaged" in "".join(
+        found.reason.values
+    )
     ended, simulated = resumed(study, out, counted)
     assert (simulated, ended.progress.unchanged) == (1, 3)
     assert "1 rows of the database are damaged" in (out / "log.txt").read_text()
@@ -149,7 +166,11 @@ def test_a_damaged_database_is_named(tmp_path, load_files, content, counted, res
     whole = path.read_bytes()
     half = len(whole) // 2
     path.write_bytes(
-        {"cut": whole[:half], "zeros": whole[:4096] + bytes(len(whole) - 4096), "no database": b"text" * 2000}[damage]
+        {
+            "cut": whole[:half],
+            "zeros": whole[:4096] + bytes(len(whole) - 4096),
+            "no database": b"text" * 2000,
+        }[damage]
     )
     for act in (lambda: open_study(out), lambda: run_study(study, out, resume=True)):
         with pytest.raises(InputError, match=r"study\.sqlite: .*damaged"):
@@ -159,7 +180,9 @@ def test_a_damaged_database_is_named(tmp_path, load_files, content, counted, res
     complete(out, 4)
 
 
-def test_a_database_of_another_study_gives_it_no_results(tmp_path, load_files, content, counted, resumed):
+def test_a_database_of_another_study_gives_it_no_results(
+    tmp_path, load_files, content, counted, resumed
+):
     """Results are asked for by keys that hold all of a case's input."""
     one = study_of(content, load_files)
     changed = {"case": content.get("case", {}) | {"forces": {"drag": False}}}
@@ -167,7 +190,9 @@ def test_a_database_of_another_study_gives_it_no_results(tmp_path, load_files, c
     for study, name in ((one, "one"), (other, "other")):
         run_study(study, tmp_path / name)
     expected = open_study(tmp_path / "one").energy.values
-    (tmp_path / "one" / "study.sqlite").write_bytes((tmp_path / "other" / "study.sqlite").read_bytes())
+    (tmp_path / "one" / "study.sqlite").write_bytes(
+        (tmp_path / "other" / "study.sqlite").read_bytes()
+    )
     with pytest.raises(InputError):
         open_study(tmp_path / "one").energy.load()
     assert resumed(one, tmp_path / "one", counted)[1] == 4
@@ -198,7 +223,9 @@ def test_what_can_be_made_again_is(tmp_path, load_files, content, counted, missi
     complete(out, 4)
 
 
-def test_the_clock_does_not_matter(tmp_path, load_files, content, counted, monkeypatch, resumed, write_loads):
+def test_the_clock_does_not_matter(
+    tmp_path, load_files, content, counted, monkeypatch, resumed, write_loads
+):
     import time
 
     study, out = study_of(content, load_files), tmp_path / "out"
@@ -238,5 +265,10 @@ def test_the_lock_ends_with_its_process(tmp_path, load_files, content, begin, lo
     process.stdout.readline()
     process.kill()
     process.wait()
-    assert str(process.pid) in (tmp_path / "out" / "lock").read_text()  # what it left behind holds nothing
-    assert run_study(study_of(content, load_files), tmp_path / "out", resume=True).progress.computed == 4
+    assert (
+        str(process.pid) in (tmp_path / "out" / "lock").read_text()
+    )  # what it left behind holds nothing
+    assert (
+        run_study(study_of(content, load_files), tmp_path / "out", resume=True).progress.computed
+        == 4
+    )

@@ -21,12 +21,19 @@ CLEARANCES = [0.0] * 5 + [0.2] * 2
 def study(energy=(600.0, 1200.0, 1800.0, 60.0, 60.0, 6.0, 6.0)):
     """Seven runs: three at 12 m/s and two at 14 m/s with one clearance, one each with another; 600 s each."""
     both = np.column_stack([energy, np.multiply(2.0, energy)])
-    labels = {name: ("case", ["x"] * 7, {"units": "1"}) for name in ("bearing", "lubricant", "model")}
+    labels = {
+        name: ("case", ["x"] * 7, {"units": "1"}) for name in ("bearing", "lubricant", "model")
+    }
     labels["wind_speed"] = ("case", SPEEDS, {"units": "m/s"})
     labels["bearing.diametral_clearance"] = ("case", CLEARANCES, {"units": "mm"})
     labels["seed"] = ("case", [1, 2, 3, 1, 2, 1, 1], {"units": "1"})
-    data = {name: (("case", "row"), both.copy(), {"units": units}) for name, (units, _) in ROW_VARIABLES.items()}
-    return xr.Dataset(data | {"window_length": ("case", [600.0] * 7)}, labels | {"row": ["downwind", "upwind"]})
+    data = {
+        name: (("case", "row"), both.copy(), {"units": units})
+        for name, (units, _) in ROW_VARIABLES.items()
+    }
+    return xr.Dataset(
+        data | {"window_length": ("case", [600.0] * 7)}, labels | {"row": ["downwind", "upwind"]}
+    )
 
 
 def test_lifetime_energy_is_the_weighted_sum():
@@ -36,7 +43,9 @@ def test_lifetime_energy_is_the_weighted_sum():
     seconds = 2.0 * YEAR
     expected = seconds * (0.5 * 2.0 + 0.25 * 0.1)  # means of 1, 2, 3 W and of 0.1, 0.1 W
     np.testing.assert_allclose(first.lifetime_energy, [expected, 2.0 * expected], rtol=1e-14)
-    np.testing.assert_allclose(second.lifetime_energy, seconds * 0.75 * np.array([0.01, 0.02]), rtol=1e-14)
+    np.testing.assert_allclose(
+        second.lifetime_energy, seconds * 0.75 * np.array([0.01, 0.02]), rtol=1e-14
+    )
     assert float(found.covered) == 0.75 and found.runs.values.tolist() == [[3, 2], [1, 1]]
 
 
@@ -44,7 +53,9 @@ def test_lifetime_energy_is_the_weighted_sum():
 @given(st.floats(3.0, 15.0), st.floats(1.0, 4.0), st.floats(0.25, 4.0))
 def test_weibull_bins_cover_all_speeds(scale, shape, width):
     centres = np.arange(0, int(600 / width)) * width
-    assert sum(Weibull(scale, shape).probability(c, width) for c in centres) == pytest.approx(1.0, abs=1e-9)
+    assert sum(Weibull(scale, shape).probability(c, width) for c in centres) == pytest.approx(
+        1.0, abs=1e-9
+    )
 
 
 def test_a_run_without_a_result_is_left_out_and_reported():
@@ -59,16 +70,26 @@ def test_a_run_without_a_result_is_left_out_and_reported():
 
 
 def test_percentiles_over_seeds():
-    found = percentiles(study(), quantiles=(0.0, 0.5, 1.0)).isel(group=0).sel(bin=12.0, row="downwind")
+    found = (
+        percentiles(study(), quantiles=(0.0, 0.5, 1.0)).isel(group=0).sel(bin=12.0, row="downwind")
+    )
     assert found.power.values.tolist() == [1.0, 2.0, 3.0]
-    assert found.peak_power_max.values.tolist() == [600.0, 1200.0, 1800.0] and float(found.runs) == 3
+    assert (
+        found.peak_power_max.values.tolist() == [600.0, 1200.0, 1800.0] and float(found.runs) == 3
+    )
 
 
 def test_the_worst_come_first():
     found = worst(study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, 6.0)), "peak_power_max", count=3)
     assert found.peak_power_max.values.tolist() == [3600.0, 1800.0, 1200.0]
-    assert found.row.values.tolist() == ["upwind", "downwind", "upwind"] and found.seed.values.tolist() == [3, 3, 1]
-    assert worst(study(), "energy_mean", count=1, smallest=True).energy_mean.values.tolist() == [6.0]
+    assert found.row.values.tolist() == [
+        "upwind",
+        "downwind",
+        "upwind",
+    ] and found.seed.values.tolist() == [3, 3, 1]
+    assert worst(study(), "energy_mean", count=1, smallest=True).energy_mean.values.tolist() == [
+        6.0
+    ]
 
 
 def test_bins_and_groups():
@@ -76,7 +97,9 @@ def test_bins_and_groups():
     assert found.centres.tolist() == [12.0, 14.0] and found.bin.tolist() == [0, 0, 0, 1, 1, 0, 1]
     assert len(found.groups) == 4
     # A parameter that some runs leave to the base case is one value of it.
-    some = study().assign_coords({"bearing.diametral_clearance": ("case", [math.nan] * 5 + [0.2] * 2)})
+    some = study().assign_coords(
+        {"bearing.diametral_clearance": ("case", [math.nan] * 5 + [0.2] * 2)}
+    )
     assert len(binned(some, "wind_speed", 2.0).groups) == 2
 
 
@@ -88,9 +111,13 @@ def test_a_bin_reaches_half_its_width_to_either_side():
     expected = np.array([low, 0.5 * middle, 0.5 * middle, high]) / (low + middle + high)
     loads = [Load(str(speed), {"wind_speed": speed}) for speed in speeds]
     np.testing.assert_allclose(Weighting(scale=9.5, shape=2.0).of(loads), expected, rtol=1e-12)
-    found = binned(study().isel(case=slice(4)).assign_coords(wind_speed=("case", speeds)), "wind_speed", 2.0)
+    found = binned(
+        study().isel(case=slice(4)).assign_coords(wind_speed=("case", speeds)), "wind_speed", 2.0
+    )
     assert (found.centres.tolist(), found.bin.tolist()) == ([10.0, 12.0, 14.0], [0, 1, 1, 2])
-    np.testing.assert_allclose(found.probabilities(Weibull(9.5, 2.0)), [low, middle, high], rtol=1e-12)
+    np.testing.assert_allclose(
+        found.probabilities(Weibull(9.5, 2.0)), [low, middle, high], rtol=1e-12
+    )
 
 
 @pytest.mark.parametrize(
@@ -99,7 +126,10 @@ def test_a_bin_reaches_half_its_width_to_either_side():
         (lambda: binned(study(), "wind", 2.0), "no label 'wind'"),
         (lambda: binned(study(), "bearing", 2.0), "not a number"),
         (lambda: binned(study(), "wind_speed", 0.0), "width of the bins"),
-        (lambda: lifetime_energy(study(), Given({12.0: 1.0})), "no probability is given for the bin at 14"),
+        (
+            lambda: lifetime_energy(study(), Given({12.0: 1.0})),
+            "no probability is given for the bin at 14",
+        ),
         (lambda: lifetime_energy(study(), Given({12.0: 1.0, 14.0: 0.5})), "together at most 1"),
         (lambda: lifetime_energy(study(), Weibull(0.0, 2.0)), "scale"),
         (lambda: lifetime_energy(study(), Weibull(9.0, 2.0), years=-1.0), "lifetime is -1"),

@@ -44,7 +44,9 @@ def test_nothing_is_read_until_it_is_asked_for(directory, monkeypatch):
     assert (study.energy_mean.notnull().sum("row") == 2).sum() == 4 and read == []
     assert one.energy.shape == (2, 3, 3) and read == []
     assert np.isfinite(one.energy.sel(roller=3).values).all() and len(read) == 1
-    assert one.orbit_energy.sel(roller=3).notnull().any() and len(read) == 1  # kept for the next variable
+    assert (
+        one.orbit_energy.sel(roller=3).notnull().any() and len(read) == 1
+    )  # kept for the next variable
     study.energy.sel(row="upwind").load()
     assert len(set(read)) == 4
 
@@ -59,7 +61,8 @@ def test_every_way_of_indexing_gives_the_same(directory):
     ):  # fmt: skip
         dims = dict(zip(study.orbit_energy.dims, key, strict=False))
         np.testing.assert_array_equal(
-            study.orbit_energy.isel(dims).values, study.orbit_energy.copy(data=whole).isel(dims).values
+            study.orbit_energy.isel(dims).values,
+            study.orbit_energy.copy(data=whole).isel(dims).values,
         )
 
 
@@ -68,13 +71,17 @@ def test_dask_gives_the_same_piece_by_piece(directory):
     study = open_study(directory)
     pieces = study.chunk({"case": 2}).orbit_energy
     np.testing.assert_array_equal(
-        pieces.sum("interface", skipna=False).compute(), study.orbit_energy.sum("interface", skipna=False)
+        pieces.sum("interface", skipna=False).compute(),
+        study.orbit_energy.sum("interface", skipna=False),
     )
 
 
 def test_what_a_run_does_not_have_is_nan(directory):
     study = open_study(directory)
-    assert list(study.roller.values) == [0, 3, 14] and (study.outcome.isel(case=[2, 5]) == "failed").all()
+    assert (
+        list(study.roller.values) == [0, 3, 14]
+        and (study.outcome.isel(case=[2, 5]) == "failed").all()
+    )
     finite = np.isfinite(study.energy.isel(row=0, interface=0).values)
     assert finite.tolist() == [[True, False, True], [False, True, False], [False] * 3] * 2
     orbits = np.isfinite(study.orbit_start.values).sum(axis=1)

@@ -36,7 +36,9 @@ def test_results_are_those_of_simulate(tmp_path, load_files, content):
         one = study.isel(case=case)
         for name in ("energy", "min_spin_ratio", "status", "end_slip", "steps"):
             np.testing.assert_array_equal(one[name].values, expected[name].values.astype(float))
-        np.testing.assert_allclose(one.energy_mean, expected.energy.sum("interface").mean("roller"), rtol=1e-14)
+        np.testing.assert_allclose(
+            one.energy_mean, expected.energy.sum("interface").mean("roller"), rtol=1e-14
+        )
 
 
 def test_several_runs_at_once_store_the_same(tmp_path, load_files, content):
@@ -45,7 +47,8 @@ def test_several_runs_at_once_store_the_same(tmp_path, load_files, content):
         ended = run_study(study, tmp_path / name, threads=threads)
         assert (ended.progress.computed, ended.progress.failed) == (4, 0)
     stored = [
-        {path.name: path.read_bytes() for path in (tmp_path / name).glob("cases/*/*.nc")} for name in ("one", "many")
+        {path.name: path.read_bytes() for path in (tmp_path / name).glob("cases/*/*.nc")}
+        for name in ("one", "many")
     ]
     assert len(stored[0]) == 4 and stored[0] == stored[1]
     assert "1 at once with 1 threads each" in (tmp_path / "one" / "log.txt").read_text()
@@ -67,7 +70,10 @@ def test_results_one_by_one_are_whole(tmp_path, load_files, content):
     run_study(study_of(bad, load_files), tmp_path / "out")
     study = open_study(tmp_path / "out")
     found = dict(stored_results(tmp_path / "out"))
-    assert sorted(found) == np.flatnonzero(study.outcome.values == "completed").tolist() and len(found) == 4
+    assert (
+        sorted(found) == np.flatnonzero(study.outcome.values == "completed").tolist()
+        and len(found) == 4
+    )
     for number, result in found.items():
         np.testing.assert_array_equal(result.energy, study.energy.isel(case=number))
         assert json.loads(result.attrs["input"])["rollers"] == [0]
@@ -85,10 +91,14 @@ def test_the_torque_of_the_contacts_is_their_power_over_the_speed(tmp_path):
     # Two rollers stand for 28 of each row; whole orbits take a whole part of the shaft's angle.
     work = 14 * float(one.orbit_energy.sum())
     seconds = float(one.orbit_end[-1] - one.orbit_start[0])
-    assert float(one.contact_torque) == pytest.approx(work / seconds / float(one.shaft_speed_mean), rel=0.05)
+    assert float(one.contact_torque) == pytest.approx(
+        work / seconds / float(one.shaft_speed_mean), rel=0.05
+    )
 
 
-def test_unchanged_runs_are_never_computed_again(tmp_path, load_files, content, counted, identities, rows, resumed):
+def test_unchanged_runs_are_never_computed_again(
+    tmp_path, load_files, content, counted, identities, rows, resumed
+):
     study, out = study_of(content, load_files), tmp_path / "out"
     run_study(study, out)
     before = identities(out)
@@ -97,12 +107,16 @@ def test_unchanged_runs_are_never_computed_again(tmp_path, load_files, content, 
     assert identities(out) == before and rows(out, "SELECT count(*) FROM results") == [(4,)]
 
 
-def test_a_moved_or_renamed_load_file_is_not_computed_again(tmp_path, load_files, content, counted, resumed):
+def test_a_moved_or_renamed_load_file_is_not_computed_again(
+    tmp_path, load_files, content, counted, resumed
+):
     out = tmp_path / "out"
     run_study(study_of(content, load_files), out)
     (load_files / "runs").rename(load_files / "moved")
     (load_files / "moved" / "12mps_seed1.csv").rename(load_files / "moved" / "12mps_seed7.csv")
-    moved = content | {"loads": content["loads"] | {"files": "moved/{wind_speed:g}mps_seed{seed:d}.csv"}}
+    moved = content | {
+        "loads": content["loads"] | {"files": "moved/{wind_speed:g}mps_seed{seed:d}.csv"}
+    }
     ended, simulated = resumed(study_of(moved, load_files), out, counted)
     assert (ended.progress.unchanged, simulated) == (4, 0)
     study = open_study(out)
@@ -123,13 +137,18 @@ def test_changed_inputs_are_computed_again_and_only_they(
     assert before.items() <= identities(out).items()
     new = open_study(out).energy_mean.values
     assert (new[2] != old[2]).any() and (np.delete(new, 2, 0) == np.delete(old, 2, 0)).all()
-    assert "14mps_seed1.csv" in (out / "log.txt").read_text() and "has changed since" in (out / "log.txt").read_text()
+    assert (
+        "14mps_seed1.csv" in (out / "log.txt").read_text()
+        and "has changed since" in (out / "log.txt").read_text()
+    )
 
 
 def test_a_study_may_grow_and_shrink(tmp_path, load_files, content, counted, resumed):
     out = tmp_path / "out"
     run_study(study_of(content, load_files), out)
-    grown = content | {"variations": {"grid": {"drivetrain.tilt": {"values": [5, 6], "unit": "deg"}}}}
+    grown = content | {
+        "variations": {"grid": {"drivetrain.tilt": {"values": [5, 6], "unit": "deg"}}}
+    }
     # 5 deg is what the base case has: the same input, so the same results.
     ended, simulated = resumed(study_of(grown, load_files), out, counted)
     assert (ended.progress.unchanged, ended.progress.computed, simulated) == (4, 4, 4)
@@ -138,7 +157,9 @@ def test_a_study_may_grow_and_shrink(tmp_path, load_files, content, counted, res
     assert (simulated, open_study(out).sizes["case"]) == (0, 4)
 
 
-def test_a_changed_program_computes_all_again(tmp_path, load_files, content, counted, monkeypatch, resumed):
+def test_a_changed_program_computes_all_again(
+    tmp_path, load_files, content, counted, monkeypatch, resumed
+):
     out = tmp_path / "out"
     run_study(study_of(content, load_files), out)
     monkeypatch.setattr("macroslip.study.work.fingerprint", lambda *parts: "another program")
@@ -149,13 +170,17 @@ def bad_files(folder, write_loads):
     """One file of each kind that cannot be used, beside the good ones."""
     write_loads(folder / "runs" / "16mps_seed1.csv", force=-40e3)  # more than the bearing carries
     good = (folder / "runs" / "12mps_seed1.csv").read_text()
-    (folder / "runs" / "16mps_seed2.csv").write_text(good[: good.rindex(",", 0, len(good) // 2)])  # cut off
+    (folder / "runs" / "16mps_seed2.csv").write_text(
+        good[: good.rindex(",", 0, len(good) // 2)]
+    )  # cut off
     (folder / "runs" / "16mps_seed3.csv").write_text(good.replace(",80\n", ",nan\n", 1))
     (folder / "runs" / "16mps_seed4.csv").write_text("")
     (folder / "runs" / "16mps_seed5.csv").write_bytes(b"\x00\xff" * 300)
 
 
-def test_bad_cases_are_recorded_and_the_others_computed(tmp_path, load_files, content, counted, resumed, write_loads):
+def test_bad_cases_are_recorded_and_the_others_computed(
+    tmp_path, load_files, content, counted, resumed, write_loads
+):
     bad_files(load_files, write_loads)
     out = tmp_path / "out"
     ended = run_study(study_of(content, load_files), out)
@@ -163,10 +188,15 @@ def test_bad_cases_are_recorded_and_the_others_computed(tmp_path, load_files, co
     study = open_study(out)
     assert list(study.outcome.values) == ["completed"] * 4 + ["failed"] * 5
     for reason, words in zip(
-        study.reason.values[4:], ("a roller carries", "not readable|column", "nan", "empty", "read"), strict=True
+        study.reason.values[4:],
+        ("a roller carries", "not readable|column", "nan", "empty", "read"),
+        strict=True,
     ):
         assert any(word in reason.lower() for word in words.split("|")), reason
-    assert study.energy.isel(case=slice(4, None)).isnull().all() and study.energy_mean[4:].isnull().all()
+    assert (
+        study.energy.isel(case=slice(4, None)).isnull().all()
+        and study.energy_mean[4:].isnull().all()
+    )
     assert [labels["seed"] for labels, _, _ in ended.failures] == [1, 2, 3, 4, 5]
     # They are tried again, and one that is mended is computed.
     write_loads(load_files / "runs" / "16mps_seed4.csv")
@@ -180,15 +210,26 @@ def test_strict_stops_at_the_first(tmp_path, load_files, content):
     (load_files / "runs" / "14mps_seed1.csv").write_text("")
     ended = run_study(study_of(content, load_files), tmp_path / "out", strict=True, threads=1)
     assert (ended.stopped, ended.progress.done, ended.progress.failed) == (True, 2, 1)
-    assert list(open_study(tmp_path / "out").outcome.values) == ["completed", "missing", "failed", "missing"]
+    assert list(open_study(tmp_path / "out").outcome.values) == [
+        "completed",
+        "missing",
+        "failed",
+        "missing",
+    ]
 
 
 def test_failed_rollers_are_a_result_and_a_failure(tmp_path, load_files, content, counted, resumed):
-    few = content | {"case": {"laws": {"model": "paper"}, "rollers": [0], "integrator": {"max_steps": 3}}}
+    few = content | {
+        "case": {"laws": {"model": "paper"}, "rollers": [0], "integrator": {"max_steps": 3}}
+    }
     ended = run_study(study_of(few, load_files), tmp_path / "out")
     assert (ended.progress.computed, ended.progress.failed) == (0, 4)
     study = open_study(tmp_path / "out")
-    assert (study.outcome == "rollers failed").all() and (study.failed_rollers == 1).all() and (study.status == 3).all()
+    assert (
+        (study.outcome == "rollers failed").all()
+        and (study.failed_rollers == 1).all()
+        and (study.status == 3).all()
+    )
     assert study.energy_mean.isnull().all() and "2 of 2 rollers failed" in study.reason.values[0]
     # The same input fails in the same way: it is not tried again.
     ended, simulated = resumed(study_of(few, load_files), tmp_path / "out", counted)
@@ -196,13 +237,19 @@ def test_failed_rollers_are_a_result_and_a_failure(tmp_path, load_files, content
 
 
 def test_a_setting_out_of_range_fails_its_runs_only(tmp_path, load_files, content):
-    wide = content | {"variations": {"grid": {"drivetrain.tilt": {"values": [5, 50], "unit": "deg"}}}}
+    wide = content | {
+        "variations": {"grid": {"drivetrain.tilt": {"values": [5, 50], "unit": "deg"}}}
+    }
     ended = run_study(study_of(wide, load_files), tmp_path / "out")
     assert (ended.progress.computed, ended.progress.failed) == (4, 4)
-    assert all(labels["drivetrain.tilt"] == 50 and "tilt" in reason for labels, _, reason in ended.failures)
+    assert all(
+        labels["drivetrain.tilt"] == 50 and "tilt" in reason for labels, _, reason in ended.failures
+    )
 
 
-def test_an_internal_error_is_recorded_with_its_traceback(tmp_path, load_files, content, monkeypatch):
+def test_an_internal_error_is_recorded_with_its_traceback(
+    tmp_path, load_files, content, monkeypatch
+):
     def broken(case, **options):
         raise ZeroDivisionError("a fault of the program")
 
@@ -225,7 +272,9 @@ def test_folders_that_are_refused(tmp_path, load_files, content):
     manifest = tmp_path / "out" / "manifest.json"
     whole = manifest.read_text()
     manifest.write_text(whole.replace('"lubricant": [', '"mubricant": ['))
-    with pytest.raises(InputError, match="manifest.json: the manifest is damaged: its checksum has changed"):
+    with pytest.raises(
+        InputError, match="manifest.json: the manifest is damaged: its checksum has changed"
+    ):
         open_study(tmp_path / "out")
     manifest.write_text(whole.replace('"format": 3', '"format": 99'))
     with pytest.raises(InputError, match="format 99"):
@@ -236,15 +285,22 @@ def test_folders_that_are_refused(tmp_path, load_files, content):
     (tmp_path / "old").mkdir()
     (tmp_path / "old" / "journal.jsonl").touch()
     (tmp_path / "old" / "manifest.json").write_text('{"format": 1}')
-    for act in (lambda: open_study(tmp_path / "old"), lambda: run_study(study, tmp_path / "old", resume=True)):
-        with pytest.raises(InputError, match="another version.*or compute the study again in a new folder"):
+    for act in (
+        lambda: open_study(tmp_path / "old"),
+        lambda: run_study(study, tmp_path / "old", resume=True),
+    ):
+        with pytest.raises(
+            InputError, match="another version.*or compute the study again in a new folder"
+        ):
             act()
 
 
 def test_a_second_process_is_refused(tmp_path, begin, long_content, load_files, content):
     process = begin(long_content, tmp_path / "out")
     process.stdout.readline()
-    with pytest.raises(InputError, match=f"another process is at work in this folder .process {process.pid} on"):
+    with pytest.raises(
+        InputError, match=f"another process is at work in this folder .process {process.pid} on"
+    ):
         run_study(study_of(content, load_files), tmp_path / "out", resume=True)
     # Looking at it is allowed meanwhile.
     assert set(open_study(tmp_path / "out").outcome.values) >= {"completed"}
@@ -257,11 +313,16 @@ def test_traces_and_cycles_come_on_request(tmp_path, load_files, content):
     }
     run_study(study_of(wanted, load_files), tmp_path / "out")
     study = open_study(tmp_path / "out")
-    assert study.spin.dims == ("case", "row", "roller", "sample") and study.time.dims == ("case", "sample")
+    assert study.spin.dims == ("case", "row", "roller", "sample") and study.time.dims == (
+        "case",
+        "sample",
+    )
     np.testing.assert_allclose(study.time.isel(case=3), np.arange(11) / 10, atol=1e-12)
     assert study.load_cycles.sum() > 0
     plain = run_study(study_of(content, load_files), tmp_path / "plain")
-    assert plain.progress.computed == 4 and not {"spin", "load_cycles"} & set(open_study(tmp_path / "plain").variables)
+    assert plain.progress.computed == 4 and not {"spin", "load_cycles"} & set(
+        open_study(tmp_path / "plain").variables
+    )
 
 
 def test_the_summary_is_a_parquet_table_with_units(tmp_path, load_files, content):
@@ -272,7 +333,9 @@ def test_the_summary_is_a_parquet_table_with_units(tmp_path, load_files, content
     table = pq.read_table(tmp_path / "out" / "summary.parquet")
     study = open_study(tmp_path / "out")
     assert table["outcome"].to_pylist() == list(study.outcome.values)
-    np.testing.assert_array_equal(table["energy_mean_upwind"].to_numpy(), study.energy_mean.sel(row="upwind"))
+    np.testing.assert_array_equal(
+        table["energy_mean_upwind"].to_numpy(), study.energy_mean.sel(row="upwind")
+    )
     assert table.schema.field("energy_mean_upwind").metadata == {b"units": b"J"}
     assert table["wind_speed"].to_pylist() == [12.0, 12.0, 14.0, 14.0]
 
@@ -288,12 +351,20 @@ def test_a_parameter_of_numbers_and_words_is_text_in_the_summary(tmp_path, load_
 
 def test_every_name_of_a_file_is_data(tmp_path, content, write_loads):
     """Names with escapes, markup and ways out of the folder are labels, and nothing else."""
-    for name in ("12mps_seed1.csv", "[red]x\x1b[2J_12mps_seed2.csv", "$(touch made) 12mps_seed3.csv"):
+    for name in (
+        "12mps_seed1.csv",
+        "[red]x\x1b[2J_12mps_seed2.csv",
+        "$(touch made) 12mps_seed3.csv",
+    ):
         write_loads(tmp_path / "runs" / name)
     (tmp_path / "runs" / name).write_text("")
-    for number, pattern in enumerate(("runs/*seed{seed:d}.csv", f"../{tmp_path.name}/runs/{{a}}_seed{{seed:d}}.csv")):
+    for number, pattern in enumerate(
+        ("runs/*seed{seed:d}.csv", f"../{tmp_path.name}/runs/{{a}}_seed{{seed:d}}.csv")
+    ):
         out = tmp_path / f"out{number}"
-        run_study(study_of(content | {"loads": {"files": pattern, "kind": "main-bearing"}}, tmp_path), out)
+        run_study(
+            study_of(content | {"loads": {"files": pattern, "kind": "main-bearing"}}, tmp_path), out
+        )
         assert b"\x1b" not in (out / "log.txt").read_bytes()
         assert all(path.resolve().is_relative_to(out) for path in out.rglob("*"))
         names = {"manifest.json", "study.sqlite", "summary.parquet", "log.txt", "cases", "lock"}
@@ -328,10 +399,14 @@ LOADS = BearingLoads.constant([0.0, -300e3, 10e3], 2.0, 10.0)
         {"bearing": Case(loads=LOADS, laws=Laws.paper()).bearing.replace(diametral_clearance=1.3e-4)},
     ],
 )  # fmt: skip
-def test_any_change_of_input_changes_the_key_and_the_place_of_the_loads_does_not(change, monkeypatch):
+def test_any_change_of_input_changes_the_key_and_the_place_of_the_loads_does_not(
+    change, monkeypatch
+):
     case = Case(loads=LOADS, laws=Laws.paper())
     assert (
-        case_key(dataclasses.replace(case, **change), {}) != case_key(case, {}) != case_key(case, {"keep": ["energy"]})
+        case_key(dataclasses.replace(case, **change), {})
+        != case_key(case, {})
+        != case_key(case, {"keep": ["energy"]})
     )
     moved = BearingLoads(LOADS.time, LOADS.shaft_speed, LOADS.force, "elsewhere.csv")
     assert case_key(Case(loads=moved, laws=Laws.paper()), {}) == case_key(case, {})

@@ -59,9 +59,21 @@ def test_runs_are_every_combination(load_files):
     loads = [run.load.name for run in runs]
     assert len([1 for a, b in itertools.pairwise(loads) if a != b]) == 3
     labels = runs[-1].labels
-    assert [labels[name] for name in ("wind_speed", "seed", "bearing", "model")] == [14.0, 2, "own.yaml", "no drag"]
-    assert (labels["bearing.diametral_clearance"], labels["window.start"], labels["forces.drag"]) == (0.3, 0.5, False)
-    assert study.labels["bearing.diametral_clearance"][0] == "mm" and study.labels["wind_speed"][0] == "m/s"
+    assert [labels[name] for name in ("wind_speed", "seed", "bearing", "model")] == [
+        14.0,
+        2,
+        "own.yaml",
+        "no drag",
+    ]
+    assert (
+        labels["bearing.diametral_clearance"],
+        labels["window.start"],
+        labels["forces.drag"],
+    ) == (0.3, 0.5, False)
+    assert (
+        study.labels["bearing.diametral_clearance"][0] == "mm"
+        and study.labels["wind_speed"][0] == "m/s"
+    )
     assert study.bearings["own.yaml"].name == "own"
 
 
@@ -74,9 +86,13 @@ def test_any_stretch_of_the_mixed_runs_is_a_sample_of_the_whole(loads, settings)
     listed = replace(study.loads, loads=[Load(str(number), {}) for number in range(loads)])
     study = replace(study, loads=listed)
     ranks = [int(run.load.name) for run in study.mixed_runs()]
-    assert sorted(run.name for run in study.mixed_runs()) == sorted(run.name for run in study.runs())
+    assert sorted(run.name for run in study.mixed_runs()) == sorted(
+        run.name for run in study.runs()
+    )
     # Those with the same loads follow each other.
-    assert all(len(set(ranks[start : start + settings])) == 1 for start in range(0, len(ranks), settings))
+    assert all(
+        len(set(ranks[start : start + settings])) == 1 for start in range(0, len(ranks), settings)
+    )
     quarter = max(loads // 4, 1)
     means = np.convolve(ranks[::settings], np.full(quarter, 1.0 / quarter), mode="valid")
     # In their own order the first quarter would be 3/8 off.
@@ -86,7 +102,10 @@ def test_any_stretch_of_the_mixed_runs_is_a_sample_of_the_whole(loads, settings)
 def test_names_of_runs_do_not_depend_on_the_order_or_on_fields(load_files, content):
     before = {run.name for run in study_of(content, load_files).runs()}
     renamed = content | {
-        "loads": {"files": ["runs/14mps_seed{s:d}.csv", "runs/12mps_seed{s:d}.csv"], "kind": "main-bearing"}
+        "loads": {
+            "files": ["runs/14mps_seed{s:d}.csv", "runs/12mps_seed{s:d}.csv"],
+            "kind": "main-bearing",
+        }
     }
     assert {run.name for run in study_of(renamed, load_files).runs()} == before
 
@@ -95,7 +114,11 @@ def test_a_table_gives_files_and_fields(load_files):
     (load_files / "list.csv").write_text(
         "file,wind_speed,site,night\nruns/12mps_seed1.csv,12.5,north,true\nruns/14mps_seed2.csv,14,south,false\n"
     )
-    study = read_study(write(load_files, "loads: {table: list.csv, kind: main-bearing, units: {wind_speed: m/s}}\n"))
+    study = read_study(
+        write(
+            load_files, "loads: {table: list.csv, kind: main-bearing, units: {wind_speed: m/s}}\n"
+        )
+    )
     assert [run.labels["wind_speed"] for run in study.runs()] == [12.5, 14.0]
     assert next(study.runs()).load.fields == {"wind_speed": 12.5, "site": "north", "night": True}
 
@@ -142,14 +165,24 @@ def test_mistakes_are_reported_with_their_place(tmp_path, text, messages):
 
 
 def test_a_case_file_is_reported_from_a_study(tmp_path):
-    with pytest.raises(InputError, match=r"the keys bearing, laws are those of a case\. .*macroslip run; .*key case"):
-        read_study(write(tmp_path, "bearing: skf-240-600-bc\nloads: {bundled: 14B}\nlaws: {model: paper}\n"))
-    with pytest.raises(InputError, match="this is a study file, not a case file. Run it by macroslip study"):
+    with pytest.raises(
+        InputError,
+        match=r"the keys bearing, laws are those of a case\. .*macroslip run; .*key case",
+    ):
+        read_study(
+            write(
+                tmp_path, "bearing: skf-240-600-bc\nloads: {bundled: 14B}\nlaws: {model: paper}\n"
+            )
+        )
+    with pytest.raises(
+        InputError, match="this is a study file, not a case file. Run it by macroslip study"
+    ):
         read_case(write(tmp_path, "case: {rollers: [0]}\nloads: {bundled: [14B]}\n"))
 
 
 @pytest.mark.parametrize(
-    "text", ["loads: !!python/object/apply:os.system ['touch made']\n", "loads: {files: !include x}\n"]
+    "text",
+    ["loads: !!python/object/apply:os.system ['touch made']\n", "loads: {files: !include x}\n"],
 )
 def test_a_study_file_is_data(tmp_path, monkeypatch, text):
     monkeypatch.chdir(tmp_path)
@@ -161,7 +194,11 @@ def test_a_study_file_is_data(tmp_path, monkeypatch, text):
 def test_files_whose_fields_cannot_be_read_are_reported(load_files, content):
     (load_files / "runs" / "12mps_seedX.csv").touch()
     study = study_of(content, load_files)
-    assert len(study) == 4 and "1 files" in study.loads.remarks[0] and "12mps_seedX.csv" in study.loads.remarks[0]
+    assert (
+        len(study) == 4
+        and "1 files" in study.loads.remarks[0]
+        and "12mps_seedX.csv" in study.loads.remarks[0]
+    )
 
 
 @pytest.mark.parametrize(
@@ -225,11 +262,15 @@ def test_files_are_found_in_folders_and_above(tmp_path):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
     found, unread = Pattern("./a/**/s{seed:d}.csv").files(tmp_path)
-    assert found == [("a/b/s2.csv", {"seed": 2}), ("a/s1.csv", {"seed": 1})] and unread == ["a/sX.csv"]
+    assert found == [("a/b/s2.csv", {"seed": 2}), ("a/s1.csv", {"seed": 1})] and unread == [
+        "a/sX.csv"
+    ]
     assert Pattern("c[1]/s{seed:d}.csv").files(tmp_path)[0] == [("c[1]/s3.csv", {"seed": 3})]
     assert Pattern("../a/s1.csv").files(tmp_path / "c1")[0] == [("../a/s1.csv", {})]
     absolute = (tmp_path / "a").as_posix() + "/s{seed:d}.csv"
-    assert Pattern(absolute).files(tmp_path / "c1")[0] == [((tmp_path / "a/s1.csv").as_posix(), {"seed": 1})]
+    assert Pattern(absolute).files(tmp_path / "c1")[0] == [
+        ((tmp_path / "a/s1.csv").as_posix(), {"seed": 1})
+    ]
 
 
 @pytest.mark.parametrize(
@@ -241,7 +282,9 @@ def test_wildcards_beside_each_other_are_one(tmp_path, text):
         (tmp_path / name).touch()
     found, unread = Pattern(text).files(tmp_path)
     both = ["runs/ab1.csv", "runs/in/ab2.csv"]
-    assert [name for name, _ in found] == (sorted(both) if "**/" in text else both[:1]) and unread == []
+    assert [name for name, _ in found] == (
+        sorted(both) if "**/" in text else both[:1]
+    ) and unread == []
 
 
 def test_folders_within_a_name_are_refused():
@@ -259,7 +302,9 @@ def test_a_name_that_is_no_text_is_refused(tmp_path):
         load_list(tmp_path, kind="hub", files=["*.csv"])
 
 
-@pytest.mark.parametrize("text", ["{seed:x}.csv", "{}.csv", "{2nd:d}.csv", "{seed.csv", "{a.b}.csv", "{seed:d:d}"])
+@pytest.mark.parametrize(
+    "text", ["{seed:x}.csv", "{}.csv", "{2nd:d}.csv", "{seed.csv", "{a.b}.csv", "{seed:d:d}"]
+)
 def test_wrong_fields_are_refused(text):
     with pytest.raises(InputError, match="is no field"):
         Pattern(text)
@@ -272,13 +317,19 @@ def test_a_folder_is_no_pattern(tmp_path, text):
         Pattern(text).files(tmp_path)
 
 
-RANGES = {"drivetrain.tilt": Range(2.0, 6.0, "deg"), "integrator.tolerance": Range(1e-6, 1e-2, "", "log")}
+RANGES = {
+    "drivetrain.tilt": Range(2.0, 6.0, "deg"),
+    "integrator.tolerance": Range(1e-6, 1e-2, "", "log"),
+}
 
 
 @pytest.mark.parametrize(("method", "count"), [("latin-hypercube", 12), ("sobol", 16)])
 def test_every_parameter_is_spread_evenly(method, count):
     points = Sample(method=method, count=count, seed=7, ranges=RANGES).points()
-    for place, position in ((0, lambda x: (x - 2.0) / 4.0), (1, lambda x: (math.log10(x) + 6.0) / 4.0)):
+    for place, position in (
+        (0, lambda x: (x - 2.0) / 4.0),
+        (1, lambda x: (math.log10(x) + 6.0) / 4.0),
+    ):
         positions = np.array([position(point[place].value) for point in points])
         # One point in each of as many equal parts.
         assert sorted(np.floor(positions * count).astype(int)) == list(range(count))
@@ -286,7 +337,8 @@ def test_every_parameter_is_spread_evenly(method, count):
 
 def test_the_seed_decides():
     first, same, other = (
-        Sample(method="latin-hypercube", count=5, seed=seed, ranges=RANGES).points() for seed in (1, 1, 2)
+        Sample(method="latin-hypercube", count=5, seed=seed, ranges=RANGES).points()
+        for seed in (1, 1, 2)
     )
     assert first == same and first != other
 
@@ -325,7 +377,11 @@ def test_a_range_may_be_that_of_the_file(tmp_path):
     ("key", "bearings", "message"),
     [
         ("bearing.width", ["skf-240-630-bc"], "skf-240-630-bc has no range for width"),
-        ("bearing.rollers_per_row", ["skf-240-630-bc"], "rollers_per_row is a count.*variations.grid"),
+        (
+            "bearing.rollers_per_row",
+            ["skf-240-630-bc"],
+            "rollers_per_row is a count.*variations.grid",
+        ),
         ("bearing.roller_length", ["skf-240-630-bc", "skf-240-600-bc"], "has 2 of them"),
         ("drivetrain.tilt", ["skf-240-630-bc"], "no value of a bearing or lubricant"),
         ("bearing.roller_lenght", ["skf-240-630-bc"], "Did you mean 'bearing.roller_length'"),
@@ -383,7 +439,10 @@ def test_what_it_does_not_take_is_refused_in_its_words(key, value, unit, message
 
 def test_a_unit_that_does_not_exist_is_refused_with_its_place():
     grid = {"bearing.diametral_clearance": {"values": [0.1, 0.2], "unit": "kg"}}
-    with pytest.raises(InputError, match=r"variations\.grid\.bearing\.diametral_clearance: unit 'kg' does not exist"):
+    with pytest.raises(
+        InputError,
+        match=r"variations\.grid\.bearing\.diametral_clearance: unit 'kg' does not exist",
+    ):
         study_of({"loads": {"bundled": ["14B"]}, "variations": {"grid": grid}})
 
 
@@ -392,7 +451,10 @@ def test_a_replaced_value_is_the_users_and_the_others_keep_their_origin():
     key = next(key for key, origin in before.provenance.items() if origin.unit != "degC")
     entry = before.as_dict()[key]
     after = replaced(before, [Setting(f"lubricant.{key}", entry["value"] * 1.01, entry["unit"])])
-    assert getattr(after, key) == pytest.approx(1.01 * getattr(before, key)) and after.provenance[key].tag == "U"
+    assert (
+        getattr(after, key) == pytest.approx(1.01 * getattr(before, key))
+        and after.provenance[key].tag == "U"
+    )
     others = {name: origin for name, origin in before.provenance.items() if name != key}
     assert {name: origin for name, origin in after.provenance.items() if name != key} == others
     assert replaced(before, [Setting("bearing.diametral_clearance", 1, "mm")]) == before
@@ -407,8 +469,16 @@ def test_settings_reach_the_case():
         Setting("traces.step", 0.1, "s"),
     ]
     case, cut = template({"loads": {"end": "3 s"}, "traces": "none"}, settings, {})
-    assert (case.bearing.diametral_clearance, case.drivetrain.tilt) == (1e-4, pytest.approx(0.0698, abs=1e-4))
-    assert (case.integrator.tolerance, case.drag, case.traces.step, cut) == (1e-5, False, 0.1, {"end": 3.0})
+    assert (case.bearing.diametral_clearance, case.drivetrain.tilt) == (
+        1e-4,
+        pytest.approx(0.0698, abs=1e-4),
+    )
+    assert (case.integrator.tolerance, case.drag, case.traces.step, cut) == (
+        1e-5,
+        False,
+        0.1,
+        {"end": 3.0},
+    )
 
 
 def test_values_that_do_not_go_together_are_reported():

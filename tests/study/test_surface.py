@@ -17,7 +17,12 @@ pytestmark = pytest.mark.slow
 def study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("study") / "out"
     content = {
-        "case": {"rollers": [0], "loads": {"end": "3 s"}, "laws": {"model": "physical"}, "window": {"start": "0 s"}},
+        "case": {
+            "rollers": [0],
+            "loads": {"end": "3 s"},
+            "laws": {"model": "physical"},
+            "window": {"start": "0 s"},
+        },
         "loads": {"bundled": ["12A", "18B", "18C"]},
     }
     run_study(study_of(content), folder)
@@ -26,7 +31,9 @@ def study(tmp_path_factory):
 
 def test_sums_are_the_lifetime_energy_of_the_raceways(study):
     maps = weighted_maps(study, CLASS_ONE, years=20.0)
-    found = maps.surface_energy.sum(("raceway", "angle", "station", "slip_sign", "film_regime")).isel(group=0)
+    found = maps.surface_energy.sum(
+        ("raceway", "angle", "station", "slip_sign", "film_regime")
+    ).isel(group=0)
     # One roller a row is simulated, so the mean over rollers is that roller; the cage is no raceway.
     raceways = study.assign(energy_mean=study.energy_inner + study.energy_outer)
     expected = lifetime_energy(raceways, CLASS_ONE, years=20.0).lifetime_energy.isel(group=0)

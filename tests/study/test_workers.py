@@ -24,7 +24,9 @@ pytestmark = pytest.mark.slow
 @pytest.fixture
 def slow_content(long_content):
     """Forty runs of some thirty milliseconds."""
-    return long_content | {"case": {"laws": {"model": "paper"}, "rollers": [0, 7], "loads": {"end": "150 s"}}}
+    return long_content | {
+        "case": {"laws": {"model": "paper"}, "rollers": [0, 7], "loads": {"end": "150 s"}}
+    }
 
 
 def workers_of(process):
@@ -66,7 +68,12 @@ def test_processes_find_what_this_process_finds_and_listen_to_nobody(tmp_path, l
 
     def look(progress):
         family = [psutil.Process(), *psutil.Process().children(recursive=True)]
-        seen.update(one.laddr for member in family for one in member.net_connections("inet") if one.status == "LISTEN")
+        seen.update(
+            one.laddr
+            for member in family
+            for one in member.net_connections("inet")
+            if one.status == "LISTEN"
+        )
         count.append(len(workers_of(psutil.Process())))
 
     ended = run_study(study_of(long_content, tmp_path), tmp_path / "out", workers=2, progress=look)
@@ -79,10 +86,14 @@ def test_processes_find_what_this_process_finds_and_listen_to_nobody(tmp_path, l
         np.testing.assert_array_equal(several[name].values, one[name].values)
 
 
-def test_fifteen_kills_lose_nothing(tmp_path, begin, slow_content, wait_for, done, rows, identities, counted, resumed):
+def test_fifteen_kills_lose_nothing(
+    tmp_path, begin, slow_content, wait_for, done, rows, identities, counted, resumed
+):
     """Three times four worker processes and then the study itself; what was reported is there once, and stays as it was."""
     values = [round(2.0 + 0.05 * number, 2) for number in range(120)]
-    content = slow_content | {"variations": {"grid": {"drivetrain.tilt": {"values": values, "unit": "deg"}}}}
+    content = slow_content | {
+        "variations": {"grid": {"drivetrain.tilt": {"values": values, "unit": "deg"}}}
+    }
     out, before = tmp_path / "out", {}
     for _ in range(3):
         process = begin(content, out, resume=True, workers=2)
@@ -101,7 +112,10 @@ def test_fifteen_kills_lose_nothing(tmp_path, begin, slow_content, wait_for, don
         before = {f"{key}.nc": after[f"{key}.nc"] for key in keys}
     ended, simulated = resumed(study_of(content, tmp_path), out, counted)
     assert (simulated, ended.progress.unchanged) == (120 - len(keys), len(keys))
-    assert (ended.progress.failed, rows(out, "SELECT count(*), count(DISTINCT key) FROM runs")) == (0, [(120, 120)])
+    assert (ended.progress.failed, rows(out, "SELECT count(*), count(DISTINCT key) FROM runs")) == (
+        0,
+        [(120, 120)],
+    )
     assert (out / "log.txt").read_text().count("a worker process has died; another takes over") >= 6
     assert all(identities(out)[name] == place for name, place in before.items())
 
@@ -121,14 +135,18 @@ def test_processes_killed_as_they_start_are_no_missing_main_guard():
             for number in range(10):
                 task = {"run": f"{number}"}
                 pool.submit([task])
-                assert [(one["run"], str(found["outcome"])) for one, found in pool.wait()] == [(f"{number}", "failed")]
+                assert [(one["run"], str(found["outcome"])) for one, found in pool.wait()] == [
+                    (f"{number}", "failed")
+                ]
         finally:
             ended.set()
             killer.join()
     assert len(notes) >= 40
 
 
-def test_a_run_that_kills_its_workers_is_recorded_and_the_others_computed(tmp_path, load_files, content, monkeypatch):
+def test_a_run_that_kills_its_workers_is_recorded_and_the_others_computed(
+    tmp_path, load_files, content, monkeypatch
+):
     """A worker that ends where it would store a certain result stands for one that the system ends for its memory."""
     run_study(study_of(content, load_files), tmp_path / "before")
     key = str(open_study(tmp_path / "before").key.values[2])
@@ -144,7 +162,9 @@ def test_a_run_that_kills_its_workers_is_recorded_and_the_others_computed(tmp_pa
     monkeypatch.setenv("PYTHONPATH", str(site))
     ended = run_study(study_of(content, load_files), tmp_path / "out", workers=2)
     assert (ended.progress.computed, ended.progress.failed) == (3, 1)
-    assert ended.failures[0][0]["loads"] == "runs/14mps_seed1.csv" and "died" in ended.failures[0][2]
+    assert (
+        ended.failures[0][0]["loads"] == "runs/14mps_seed1.csv" and "died" in ended.failures[0][2]
+    )
 
 
 @pytest.mark.parametrize("guard", [True, False])
@@ -153,7 +173,9 @@ def test_a_script_needs_the_main_guard_and_is_told_so(tmp_path, load_files, cont
     script = "from macroslip import run_study\nfrom macroslip.study.study_file import study_of\n"
     script += "if __name__ == '__main__':\n    " + call if guard else call
     (tmp_path / "script.py").write_text(script)
-    done = subprocess.run([sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True
+    )
     if guard:
         assert (done.stdout, done.stderr) == ("4\n", "")
         return
@@ -169,7 +191,9 @@ def test_no_worker_takes_modules_of_the_current_folder(tmp_path, load_files, con
         (here / f"{name}.py").write_text("open('taken', 'w').close()\nraise SystemExit(3)\n")
     monkeypatch.chdir(here)
     monkeypatch.setattr(sys, "path", ["", *sys.path])
-    assert run_study(study_of(content, load_files), tmp_path / "out", workers=1).progress.computed == 4
+    assert (
+        run_study(study_of(content, load_files), tmp_path / "out", workers=1).progress.computed == 4
+    )
     assert not (here / "taken").exists()
 
 
@@ -189,7 +213,9 @@ def test_an_interrupt_ends_processes_at_once(tmp_path):
     )
     (tmp_path / "script.py").write_text(script)
     command = [sys.executable, "script.py"]
-    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
+    with subprocess.Popen(
+        command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
         try:
             end = time.monotonic() + 60.0
             while len(workers_of(process)) < 2 and time.monotonic() < end:
@@ -202,8 +228,14 @@ def test_an_interrupt_ends_processes_at_once(tmp_path):
             for worker in workers:
                 worker.wait(timeout=10.0)
             error = process.communicate(timeout=10.0)[1]
-            assert time.monotonic() - started < 5.0 and spent < 60.0  # the machine may be busy with other things
-            assert process.returncode != 0 and error.count("Traceback") == 1 and error.endswith("KeyboardInterrupt\n")
+            assert (
+                time.monotonic() - started < 5.0 and spent < 60.0
+            )  # the machine may be busy with other things
+            assert (
+                process.returncode != 0
+                and error.count("Traceback") == 1
+                and error.endswith("KeyboardInterrupt\n")
+            )
         finally:
             process.kill()
 
@@ -223,7 +255,9 @@ def dask(tmp_path):
     class Cluster:
         """Address of the scheduler, and what starts a worker."""
 
-        scheduler = start("distributed.cli.dask_scheduler", "--port", "0", "--scheduler-file", "scheduler.json")
+        scheduler = start(
+            "distributed.cli.dask_scheduler", "--port", "0", "--scheduler-file", "scheduler.json"
+        )
 
         @property
         def address(self):
@@ -234,7 +268,9 @@ def dask(tmp_path):
             return json.loads(path.read_text())["address"]
 
         def worker(self):
-            return start("distributed.cli.dask_worker", self.address, "--nthreads", "1", "--no-nanny")
+            return start(
+                "distributed.cli.dask_worker", self.address, "--nthreads", "1", "--no-nanny"
+            )
 
     yield Cluster()
     for process in processes:
@@ -276,7 +312,9 @@ def under_way(tmp_path, slow_content):
 
 def test_a_worker_joins_late_and_another_is_killed(dask, under_way, wait_for, done, rows):
     under_way.start(dask.address)
-    wait_for(lambda: (under_way.out / "log.txt").exists() and "no worker has joined yet" in under_way.log)
+    wait_for(
+        lambda: (under_way.out / "log.txt").exists() and "no worker has joined yet" in under_way.log
+    )
     first = dask.worker()
     wait_for(lambda: under_way.done >= 3)
     first.send_signal(signal.SIGSTOP)  # with what it has under way
@@ -285,13 +323,18 @@ def test_a_worker_joins_late_and_another_is_killed(dask, under_way, wait_for, do
     first.kill()
     wait_for(lambda: under_way.done >= 8 or under_way.error)
     under_way.join()
-    assert under_way.error is None and (under_way.ended.progress.computed, under_way.ended.progress.failed) == (40, 0)
+    assert under_way.error is None and (
+        under_way.ended.progress.computed,
+        under_way.ended.progress.failed,
+    ) == (40, 0)
     assert second.poll() is None and len(done(under_way.out)) == 40
     assert "has joined" in under_way.log and "is gone; others take over" in under_way.log
     assert open_study(under_way.out).energy.notnull().all()
 
 
-def test_a_scheduler_that_dies_loses_nothing(dask, under_way, wait_for, done, slow_content, tmp_path, counted, resumed):
+def test_a_scheduler_that_dies_loses_nothing(
+    dask, under_way, wait_for, done, slow_content, tmp_path, counted, resumed
+):
     dask.worker()
     under_way.start(dask.address)
     wait_for(lambda: under_way.done >= 3)
@@ -311,7 +354,11 @@ def test_the_client_of_the_user_stays_theirs(dask, tmp_path, load_files, content
     dask.worker()
     with Client(dask.address) as mine:
         ended = run_study(study_of(content, load_files), tmp_path / "out", scheduler=dask.address)
-        assert ended.progress.computed == 4 and default_client() is mine and mine.submit(sum, [1, 2]).result() == 3
+        assert (
+            ended.progress.computed == 4
+            and default_client() is mine
+            and mine.submit(sum, [1, 2]).result() == 3
+        )
     with pytest.raises(ValueError, match="No client"):
         default_client()
 
@@ -326,7 +373,10 @@ def test_wrong_addresses_and_arguments(tmp_path, load_files, content, monkeypatc
     study = study_of(content, load_files)
     with pytest.raises(InputError, match="workers and scheduler are given together"):
         run_study(study, tmp_path / "out", workers=1, scheduler="tcp://127.0.0.1:1")
-    with pytest.raises(InputError, match="no scheduler answers at 'nonsense://127.0.0.1:1' .*unknown address scheme"):
+    with pytest.raises(
+        InputError,
+        match="no scheduler answers at 'nonsense://127.0.0.1:1' .*unknown address scheme",
+    ):
         run_study(study, tmp_path / "out", scheduler="nonsense://127.0.0.1:1")
     with pytest.raises(InputError, match="missing port number"):
         run_study(study, tmp_path / "out", scheduler="localhost")

@@ -35,11 +35,14 @@ def study(energy=(600.0, 1200.0, 300.0, 50.0), life=(2e4, 2e4, 1e4, np.inf)):
     labels["wind_speed"] = ("case", [12.0, 12.4, 8.0, 6.0], {"units": "m/s"})
     labels["event"] = ("case", np.array(["", "", "start-8", "idle-6"], dtype=object))
     both = np.column_stack([energy, np.multiply(2.0, energy)])
-    data = {name: (("case", "row"), both, {"units": "J"}) for name in ("energy_mean", "peak_power_max")}
+    data = {
+        name: (("case", "row"), both, {"units": "J"}) for name in ("energy_mean", "peak_power_max")
+    }
     data |= {name: ("case", list(life)) for name in LIVES}
     data |= {f"damage_equivalent_load_{m}": ("case", [3e5, 3e5, 4e5, 0.0]) for m in EXPONENTS}
     return xr.Dataset(
-        data | {"window_length": ("case", [600.0, 600.0, 100.0, 200.0])}, labels | {"row": ["downwind", "upwind"]}
+        data | {"window_length": ("case", [600.0, 600.0, 100.0, 200.0])},
+        labels | {"row": ["downwind", "upwind"]},
     )
 
 
@@ -54,9 +57,13 @@ def test_events_take_their_time_and_wind_speeds_the_rest():
     assert found.event.values.tolist() == ["", "start-8", "idle-6"]
     # 1.5 W in the mean of two runs; 300 starts of 300 J each; 0.25 W.
     np.testing.assert_allclose(
-        found.energy.isel(group=0).sel(row="downwind"), [1.5 * windy, 300.0 * 300.0, 0.25 * idle], rtol=1e-12
+        found.energy.isel(group=0).sel(row="downwind"),
+        [1.5 * windy, 300.0 * 300.0, 0.25 * idle],
+        rtol=1e-12,
     )
-    np.testing.assert_allclose(found.per_hour.isel(group=0).sel(row="upwind"), 2.0 * HOUR * np.array([1.5, 3.0, 0.25]))
+    np.testing.assert_allclose(
+        found.per_hour.isel(group=0).sel(row="upwind"), 2.0 * HOUR * np.array([1.5, 3.0, 0.25])
+    )
     life = lifetime_energy(study(), YEARLY, years=2.0)
     np.testing.assert_allclose(life.lifetime_energy, 2.0 * found.total, rtol=1e-12)
     # 8.33 h of starts, 400 h of idling, and half of the 8357.7 h that are left of 8766 h.
@@ -67,7 +74,9 @@ def test_events_take_their_time_and_wind_speeds_the_rest():
 def test_lives_accumulate_by_damage_and_loads_by_their_power():
     found = year(study(), YEARLY)
     share = found.hours.values / found.hours.values.sum()
-    np.testing.assert_allclose(1.0 / found.basic_life.item(), share[0] / 2e4 + share[1] / 1e4, rtol=1e-12)
+    np.testing.assert_allclose(
+        1.0 / found.basic_life.item(), share[0] / 2e4 + share[1] / 1e4, rtol=1e-12
+    )
     expected = (share[0] * 3e5**4 + share[1] * 4e5**4) ** 0.25
     np.testing.assert_allclose(found.damage_equivalent_load_4.item(), expected, rtol=1e-12)
     # A life that is not known is not passed over.
@@ -96,7 +105,9 @@ def test_bins_hold_what_their_probability_says():
         numbers, counts = np.unique(bin_numbers(drawn, width), return_counts=True)
         for number, count in zip(numbers, counts, strict=True):
             probability = weibull.probability(number * width, width)
-            assert count / drawn.size == pytest.approx(probability, abs=5.0 * np.sqrt(probability / drawn.size) + 1e-5)
+            assert count / drawn.size == pytest.approx(
+                probability, abs=5.0 * np.sqrt(probability / drawn.size) + 1e-5
+            )
     # The weighted mean speed is the distribution's, 8.42 m/s.
     fine = np.arange(0.0, 60.0, 0.5)
     mean = sum(weibull.probability(one, 0.5) * one for one in fine)
@@ -109,7 +120,10 @@ def test_classes_have_the_mean_wind_speed_of_the_standard(name, mean):
     assert weibull_min(weibull.shape, scale=weibull.scale).mean() == pytest.approx(mean, rel=1e-12)
 
 
-WEIGHTS = {"wind": {"weibull": "IEC II"}, "events": {"start-8": "300 per year", "idle-6": "400 h per year"}}
+WEIGHTS = {
+    "wind": {"weibull": "IEC II"},
+    "events": {"start-8": "300 per year", "idle-6": "400 h per year"},
+}
 
 
 def of_file(weights, bundled=("8B", "12B", "start-8", "idle-6")):
@@ -118,7 +132,9 @@ def of_file(weights, bundled=("8B", "12B", "start-8", "idle-6")):
 
 def test_weights_of_a_study_file():
     known = of_file(WEIGHTS).weights
-    assert known.year == Year(IEC_CLASSES["IEC II"], {"start-8": Rate(300.0), "idle-6": Rate(400.0, True)})
+    assert known.year == Year(
+        IEC_CLASSES["IEC II"], {"start-8": Rate(300.0), "idle-6": Rate(400.0, True)}
+    )
     flat = of_file({"scale": 9.5, "shape": 2.0}).weights
     assert flat.year == of_file({"wind": {"weibull": {"scale": 9.5, "shape": 2.0}}}).weights.year
 
@@ -133,7 +149,10 @@ def test_the_weights_of_the_file_are_used_by_all_and_an_option_replaces_the_wind
 
 
 def test_the_balance_of_heat_counts_events_by_their_hours():
-    loads = [Load("a", {"wind_speed": 12.0}), Load("idle-6", {"wind_speed": 6.0, "event": "idle-6"})]
+    loads = [
+        Load("a", {"wind_speed": 12.0}),
+        Load("idle-6", {"wind_speed": 6.0, "event": "idle-6"}),
+    ]
     loads.append(Load("start-8", {"wind_speed": 8.0, "event": "start-8"}))
     given = of_file(WEIGHTS).weights
     windy = (1.0 - 400.0 * HOUR / YEAR) * IEC_CLASSES["IEC II"].probability(12.0, 2.0)
@@ -145,13 +164,25 @@ def test_the_balance_of_heat_counts_events_by_their_hours():
     ("weights", "message"),
     [
         ({"scale": 0.001, "shape": 2.0}, "the wind speeds from 8 to 12 have no probability at all"),
-        ({"scale": 1e-300, "shape": 2.0}, "the wind speeds from 8 to 12 have no probability at all"),
+        (
+            {"scale": 1e-300, "shape": 2.0},
+            "the wind speeds from 8 to 12 have no probability at all",
+        ),
         ({"scale": 9.5}, "the distribution of the wind speeds is not given"),
         ({"scale": 9.5, "shape": 2.0, "wind": {"weibull": "IEC I"}}, "given twice"),
         ({"wind": {"weibull": "IEC IV"}}, "IEC I, IEC II, IEC III"),
-        ({"wind": {"weibull": "IEC I"}, "events": {"start-8": "often"}}, "such as '300 per year' or '400 h per year'"),
-        ({"wind": {"weibull": "IEC I"}, "events": {"stop-14": "3 per year"}}, "the event 'stop-14'.*start-8, idle-6"),
-        ({"wind": {"weibull": "IEC I"}, "events": {"idle-6": "9000 h per year"}}, "take 9000 hours of a year"),
+        (
+            {"wind": {"weibull": "IEC I"}, "events": {"start-8": "often"}},
+            "such as '300 per year' or '400 h per year'",
+        ),
+        (
+            {"wind": {"weibull": "IEC I"}, "events": {"stop-14": "3 per year"}},
+            "the event 'stop-14'.*start-8, idle-6",
+        ),
+        (
+            {"wind": {"weibull": "IEC I"}, "events": {"idle-6": "9000 h per year"}},
+            "take 9000 hours of a year",
+        ),
     ],
 )
 def test_weights_that_are_refused(weights, message):
@@ -160,7 +191,9 @@ def test_weights_that_are_refused(weights, message):
 
 
 def test_weights_that_underflow_are_refused_where_results_are_weighted():
-    with pytest.raises(InputError, match="the wind speeds from 12 to 12 have no probability at all"):
+    with pytest.raises(
+        InputError, match="the wind speeds from 12 to 12 have no probability at all"
+    ):
         lifetime_energy(study(), Weibull(0.001, 2.0))
 
 

@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Case, Drivetrain, HubLoads, InputError, Laws, Traces, main_bearing_load, simulate
+from macroslip import (
+    BearingLoads,
+    Case,
+    Drivetrain,
+    HubLoads,
+    InputError,
+    Laws,
+    Traces,
+    main_bearing_load,
+    simulate,
+)
 from macroslip.torque import computed_torque, skf_torque, torque_histories
 
 pytestmark = pytest.mark.slow
@@ -14,7 +24,9 @@ SPEED = 2.143
 @pytest.fixture(scope="module", params=["paper", "physical"])
 def result(request):
     loads = HubLoads.bundled("14B").window(0.0, 16.0)
-    return simulate(Case(loads=loads, traces=Traces(step=0.02, start=0.005), laws=Laws.named(request.param)))
+    return simulate(
+        Case(loads=loads, traces=Traces(step=0.02, start=0.005), laws=Laws.named(request.param))
+    )
 
 
 def constant(force, speed=SPEED, laws=Laws.paper(), **options):
@@ -25,9 +37,13 @@ def constant(force, speed=SPEED, laws=Laws.paper(), **options):
 def test_torque_times_speed_is_what_is_dissipated(result):
     found = computed_torque(result)
     loads = main_bearing_load(HubLoads.bundled("14B"), Drivetrain())
-    np.testing.assert_allclose(found.shaft_speed, np.interp(found.time, loads.time, loads.shaft_speed), rtol=1e-9)
+    np.testing.assert_allclose(
+        found.shaft_speed, np.interp(found.time, loads.time, loads.shaft_speed), rtol=1e-9
+    )
     power = (result.power + result.rolling_power).sum(("row", "roller", "interface"))
-    np.testing.assert_allclose((found.torque - found.drag_torque) * found.shaft_speed, power, rtol=1e-9)
+    np.testing.assert_allclose(
+        (found.torque - found.drag_torque) * found.shaft_speed, power, rtol=1e-9
+    )
     inside = found.time >= result.attrs["window_start"]
     work = np.trapezoid((power.values)[inside], found.time.values[inside])
     assert work == pytest.approx(float(result.energy.sum() + result.rolling_energy.sum()), rel=0.02)
@@ -35,7 +51,9 @@ def test_torque_times_speed_is_what_is_dissipated(result):
 
 def test_parts_add_up_and_have_units(result):
     found = computed_torque(result)
-    parts = (found.contact_torque + found.rolling_torque).sum(("row", "interface")) + found.drag_torque
+    parts = (found.contact_torque + found.rolling_torque).sum(
+        ("row", "interface")
+    ) + found.drag_torque
     np.testing.assert_allclose(parts, found.torque, rtol=1e-12)
     assert (found.contact_torque >= 0.0).all()
     assert (found.rolling_torque >= 0.0).all()
@@ -54,7 +72,9 @@ def test_microslip_is_felt_downwind_and_the_cage_under_the_papers_model():
     force = [0.0, -300e3, 100e3]
     physical = Laws.physical()
     mean = [
-        computed_torque(constant(force, laws=laws)).contact_torque.sel(time=slice(4.0, None)).mean("time")
+        computed_torque(constant(force, laws=laws))
+        .contact_torque.sel(time=slice(4.0, None))
+        .mean("time")
         for laws in (physical.but(rolling="none"), physical, Laws.paper())
     ]
     raceways = [one.sel(row="downwind", interface=["inner", "outer"]).sum() for one in mean]
@@ -100,8 +120,12 @@ def test_what_is_needed_is_said():
     with pytest.raises(InputError, match="has no traces"):
         computed_torque(simulate(Case(loads=loads, laws=Laws.paper())))
     with pytest.raises(InputError, match="27 rollers of each row are missing"):
-        computed_torque(simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0], traces=Traces(step=0.5))))
-    one_row = simulate(Case(loads=loads, laws=Laws.paper(), traces=Traces(step=0.5))).sel(row=["upwind"])
+        computed_torque(
+            simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0], traces=Traces(step=0.5)))
+        )
+    one_row = simulate(Case(loads=loads, laws=Laws.paper(), traces=Traces(step=0.5))).sel(
+        row=["upwind"]
+    )
     with pytest.raises(InputError, match="a row is missing"):
         computed_torque(one_row)
 

@@ -35,12 +35,23 @@ def test_numbers_of_the_base_bearing():
 def test_numbers_of_the_computed_torque():
     # Digits may turn over from one processor to the next.
     found, shown = (re.findall(r"[\d.]+", text) for text in (printed(BLOCKS[1]), SHOWN[1]))
-    assert [float(one) for one in found] == pytest.approx([float(one) for one in shown], rel=5e-3, abs=0.011)
+    assert [float(one) for one in found] == pytest.approx(
+        [float(one) for one in shown], rel=5e-3, abs=0.011
+    )
 
 
 def test_numbers_of_the_oil_bath():
-    case = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 344.1e3, 164.4e3, 20.463 * np.pi / 30
-    grease, bath = skf_torque(*case), skf_torque(*case, bath=OilBath(level=0.441, drag_variable=0.0))
+    case = (
+        Bearing.read("skf-240-600-bc"),
+        Lubricant.read("vg460-pao"),
+        344.1e3,
+        164.4e3,
+        20.463 * np.pi / 30,
+    )
+    grease, bath = (
+        skf_torque(*case),
+        skf_torque(*case, bath=OilBath(level=0.441, drag_variable=0.0)),
+    )
     assert f"up to {bath.rolling - grease.rolling:.0f} N m of rolling torque here" in PAGE
     assert f"the drag is {bath.drag:.0f} N m if the oil reaches the shaft's axis" in PAGE
 
@@ -49,7 +60,9 @@ def test_numbers_of_the_oil_bath():
 def test_numbers_at_the_edge_of_the_range(viscosity):
     oil = Lubricant.read("vg460-pao")
     oil = oil.replace(viscosity=viscosity * 1e-6 * oil.density)
-    total = skf_torque(Bearing.read("skf-240-600-bc"), oil, 344.07e3, 164.36e3, 20.463 * 3.141593 / 30).total
+    total = skf_torque(
+        Bearing.read("skf-240-600-bc"), oil, 344.07e3, 164.36e3, 20.463 * 3.141593 / 30
+    ).total
     assert f"{total:.0f} N m at {viscosity} mm²/s" in PAGE
 
 

@@ -33,15 +33,21 @@ def test_slow_viscous_part_in_si():
 
 def test_viscous_part_grows_with_the_two_thirds_power_of_speed_and_viscosity():
     slow = palmgren_torque(BEARING, OIL, 1e5, 1e4, 2.0)
-    assert palmgren_torque(BEARING, OIL, 1e5, 1e4, -16.0).viscous == pytest.approx(4 * slow.viscous, rel=1e-12)
+    assert palmgren_torque(BEARING, OIL, 1e5, 1e4, -16.0).viscous == pytest.approx(
+        4 * slow.viscous, rel=1e-12
+    )
     thick = OIL.replace(viscosity=8 * OIL.viscosity)
-    assert palmgren_torque(BEARING, thick, 1e5, 1e4, 2.0).viscous == pytest.approx(4 * slow.viscous, rel=1e-12)
+    assert palmgren_torque(BEARING, thick, 1e5, 1e4, 2.0).viscous == pytest.approx(
+        4 * slow.viscous, rel=1e-12
+    )
 
 
 def test_step_between_slow_and_fast_is_small():
     viscosity = OIL.viscosity / OIL.density * 1e6
     edge = 2000 / viscosity * np.pi / 30
-    below, above = palmgren_torque(BEARING, OIL, 0.0, 0.0, edge * np.array([1 - 1e-9, 1 + 1e-9])).viscous
+    below, above = palmgren_torque(
+        BEARING, OIL, 0.0, 0.0, edge * np.array([1 - 1e-9, 1 + 1e-9])
+    ).viscous
     assert below / above - 1 == pytest.approx(0.008, abs=2e-4)
 
 
@@ -74,9 +80,16 @@ def test_arrays_broadcast_and_agree_with_single_numbers():
 
 
 def test_errors_say_what_to_do():
-    with pytest.raises(InputError, match="no constants for series '999'. Allowed: 213, 222.*beginning of the bearing"):
+    with pytest.raises(
+        InputError,
+        match="no constants for series '999'. Allowed: 213, 222.*beginning of the bearing",
+    ):
         palmgren_torque(BEARING, OIL, 1.0, 1.0, 1.0, series="999")
-    with pytest.raises(InputError, match="no static_load_rating, no axial_factor_y0. Add what is missing"):
-        palmgren_torque(BEARING.replace(static_load_rating=None, axial_factor_y0=None), OIL, 1.0, 1.0, 1.0)
+    with pytest.raises(
+        InputError, match="no static_load_rating, no axial_factor_y0. Add what is missing"
+    ):
+        palmgren_torque(
+            BEARING.replace(static_load_rating=None, axial_factor_y0=None), OIL, 1.0, 1.0, 1.0
+        )
     with pytest.raises(InputError, match="axial_load holds a number that is not finite"):
         palmgren_torque(BEARING, OIL, 1.0, [0.0, np.nan], 1.0)

@@ -26,7 +26,9 @@ def of(laws):
     return result.isel(time=0), computed_torque(result).isel(time=0)
 
 
-@pytest.mark.parametrize("laws", [Laws.paper().but(rolling="whole-film"), Laws.physical()], ids=["plain", "physical"])
+@pytest.mark.parametrize(
+    "laws", [Laws.paper().but(rolling="whole-film"), Laws.physical()], ids=["plain", "physical"]
+)
 def test_both_rings_give_what_contacts_dissipate(laws):
     """In the frame of the orbit the inner ring turns with Ω_in − Ω and the outer one with −Ω."""
     _, torque = of(laws)
@@ -47,7 +49,9 @@ def test_torques_on_rings_and_rollers_balance():
     result, torque = of(Laws.paper().but(rolling="whole-film"))
     radius = geometry.roller_radius(BEARING)
     surface = result.spin * radius
-    cage = result.traction.sel(interface="cage") - result.rolling_power.sel(interface="cage") / surface
+    cage = (
+        result.traction.sel(interface="cage") - result.rolling_power.sel(interface="cage") / surface
+    )
     drag = float(torque.drag_torque) * 2.143 / (ORBIT * BEARING.pitch_radius)
     expected = BEARING.pitch_radius * (float(result.cage_force.sum()) - drag)
     expected += radius * np.cos(BEARING.contact_angle) * float(cage.sum())
@@ -72,7 +76,9 @@ def test_rings_of_the_whole_bearing_feel_what_its_books_hold():
     last = result.sel(book_time=slice(7.5, 8.0)).isel(book_time=[0, -1])
     rates = {name: float(np.diff(last[f"book_{name}"].values)[0]) / 0.5 for name in BOOKS}
     assert inner < 0.0 < outer
-    assert [inner, outer] == pytest.approx([-rates["inner_impulse"], -rates["outer_impulse"]], rel=1e-4)
+    assert [inner, outer] == pytest.approx(
+        [-rates["inner_impulse"], -rates["outer_impulse"]], rel=1e-4
+    )
     assert inner + outer == pytest.approx(rates["body_impulse"], rel=1e-2)
     assert float(torque.torque) * 2.143 == pytest.approx(rates["shaft_work"], rel=1e-3)
 

@@ -24,7 +24,9 @@ def exponent(part, factor=1.01, **changed):
     """Local power with which a part of the torque grows as one input grows."""
     case = {"radial_load": 3e5, "axial_load": 0.0, "shaft_speed": 2.0} | changed.pop("case", {})
     ((key, value),) = changed.items()
-    low, high = (getattr(skf_torque(BEARING, OIL, **case | {key: v}), part) for v in (value, factor * value))
+    low, high = (
+        getattr(skf_torque(BEARING, OIL, **case | {key: v}), part) for v in (value, factor * value)
+    )
     return np.log(high / low) / np.log(factor)
 
 
@@ -34,7 +36,11 @@ def test_agrees_with_the_rule_of_thumb_where_that_holds(kinematic, speed):
     # M = ½ µ P d with µ = 0.0018 for spherical roller bearings at P = 0.1 C, well lubricated.
     load = 0.1 * BEARING.dynamic_load_rating
     thumb = 0.5 * 0.0018 * load * BEARING.bore_diameter
-    assert 0.5 < skf_torque(BEARING, oil_of(kinematic), load, 0.0, speed, oil="mineral oil").total / thumb < 2.0
+    assert (
+        0.5
+        < skf_torque(BEARING, oil_of(kinematic), load, 0.0, speed, oil="mineral oil").total / thumb
+        < 2.0
+    )
 
 
 def test_without_load_nothing_resists_but_the_bath():
@@ -104,7 +110,9 @@ def test_starvation_lowers_rolling_friction_in_the_known_order():
 
 def test_drag_grows_with_level_until_the_bearing_is_drowned():
     levels = np.linspace(0.0, 1.2 * 0.735, 40)
-    drag = [skf_torque(BEARING, OIL, 3e5, 0.0, 2.0, bath=OilBath(level, 1e-3)).drag for level in levels]
+    drag = [
+        skf_torque(BEARING, OIL, 3e5, 0.0, 2.0, bath=OilBath(level, 1e-3)).drag for level in levels
+    ]
     assert drag[0] == 0.0 and np.all(np.diff(drag) > 0)
     over = skf_torque(BEARING, OIL, 3e5, 0.0, 2.0, bath=OilBath(3.0, 1e-3)).drag
     assert over == pytest.approx(drag[-1], rel=1e-12)
@@ -125,7 +133,9 @@ def test_oil_thicker_than_the_model_knows_is_said():
     assert note == "viscosity is 750 mm2/s; the model is stated for 2 to 500 mm2/s"
     # The drag does not follow a thicker oil.
     bath = OilBath(0.3, 1e-3)
-    thick, limit = (skf_torque(BEARING, oil_of(v), 3e5, 0.0, 2.0, bath=bath).drag for v in (900.0, 500.0))
+    thick, limit = (
+        skf_torque(BEARING, oil_of(v), 3e5, 0.0, 2.0, bath=bath).drag for v in (900.0, 500.0)
+    )
     assert thick == pytest.approx(limit, rel=1e-12)
 
 
@@ -141,7 +151,9 @@ def test_arrays_broadcast_and_agree_with_single_numbers():
 def test_errors_say_what_is_allowed():
     with pytest.raises(InputError, match="no constants for series '24'. Allowed: .*240"):
         skf_torque(BEARING, OIL, 1.0, 1.0, 1.0, series="24")
-    with pytest.raises(InputError, match="there is no oil 'water'. Allowed: synthetic oil, mineral oil"):
+    with pytest.raises(
+        InputError, match="there is no oil 'water'. Allowed: synthetic oil, mineral oil"
+    ):
         skf_torque(BEARING, OIL, 1.0, 1.0, 1.0, oil="water")
     with pytest.raises(InputError, match="no bore_diameter, no width"):
         skf_torque(BEARING.replace(bore_diameter=None, width=None), OIL, 1.0, 1.0, 1.0)

@@ -8,7 +8,9 @@ from validation import regime
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize(("case", "at_30", "at_35", "at_40"), [("12B", 0.02, 0.72, 0.99), ("24B", 0.0, 0.47, 0.90)])
+@pytest.mark.parametrize(
+    ("case", "at_30", "at_35", "at_40"), [("12B", 0.02, 0.72, 0.99), ("24B", 0.0, 0.47, 0.90)]
+)
 def test_films_become_mixed_between_30_and_40_degrees(case, at_30, at_35, at_40):
     found = [regime.mixed_share(case, celsius, 0.7) for celsius in (30.0, 35.0, 40.0)]
     assert found == pytest.approx([at_30, at_35, at_40], abs=0.01)

@@ -13,8 +13,12 @@ BEARING = Bearing.read("skf-240-600-bc")
 
 def test_replenishment_is_what_a_covered_roller_has_more_than_a_greased_one():
     oil = Lubricant.read("vg460-pao")
-    greased, covered = (skf_torque(BEARING, oil, 3e5, 1e5, 2.0, bath=bath) for bath in (None, OilBath(0.2, 0.0)))
-    factor = replenishment(oil.viscosity / oil.density, 2.0, BEARING.bore_diameter, BEARING.outside_diameter)
+    greased, covered = (
+        skf_torque(BEARING, oil, 3e5, 1e5, 2.0, bath=bath) for bath in (None, OilBath(0.2, 0.0))
+    )
+    factor = replenishment(
+        oil.viscosity / oil.density, 2.0, BEARING.bore_diameter, BEARING.outside_diameter
+    )
     assert greased.rolling / covered.rolling == pytest.approx(float(factor), rel=1e-12)
 
 

@@ -29,7 +29,9 @@ def test_crowned_roller_is_the_programs_patch():
     )  # fmt: skip
     from macroslip.contact.film import inlet_heating_factor, masjedi_khonsari_moes, thermal_loading
 
-    film = masjedi_khonsari_moes(contact, load, washer) * inlet_heating_factor(thermal_loading(contact) * washer**2)
+    film = masjedi_khonsari_moes(contact, load, washer) * inlet_heating_factor(
+        thermal_loading(contact) * washer**2
+    )
     parts = np.empty(4)
     patch_traction(patch, chord_table(fluid), load, film, 0.0, washer, 0.0, parts)
     power = -washer / BEARING.pitch_radius * parts[2]
@@ -48,7 +50,9 @@ def test_friction_of_a_constant_coefficient_has_the_arm_of_the_profile(crowned, 
 def test_rebuilt_torque_is_the_catalogues_form():
     assert ROLLER_81107.sliding_of_unit(7e3) == pytest.approx(11.18, abs=0.01)
     # So fast that the film is full, φ_bl = e^−15: the film's coefficient alone.
-    assert ROLLER_81107.torque(1.0, 0.0177, 100.0, 7e3, 1200.0).sliding == pytest.approx(0.0177 * 11.18, rel=1e-3)
+    assert ROLLER_81107.torque(1.0, 0.0177, 100.0, 7e3, 1200.0).sliding == pytest.approx(
+        0.0177 * 11.18, rel=1e-3
+    )
 
 
 def test_published_coefficients_are_of_another_contact():
@@ -60,7 +64,13 @@ def test_published_coefficients_are_of_another_contact():
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "low", "high"),
-    [("MINR", 0.73, 1.58), ("MINE", 0.73, 1.62), ("PAOR", 0.63, 1.49), ("ESTR", 0.57, 1.43), ("PAGD", 0.72, 1.46)],
+    [
+        ("MINR", 0.73, 1.58),
+        ("MINE", 0.73, 1.62),
+        ("PAOR", 0.63, 1.49),
+        ("ESTR", 0.57, 1.43),
+        ("PAGD", 0.72, 1.46),
+    ],
 )
 def test_torque_lies_around_the_measured_one(name, low, high):
     _, _, ratio = friction.torques(name, "eyring", friction.FAST)
@@ -79,7 +89,9 @@ def test_estimated_coefficients_of_mineral_oil_and_pao_give_the_measured_frictio
 @pytest.mark.slow
 def test_laws_of_shear_are_not_told_apart():
     for name in ("MINR", "PAGD"):
-        eyring, limit = (friction.torques(name, law, friction.FAST)[2] for law in friction.RHEOLOGIES)
+        eyring, limit = (
+            friction.torques(name, law, friction.FAST)[2] for law in friction.RHEOLOGIES
+        )
         assert eyring.low < 1.0 < eyring.high
         assert limit.low < 1.0 < limit.high
         assert math.log(limit.high / eyring.high) < 0.06

@@ -18,7 +18,9 @@ def test_wear_is_nil_at_two_places_and_marked_at_both_sides_of_them(degrees):
     error = np.radians(degrees)
     first, second = wear_lines.lines(error)
     assert -1.0 < first < second < 1.0
-    between, outside = wear_lines.wear(error, np.array([0.5 * (first + second), 0.5 * (first - 1.0)]))
+    between, outside = wear_lines.wear(
+        error, np.array([0.5 * (first + second), 0.5 * (first - 1.0)])
+    )
     assert min(between, outside) > 100.0 * max(wear_lines.wear(error, np.array([first, second])))
 
 

@@ -50,14 +50,21 @@ class Simulated(NamedTuple):
     def cage_speed(self, cage: int = 0) -> np.ndarray:
         """Speed of a cage [rad/s] at the books' times."""
         rows = self.whole[self.at_outputs()]
-        shaft = np.where(rows["end"] == rows["start"], rows["shaft_speed"][:, 0], rows["shaft_speed"][:, 1])
-        return (rows["cages"][:, cage, 0] + 0.5 * shaft * self.bearing.inner_radius) / self.bearing.pitch_radius
+        shaft = np.where(
+            rows["end"] == rows["start"], rows["shaft_speed"][:, 0], rows["shaft_speed"][:, 1]
+        )
+        return (
+            rows["cages"][:, cage, 0] + 0.5 * shaft * self.bearing.inner_radius
+        ) / self.bearing.pitch_radius
 
 
 def box_for(prepared, motion, tolerance):
     """A box of tables for a motion of the ring."""
     model = next(iter(prepared.models.values()))
-    radial = np.hypot(motion.displacement[:, 0], motion.displacement[:, 1]).max() * model.cos_contact_angle
+    radial = (
+        np.hypot(motion.displacement[:, 0], motion.displacement[:, 1]).max()
+        * model.cos_contact_angle
+    )
     approach = radial + np.abs(motion.displacement[:, 2] * model.sin_contact_angle).max()
     speeds = motion.shaft_speed * prepared.orbit_ratio * prepared.outer_radius
     return table_box(speeds, max(model.stiffness * approach**1.5, 2e3), tolerance)
@@ -94,14 +101,21 @@ def run(bearing, lubricant):
             prepared = change(prepared)
         time = np.linspace(0.0, span, 201)
         shaft = np.full(time.size, speed) if np.isscalar(speed) else np.interp(time, *speed)
-        motion = Motion(time, shaft, shaft_angle(time, shaft), np.tile(np.asarray(displacement, float), (time.size, 1)))
+        motion = Motion(
+            time,
+            shaft,
+            shaft_angle(time, shaft),
+            np.tile(np.asarray(displacement, float), (time.size, 1)),
+        )
         begin = pure_rolling(prepared, cage)
         if start:
             begin = start(begin)
         times, box = np.linspace(0.0, span, outputs), box_for(prepared, motion, tolerance)
         for _ in range(4):
             assembly, _ = with_tables(prepared, box)
-            found = gather(prepared, assembly, motion, begin, times, tolerance=tolerance, rests=rests)
+            found = gather(
+                prepared, assembly, motion, begin, times, tolerance=tolerance, rests=rests
+            )
             if found.status != OUTSIDE_TABLES:
                 break
             box = larger(box)
@@ -113,7 +127,11 @@ def run(bearing, lubricant):
 def gather(prepared, assembly, motion, begin, times, **choices) -> Simulated:
     """Integrate, and put all parts together."""
     books, count = Books(prepared, times), prepared.places.size
-    steps, whole, offset = [np.zeros((0, count), STEP)], [np.zeros(0, BEARING_STEP)], [np.zeros((0, count))]
+    steps, whole, offset = (
+        [np.zeros((0, count), STEP)],
+        [np.zeros(0, BEARING_STEP)],
+        [np.zeros((0, count))],
+    )
     part: Part | None = None
     for part in steps_of(assembly, motion, begin, times[times > motion.time[0]], **choices):
         books.add(part)
@@ -129,8 +147,14 @@ def gather(prepared, assembly, motion, begin, times, **choices) -> Simulated:
 
 def losses_of_closed_books(result) -> dict[str, float]:
     """What raceways and friction at the cages lose in the window [J] by the books of a result, which have to be closed."""
-    impulses = [result[name] for name in result if str(name).startswith("book_") and str(name).endswith("impulse")]
-    assert abs(result.momentum_residual).max() < 1e-6 * max(float(abs(one).max()) for one in impulses)
+    impulses = [
+        result[name]
+        for name in result
+        if str(name).startswith("book_") and str(name).endswith("impulse")
+    ]
+    assert abs(result.momentum_residual).max() < 1e-6 * max(
+        float(abs(one).max()) for one in impulses
+    )
     edges = [result.attrs["window_start"], result.attrs["window_end"]]
     lost = {
         name: float(np.diff(result[f"book_{name}"].sel(book_time=edges).values)[0])

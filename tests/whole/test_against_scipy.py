@@ -75,13 +75,25 @@ def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
             theta = start[j] + cage_angle
             cosine, sine = math.cos(theta), math.sin(theta)
             offset = pitch * (phi[j] - theta) + a * sine - b * cosine
-            closing = pitch * (orbit[j] - cage_speed) + p * sine - q * cosine + cage_speed * (a * cosine + b * sine)
+            closing = (
+                pitch * (orbit[j] - cage_speed)
+                + p * sine
+                - q * cosine
+                + cage_speed * (a * cosine + b * sine)
+            )
             spar, _, _ = pocket_force(prepared.pocket, offset, closing)
-            radial = displacement[0] * math.cos(phi[j]) + displacement[1] * math.sin(phi[j]) - model.radial_play
+            radial = (
+                displacement[0] * math.cos(phi[j])
+                + displacement[1] * math.sin(phi[j])
+                - model.radial_play
+            )
             depth = radial * model.cos_contact_angle + displacement[2] * model.sin_contact_angle
             load = model.stiffness * max(depth, 0.0) ** 1.5
             outward = mass * pitch * orbit[j] ** 2 - model.weight_in_plane * math.sin(phi[j])
-            outward = outward * model.cos_contact_angle + model.weight_along_axis * model.sin_contact_angle
+            outward = (
+                outward * model.cos_contact_angle
+                + model.weight_along_axis * model.sin_contact_angle
+            )
             relative = spin[j] - orbit[j] * math.cos(alpha)
             ring_in, ring_out = -(shaft_speed - orbit[j]) * inner, -orbit[j] * outer
             slip_in, slip_out = ring_in - relative * r, ring_out - relative * r
@@ -90,7 +102,9 @@ def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
                 assembly.bodies[row], assembly.tables, load, depth, outward, (ring_in, slip_in), (ring_out, slip_out),
                 spar, sliding,
             )  # fmt: skip
-            against = model.weight_in_plane * math.cos(phi[j]) + model.drag * orbit[j] * abs(orbit[j])
+            against = model.weight_in_plane * math.cos(phi[j]) + model.drag * orbit[j] * abs(
+                orbit[j]
+            )
             found[j] = orbit[j]
             found[n + j] = (spar - against - at_inner[1] + at_outer[1]) / (mass * pitch)
             found[2 * n + j] = (at_inner[0] + at_outer[0] + friction) / (0.5 * mass * r)
@@ -112,7 +126,13 @@ def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
     [
         ((0.0, -1.05e-4, 0.0), Cage(mass=8.0), 0.12, Laws.paper(), math.inf),
         ((0.0, 0.0, -3e-4), Cage(mass=8.0), 0.12, Laws.paper(), 2e-5),
-        ((0.0, -1.05e-4, 0.0), Cage(mass=8.0), 0.12, Laws.paper().but(rolling="whole-film"), math.inf),
+        (
+            (0.0, -1.05e-4, 0.0),
+            Cage(mass=8.0),
+            0.12,
+            Laws.paper().but(rolling="whole-film"),
+            math.inf,
+        ),
         ((0.0, -1.05e-4, 0.0), Cage(mass=8.0), 0.12, Laws.physical(), math.inf),
         ((0.0, -1.05e-4, 0.0), Cage(mass=8.0, impact="dry"), 0.06, Laws.paper(), math.inf),
     ],
@@ -133,12 +153,21 @@ def test_speeds_places_and_energies(run, bearing, displacement, cage, span, laws
     orbit = speed * prepared.inner_radius / (2.0 * prepared.pitch_radius)
     spin = -orbit * prepared.pitch_radius / prepared.radius
     n = 2 * ROLLERS
-    begin = np.concatenate([start, np.full(n, orbit), np.full(n, spin), [0.0, orbit], np.zeros(4), np.zeros(3)])
+    begin = np.concatenate(
+        [start, np.full(n, orbit), np.full(n, spin), [0.0, orbit], np.zeros(4), np.zeros(3)]
+    )
     # Places at rounding of the angles (1e-16 rad) over pockets of 1e-4 m leave ten digits.
     # Energies act on nothing; SciPy enlarges their differences until they overflow.
     with np.errstate(over="ignore"):
         found = solve_ivp(
-            rate, (0.0, span), begin, method="Radau", t_eval=result.books.times, rtol=1e-8, atol=1e-11, max_step=2e-3
+            rate,
+            (0.0, span),
+            begin,
+            method="Radau",
+            t_eval=result.books.times,
+            rtol=1e-8,
+            atol=1e-11,
+            max_step=2e-3,
         )
     assert found.success
     relative = found.y[2 * n : 3 * n] - found.y[n : 2 * n] * math.cos(bearing.contact_angle)

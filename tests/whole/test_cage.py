@@ -36,7 +36,12 @@ def test_pockets_must_fit_between_the_rollers():
 def test_a_fixed_step_is_refused_because_of_impacts():
     loads = BearingLoads.constant([0.0, -3e5, 0.0], 2.0, 1.0)
     with pytest.raises(InputError, match="cannot resolve the impacts"):
-        Case(loads=loads, laws=Laws.paper(), dynamics="whole-bearing", integrator=BackwardEuler(step=1e-3))
+        Case(
+            loads=loads,
+            laws=Laws.paper(),
+            dynamics="whole-bearing",
+            integrator=BackwardEuler(step=1e-3),
+        )
     with pytest.raises(InputError, match="dynamics"):
         Case(loads=loads, laws=Laws.paper(), dynamics="free")
     with pytest.raises(InputError, match="do not use it"):
@@ -56,7 +61,12 @@ def test_random_starts_are_seeded_and_within_the_pocket():
 
 @pytest.mark.parametrize(
     ("given", "free"),
-    [({}, True), ({"weight": False}, False), ({"weight": False, "axis": "free"}, True), ({"axis": "pinned"}, False)],
+    [
+        ({}, True),
+        ({"weight": False}, False),
+        ({"weight": False, "axis": "free"}, True),
+        ({"axis": "pinned"}, False),
+    ],
 )
 def test_axis_is_free_unless_pinned_or_without_weight(given, free, bearing, lubricant):
     found = whole_bearing(bearing, lubricant, Cage(**given), tilt=0.1, laws=Laws.paper())

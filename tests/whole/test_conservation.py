@@ -23,7 +23,9 @@ FREE = (0.0, 0.0, 0.0)
 
 
 def assert_momentum_closes(found):
-    impulses = np.abs(found.books.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
+    impulses = np.abs(
+        found.books.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]
+    ).max()
     assert np.abs(found.books.momentum_residual()).max() < 1e-6 * impulses
 
 
@@ -62,7 +64,11 @@ def test_energies_spin_and_force_converge(run):
     def figures(tolerance):
         found = run(Cage(), RADIAL, 2.143, 1.0, tolerance=tolerance)
         return np.array(
-            [*found.energy().sum(axis=0), found.at_end("outer_slip")[-1, :28].mean(), np.abs(found.offset[-1]).mean()]
+            [
+                *found.energy().sum(axis=0),
+                found.at_end("outer_slip")[-1, :28].mean(),
+                np.abs(found.offset[-1]).mean(),
+            ]
         )
 
     coarse, fine, finest = figures(2e-5), figures(2e-6), figures(2e-7)
@@ -76,7 +82,9 @@ def test_tractions_that_rest_change_nothing(run):
     found = run(Cage(), RADIAL, 2.143, 0.2)
     other = run(Cage(), RADIAL, 2.143, 0.2, rests=False)
     assert found.memory["evaluations"] < 0.5 * other.memory["evaluations"]
-    assert found.energy().sum(axis=0) == pytest.approx(other.energy().sum(axis=0), rel=2e-3, abs=1e-6)
+    assert found.energy().sum(axis=0) == pytest.approx(
+        other.energy().sum(axis=0), rel=2e-3, abs=1e-6
+    )
 
 
 def test_free_coast_only_loses_energy(run):
@@ -96,7 +104,12 @@ def test_a_released_cage_is_caught_by_the_rollers(run):
     """A cage at rest among gripped rollers is carried along within its gap, and the rollers do not notice."""
     nominal = 2.143 * 0.5 * 0.338367
     found = run(
-        Cage(), THRUST, 2.143, 0.3, start=lambda begin: begin._replace(cage_lead=np.full(1, -nominal)), outputs=31
+        Cage(),
+        THRUST,
+        2.143,
+        0.3,
+        start=lambda begin: begin._replace(cage_lead=np.full(1, -nominal)),
+        outputs=31,
     )
     assert found.status == 0
     assert found.cage_speed()[0] == pytest.approx(0.0, abs=1e-5)
@@ -144,7 +157,9 @@ def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
     found = gather(held, assembly, ready.motion, pure_rolling(held, cage), times, tolerance=2e-5)
     assert found.status == 0
     within = found._replace(steps=found.steps[found.whole["start"] >= window[0]])
-    rolling, friction = (each.values.reshape(56, 3) for each in (imposed.rolling_energy, imposed.energy))
+    rolling, friction = (
+        each.values.reshape(56, 3) for each in (imposed.rolling_energy, imposed.energy)
+    )
     assert (rolling > 0.0).all()
     assert within.energy("rolling") == pytest.approx(rolling, rel=1e-3)
     assert within.energy() == pytest.approx(friction, rel=1e-3)
@@ -172,7 +187,9 @@ def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
     cage = Cage(diameter_scatter=1.5e-6, weight=False, gap=5e-4)
     found = run(cage, THRUST, 2.143, 1.0)
     nominal = 2.143 * 0.5 * found.bearing.inner_radius
-    expected = 0.5 * 2.143 * (found.bearing.places["inner_radius"][:28] - found.bearing.inner_radius)
+    expected = (
+        0.5 * 2.143 * (found.bearing.places["inner_radius"][:28] - found.bearing.inner_radius)
+    )
     drift = found.offset[-1, :28] - found.offset[-1, :28].mean()
     assert np.abs(expected).max() > 1e-6 * nominal
     assert drift == pytest.approx(expected - expected.mean(), abs=0.05 * np.abs(expected).max())
@@ -181,7 +198,13 @@ def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
 def test_rollers_that_drop_faster_than_the_rings_creep_stay_in_the_tables():
     loads = BearingLoads.constant((0.0, -5e3, 0.0), 0.01, 3.0)
     found = simulate(
-        Case(loads=loads, laws=Laws.paper(), dynamics="whole-bearing", rating=False, contact_details=False)
+        Case(
+            loads=loads,
+            laws=Laws.paper(),
+            dynamics="whole-bearing",
+            rating=False,
+            contact_details=False,
+        )
     )
     assert (found.status == 0).all()
     drop = found.book_body_work.max() + found.book_cage_weight_work.max()
@@ -202,4 +225,6 @@ def test_a_shaft_that_starts_under_load_gives_rollers_no_energy_of_their_own():
     assert (found.status == 0).all()
     assert (found.energy > -1e-9).all()
     # Nothing but the shaft and falling rollers can move a raceway's rollers.
-    assert float(found.book_kinetic_energy.sum()) < float((found.book_shaft_work + found.book_body_work).sum())
+    assert float(found.book_kinetic_energy.sum()) < float(
+        (found.book_shaft_work + found.book_body_work).sum()
+    )

@@ -37,7 +37,9 @@ def test_nothing_drifts(run):
     Orbits after the first cost the same energy, and the cage stays where the rollers hold it.
     """
     orbit = 2.0 * math.pi / (SPEED * 0.45397)
-    found = run(Cage(weight=False), (0.0, -1.05e-4, 0.0), SPEED, 150.0 * orbit, rollers=3, outputs=7)
+    found = run(
+        Cage(weight=False), (0.0, -1.05e-4, 0.0), SPEED, 150.0 * orbit, rollers=3, outputs=7
+    )
     assert found.status == 0
     passed = np.abs(np.diff(found.flow("inner_impulse")))
     assert (np.abs(np.diff(found.books.momentum_residual())) < 1e-6 * passed).all()

@@ -23,17 +23,30 @@ def test_it_runs_to_the_end(result):
     assert (result.status == 0).all()
     assert (result.end_time == 14.0).all()
     assert result.sizes["orbit"] == 1
-    for name in ("energy", "rolling_energy", "orbit_energy", "peak_power", "mechanism_energy", "station_energy"):
+    for name in (
+        "energy",
+        "rolling_energy",
+        "orbit_energy",
+        "peak_power",
+        "mechanism_energy",
+        "station_energy",
+    ):
         assert np.isfinite(result[name]).all()
 
 
 def test_mechanisms_stations_and_maps_add_up_to_the_energies(result):
-    raceways = result.energy.sel(interface=["inner", "outer"]).transpose("row", "roller", "interface").values
+    raceways = (
+        result.energy.sel(interface=["inner", "outer"])
+        .transpose("row", "roller", "interface")
+        .values
+    )
     mechanisms = result.mechanism_energy.sum("mechanism").transpose(*result.energy.dims)
     np.testing.assert_allclose(mechanisms.values, result.energy.values, rtol=1e-12)
     stations = result.station_energy.sum("station").transpose("row", "roller", "raceway")
     np.testing.assert_allclose(stations.values, raceways, rtol=1e-9)
-    maps = result.surface_energy.sum(("angle", "station", "slip_sign", "film_regime")).transpose("row", "raceway")
+    maps = result.surface_energy.sum(("angle", "station", "slip_sign", "film_regime")).transpose(
+        "row", "raceway"
+    )
     np.testing.assert_allclose(maps.values, raceways.sum(axis=1), rtol=1e-9)
 
 
@@ -67,7 +80,9 @@ def test_extremes_have_the_size_of_their_contacts(result):
     assert (ratio.sel(row="downwind") < 1.0).all()
     # Slip of the middle makes this ratio; looks miss the slowest instant, by 1e-4 of it here.
     spin = result.min_spin_ratio.sel(row="upwind")
-    assert (ratio.sel(row="upwind") > 0.999 * 2.0 * (1.0 - spin) / (1.0 + spin)).all() and (ratio < 2.0).all()
+    assert (ratio.sel(row="upwind") > 0.999 * 2.0 * (1.0 - spin) / (1.0 + spin)).all() and (
+        ratio < 2.0
+    ).all()
     assert (result.flash_temperature > 0.0).all() and (result.flash_temperature < 50.0).all()
     assert (result.min_film_ratio > 0.0).all()
     assert (result.quadrature_error < 0.01).all()

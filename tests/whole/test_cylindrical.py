@@ -33,7 +33,14 @@ from macroslip.roller.model import ring_geometry, roller_model
 FILE = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
 BEARING, OIL = Bearing.read(FILE), Lubricant.read("vg320-mineral").at(333.15)
 SPEED = 1500.0 * math.pi / 30.0
-LED = Cage(gap=3e-4, mass=4.0, guided_by="outer-ring", land_diameter=0.244, land_width=0.016, land_clearance=6e-4)
+LED = Cage(
+    gap=3e-4,
+    mass=4.0,
+    guided_by="outer-ring",
+    land_diameter=0.244,
+    land_width=0.016,
+    land_clearance=6e-4,
+)
 
 
 def case(force=(0.0, -8e3, 0.0), span=0.6, speed=SPEED, **choices):
@@ -52,7 +59,10 @@ def light():
 def test_its_file_is_read_as_one_row_of_crowned_rollers_on_straight_raceways():
     assert BEARING.rows == 1 and row_names(BEARING) == ("single",)
     assert Bearing.from_dict(BEARING.as_dict()) == BEARING
-    for one, sign in ((geometry.inner_curvatures(BEARING), 1.0), (geometry.outer_curvatures(BEARING), -1.0)):
+    for one, sign in (
+        (geometry.inner_curvatures(BEARING), 1.0),
+        (geometry.outer_curvatures(BEARING), -1.0),
+    ):
         assert one.lateral == pytest.approx(1.0 / 20.0)
         assert one.rolling == pytest.approx(1.0 / 16e-3 + sign / (112.5e-3 - sign * 16e-3))
     shape = contact_shape(BEARING, interfaces(BEARING, OIL)[0], 1, microslip=True)
@@ -100,17 +110,32 @@ def test_a_land_alone_brings_the_cage_to_its_ring_as_petroff_says(ring, turns):
     loose = replace(LED, guided_by=ring, gap=6e-3, impact="dry", weight=False, mass=40.0)
     slow, span = 0.2, 0.2
     found = simulate(
-        case(span=span, speed=slow, cage=loose, laws=Laws.paper(), oil_supply=None, drag=False, gravity=False)
+        case(
+            span=span,
+            speed=slow,
+            cage=loose,
+            laws=Laws.paper(),
+            oil_supply=None,
+            drag=False,
+            gravity=False,
+        )
     )
     drag, pitch = LED.land_drag(0.1125, OIL.viscosity), 0.1125
     radius = 0.122
-    assert drag == pytest.approx(2 * math.pi * radius**2 * 0.016 * OIL.viscosity * radius / 3e-4 / pitch**2)
+    assert drag == pytest.approx(
+        2 * math.pi * radius**2 * 0.016 * OIL.viscosity * radius / 3e-4 / pitch**2
+    )
     ratio = geometry.orbit_ratio(BEARING)
     rate = drag / 40.0
     assert found.pocket_contact_time.sum() == 0.0
     expected = slow * (turns + (ratio - turns) * np.exp(-rate * found.time))
     assert found.cage_speed.values[0] == pytest.approx(expected.values, rel=1e-4)
-    lost = drag * (pitch * slow * (ratio - turns)) ** 2 * (1.0 - np.exp(-2.0 * rate * span)) / (2.0 * rate)
+    lost = (
+        drag
+        * (pitch * slow * (ratio - turns)) ** 2
+        * (1.0 - np.exp(-2.0 * rate * span))
+        / (2.0 * rate)
+    )
     assert float(found.book_guide_loss[-1]) == pytest.approx(lost, rel=1e-3)
     assert np.abs(found.energy_residual).max() < 1e-2 * lost
 
@@ -131,7 +156,10 @@ def test_a_roller_past_the_peak_of_traction_does_not_run_away():
     ("choices", "said"),
     [
         ({"force": (0.0, -8e3, 1.0)}, "axial part of up to 1 N"),
-        ({"loads": HubLoads.constant((0.0, 0.0, -1e3), (0.0, 0.0, 0.0), 2.0, 1.0)}, "loads are given at the hub"),
+        (
+            {"loads": HubLoads.constant((0.0, 0.0, -1e3), (0.0, 0.0, 0.0), 2.0, 1.0)},
+            "loads are given at the hub",
+        ),
         ({"laws": Laws.physical().but(skew="quasi-static")}, "held by flanges"),
         ({"cage": replace(LED, arrangement="per-row")}, "in a bearing of one row"),
         ({"bearing": Bearing.read("skf-240-600-bc")}, "beyond any rotor"),
@@ -160,7 +188,10 @@ def test_a_bearing_is_spherical_or_cylindrical(entries, said):
     ("given", "said"),
     [
         ({"land_width": 0.01}, "land_width describes a ring's land, and rollers guide the cage"),
-        ({"guided_by": "inner-ring", "land_width": 0.01}, "land_diameter and land_clearance are not given"),
+        (
+            {"guided_by": "inner-ring", "land_width": 0.01},
+            "land_diameter and land_clearance are not given",
+        ),
     ],
 )
 def test_a_land_is_described_in_full_or_not_at_all(given, said):
@@ -173,6 +204,8 @@ def test_it_is_neither_rated_nor_studied(tmp_path):
 
     with pytest.raises(InputError, match="cylindrical roller bearing"):
         roller_load_history(BEARING, OIL, BearingLoads.constant([0.0, -8e3, 0.0], 2.0, 1.0))
-    (tmp_path / "study.yaml").write_text(f"loads: {{bundled: [12B]}}\nbearings: [{FILE}]\n", encoding="utf-8")
+    (tmp_path / "study.yaml").write_text(
+        f"loads: {{bundled: [12B]}}\nbearings: [{FILE}]\n", encoding="utf-8"
+    )
     with pytest.raises(InputError, match="compare rows of spherical ones"):
         read_study(tmp_path / "study.yaml")

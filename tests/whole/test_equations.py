@@ -34,7 +34,9 @@ def contact_moments():
 
 
 def test_spin_equation():
-    assert sp.simplify(contact_moments() - sp.Matrix([0, 0, r * (F_i + F_o + F_c)])) == sp.zeros(3, 1)
+    assert sp.simplify(contact_moments() - sp.Matrix([0, 0, r * (F_i + F_o + F_c)])) == sp.zeros(
+        3, 1
+    )
     rate = angular_momentum_rate()
     assert sp.simplify(rate[2] - inertia_z * spin.diff(t)) == 0  # (16): no gyroscopic term about z'
 
@@ -43,7 +45,9 @@ def test_orbit_equation_is_newtons_law_for_the_centre():
     """The moment about the bearing's axis (17), with (16) put in, leaves the centre's law; what the tilt adds is a couple."""
     rate = angular_momentum_rate()
     about_axis = m * pitch**2 * orbit.diff(t) + sp.sin(alpha) * rate[1] + sp.cos(alpha) * rate[2]
-    torque = pitch * (N - G - F_i + F_o) + sp.cos(alpha) * r * (F_i + F_o + F_c) + sp.sin(alpha) * couple
+    torque = (
+        pitch * (N - G - F_i + F_o) + sp.cos(alpha) * r * (F_i + F_o + F_c) + sp.sin(alpha) * couple
+    )
     equation = (about_axis - torque).subs(spin.diff(t), r * (F_i + F_o + F_c) / inertia_z)
     # Counted as an outside couple, what the tilt needs is C = I_y' sin α dΩ/dt, and the orbit's inertia is m r~².
     newton = m * pitch**2 * orbit.diff(t) - pitch * (N - G - F_i + F_o)
@@ -76,7 +80,9 @@ def about_axis(place, force):
 
 
 @pytest.mark.parametrize("side", [-1, 1], ids=["inner", "outer"])
-def test_rolling_resistance_acts_on_roller_and_ring_with_opposite_torques_and_costs_what_the_film_dissipates(side):
+def test_rolling_resistance_acts_on_roller_and_ring_with_opposite_torques_and_costs_what_the_film_dissipates(
+    side,
+):
     """Shear σ on both surfaces at the contact, and the pressure's push −2σ R/R_i through the axis of either body.
 
     Motion is counted along +x' at the inner raceway and along −x' at the outer one.
@@ -88,21 +94,29 @@ def test_rolling_resistance_acts_on_roller_and_ring_with_opposite_torques_and_co
     relative = 1 / r - side * sp.cos(alpha) / arm
     on_roller, on_ring = 1 / (r * relative), -side * sp.cos(alpha) / (arm * relative)
     assert sp.simplify(on_roller - arm / pitch) == 0
-    assert sp.simplify(2 * shear - 2 * shear * (on_roller + on_ring)) == 0  # the film has no mass: forces balance
+    assert (
+        sp.simplify(2 * shear - 2 * shear * (on_roller + on_ring)) == 0
+    )  # the film has no mass: forces balance
 
     pull = shear * (1 - 2 * on_roller)
-    roller_torque = about_axis(place, shear * along) + about_axis(CENTRE, -2 * shear * on_roller * along)
+    roller_torque = about_axis(place, shear * along) + about_axis(
+        CENTRE, -2 * shear * on_roller * along
+    )
     # The push on the ring goes through the bearing's axis.
     ring_torque = about_axis(place, shear * along)
     assert sp.simplify(roller_torque + ring_torque) == 0
-    assert sp.simplify(roller_torque - side * (pitch * pull + side * r * sp.cos(alpha) * shear)) == 0
+    assert (
+        sp.simplify(roller_torque - side * (pitch * pull + side * r * sp.cos(alpha) * shear)) == 0
+    )
 
     about_centre = (side * r * Y).cross(shear * along)
     assert about_centre == r * shear * Z  # it turns the roller as a traction does
     power = pull * along.dot(TRAVEL) + about_centre.dot(TURNING) + ring_torque * ring_speed
     surface = r * (omega - orbital * sp.cos(alpha))
     ring = side * (ring_speed - orbital) * arm
-    assert sp.simplify(power - shear * (surface + ring)) == 0  # −2 F_R u for σ = −F_R, u the mean speed
+    assert (
+        sp.simplify(power - shear * (surface + ring)) == 0
+    )  # −2 F_R u for σ = −F_R, u the mean speed
 
 
 def test_rolling_resistance_in_a_pocket_acts_as_its_friction_does():
@@ -124,7 +138,10 @@ def test_slip_equations_where_pull_and_spin_force_differ():
     shaft = sp.Function("Omega_in")(t)
     P_i, P_o, S_i, S_o = sp.symbols("P_i P_o S_i S_o")
     inner = pitch - r * sp.cos(alpha)
-    rates = {orbit.diff(t): (N - G - P_i + P_o) / (m * pitch), spin.diff(t): r * (S_i + S_o + F_c) / (m * r**2 / 2)}
+    rates = {
+        orbit.diff(t): (N - G - P_i + P_o) / (m * pitch),
+        spin.diff(t): r * (S_i + S_o + F_c) / (m * r**2 / 2),
+    }
     v_in = -shaft * inner + orbit * pitch - r * spin
     v_out = -orbit * pitch - r * spin
     relative, outer = spin - orbit * sp.cos(alpha), pitch + r * sp.cos(alpha)

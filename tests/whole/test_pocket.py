@@ -7,7 +7,13 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from macroslip.whole.pocket import Pocket, elastic_energy, pocket_force, squeeze_coefficient, squeeze_resistance
+from macroslip.whole.pocket import (
+    Pocket,
+    elastic_energy,
+    pocket_force,
+    squeeze_coefficient,
+    squeeze_resistance,
+)
 
 DRY = Pocket(half_gap=2.5e-4, stiffness=4.2e11, damping=50.0, film=0.0, least_film=9e-7)
 FILM = DRY._replace(damping=0.0, film=squeeze_coefficient(0.54, 0.106, 0.035))
@@ -23,7 +29,9 @@ def test_squeeze_film_is_the_integral_of_reynolds_pressure():
         points=[0],
         limit=500,
     )
-    assert squeeze_coefficient(viscosity, length, radius) * speed / gap**1.5 == pytest.approx(length * load, rel=1e-3)
+    assert squeeze_coefficient(viscosity, length, radius) * speed / gap**1.5 == pytest.approx(
+        length * load, rel=1e-3
+    )
 
 
 @pytest.mark.parametrize("over", [1.05, 2.0, 5.0, 100.0])
@@ -35,14 +43,19 @@ def test_squeeze_film_of_a_gap_that_is_full_in_part_is_that_integral_over_the_oi
         return 6.0 * 0.54 * radius * ((film + x * x / (2.0 * radius)) ** -2 - SHORT.oil_gap**-2)
 
     resistance, by_film = squeeze_resistance(SHORT, film)
-    assert resistance == pytest.approx(0.106 * quad(pressure, -reach, reach, limit=200)[0], rel=1e-9)
+    assert resistance == pytest.approx(
+        0.106 * quad(pressure, -reach, reach, limit=200)[0], rel=1e-9
+    )
     step = 1e-5 * film
     above, below = (squeeze_resistance(SHORT, film + one)[0] for one in (step, -step))
     assert by_film == pytest.approx((above - below) / (2.0 * step), rel=1e-6)
 
 
 def test_squeeze_film_ends_where_the_oil_ends_and_is_whole_where_oil_reaches_far():
-    factor = [squeeze_resistance(SHORT, film)[0] / squeeze_resistance(FILM, film)[0] for film in (1e-9, 0.9999e-4)]
+    factor = [
+        squeeze_resistance(SHORT, film)[0] / squeeze_resistance(FILM, film)[0]
+        for film in (1e-9, 0.9999e-4)
+    ]
     assert factor[0] == pytest.approx(1.0, abs=1e-7) and 0.0 < factor[1] < 2e-6
     assert squeeze_resistance(SHORT, SHORT.oil_gap) == squeeze_resistance(SHORT, 2e-4) == (0.0, 0.0)
     assert squeeze_resistance(FILM._replace(oil_gap=1.0), 2e-4) == squeeze_resistance(FILM, 2e-4)
@@ -54,9 +67,15 @@ def test_squeeze_film_ends_where_the_oil_ends_and_is_whole_where_oil_reaches_far
 def test_derivatives(pocket, offset, speed):
     _, by_offset, by_speed = pocket_force(pocket, offset, speed)
     step = 1e-11
-    slope = (pocket_force(pocket, offset + step, speed)[0] - pocket_force(pocket, offset - step, speed)[0]) / (2 * step)
+    slope = (
+        pocket_force(pocket, offset + step, speed)[0]
+        - pocket_force(pocket, offset - step, speed)[0]
+    ) / (2 * step)
     assert by_offset == pytest.approx(slope, rel=1e-4, abs=1e-3)
-    slope = (pocket_force(pocket, offset, speed + 1e-7)[0] - pocket_force(pocket, offset, speed - 1e-7)[0]) / 2e-7
+    slope = (
+        pocket_force(pocket, offset, speed + 1e-7)[0]
+        - pocket_force(pocket, offset, speed - 1e-7)[0]
+    ) / 2e-7
     assert by_speed == pytest.approx(slope, rel=1e-6, abs=1e-6)
 
 
@@ -80,7 +99,10 @@ def test_restitution_is_what_an_impact_gives_back(speed, mass):
     """A body that runs into a fixed spar leaves with e v0, whatever its mass: D v0 (1 + e) = ln[(1 + D v0)/(1 − e D v0)]."""
     ratio = DRY.damping * speed
     wanted = ratio - math.log1p(ratio)
-    restitution = -math.expm1(-brentq(lambda s: s + math.expm1(-s) - wanted, 0.0, wanted + 1.0, xtol=1e-14)) / ratio
+    restitution = (
+        -math.expm1(-brentq(lambda s: s + math.expm1(-s) - wanted, 0.0, wanted + 1.0, xtol=1e-14))
+        / ratio
+    )
     duration = 30.0 * (mass**2 / (DRY.stiffness**2 * speed)) ** 0.2
 
     def rate(_, y):
@@ -91,7 +113,13 @@ def test_restitution_is_what_an_impact_gives_back(speed, mass):
 
     leaves.terminal, leaves.direction = True, -1
     found = solve_ivp(
-        rate, (0.0, duration), [DRY.half_gap, speed], events=leaves, rtol=1e-10, atol=[1e-16, 1e-12], method="DOP853"
+        rate,
+        (0.0, duration),
+        [DRY.half_gap, speed],
+        events=leaves,
+        rtol=1e-10,
+        atol=[1e-16, 1e-12],
+        method="DOP853",
     )
     assert -found.y[1, -1] / speed == pytest.approx(restitution, rel=1e-5)
 

@@ -28,7 +28,12 @@ RACEWAYS = {"interface": ["inner", "outer"]}
 
 
 def case(laws=SKEWED, **changes):
-    given = {"dynamics": "whole-bearing", "traces": Traces(step=0.1), "contact_details": False, "rating": False}
+    given = {
+        "dynamics": "whole-bearing",
+        "traces": Traces(step=0.1),
+        "contact_details": False,
+        "rating": False,
+    }
     return Case(loads=LOADS, laws=laws, **given | changes)
 
 
@@ -70,19 +75,31 @@ def test_what_skew_adds_stands_beside_closed_books():
     found = simulate(case(traces=None))
     lost = losses_of_closed_books(found)
     spent = (found.energy + found.rolling_energy).sum(("row", "roller"))
-    beside = float(found.mechanism_energy.sel(RACEWAYS).sel(mechanism="contact angle").sum() + found.skew_energy.sum())
-    assert float(spent.sel(RACEWAYS).sum()) - beside == pytest.approx(lost["raceway_loss"], rel=1e-6)
+    beside = float(
+        found.mechanism_energy.sel(RACEWAYS).sel(mechanism="contact angle").sum()
+        + found.skew_energy.sum()
+    )
+    assert float(spent.sel(RACEWAYS).sum()) - beside == pytest.approx(
+        lost["raceway_loss"], rel=1e-6
+    )
     ends = float(found.stop_energy.sum())
-    assert float(spent.sel(interface="cage")) - ends == pytest.approx(lost["friction_loss"], rel=1e-6)
+    assert float(spent.sel(interface="cage")) - ends == pytest.approx(
+        lost["friction_loss"], rel=1e-6
+    )
     assert 0.05 * lost["friction_loss"] < ends < lost["friction_loss"]
-    assert float(found.skew_energy.sum()) > 0.1 * float(found.energy.sel(RACEWAYS | {"row": "downwind"}).sum())
+    assert float(found.skew_energy.sum()) > 0.1 * float(
+        found.energy.sel(RACEWAYS | {"row": "downwind"}).sum()
+    )
 
 
 def test_spar_and_ends_carry_what_the_contacts_leave(skewed):
     """By the contacts themselves, without the table, at rests on the way and at the stop."""
     one, bearing = pressed(skewed), case().bearing
     load, skew = one.roller_load.values, one.skew_angle.values
-    laws, stop = prepare(SKEWED, bearing, case().oil, 1), pocket(bearing, "conforming-pocket", 0.5e-3)
+    laws, stop = (
+        prepare(SKEWED, bearing, case().oil, 1),
+        pocket(bearing, "conforming-pocket", 0.5e-3),
+    )
     speed = one.spin_pure.values * roller_radius(bearing)
     exact = equilibrium(raceways(laws, bearing, 1), laws, load, speed, skew)
     arm = np.minimum(stop.effective_radius * np.abs(skew), 0.5 * stop.arm)
@@ -91,9 +108,9 @@ def test_spar_and_ends_carry_what_the_contacts_leave(skewed):
     assert (np.abs(exact.moment - borne) < 2e-3 * 0.04 * load * reach).all()
     held = one.stop_force.values > 0.0
     assert 0.02 < held.mean() < 0.98
-    assert np.abs(skew[held]) == pytest.approx(stop.largest, rel=1e-9) and np.abs(skew).max() <= stop.largest * (
-        1 + 1e-12
-    )
+    assert np.abs(skew[held]) == pytest.approx(stop.largest, rel=1e-9) and np.abs(
+        skew
+    ).max() <= stop.largest * (1 + 1e-12)
 
 
 def test_under_the_forces_of_an_imposed_orbit_rests_are_those_of_an_imposed_orbit():
@@ -101,7 +118,9 @@ def test_under_the_forces_of_an_imposed_orbit_rests_are_those_of_an_imposed_orbi
     whole, imposed = case(), case(dynamics="imposed-orbit")
     ready, other = prepare_case(whole), prepare_case(imposed)
     scale = np.abs(other.motion.displacement).max()
-    np.testing.assert_allclose(ready.motion.displacement, other.motion.displacement, atol=1e-4 * scale)
+    np.testing.assert_allclose(
+        ready.motion.displacement, other.motion.displacement, atol=1e-4 * scale
+    )
     one = pressed(simulate(imposed), 100.0)
     raw = np.zeros(one.sizes["state"], END)
     raw["elastic_load"], raw["cage_load"] = one.roller_load, one.cage_force

@@ -29,15 +29,25 @@ SPEED, SLIP = -0.37, 2e-3
 
 @pytest.fixture(scope="module", params=["paper", "rolling", "physical"])
 def assembly(request, bearing, lubricant):
-    laws = {"paper": Laws.paper(), "rolling": Laws.paper().but(rolling="whole-film"), "physical": Laws.physical()}
-    held = whole_bearing(bearing.replace(rollers_per_row=3), lubricant, Cage(), tilt=0.0, laws=laws[request.param])
+    laws = {
+        "paper": Laws.paper(),
+        "rolling": Laws.paper().but(rolling="whole-film"),
+        "physical": Laws.physical(),
+    }
+    held = whole_bearing(
+        bearing.replace(rollers_per_row=3), lubricant, Cage(), tilt=0.0, laws=laws[request.param]
+    )
     return with_tables(held, table_box(np.array([-0.41, -0.36]), 5e4, 2e-4))[0]
 
 
 def sheets_at(assembly, load, speed, slip):
     """The sheet of a roller whose both raceways are at this load [N], ring speed and slip [m/s]."""
     count = assembly.places.size
-    moments, (sheets, _), rests = np.zeros((2, count), MOMENT), new_sheets(count), np.zeros(count, REST)
+    moments, (sheets, _), rests = (
+        np.zeros((2, count), MOMENT),
+        new_sheets(count),
+        np.zeros(count, REST),
+    )
     for name in ("inner", "outer"):
         moments[f"{name}_load"], moments[f"{name}_speed"] = load, speed
     rests["marked"] = True
@@ -91,12 +101,14 @@ def test_slopes_of_the_cage(assembly, push, sliding):
     force, by_sliding, by_push = friction(assembly, sheet, push, sliding)
     assert force * sliding > 0.0
     slope = (
-        friction(assembly, sheet, push, sliding + 1e-5)[0] - friction(assembly, sheet, push, sliding - 1e-5)[0]
+        friction(assembly, sheet, push, sliding + 1e-5)[0]
+        - friction(assembly, sheet, push, sliding - 1e-5)[0]
     ) / 2e-5
     assert by_sliding == pytest.approx(slope, rel=1e-3, abs=1e-6 * abs(force / sliding))
     step = 1e-4 * abs(push)
     slope = (
-        friction(assembly, sheet, push + step, sliding)[0] - friction(assembly, sheet, push - step, sliding)[0]
+        friction(assembly, sheet, push + step, sliding)[0]
+        - friction(assembly, sheet, push - step, sliding)[0]
     ) / (2.0 * step)
     assert by_push == pytest.approx(slope, rel=1e-3, abs=1e-6 * abs(force / push))
 

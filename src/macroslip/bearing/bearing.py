@@ -11,7 +11,17 @@ from macroslip.errors import InputError
 from macroslip.input.fields import Positive, Quantity, Text
 from macroslip.input.files import Source
 from macroslip.input.record import Record
-from macroslip.input.units import ANGLE, CONDUCTIVITY, DENSITY, FORCE, LENGTH, MASS, NUMBER, PRESSURE, SPECIFIC_HEAT
+from macroslip.input.units import (
+    ANGLE,
+    CONDUCTIVITY,
+    DENSITY,
+    FORCE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    PRESSURE,
+    SPECIFIC_HEAT,
+)
 
 #: Relative difference allowed between given and computed positions of the roller centre: drawings round.
 SPHERE_TOLERANCE = 0.01
@@ -43,40 +53,81 @@ class Bearing(Record):
     }
 
     name: Annotated[str, Text("short name of the bearing, used in results", line=True)]
-    title: Annotated[str, Text("one line that describes the bearing", may_be_empty=True, line=True)] = ""
+    title: Annotated[
+        str, Text("one line that describes the bearing", may_be_empty=True, line=True)
+    ] = ""
 
-    bore_diameter: Annotated[_Optional, Positive("bore diameter of the inner ring", LENGTH, 10)] = None
-    outside_diameter: Annotated[_Optional, Positive("outside diameter of the outer ring", LENGTH, 10)] = None
+    bore_diameter: Annotated[_Optional, Positive("bore diameter of the inner ring", LENGTH, 10)] = (
+        None
+    )
+    outside_diameter: Annotated[
+        _Optional, Positive("outside diameter of the outer ring", LENGTH, 10)
+    ] = None
     width: Annotated[_Optional, Positive("width of the bearing", LENGTH, 5)] = None
-    dynamic_load_rating: Annotated[_Optional, Positive("basic dynamic radial load rating C", FORCE, 1e9)] = None
-    static_load_rating: Annotated[_Optional, Positive("basic static radial load rating C0", FORCE, 1e9)] = None
-    fatigue_load_limit: Annotated[_Optional, Positive("fatigue load limit C_u, in some catalogues P_u", FORCE, 1e9)] = (
+    dynamic_load_rating: Annotated[
+        _Optional, Positive("basic dynamic radial load rating C", FORCE, 1e9)
+    ] = None
+    static_load_rating: Annotated[
+        _Optional, Positive("basic static radial load rating C0", FORCE, 1e9)
+    ] = None
+    fatigue_load_limit: Annotated[
+        _Optional, Positive("fatigue load limit C_u, in some catalogues P_u", FORCE, 1e9)
+    ] = None
+    axial_factor_e: Annotated[
+        _Optional, Positive("ratio e of axial to radial load between Y1 and Y2", NUMBER, 5)
+    ] = None
+    axial_factor_y1: Annotated[
+        _Optional, Positive("axial load factor Y1, at or below e", NUMBER, 100)
+    ] = None
+    axial_factor_y2: Annotated[
+        _Optional, Positive("axial load factor Y2, above e", NUMBER, 100)
+    ] = None
+    axial_factor_y0: Annotated[_Optional, Positive("static axial load factor Y0", NUMBER, 100)] = (
         None
     )
-    axial_factor_e: Annotated[_Optional, Positive("ratio e of axial to radial load between Y1 and Y2", NUMBER, 5)] = (
-        None
-    )
-    axial_factor_y1: Annotated[_Optional, Positive("axial load factor Y1, at or below e", NUMBER, 100)] = None
-    axial_factor_y2: Annotated[_Optional, Positive("axial load factor Y2, above e", NUMBER, 100)] = None
-    axial_factor_y0: Annotated[_Optional, Positive("static axial load factor Y0", NUMBER, 100)] = None
     mass: Annotated[_Optional, Positive("mass of the bearing", MASS, 1e6)] = None
 
-    rollers_per_row: Annotated[int, Quantity("number of rollers in each row", NUMBER, 3, 500, whole=True)]
+    rollers_per_row: Annotated[
+        int, Quantity("number of rollers in each row", NUMBER, 3, 500, whole=True)
+    ]
     roller_diameter: Annotated[float, Positive("largest roller diameter", LENGTH, 1)]
     roller_length: Annotated[float, Positive("roller length", LENGTH, 2)]
     contact_angle: Annotated[
-        float, Quantity("angle of the contact normals to the radial plane", ANGLE, 0, math.pi / 4, below=True)
+        float,
+        Quantity(
+            "angle of the contact normals to the radial plane", ANGLE, 0, math.pi / 4, below=True
+        ),
     ]
-    pitch_radius: Annotated[float, Positive("distance of the roller centres from the bearing axis", LENGTH, 5)]
-    outer_raceway_radius: Annotated[float, Positive("radius of the outer raceway sphere", LENGTH, 10)]
-    row_offset: Annotated[float, Quantity("axial distance of the roller centres from the mid-plane", LENGTH, 0, 5)]
+    pitch_radius: Annotated[
+        float, Positive("distance of the roller centres from the bearing axis", LENGTH, 5)
+    ]
+    outer_raceway_radius: Annotated[
+        float, Positive("radius of the outer raceway sphere", LENGTH, 10)
+    ]
+    row_offset: Annotated[
+        float, Quantity("axial distance of the roller centres from the mid-plane", LENGTH, 0, 5)
+    ]
     osculation_inner: Annotated[
         _Optional,
-        Quantity("roller contour radius / contour radius of the inner raceway", NUMBER, 0.9, 1, above=True, below=True),
+        Quantity(
+            "roller contour radius / contour radius of the inner raceway",
+            NUMBER,
+            0.9,
+            1,
+            above=True,
+            below=True,
+        ),
     ] = None
     osculation_outer: Annotated[
         _Optional,
-        Quantity("roller contour radius / radius of the outer raceway sphere", NUMBER, 0.9, 1, above=True, below=True),
+        Quantity(
+            "roller contour radius / radius of the outer raceway sphere",
+            NUMBER,
+            0.9,
+            1,
+            above=True,
+            below=True,
+        ),
     ] = None
     roller_crown_radius: Annotated[
         _Optional, Positive("radius of a cylindrical roller's crown along its axis", LENGTH, 1000)
@@ -85,27 +136,47 @@ class Bearing(Record):
         float, Quantity("diametral operating clearance, negative for preload", LENGTH, -1e-3, 5e-3)
     ]
     out_of_round_second: Annotated[
-        _Optional, Quantity("wave with two crests: its part of the radial clearance", LENGTH, -1e-3, 1e-3)
+        _Optional,
+        Quantity("wave with two crests: its part of the radial clearance", LENGTH, -1e-3, 1e-3),
     ] = None
     out_of_round_third: Annotated[
-        _Optional, Quantity("wave with three crests: its part of the radial clearance", LENGTH, -1e-3, 1e-3)
+        _Optional,
+        Quantity("wave with three crests: its part of the radial clearance", LENGTH, -1e-3, 1e-3),
     ] = None
     out_of_round_angle: Annotated[
-        _Optional, Quantity("place of a crest of both, from horizontal; 0 if not given", ANGLE, -math.pi, math.pi)
+        _Optional,
+        Quantity(
+            "place of a crest of both, from horizontal; 0 if not given", ANGLE, -math.pi, math.pi
+        ),
     ] = None
 
-    youngs_modulus: Annotated[float, Quantity("Young's modulus of rollers and raceways", PRESSURE, 1e9, 1e12)]
-    poisson_ratio: Annotated[float, Quantity("Poisson ratio of rollers and raceways", NUMBER, 0, 0.5, below=True)]
+    youngs_modulus: Annotated[
+        float, Quantity("Young's modulus of rollers and raceways", PRESSURE, 1e9, 1e12)
+    ]
+    poisson_ratio: Annotated[
+        float, Quantity("Poisson ratio of rollers and raceways", NUMBER, 0, 0.5, below=True)
+    ]
     density: Annotated[float, Quantity("density of the rollers", DENSITY, 500, 25000)]
-    cage_youngs_modulus: Annotated[float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)]
-    cage_poisson_ratio: Annotated[float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)]
-    composite_roughness: Annotated[float, Positive("composite RMS roughness of roller and raceway", LENGTH, 1e-4)]
-    hardness: Annotated[float, Quantity("Vickers hardness of the softer surface, as a pressure", PRESSURE, 1e8, 1e11)]
+    cage_youngs_modulus: Annotated[
+        float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)
+    ]
+    cage_poisson_ratio: Annotated[
+        float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)
+    ]
+    composite_roughness: Annotated[
+        float, Positive("composite RMS roughness of roller and raceway", LENGTH, 1e-4)
+    ]
+    hardness: Annotated[
+        float,
+        Quantity("Vickers hardness of the softer surface, as a pressure", PRESSURE, 1e8, 1e11),
+    ]
 
     thermal_conductivity: Annotated[
         _Optional, Positive("thermal conductivity of rollers and raceways", CONDUCTIVITY, 1000)
     ] = None
-    specific_heat: Annotated[_Optional, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)] = None
+    specific_heat: Annotated[
+        _Optional, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)
+    ] = None
 
     @property
     def rows(self) -> int:
@@ -179,7 +250,9 @@ def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
     # Centres of neighbouring rollers are a chord of the pitch circle apart.
     spacing = 2 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
     if spacing <= bearing.roller_diameter:
-        most = math.floor(math.pi / math.asin(min(1.0, bearing.roller_diameter / (2 * bearing.pitch_radius))))
+        most = math.floor(
+            math.pi / math.asin(min(1.0, bearing.roller_diameter / (2 * bearing.pitch_radius)))
+        )
         yield InputError(
             f"{bearing.rollers_per_row} rollers do not fit round the circumference: roller_diameter is "
             f"{bearing.written('roller_diameter')}, centres are {bearing.written('roller_diameter', spacing)} apart",
@@ -194,7 +267,11 @@ def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
     if space.nearest < 0.0 and bearing.rows > 1:
         overlap = bearing.written("row_offset", -2.0 * space.nearest)
         coincide = bearing.row_offset == 0.0
-        what = "both rows lie in one plane" if coincide else f"the rollers of the two rows overlap by {overlap}"
+        what = (
+            "both rows lie in one plane"
+            if coincide
+            else f"the rollers of the two rows overlap by {overlap}"
+        )
         yield InputError(
             f"{what}: row_offset is {bearing.written('row_offset')}, roller_length {bearing.written('roller_length')}",
             where=source.where("row_offset", "value"),

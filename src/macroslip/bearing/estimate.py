@@ -100,7 +100,9 @@ class MakersPage:
     static_load_rating: float  #: C0 [N]
     axial_factor_e: float  #: e [-]
     shoulder: float | None = None  #: Diameter of the outer ring's shoulder D1 [m]
-    groove: float | None = None  #: Width of the lubrication groove in the outer ring [m]; the raceways begin beside it
+    groove: float | None = (
+        None  #: Width of the lubrication groove in the outer ring [m]; the raceways begin beside it
+    )
     #: C and C_u or P_u [N]; without them the values of ISO 281 are used.
     dynamic_load_rating: float | None = None
     fatigue_load_limit: float | None = None
@@ -120,14 +122,20 @@ class MakersPage:
                 raise InputError(f"{field.name} is {value!r}", allowed="a finite number above 0")
         if not self.bore < self.outside:
             raise InputError(
-                f"bore is {1e3 * self.bore:g} mm", allowed=f"below the outside diameter, {1e3 * self.outside:g} mm"
+                f"bore is {1e3 * self.bore:g} mm",
+                allowed=f"below the outside diameter, {1e3 * self.outside:g} mm",
             )
         if self.shoulder is not None and not self.bore < self.shoulder < self.outside:
             allowed = f"between bore and outside diameter, {1e3 * self.bore:g} mm and {1e3 * self.outside:g} mm"
             remedy = "It is the diameter at the outer ring's faces, D1 in catalogues."
-            raise InputError(f"shoulder is {1e3 * self.shoulder:g} mm", allowed=allowed, remedy=remedy)
+            raise InputError(
+                f"shoulder is {1e3 * self.shoulder:g} mm", allowed=allowed, remedy=remedy
+            )
         if self.groove is not None and not self.groove < self.width:
-            raise InputError(f"groove is {1e3 * self.groove:g} mm", allowed=f"below the width, {1e3 * self.width:g} mm")
+            raise InputError(
+                f"groove is {1e3 * self.groove:g} mm",
+                allowed=f"below the width, {1e3 * self.width:g} mm",
+            )
         if (self.bpfo is None) != (self.bpfi is None):
             what = "only one overrolling frequency is given"
             raise InputError(what, allowed="both bpfo and bpfi, or none", remedy="Add the other.")
@@ -146,10 +154,14 @@ class EstimatedBearing(NamedTuple):
     """A bearing from its maker's page."""
 
     bearing: Bearing  #: The medians, with ranges in their provenance
-    samples: Mapping[str, NDArray[np.float64]]  #: Every inner dimension [SI], n samples, by key of the bearing
+    samples: Mapping[
+        str, NDArray[np.float64]
+    ]  #: Every inner dimension [SI], n samples, by key of the bearing
 
 
-def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:
+def estimate_bearing(
+    page: MakersPage, name: str, title: str = "", *, seed: int = 1
+) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
     Raises InputError if no bearing within the accepted proportions fits the page. The same page and `seed` of the
@@ -182,7 +194,11 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
     e = page.axial_factor_e + E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
     alpha = np.arctan(e / 1.5)
     edge, wall = page.width * (0.5 - between(CHAMFER)), between(OUTER_WALL)
-    sphere = 0.5 * page.outside - wall * height if page.shoulder is None else np.hypot(0.5 * page.shoulder, edge)
+    sphere = (
+        0.5 * page.outside - wall * height
+        if page.shoulder is None
+        else np.hypot(0.5 * page.shoulder, edge)
+    )
     drawn = {
         "contact_angle": alpha,
         "outer_raceway_radius": sphere,
@@ -195,7 +211,9 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
     diameter, count, gamma = np.full(SAMPLES, 0.5 * height), np.zeros(SAMPLES), None
     if page.bpfo is not None and page.bpfi is not None:
         count = np.full(SAMPLES, float(round(page.bpfo + page.bpfi)))
-        gamma = (page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)) / count
+        gamma = (
+            page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)
+        ) / count
         diameter = 2.0 * gamma * sphere / (1.0 + gamma)
     # The room for the inner ring depends little on the roller length, and the length little on the diameter.
     for _ in range(30):
@@ -230,23 +248,30 @@ def _drop(contour, length):
     return contour - np.sqrt(np.maximum(contour**2 - 0.25 * length**2, 0.0))
 
 
-def _fitting(page: MakersPage, drawn: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+def _fitting(
+    page: MakersPage, drawn: dict[str, NDArray[np.float64]]
+) -> dict[str, NDArray[np.float64]]:
     sine, cosine = np.sin(drawn["contact_angle"]), np.cos(drawn["contact_angle"])
     diameter, length = drawn["roller_diameter"], drawn["roller_length"]
     end = 0.5 * diameter - _drop(drawn["osculation"] * drawn["outer_raceway_radius"], length)
     along, across = 0.5 * length * cosine, end * sine
     spacing = 2.0 * drawn["pitch_radius"] * np.sin(np.pi / drawn["rollers_per_row"]) / diameter
     clearance = 0.5 - (drawn["row_offset"] + along + across) / page.width
-    wall = (drawn["pitch_radius"] - 0.5 * length * sine - end * cosine - 0.5 * page.bore) / (page.outside - page.bore)
+    wall = (drawn["pitch_radius"] - 0.5 * length * sine - end * cosine - 0.5 * page.bore) / (
+        page.outside - page.bore
+    )
     passed = {
         "a sphere inside the outer ring": drawn["outer_raceway_radius"] < 0.49 * page.outside,
         "roller length over diameter": _within(length / diameter, SLENDERNESS),
         # Rounding the number of rollers shifts their spacing by up to half a roller.
-        "spacing of the rollers": _within(spacing, SPACING, 0.5 / drawn["rollers_per_row"].clip(3.0)),
+        "spacing of the rollers": _within(
+            spacing, SPACING, 0.5 / drawn["rollers_per_row"].clip(3.0)
+        ),
         "inner ring under the rollers": _within(2.0 * wall, INNER_WALL, 0.005),
         "clearance between roller ends and faces": _within(clearance, END_CLEARANCE),
         "rows apart": drawn["row_offset"] - along - across > 0.0,
-        "raceways beside the groove": drawn["row_offset"] - along + across > 0.5 * (page.groove or 0.0),
+        "raceways beside the groove": drawn["row_offset"] - along + across
+        > 0.5 * (page.groove or 0.0),
     }
     if page.bpfo is not None:
         # Number and diameter are known; then they decide on spacing and ring.
@@ -265,19 +290,33 @@ def _fitting(page: MakersPage, drawn: dict[str, NDArray[np.float64]]) -> dict[st
     return {key: values[kept] for key, values in drawn.items()}
 
 
-def _within(values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0) -> NDArray[np.bool_]:
+def _within(
+    values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0
+) -> NDArray[np.bool_]:
     return (values >= accepted.low - margin) & (values <= accepted.high + margin)
 
 
 def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: str) -> Bearing:
     """The bearing of the medians; centres of the rollers lie on the sphere of the medians, as in every sample."""
-    entries = {key: _entry(np.median(drawn[key]), drawn[key], *how) for key, how in _WRITTEN.items() if key in drawn}
+    entries = {
+        key: _entry(np.median(drawn[key]), drawn[key], *how)
+        for key, how in _WRITTEN.items()
+        if key in drawn
+    }
     for side in ("inner", "outer"):
-        entries[f"osculation_{side}"] = _entry(np.median(drawn["osculation"]), drawn["osculation"], *_OSCULATION)
+        entries[f"osculation_{side}"] = _entry(
+            np.median(drawn["osculation"]), drawn["osculation"], *_OSCULATION
+        )
     alpha = math.radians(entries["contact_angle"]["value"])
-    centre = 1e-3 * (entries["outer_raceway_radius"]["value"] - 0.5 * entries["roller_diameter"]["value"])
-    entries["pitch_radius"] = _entry(centre * math.cos(alpha), drawn["pitch_radius"], "mm", 1, "E", _ON_SPHERE)
-    entries["row_offset"] = _entry(centre * math.sin(alpha), drawn["row_offset"], "mm", 1, "E", _ON_SPHERE)
+    centre = 1e-3 * (
+        entries["outer_raceway_radius"]["value"] - 0.5 * entries["roller_diameter"]["value"]
+    )
+    entries["pitch_radius"] = _entry(
+        centre * math.cos(alpha), drawn["pitch_radius"], "mm", 1, "E", _ON_SPHERE
+    )
+    entries["row_offset"] = _entry(
+        centre * math.sin(alpha), drawn["row_offset"], "mm", 1, "E", _ON_SPHERE
+    )
     entries |= _published(page) | _ratings(page, entries)
     known = Bearing.read(_STEEL_OF).as_dict()
     same = {key: known[key] for key in _STEEL}
@@ -329,16 +368,29 @@ def _published(page: MakersPage) -> dict[str, dict]:
 def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
     """Entries of ratings and factors that the page leaves out, by the standards from the median geometry."""
     alpha = math.radians(entries["contact_angle"]["value"])
-    diameter, length = 1e-3 * entries["roller_diameter"]["value"], 1e-3 * entries["roller_length"]["value"]
+    diameter, length = (
+        1e-3 * entries["roller_diameter"]["value"],
+        1e-3 * entries["roller_length"]["value"],
+    )
     pitch, count = 2e-3 * entries["pitch_radius"]["value"], entries["rollers_per_row"]["value"]
     found = {}
     if page.dynamic_load_rating is None:
         rating = dynamic_load_rating(ROWS, count, diameter, length, alpha, pitch)
         note = "ISO 281 from the estimated inside; makers publish up to a third more"
-        found["dynamic_load_rating"] = {"value": round(rating / 1e3), "unit": "kN", "tag": "D", "note": note}
+        found["dynamic_load_rating"] = {
+            "value": round(rating / 1e3),
+            "unit": "kN",
+            "tag": "D",
+            "note": note,
+        }
     if page.fatigue_load_limit is None:
         limit = fatigue_load_limit(page.static_load_rating, pitch)
-        found["fatigue_load_limit"] = {"value": round(limit / 1e3), "unit": "kN", "tag": "D", "note": "ISO 281"}
+        found["fatigue_load_limit"] = {
+            "value": round(limit / 1e3),
+            "unit": "kN",
+            "tag": "D",
+            "note": "ISO 281",
+        }
     for name, factor in (("y1", 0.45), ("y2", 0.67), ("y0", 0.44)):
         if getattr(page, f"axial_factor_{name}") is None:
             value = round(factor / math.tan(alpha), 2)

@@ -129,7 +129,11 @@ def inner_raceway_contour_radius(bearing: Bearing) -> float:
     >>> round(inner_raceway_contour_radius(Bearing.read("skf-240-600-bc")), 6)
     0.4149
     """
-    return math.inf if bearing.osculation_inner is None else roller_contour_radius(bearing) / bearing.osculation_inner
+    return (
+        math.inf
+        if bearing.osculation_inner is None
+        else roller_contour_radius(bearing) / bearing.osculation_inner
+    )
 
 
 def outer_raceway_contour_radius(bearing: Bearing) -> float:
@@ -157,7 +161,8 @@ def inner_curvatures(bearing: Bearing) -> Curvatures:
     (31.4705, 0.049188)
     """
     return Curvatures(
-        1 / roller_radius(bearing) + math.cos(bearing.contact_angle) / inner_contact_radius(bearing),
+        1 / roller_radius(bearing)
+        + math.cos(bearing.contact_angle) / inner_contact_radius(bearing),
         (1 - (bearing.osculation_inner or 0.0)) / roller_contour_radius(bearing),
     )
 
@@ -175,7 +180,8 @@ def outer_curvatures(bearing: Bearing) -> Curvatures:
     (26.1614, 0.049188)
     """
     return Curvatures(
-        1 / roller_radius(bearing) - math.cos(bearing.contact_angle) / outer_contact_radius(bearing),
+        1 / roller_radius(bearing)
+        - math.cos(bearing.contact_angle) / outer_contact_radius(bearing),
         (1 - (bearing.osculation_outer or 0.0)) / roller_contour_radius(bearing),
     )
 
@@ -217,7 +223,9 @@ class Envelope(NamedTuple):
     #: Axial distance from the bearing's mid-plane [m]; a row that crosses the mid-plane has a negative `nearest`.
     nearest: float
     farthest: float
-    inside: float  #: Distance from the bearing axis, at the end that is farther from the mid-plane [m]
+    inside: (
+        float  #: Distance from the bearing axis, at the end that is farther from the mid-plane [m]
+    )
 
 
 def envelope(bearing: Bearing) -> Envelope:
@@ -254,7 +262,11 @@ def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
     [-45.0, 45.0, 135.0, 225.0]
     """
     if row not in _STAGGER:
-        raise InputError(f"there is no row {row!r}", allowed=" or ".join(ROWS), remedy="Choose one of the two rows.")
+        raise InputError(
+            f"there is no row {row!r}",
+            allowed=" or ".join(ROWS),
+            remedy="Choose one of the two rows.",
+        )
     return -np.pi / 2 + 2 * np.pi * (np.arange(rollers_per_row) + _STAGGER[row]) / rollers_per_row
 
 

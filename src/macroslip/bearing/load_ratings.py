@@ -23,7 +23,12 @@ _GEOMETRY_FACTORS = (
 
 
 def static_load_rating(
-    rows: int, rollers_per_row: int, roller_diameter: float, roller_length: float, contact_angle: float, pitch: float
+    rows: int,
+    rollers_per_row: int,
+    roller_diameter: float,
+    roller_length: float,
+    contact_angle: float,
+    pitch: float,
 ) -> float:
     """Basic static radial load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha), C0 in N, lengths in mm.
 
@@ -54,12 +59,19 @@ def geometry_factor(gamma: float) -> float:
     if not table[0] <= gamma <= table[-1]:
         what = f"the ratio of roller to pitch diameter, Dw cos(alpha)/Dpw, is {gamma:.4g}"
         remedy = "Check roller diameter, pitch radius and contact angle."
-        raise InputError(what, where="dynamic load rating by ISO 281", allowed="0.01 to 0.30", remedy=remedy)
+        raise InputError(
+            what, where="dynamic load rating by ISO 281", allowed="0.01 to 0.30", remedy=remedy
+        )
     return float(np.interp(gamma, table, _GEOMETRY_FACTORS))
 
 
 def dynamic_load_rating(
-    rows: int, rollers_per_row: int, roller_diameter: float, roller_length: float, contact_angle: float, pitch: float
+    rows: int,
+    rollers_per_row: int,
+    roller_diameter: float,
+    roller_length: float,
+    contact_angle: float,
+    pitch: float,
 ) -> float:
     """Basic dynamic radial load rating, C = b_m f_c (i L cos(alpha))^(7/9) Z^(3/4) Dw^(29/27), C in N, lengths in mm.
 
@@ -78,7 +90,13 @@ def dynamic_load_rating(
     factor = geometry_factor(roller_diameter * cosine / pitch)
     length = rows * roller_length * 1e3 * cosine
     diameter = roller_diameter * 1e3
-    return SPHERICAL_ROLLER_FACTOR * factor * length ** (7 / 9) * rollers_per_row**0.75 * diameter ** (29 / 27)
+    return (
+        SPHERICAL_ROLLER_FACTOR
+        * factor
+        * length ** (7 / 9)
+        * rollers_per_row**0.75
+        * diameter ** (29 / 27)
+    )
 
 
 def fatigue_load_limit(static_load_rating: float, pitch: float) -> float:

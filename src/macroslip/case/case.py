@@ -13,7 +13,15 @@ import numpy as np
 from macroslip.bearing import Bearing
 from macroslip.case.load_source import LoadSource
 from macroslip.case.oil_supply import OilSupply, check_supply, inlet_supply, oil_gap
-from macroslip.case.parts import INTEGRATORS, BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
+from macroslip.case.parts import (
+    INTEGRATORS,
+    BackwardEuler,
+    ExplicitEuler,
+    Heat,
+    Radau,
+    Traces,
+    Window,
+)
 from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Form, Given, Quantity, Text
@@ -49,13 +57,20 @@ class RollerNumbers(Form):
         if isinstance(value, str) and value == "all":
             return "all"
         numbers = () if isinstance(value, str) or not isinstance(value, Iterable) else tuple(value)
-        if not numbers or not all(isinstance(one, Integral) and not isinstance(one, bool) for one in numbers):
+        if not numbers or not all(
+            isinstance(one, Integral) and not isinstance(one, bool) for one in numbers
+        ):
             raise self.wrong(value)
         return tuple(int(number) for number in numbers)
 
     def json(self) -> dict[str, Any]:
         """A list of integers, or the word."""
-        numbers = {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 1, "uniqueItems": True}
+        numbers = {
+            "type": "array",
+            "items": {"type": "integer", "minimum": 0},
+            "minItems": 1,
+            "uniqueItems": True,
+        }
         return {"anyOf": [{"const": "all"}, numbers]}
 
 
@@ -128,16 +143,19 @@ class Case:
     (28, 0.0002)
     """
 
-    bearing: Annotated[Bearing, Made((Bearing,), Text("name in the catalogue, or path of a bearing file"))] = field(
-        default_factory=lambda: Bearing.read("skf-240-600-bc")
-    )
-    lubricant: Annotated[Lubricant, Made((Lubricant,), Text("name in the catalogue, or path of a lubricant file"))] = (
-        field(default_factory=lambda: Lubricant.read("vg460-pao"))
-    )
+    bearing: Annotated[
+        Bearing, Made((Bearing,), Text("name in the catalogue, or path of a bearing file"))
+    ] = field(default_factory=lambda: Bearing.read("skf-240-600-bc"))
+    lubricant: Annotated[
+        Lubricant, Made((Lubricant,), Text("name in the catalogue, or path of a lubricant file"))
+    ] = field(default_factory=lambda: Lubricant.read("vg460-pao"))
     temperature: Annotated[
         float | str | None,
         InletTemperature(
-            "oil at the inlets of the contacts; without it that of the lubricant's values", TEMPERATURE, 253.15, 423.15
+            "oil at the inlets of the contacts; without it that of the lubricant's values",
+            TEMPERATURE,
+            253.15,
+            423.15,
         ),
     ] = None
     heat: Heat | None = None
@@ -148,30 +166,41 @@ class Case:
         ),
     ] = None
     loads: Annotated[
-        HubLoads | BearingLoads | RollerLoads, Made((HubLoads, BearingLoads, RollerLoads), form_from(LoadSource))
+        HubLoads | BearingLoads | RollerLoads,
+        Made((HubLoads, BearingLoads, RollerLoads), form_from(LoadSource)),
     ]
     drivetrain: Drivetrain = field(default_factory=Drivetrain)
     gravity: Annotated[bool, Flag("weight of the rollers")] = True
     drag: Annotated[bool, Flag("drag of the lubricant")] = True
     laws: Annotated[
-        Laws, Variants("named set of mechanisms", "model", "physical", dict.fromkeys(PRESETS, Laws), PRESETS)
+        Laws,
+        Variants(
+            "named set of mechanisms", "model", "physical", dict.fromkeys(PRESETS, Laws), PRESETS
+        ),
     ] = field(default_factory=Laws.physical)
     dynamics: Annotated[
-        str, Choice("rollers on orbits of pure rolling, or all of them together with the cage", lambda: DYNAMICS)
+        str,
+        Choice(
+            "rollers on orbits of pure rolling, or all of them together with the cage",
+            lambda: DYNAMICS,
+        ),
     ] = IMPOSED_ORBIT
     cage: Cage = field(default_factory=Cage)
     integrator: Annotated[
-        Radau | BackwardEuler | ExplicitEuler, Variants("method of integration in time", "method", "radau", INTEGRATORS)
+        Radau | BackwardEuler | ExplicitEuler,
+        Variants("method of integration in time", "method", "radau", INTEGRATORS),
     ] = field(default_factory=Radau)
     window: Window = field(default_factory=Window)
-    rollers: Annotated[str | Sequence[int], RollerNumbers("numbers of the rollers to simulate in each row, from 0")] = (
-        "all"
-    )
+    rollers: Annotated[
+        str | Sequence[int], RollerNumbers("numbers of the rollers to simulate in each row, from 0")
+    ] = "all"
     traces: Annotated[Traces | None, OrWord("none")] = None
     contact_details: Annotated[
         bool, Flag("whether to record where on the contacts energy goes, how hot and how densely")
     ] = True
-    rating: Annotated[bool, Flag("whether to rate the bearing beside its slip: safety, lives, pressure, films")] = True
+    rating: Annotated[
+        bool, Flag("whether to rate the bearing beside its slip: safety, lives, pressure, films")
+    ] = True
 
     def __post_init__(self) -> None:
         problems = [
@@ -200,7 +229,9 @@ class Case:
         oil = self.lubricant if self.temperature is None else self.lubricant.at(self.temperature)
         if not self.laws.asks_for_oil:
             return oil
-        return oil.supplied(oil_gap(self.inlet_supply, self.bearing, oil, self.bearing_loads, self.laws))
+        return oil.supplied(
+            oil_gap(self.inlet_supply, self.bearing, oil, self.bearing_loads, self.laws)
+        )
 
     @property
     def inlet_supply(self) -> str | float:
@@ -213,7 +244,11 @@ class Case:
     @property
     def ring_loads(self) -> BearingLoads | RollerLoads:
         """What loads the rollers: the load on the inner ring, or loads of the rollers that are given."""
-        return main_bearing_load(self.loads, self.drivetrain) if isinstance(self.loads, HubLoads) else self.loads
+        return (
+            main_bearing_load(self.loads, self.drivetrain)
+            if isinstance(self.loads, HubLoads)
+            else self.loads
+        )
 
     @property
     def bearing_loads(self) -> BearingLoads:
@@ -250,13 +285,19 @@ class Case:
             "bearing": self.bearing.as_dict(),
             "lubricant": self.lubricant.as_dict(),
             "temperature": self.temperature,
-            "heat": {key: one for key, one in asdict(self.heat).items() if one is not None} if self.heat else None,
+            "heat": {key: one for key, one in asdict(self.heat).items() if one is not None}
+            if self.heat
+            else None,
             **({"oil_supply": self.inlet_supply} if self.laws.asks_for_oil else {}),
             "drivetrain": asdict(self.drivetrain),
             "forces": {"gravity": self.gravity, "drag": self.drag},
             "laws": {"model": self.laws.name, **asdict(self.laws)},
             **({"dynamics": self.dynamics} if self.dynamics == WHOLE_BEARING else {}),
-            **({"cage": asdict(self.cage)} if self.dynamics == WHOLE_BEARING or self.laws.skew != "none" else {}),
+            **(
+                {"cage": asdict(self.cage)}
+                if self.dynamics == WHOLE_BEARING or self.laws.skew != "none"
+                else {}
+            ),
             "integrator": {"method": type(self.integrator).__name__, **asdict(self.integrator)},
             "window": asdict(self.window),
             "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
@@ -273,7 +314,11 @@ class Case:
 
     def _overview(self) -> list[tuple[str, str]]:
         loads, start, end = self.loads, self.window.start, self.window.end
-        count = "all rollers" if self.rollers == "all" else f"{len(self.roller_numbers)} rollers of each row"
+        count = (
+            "all rollers"
+            if self.rollers == "all"
+            else f"{len(self.roller_numbers)} rollers of each row"
+        )
         late = "at the first sample" if loads.event else "after the first orbit"
         opens = late if start is None else f"at {start:g} s"
         return [
@@ -285,7 +330,10 @@ class Case:
             ("window", f"window {opens} to {loads.time[-1] if end is None else end:g} s"),
             ("rollers", count),
             ("dynamics", self.dynamics),
-            ("traces", "no traces" if self.traces is None else f"traces every {self.traces.step:g} s"),
+            (
+                "traces",
+                "no traces" if self.traces is None else f"traces every {self.traces.step:g} s",
+            ),
         ]
 
 
@@ -407,5 +455,8 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
         start = first if part is None or part.start is None else part.start
         end = last if part is None or part.end is None else part.end
         if not first <= start <= end <= last or (name == "window" and start == end):
-            what, allowed = f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s", allowed
+            what, allowed = (
+                f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s",
+                allowed,
+            )
             yield InputError(what, where=name, allowed=f"{allowed} {first:g} s to {last:g} s")

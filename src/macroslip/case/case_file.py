@@ -37,9 +37,15 @@ def read_case(path: str | PathLike[str], *, bearing: str = "") -> Case:
     if bearing:
         data["drivetrain"]["bearing"] = bearing
     if "case" in data:
-        raise InputError("this is a study file, not a case file", where=str(path), remedy="Run it by macroslip study.")
+        raise InputError(
+            "this is a study file, not a case file",
+            where=str(path),
+            remedy="Run it by macroslip study.",
+        )
     case = build_case(data, source, path.parent)
-    if case.heat is not None and case.temperature != BALANCE:  # a case of a balance that was found keeps its heat
+    if (
+        case.heat is not None and case.temperature != BALANCE
+    ):  # a case of a balance that was found keeps its heat
         raise Place(source, ("heat",)).problem(
             "only a balance of heat uses it",
             allowed="with temperature: balance",
@@ -56,7 +62,11 @@ def files_named_in(path: Path) -> list[Path]:
         return []  # the reader of the case reports its faults
     loads = data.get("loads")
     named = [data.get("bearing"), data.get("lubricant")]
-    named += [loads.get(key) for key in ("file", "bearing_file", "roller_loads")] if isinstance(loads, Mapping) else []
+    named += (
+        [loads.get(key) for key in ("file", "bearing_file", "roller_loads")]
+        if isinstance(loads, Mapping)
+        else []
+    )
     return [path.parent / name for name in named if isinstance(name, str) and "\0" not in name]
 
 
@@ -68,19 +78,26 @@ def names_key(path: Path, key: str) -> bool:
 def bearings_in(path: Path) -> tuple[str, ...]:
     """The main bearings that a case file means by `drivetrain.bearing: both`; otherwise one, without a name."""
     drivetrain = _content(path)[0].get("drivetrain")
-    return BEARINGS if isinstance(drivetrain, Mapping) and drivetrain.get("bearing") == BOTH else ("",)
+    return (
+        BEARINGS if isinstance(drivetrain, Mapping) and drivetrain.get("bearing") == BOTH else ("",)
+    )
 
 
 def _content(path: Path) -> tuple[dict[Any, Any], Source]:
     remedy = "Write a case file that runs with: macroslip init"
-    return parse(read_text(path, "the case file cannot be read", where=str(path), remedy=remedy), str(path), remedy)
+    return parse(
+        read_text(path, "the case file cannot be read", where=str(path), remedy=remedy),
+        str(path),
+        remedy,
+    )
 
 
 def case_schema() -> dict[str, Any]:
     """JSON Schema (2020-12) of the case file, for editors and for programs that write such files."""
-    schema = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "case of macroslip"} | json_schema(
-        Case
-    )
+    schema = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "case of macroslip",
+    } | json_schema(Case)
     schema["properties"]["drivetrain"]["properties"]["bearing"]["enum"].append(BOTH)
     return schema
 
@@ -104,7 +121,9 @@ def build_case(
         inner = (key, value.key) if isinstance(value, LoadSource) else (key,)
         try:
             if key in ("bearing", "lubricant"):
-                parts[key] = known.get(key) or _record(Bearing if key == "bearing" else Lubricant, value, folder)
+                parts[key] = known.get(key) or _record(
+                    Bearing if key == "bearing" else Lubricant, value, folder
+                )
             elif isinstance(value, LoadSource):
                 parts[key] = series(value) if series else value.series(folder)
             elif key == "forces":  # a section in files only
@@ -113,14 +132,18 @@ def build_case(
                 parts[key] = value
         except InputError as problem:
             problems.append(place.inside(*inner).blamed(problem))
-    wrong = {key for key in fields_of(Case).keys() & data.keys() if key != "forces" and key not in parts}
+    wrong = {
+        key for key in fields_of(Case).keys() & data.keys() if key != "forces" and key not in parts
+    }
     case = None
     if "loads" in parts and "bearing" not in wrong:
         try:
             case = Case(**parts)
         except InputError as failure:
             found = ((part, part.where.split(".")) for part in parts_of(failure))
-            problems += [place.inside(*keys).blamed(part) for part, keys in found if keys[0] not in wrong]
+            problems += [
+                place.inside(*keys).blamed(part) for part, keys in found if keys[0] not in wrong
+            ]
     if problems or case is None:
         raise together(problems)
     check_lubricant(case.laws, case.lubricant)
@@ -137,6 +160,8 @@ def _record(kind: type[Record], name: str, folder: Path) -> Record:
             f"{shown(name)} is neither in the catalogue nor a file",
             where=kind.noun,
             allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
-            remedy=f"Did you mean {close}?" if close else f"Relative paths start at {folder.resolve()}.",
+            remedy=f"Did you mean {close}?"
+            if close
+            else f"Relative paths start at {folder.resolve()}.",
         )
     return kind.read(path)

@@ -50,21 +50,26 @@ class ConstantBearingLoads:
 class LoadSource:
     """Where the loads come from, and what to read of them."""
 
-    bundled: Annotated[str | None, Choice("load case that comes with the package", lambda: bundled_cases("year"))] = (
-        None
-    )
-    file: Annotated[str | None, Text("hub loads: output of OpenFAST, Bladed or HAWC2, or a table")] = None
+    bundled: Annotated[
+        str | None, Choice("load case that comes with the package", lambda: bundled_cases("year"))
+    ] = None
+    file: Annotated[
+        str | None, Text("hub loads: output of OpenFAST, Bladed or HAWC2, or a table")
+    ] = None
     bearing_file: Annotated[str | None, Text("main-bearing loads: a table (.parquet, .csv)")] = None
     roller_loads: Annotated[
         str | None,
-        Text("loads of the rollers: a table of time_s, shaft_speed_rpm, row, angle_deg, load_N (.parquet, .csv)"),
+        Text(
+            "loads of the rollers: a table of time_s, shaft_speed_rpm, row, angle_deg, load_N (.parquet, .csv)"
+        ),
     ] = None
     hub: ConstantHubLoads | None = None
     main_bearing: ConstantBearingLoads | None = None
     start: Annotated[float | None, Quantity("first time to read", TIME)] = None
     end: Annotated[float | None, Quantity("last time to read", TIME)] = None
     shaft_speed: Annotated[
-        float | None, Quantity("constant shaft speed in place of the one in the file", SPEED, -100.0, 100.0)
+        float | None,
+        Quantity("constant shaft speed in place of the one in the file", SPEED, -100.0, 100.0),
     ] = None
 
     @property
@@ -75,7 +80,11 @@ class LoadSource:
     @property
     def cut(self) -> dict[str, float]:
         """Part of the series to read [s], and the speed of files that have none [rad/s], as far as they are given."""
-        return {key: getattr(self, key) for key in ("start", "end", "shaft_speed") if getattr(self, key) is not None}
+        return {
+            key: getattr(self, key)
+            for key in ("start", "end", "shaft_speed")
+            if getattr(self, key) is not None
+        }
 
     def series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
         """Read or make the loads; relative paths start at `folder`."""
@@ -85,7 +94,9 @@ class LoadSource:
             remedy = problem.remedy
             for programs_words, words in _ADVICE.items():
                 remedy = remedy.replace(programs_words, words)
-            raise InputError(problem.what, where=problem.where, allowed=problem.allowed, remedy=remedy) from None
+            raise InputError(
+                problem.what, where=problem.where, allowed=problem.allowed, remedy=remedy
+            ) from None
 
     def _series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
         key, cut = self.key, self.cut

@@ -48,7 +48,9 @@ class OilSupply(Form):
 
     def json(self) -> dict[str, Any]:
         """The words, or the number."""
-        return {"anyOf": [{"enum": list(WORDS)}, {"type": "number", "minimum": _LEAST, "maximum": 1}]}
+        return {
+            "anyOf": [{"enum": list(WORDS)}, {"type": "number", "minimum": _LEAST, "maximum": 1}]
+        }
 
 
 def inlet_supply(given: str | float | None, oil: Lubricant, laws: Laws) -> str | float:
@@ -73,7 +75,9 @@ def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, la
             allowed=f"{FLOODED} with these laws",
             remedy="Leave it out, set laws.starvation: true, or choose model: physical.",
         )
-    missing = [key for key in ("bore_diameter", "outside_diameter") if getattr(bearing, key) is None]
+    missing = [
+        key for key in ("bore_diameter", "outside_diameter") if getattr(bearing, key) is None
+    ]
     if supply == SKF and missing:
         raise InputError(
             f"SKF's replenishment factor goes with the bearing's size, and {bearing.name} has no {' and no '.join(missing)}",
@@ -83,7 +87,9 @@ def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, la
         )
 
 
-def oil_gap(supply: str | float, bearing: Bearing, oil: Lubricant, loads: BearingLoads, laws: Laws) -> float:
+def oil_gap(
+    supply: str | float, bearing: Bearing, oil: Lubricant, loads: BearingLoads, laws: Laws
+) -> float:
     """The gap from which on inlets are full [m], from the state of the inner raceway under the mean load and speed.
 
     The supply is `flooded`; `skf`: as much as makes the rolling resistance SKF's replenishment factor times the flooded
@@ -101,7 +107,12 @@ def oil_gap(supply: str | float, bearing: Bearing, oil: Lubricant, loads: Bearin
 
 @functools.lru_cache(maxsize=64)
 def _gap(
-    supply: str | float, bearing: Bearing, oil: Lubricant, laws: Laws, force: tuple[float, ...], speed: float
+    supply: str | float,
+    bearing: Bearing,
+    oil: Lubricant,
+    laws: Laws,
+    force: tuple[float, ...],
+    speed: float,
 ) -> float:
     """`oil_gap` from the mean force [N] and the mean size of the shaft's speed [rad/s], > 0."""
     from macroslip.contact.laws import prepare
@@ -113,18 +124,24 @@ def _gap(
     if supply == SKF:
         diameters = bearing.bore_diameter, bearing.outside_diameter
         factor = _TYPE_FACTORS[bearing.rows]
-        filled = float(replenishment(oil.viscosity / oil.density, speed, *diameters, type_factor=factor))
+        filled = float(
+            replenishment(oil.viscosity / oil.density, speed, *diameters, type_factor=factor)
+        )
         inlet = inlet_for_rolling(filled) if filled < 1.0 else math.inf
     else:
         inlet = inlet_for_film(float(supply))
     load, entrainment = _inner_raceway(bearing, oil, force, speed)
     if not load > 0.0 or math.isinf(inlet):
         return FLOODED_GAP
-    flooded = float(prepare(laws, bearing, oil.supplied(FLOODED_GAP), 1).inner.film_thickness(load, entrainment))
+    flooded = float(
+        prepare(laws, bearing, oil.supplied(FLOODED_GAP), 1).inner.film_thickness(load, entrainment)
+    )
     return min(inlet * float(film_factor(inlet)) * flooded, FLOODED_GAP)
 
 
-def _inner_raceway(bearing: Bearing, oil: Lubricant, force: tuple[float, ...], speed: float) -> tuple[float, float]:
+def _inner_raceway(
+    bearing: Bearing, oil: Lubricant, force: tuple[float, ...], speed: float
+) -> tuple[float, float]:
     """Mean load of a loaded roller under a force on the ring [N], and entrainment speed of the inner raceway [m/s]."""
     from macroslip.ring.balance import balance, roller_loads
     from macroslip.roller.model import ring_geometry, roller_model
@@ -136,7 +153,9 @@ def _inner_raceway(bearing: Bearing, oil: Lubricant, force: tuple[float, ...], s
     roller_loads(ring, 0.0, place, found)
     row = max(found.reshape(bearing.rows, -1), key=np.sum)
     loaded = row[row > 0.0]
-    return (float(loaded.mean()) if loaded.size else 0.0), speed * model.orbit_ratio * model.outer_radius
+    return (
+        float(loaded.mean()) if loaded.size else 0.0
+    ), speed * model.orbit_ratio * model.outer_radius
 
 
 def supply_note(case: Case) -> str:
@@ -144,7 +163,11 @@ def supply_note(case: Case) -> str:
     oil, notes = case.oil, []
     if case.laws.asks_for_oil:
         full = oil.oil_gap >= FLOODED_GAP
-        known = "flooded inlets" if full else f"inlets are full from a gap of {1e6 * oil.oil_gap:.3g} um on"
+        known = (
+            "flooded inlets"
+            if full
+            else f"inlets are full from a gap of {1e6 * oil.oil_gap:.3g} um on"
+        )
         translated = case.oil_supply is None and oil.starvation is not None
         source = f", read from the lubricant's starvation {oil.starvation:g}" if translated else ""
         notes.append(f"oil_supply {case.inlet_supply}{source}: {known}")

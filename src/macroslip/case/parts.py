@@ -35,7 +35,9 @@ class Radau:
             remedy="2e-4 gives energies and spin to 1e-4 and peak power to 1 %.",
         ),
     ] = 2e-4  # fmt: skip
-    max_steps: Annotated[int, Whole("number of steps after which a roller counts as failed", 1)] = 100_000_000
+    max_steps: Annotated[int, Whole("number of steps after which a roller counts as failed", 1)] = (
+        100_000_000
+    )
 
 
 @input_section("integrator", "fixed step, explicit, on the spin")
@@ -80,7 +82,8 @@ class Window:
     """
 
     start: Annotated[
-        float | None, Quantity("start; auto: when the rollers have completed one orbit", TIME, words=("auto",))
+        float | None,
+        Quantity("start; auto: when the rollers have completed one orbit", TIME, words=("auto",)),
     ] = None
     end: Annotated[float | None, Quantity("end; without it, the end of the loads", TIME)] = None
 
@@ -124,13 +127,25 @@ class Heat:
     """
 
     conductance: Annotated[float, Positive("heat flow to the surroundings per kelvin", CONDUCTANCE)]
-    ambient: Annotated[float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15)]
-    inner_mass: Annotated[float | None, Positive("mass that warms with the inner ring", MASS, 1e6)] = None
-    outer_mass: Annotated[float | None, Positive("mass that warms with the outer ring", MASS, 1e6)] = None
-    ring_conductance: Annotated[float | None, Positive("heat flow between the rings per kelvin", CONDUCTANCE)] = None
+    ambient: Annotated[
+        float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15)
+    ]
+    inner_mass: Annotated[
+        float | None, Positive("mass that warms with the inner ring", MASS, 1e6)
+    ] = None
+    outer_mass: Annotated[
+        float | None, Positive("mass that warms with the outer ring", MASS, 1e6)
+    ] = None
+    ring_conductance: Annotated[
+        float | None, Positive("heat flow between the rings per kelvin", CONDUCTANCE)
+    ] = None
 
     def __post_init__(self) -> None:
-        given = [one for one in (self.inner_mass, self.outer_mass, self.ring_conductance) if one is not None]
+        given = [
+            one
+            for one in (self.inner_mass, self.outer_mass, self.ring_conductance)
+            if one is not None
+        ]
         if len(given) not in (0, 3):
             raise InputError(
                 "rings with temperatures of their own need inner_mass, outer_mass and ring_conductance",

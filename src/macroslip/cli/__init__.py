@@ -28,7 +28,13 @@ def main() -> None:
                 if os.name == "posix" and not stream.isatty():
                     raw = io.BufferedWriter(_Patient(stream.fileno(), "w", closefd=False))
                     line = stream.line_buffering
-                    setattr(sys, name, io.TextIOWrapper(raw, stream.encoding, "backslashreplace", line_buffering=line))
+                    setattr(
+                        sys,
+                        name,
+                        io.TextIOWrapper(
+                            raw, stream.encoding, "backslashreplace", line_buffering=line
+                        ),
+                    )
         from macroslip.machine import safe_path
 
         # Processes that are started here and get their path from this one do not get the current folder either.

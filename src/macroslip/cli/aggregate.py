@@ -23,27 +23,44 @@ _MOST_LINES = 20
 def aggregate(
     directory: Annotated[Path, typer.Argument(help="The folder that macroslip study has written.")],
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="The folder for the tables; those of the same names are replaced.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            help="The folder for the tables; those of the same names are replaced.",
+        ),
     ],
     weibull: Annotated[
         tuple[float, float] | None,
-        typer.Option(help="Scale [m/s] and shape of the distribution of the wind speed, in place of the study file's."),
+        typer.Option(
+            help="Scale [m/s] and shape of the distribution of the wind speed, in place of the study file's."
+        ),
     ] = None,
     probabilities: Annotated[
-        Path | None, typer.Option(help="CSV table with the columns bin and probability, instead of --weibull.")
+        Path | None,
+        typer.Option(help="CSV table with the columns bin and probability, instead of --weibull."),
     ] = None,
     years: Annotated[float, typer.Option(help="The lifetime [years].")] = 20.0,
     field: Annotated[
         str | None,
-        typer.Option(help="The label to sort into bins; that of the study file, or wind_speed, if not given."),
+        typer.Option(
+            help="The label to sort into bins; that of the study file, or wind_speed, if not given."
+        ),
     ] = None,
-    width: Annotated[float | None, typer.Option(help="Width of a bin [unit of the label]; else 2.")] = None,
+    width: Annotated[
+        float | None, typer.Option(help="Width of a bin [unit of the label]; else 2.")
+    ] = None,
     by: Annotated[
-        list[str] | None, typer.Option(help="A further label to keep apart; may be given several times.")
+        list[str] | None,
+        typer.Option(help="A further label to keep apart; may be given several times."),
     ] = None,
     form: Annotated[str, typer.Option("--format", help="csv or parquet.")] = "csv",
-    as_json: Annotated[bool, typer.Option("--json", help="Print the lifetime table and the files as JSON.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors, each on one line.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the lifetime table and the files as JSON.")
+    ] = False,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", help="Show nothing but errors, each on one line.")
+    ] = False,
 ) -> None:
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
     from macroslip.study.export import FORMATS, tables, write_tables
@@ -55,7 +72,11 @@ def aggregate(
         raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
     study = open_study(directory)
     weights, own_field, own_width = weights_in_use(study, _weights(weibull, probabilities))
-    bins = {"field": field or own_field, "width": own_width if width is None else width, "by": by or ()}
+    bins = {
+        "field": field or own_field,
+        "width": own_width if width is None else width,
+        "by": by or (),
+    }
     found = tables(study, weights, years=years, **bins)
     for name in found:
         check_not_input(output / f"{name}.{form}", [probabilities] if probabilities else [])
@@ -73,11 +94,15 @@ def aggregate(
         typer.echo(f"written: {path}")
 
 
-def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) -> Weibull | Given | None:
+def _weights(
+    weibull: tuple[float, float] | None, probabilities: Path | None
+) -> Weibull | Given | None:
     from macroslip.study.weights import Given, Weibull
 
     if weibull is not None and probabilities is not None:
-        raise InputError("--weibull and --probabilities are given together", remedy="Give one of them.")
+        raise InputError(
+            "--weibull and --probabilities are given together", remedy="Give one of them."
+        )
     if weibull is not None:
         return Weibull(scale=weibull[0], shape=weibull[1])
     if probabilities is None:
@@ -87,7 +112,9 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
     check_regular(probabilities, "Name a CSV table.")
     try:
         given = pd.read_csv(probabilities)
-        return Given(dict(zip(given["bin"].astype(float), given["probability"].astype(float), strict=True)))
+        return Given(
+            dict(zip(given["bin"].astype(float), given["probability"].astype(float), strict=True))
+        )
     except InputError:
         raise
     except (OSError, ValueError, KeyError) as error:
@@ -101,10 +128,17 @@ def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
     title = f"energy of a roller in {years:g} years, mean over the row"
     shown = lifetime
     if len(lifetime) > _MOST_LINES:
-        shown = lifetime.sort_values("lifetime_energy [J]", ascending=False, kind="stable").head(_MOST_LINES)
-        title += f"; the {_MOST_LINES} highest of {len(lifetime)}, all of them are in the table lifetime"
+        shown = lifetime.sort_values("lifetime_energy [J]", ascending=False, kind="stable").head(
+            _MOST_LINES
+        )
+        title += (
+            f"; the {_MOST_LINES} highest of {len(lifetime)}, all of them are in the table lifetime"
+        )
     rows = [
-        [number(value) if name in numbers else safe_text(value) for name, value in zip(shown, line, strict=True)]
+        [
+            number(value) if name in numbers else safe_text(value)
+            for name, value in zip(shown, line, strict=True)
+        ]
         for line in shown.itertuples(index=False)
     ]
     print_table(title, [(name, name in numbers) for name in shown], rows)

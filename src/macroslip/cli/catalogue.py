@@ -47,7 +47,10 @@ def _record(noun: str) -> type[Record]:
 
 def _catalogue(noun: str) -> typer.Typer:
     app = typer.Typer(
-        name=noun, help=f"The {noun} catalogue and files of your own.", no_args_is_help=True, rich_markup_mode=None
+        name=noun,
+        help=f"The {noun} catalogue and files of your own.",
+        no_args_is_help=True,
+        rich_markup_mode=None,
     )
 
     def list(as_json: AsJson = False) -> None:
@@ -60,7 +63,9 @@ def _catalogue(noun: str) -> typer.Typer:
 
     def show(
         name_or_file: NameOrFile,
-        yaml: Annotated[bool, typer.Option("--yaml", help="Print it as a file, to save and to change.")] = False,
+        yaml: Annotated[
+            bool, typer.Option("--yaml", help="Print it as a file, to save and to change.")
+        ] = False,
         as_json: AsJson = False,
     ) -> None:
         record = _record(noun).read(name_or_file)
@@ -90,19 +95,37 @@ def _show(record: Record, follows: list[list[str]], as_json: bool) -> None:
     from macroslip.input.units import with_unit
 
     if as_json:
-        derived = [dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in follows]
+        derived = [
+            dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in follows
+        ]
         values = {key: asdict(origin) for key, origin in record.provenance.items()}
-        print_json({"name": record.name, "title": record.title, "values": values, "what follows from it": derived})
+        print_json(
+            {
+                "name": record.name,
+                "title": record.title,
+                "values": values,
+                "what follows from it": derived,
+            }
+        )
         return
     rows = [
-        [key, with_unit(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]
+        [
+            key,
+            with_unit(origin.value, origin.unit),
+            f"{origin.tag}: {TAGS[origin.tag]}",
+            origin.note,
+        ]
         for key, origin in record.provenance.items()
     ]
     headings = [("key", False), ("value", True), ("where it comes from", False), ("note", False)]
     print_table(f"{record.name}: {record.title}" if record.title else record.name, headings, rows)
     if follows:
         typer.echo()
-        print_table("what follows from it", [("quantity", False), ("value", True), ("meaning", False)], follows)
+        print_table(
+            "what follows from it",
+            [("quantity", False), ("value", True), ("meaning", False)],
+            follows,
+        )
 
 
 def _of_bearing(bearing: Bearing) -> list[list[str]]:
@@ -114,9 +137,21 @@ def _of_bearing(bearing: Bearing) -> list[list[str]]:
     model = roller_model(bearing, lubricant, 1, tilt=0.0)
     longest = truncation_load(bearing, lubricant)
     return [
-        ["stiffness K", f"{model.stiffness:.4g} N/m^1.5", "roller load = K (approach of the raceways)^1.5"],
-        ["truncation load", f"{longest / 1e3:.4g} kN", "roller load at which a contact reaches the roller's ends"],
-        ["orbit ratio", f"{model.orbit_ratio:.4f}", "orbital speed of rollers in pure rolling / shaft speed"],
+        [
+            "stiffness K",
+            f"{model.stiffness:.4g} N/m^1.5",
+            "roller load = K (approach of the raceways)^1.5",
+        ],
+        [
+            "truncation load",
+            f"{longest / 1e3:.4g} kN",
+            "roller load at which a contact reaches the roller's ends",
+        ],
+        [
+            "orbit ratio",
+            f"{model.orbit_ratio:.4f}",
+            "orbital speed of rollers in pure rolling / shaft speed",
+        ],
     ]
 
 
@@ -131,7 +166,9 @@ def _estimate_bearing(
     c0: Annotated[str, _option("Static load rating C0: '17600 kN'.")],
     e: Annotated[float, _option("Axial factor e: 0.30.")],
     output: Annotated[Path, typer.Option("--output", "-o", help="The bearing file to write.")],
-    shoulder: Annotated[str | None, _option("Shoulder diameter of the outer ring D1: '828 mm'.")] = None,
+    shoulder: Annotated[
+        str | None, _option("Shoulder diameter of the outer ring D1: '828 mm'.")
+    ] = None,
     groove: Annotated[str | None, _option("Width of the lubrication groove b: '56.5 mm'.")] = None,
     c: Annotated[str | None, _option("Dynamic load rating C: '9307 kN'.")] = None,
     cu: Annotated[str | None, _option("Fatigue load limit C_u or P_u: '1180 kN'.")] = None,
@@ -139,8 +176,12 @@ def _estimate_bearing(
     y2: Annotated[float | None, _option("Axial factor Y2.")] = None,
     y0: Annotated[float | None, _option("Static axial factor Y0.")] = None,
     mass: Annotated[str | None, _option("Mass: '623 kg'.")] = None,
-    bpfo: Annotated[float | None, _option("Overrolling frequency of the outer ring, per turn of the shaft.")] = None,
-    bpfi: Annotated[float | None, _option("Overrolling frequency of the inner ring, per turn of the shaft.")] = None,
+    bpfo: Annotated[
+        float | None, _option("Overrolling frequency of the outer ring, per turn of the shaft.")
+    ] = None,
+    bpfi: Annotated[
+        float | None, _option("Overrolling frequency of the inner ring, per turn of the shaft.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 1,
     force: Force = False,
     as_json: AsJson = False,
@@ -165,10 +206,17 @@ def _estimate_bearing(
         "fatigue_load_limit": si("--cu", cu, FORCE),
         "mass": si("--mass", mass, MASS),
     }
-    factors = {"axial_factor_e": e, "axial_factor_y1": y1, "axial_factor_y2": y2, "axial_factor_y0": y0}
+    factors = {
+        "axial_factor_e": e,
+        "axial_factor_y1": y1,
+        "axial_factor_y2": y2,
+        "axial_factor_y0": y0,
+    }
     page = MakersPage(**given, **factors, bpfo=bpfo, bpfi=bpfi)
     size = " x ".join(f"{1e3 * one:g}" for one in (page.bore, page.outside, page.width))
-    found = estimate_bearing(page, output.stem, f"Estimated from its maker's page, {size} mm", seed=seed)
+    found = estimate_bearing(
+        page, output.stem, f"Estimated from its maker's page, {size} mm", seed=seed
+    )
     _write(output, found.bearing, force)
     numbers = _numbers(found)
     if as_json:
@@ -192,7 +240,9 @@ def _estimate_bearing(
             "within one family of bearings that scatters by 1 to 2 %."
         )
     else:
-        typer.echo("C is that of these dimensions, and lives are 0.5 to 0.9 of those by a maker's; give it by --c.")
+        typer.echo(
+            "C is that of these dimensions, and lives are 0.5 to 0.9 of those by a maker's; give it by --c."
+        )
     for name in numbers["in the catalogue"]:
         typer.echo(f"The catalogue has a bearing of this size: bearing: {name}")
     typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")
@@ -207,7 +257,10 @@ def _numbers(found: EstimatedBearing) -> dict[str, Any]:
     published = bearing.dynamic_load_rating
     if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
         roller = (bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length)
-        ratio = dynamic_load_rating(2, *roller, bearing.contact_angle, 2 * bearing.pitch_radius) / published
+        ratio = (
+            dynamic_load_rating(2, *roller, bearing.contact_angle, 2 * bearing.pitch_radius)
+            / published
+        )
     known = [Bearing.read(name) for name in Bearing.catalogue()]
     size = ("bore_diameter", "outside_diameter", "width")
     values = {
@@ -222,14 +275,18 @@ def _numbers(found: EstimatedBearing) -> dict[str, Any]:
         "values": values,
         "C by ISO 281 / published [1]": ratio,
         "in the catalogue": [
-            one.name for one in known if all(getattr(one, key) == getattr(bearing, key) for key in size)
+            one.name
+            for one in known
+            if all(getattr(one, key) == getattr(bearing, key) for key in size)
         ],
     }
 
 
 def _init(
     path: Annotated[Path, typer.Argument(help="The bearing file to write.")] = Path("bearing.yaml"),
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="The same, as elsewhere.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="The same, as elsewhere.")
+    ] = None,
     force: Force = False,
 ) -> None:
     """Write a bearing file with every key explained, to change into your own: the base bearing's values."""
@@ -245,7 +302,9 @@ def _init(
 
 def _draw(
     name_or_file: NameOrFile,
-    output: Annotated[Path, typer.Option("--output", "-o", help="The drawing to write: .svg, .pdf or .png.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="The drawing to write: .svg, .pdf or .png.")
+    ],
     force: Force = False,
 ) -> None:
     """Draw the section of a bearing, with the name and value of every dimension."""
@@ -265,11 +324,17 @@ def _draw(
 
 
 def _estimate_lubricant(
-    v40: Annotated[str, typer.Option("--v40", help="Kinematic viscosity at 40 degC, '320 mm2/s' for example.")],
+    v40: Annotated[
+        str, typer.Option("--v40", help="Kinematic viscosity at 40 degC, '320 mm2/s' for example.")
+    ],
     v100: Annotated[str, typer.Option("--v100", help="Kinematic viscosity at 100 degC.")],
     base: Annotated[str, typer.Option("--base", help="Base oil, 'pao' or 'mineral' for example.")],
-    name: Annotated[str, typer.Option("--name", help="Short name of the lubricant, used in results.")] = "estimated",
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="File to write; else it is printed.")] = None,
+    name: Annotated[
+        str, typer.Option("--name", help="Short name of the lubricant, used in results.")
+    ] = "estimated",
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="File to write; else it is printed.")
+    ] = None,
     force: Force = False,
 ) -> None:
     """Write a lubricant file from two viscosities and the base oil; estimates have the tag E and a range."""
@@ -277,7 +342,9 @@ def _estimate_lubricant(
     from macroslip.input.units import parse_quantity
     from macroslip.lubricant.estimate import estimate_lubricant
 
-    at_40, at_100 = (parse_quantity(text, VISCOSITY, key) for text, key in ((v40, "--v40"), (v100, "--v100")))
+    at_40, at_100 = (
+        parse_quantity(text, VISCOSITY, key) for text, key in ((v40, "--v40"), (v100, "--v100"))
+    )
     oil = estimate_lubricant(VISCOSITY.to_si(*at_40), VISCOSITY.to_si(*at_100), base, name)
     if output is None:
         typer.echo(oil.as_yaml(), nl=False)

@@ -15,18 +15,28 @@ PAGE = "comparison.html"
 
 def compare(
     results: Annotated[
-        list[Path], typer.Argument(help="Two files that `macroslip run` wrote, or more; or the folder of one study.")
+        list[Path],
+        typer.Argument(
+            help="Two files that `macroslip run` wrote, or more; or the folder of one study."
+        ),
     ],
     by: Annotated[
         list[str] | None,
-        typer.Option(help="Of a study: a label that distinguishes designs, bearing; may be given several times."),
+        typer.Option(
+            help="Of a study: a label that distinguishes designs, bearing; may be given several times."
+        ),
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="The page; comparison.html beside the first, if not given.")
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="The page; comparison.html beside the first, if not given."
+        ),
     ] = None,
     title: Annotated[str, typer.Option("--title", help="Heading of the page.")] = "",
     force: Annotated[bool, typer.Option("--force", help="Replace the page if it exists.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print numbers, notes and ranking as JSON.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print numbers, notes and ranking as JSON.")
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
 ) -> None:
     """Compare results, or the designs of a study: what differs, the numbers side by side, and which is better."""
@@ -41,7 +51,11 @@ def compare(
     output = output or (first if first.is_dir() else first.parent) / PAGE
     check_new_file(output, force=force, inputs=[one for one in results if one.is_file()])
     found = compared(*results, by=by)
-    curves = {} if is_study(first) else dict(zip(found["design"].unique(), map(open_result, results), strict=True))
+    curves = (
+        {}
+        if is_study(first)
+        else dict(zip(found["design"].unique(), map(open_result, results), strict=True))
+    )
     page = comparison_page(found, curves, title=title)
     with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8")
@@ -57,7 +71,9 @@ def compare(
     for one in comparison_tables(found):
         if one.rows:
             print_table(
-                one.caption, [(name, k > 0) for k, name in enumerate(one.headings)], [list(row) for row in one.rows]
+                one.caption,
+                [(name, k > 0) for k, name in enumerate(one.headings)],
+                [list(row) for row in one.rows],
             )
             typer.echo()
     typer.echo(found.attrs["ranking"])

@@ -19,14 +19,20 @@ def damage(
     result: Annotated[Path, typer.Argument(help="A file that `macroslip run` wrote.")],
     k: Annotated[
         list[float] | None,
-        typer.Option("--k", help="Coefficient of wear [m2/N]; with --hardness dimensionless. Repeatable, rising."),
+        typer.Option(
+            "--k",
+            help="Coefficient of wear [m2/N]; with --hardness dimensionless. Repeatable, rising.",
+        ),
     ] = None,
     hardness: Annotated[
-        str | None, typer.Option(help="Hardness '7 GPa' by which the coefficients of wear are divided.")
+        str | None,
+        typer.Option(help="Hardness '7 GPa' by which the coefficients of wear are divided."),
     ] = None,
     threshold: Annotated[
         list[str] | None,
-        typer.Option(help="Threshold of your own, 'entry_flash_temperature=120 K, our rig'. Repeatable."),
+        typer.Option(
+            help="Threshold of your own, 'entry_flash_temperature=120 K, our rig'. Repeatable."
+        ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
@@ -40,7 +46,10 @@ def damage(
 
     own = dict(map(_threshold, threshold or ()))
     found = computed(
-        open_result(result), wear_coefficients=k or None, hardness=si("--hardness", hardness, PRESSURE), thresholds=own
+        open_result(result),
+        wear_coefficients=k or None,
+        hardness=si("--hardness", hardness, PRESSURE),
+        thresholds=own,
     )
     lines, missing = criterion_lines(found)
     if as_json:
@@ -51,12 +60,23 @@ def damage(
     if "wear_time" in found:
         years = (found.wear_time / YEAR).values
         rows = [
-            [row, place, *(" to ".join(f"{one:.2g}" for one in {line[-1]: 0, line[0]: 0}) for line in years[i, j])]
+            [
+                row,
+                place,
+                *(
+                    " to ".join(f"{one:.2g}" for one in {line[-1]: 0, line[0]: 0})
+                    for line in years[i, j]
+                ),
+            ]
             for i, row in enumerate(found.row.values.tolist())
             for j, place in enumerate(found.place.values.tolist())
         ]
         title = f"years of wear at k = {', '.join(f'{one:.2g}' for one in found.wear_coefficient.values[::-1])} m²/N"
-        headings = [("row", False), ("place", False), *((f"{1e6 * one:g} µm", True) for one in found.depth.values)]
+        headings = [
+            ("row", False),
+            ("place", False),
+            *((f"{1e6 * one:g} µm", True) for one in found.depth.values),
+        ]
         print_table(title, headings, rows)
 
 
@@ -67,7 +87,11 @@ def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: st
 
     if lines:
         shown = criteria_table(lines)
-        print_table(title, [(heading, heading in ("value", "ratio")) for heading in shown.headings], shown.rows)
+        print_table(
+            title,
+            [(heading, heading in ("value", "ratio")) for heading in shown.headings],
+            shown.rows,
+        )
     for one in missing:
         typer.echo(one)
 
@@ -100,9 +124,13 @@ def _threshold(text: str) -> tuple[str, Threshold]:
     units = {one.name: one.unit for one in CRITERIA}
     if name.strip() not in units or not source.strip():
         allowed = f"'NAME=VALUE UNIT, SOURCE' with a name of {', '.join(units)}"
-        raise InputError(f"the threshold '{text}' cannot be read", where="--threshold", allowed=allowed)
+        raise InputError(
+            f"the threshold '{text}' cannot be read", where="--threshold", allowed=allowed
+        )
     unit = units[name.strip()]
-    known = {unit: Unit(Fraction(1))} | ({f"{unit[0]}/mm2": Unit(Fraction(10**6))} if unit.endswith("/m2") else {})
+    known = {unit: Unit(Fraction(1))} | (
+        {f"{unit[0]}/mm2": Unit(Fraction(10**6))} if unit.endswith("/m2") else {}
+    )
     dimension = NUMBER if unit == "1" else Dimension(known)
     return name.strip(), Threshold(
         dimension.to_si(*parse_quantity(value, dimension, name, "--threshold")), source.strip()

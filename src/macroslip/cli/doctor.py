@@ -14,7 +14,9 @@ from macroslip.cli.printing import print_json, print_table
 _OF_THE_MACHINE = ("python", "system", "processor", "cores")
 
 
-def doctor(as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False) -> None:
+def doctor(
+    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
+) -> None:
     """Show versions, the folder of compiled kernels, processors, and packages missing for a command."""
     import macroslip
     from macroslip.cli.needs import COMMANDS, missing_packages
@@ -27,7 +29,11 @@ def doctor(as_json: Annotated[bool, typer.Option("--json", help="Print it as JSO
     found = {
         "version": macroslip.__version__,
         "machine": {name: value for name, value in machine().items() if name in _OF_THE_MACHINE},
-        "kernels": {"folder": str(folder) if folder else None, "files": len(sizes), "megabytes": sum(sizes) / 1e6},
+        "kernels": {
+            "folder": str(folder) if folder else None,
+            "files": len(sizes),
+            "megabytes": sum(sizes) / 1e6,
+        },
         "packages": list(_packages()),
         "commands": [
             {
@@ -43,14 +49,20 @@ def doctor(as_json: Annotated[bool, typer.Option("--json", help="Print it as JSO
         return
     rows = [[name, str(found["machine"][name])] for name in _OF_THE_MACHINE]
     stored = f"{folder}, {sum(sizes) / 1e6:.3g} MB in {len(sizes)} files"
-    rows.append(["kernels", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"])
+    rows.append(
+        ["kernels", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"]
+    )
     print_table(f"macroslip {found['version']}", [("", False), ("", False)], rows)
     typer.echo()
     rows = [[one["package"], one["installed"] or "-", one["wanted"]] for one in found["packages"]]
     print_table("packages", [("package", False), ("installed", False), ("wanted", False)], rows)
     typer.echo()
     rows = [
-        [one["command"], f"lacks {', '.join(one['missing'])}" if one["missing"] else "ready", one["remedy"]]
+        [
+            one["command"],
+            f"lacks {', '.join(one['missing'])}" if one["missing"] else "ready",
+            one["remedy"],
+        ]
         for one in found["commands"]
     ]
     print_table("commands that need more", [("command", False), ("", False), ("", False)], rows)
@@ -68,7 +80,11 @@ def _packages() -> Iterator[dict[str, Any]]:
         requirement, _, marker = line.partition(";")
         parts = re.fullmatch(r"([\w.-]+)(?:\[[\w,]*\])?\s*(.*?)\s*", requirement)
         extra = re.search(r"extra == ['\"](\w+)['\"]", marker)
-        if parts is None or parts[1] == "macroslip" or (extra and extra[1] not in ("figures", "cluster", "notebook")):
+        if (
+            parts is None
+            or parts[1] == "macroslip"
+            or (extra and extra[1] not in ("figures", "cluster", "notebook"))
+        ):
             continue
         bound = parts[2] + (f", for [{extra[1]}]" if extra else "")
         yield {"package": parts[1], "installed": version_of(parts[1]), "wanted": bound}

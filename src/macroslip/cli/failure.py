@@ -40,7 +40,10 @@ def command(app: typer.Typer, function: Callable[..., None], name: str | None = 
         try:
             with interrupts_kept():
                 function(*args, **options)
-        except (typer.Exit, BrokenPipeError):  # a reader such as `head` that closes the pipe early is not an error
+        except (
+            typer.Exit,
+            BrokenPipeError,
+        ):  # a reader such as `head` that closes the pipe early is not an error
             raise
         except BaseException as error:
             code, message = _told(error, quiet=bool(options.get("quiet")))

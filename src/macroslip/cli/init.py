@@ -41,17 +41,25 @@ _NEXT = {
 
 def init(
     path: Annotated[
-        Path | None, typer.Argument(help="The file to write; case.yaml, or the name of the example, if not given.")
+        Path | None,
+        typer.Argument(
+            help="The file to write; case.yaml, or the name of the example, if not given."
+        ),
     ] = None,
     example: Annotated[
-        Example, typer.Option(help="What to write; `laws` also writes own_film.py and own_law.py beside the file.")
+        Example,
+        typer.Option(
+            help="What to write; `laws` also writes own_film.py and own_law.py beside the file."
+        ),
     ] = Example.CASE,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
 ) -> None:
     """Write a case file with every key explained, or another example."""
     first, *others = _FILES[example]
     path = path or Path("own_laws.yaml" if example is Example.LAWS else f"{example}.yaml")
-    texts = {path: _text(first)} | {path.with_name(name.rpartition("/")[2]): _text(name) for name in others}
+    texts = {path: _text(first)} | {
+        path.with_name(name.rpartition("/")[2]): _text(name) for name in others
+    }
     for one in texts:
         check_new_file(one, force=force)
     for one, text in texts.items():
@@ -69,4 +77,6 @@ def _text(name: str) -> str:
     # A wheel has the examples beside this module; a clone has them at its root, where people look for them.
     here = Path(__file__)
     folder = here.with_name("examples")
-    return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_text(encoding="utf-8")
+    return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_text(
+        encoding="utf-8"
+    )

@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from macroslip.case.case import Case
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 
-loads = typer.Typer(name="loads", help="Load histories.", no_args_is_help=True, rich_markup_mode=None)
+loads = typer.Typer(
+    name="loads", help="Load histories.", no_args_is_help=True, rich_markup_mode=None
+)
 
 _PICTURES = (".png", ".svg", ".pdf")
 _NO_UNIT = ("mount", "locating", "bearing")
@@ -42,20 +44,36 @@ def inspect(
         ),
     ],
     case: Annotated[
-        Path | None, typer.Option(help="Case file whose drivetrain, bearing and lubricant are used; its loads are not.")
+        Path | None,
+        typer.Option(
+            help="Case file whose drivetrain, bearing and lubricant are used; its loads are not."
+        ),
     ] = None,
-    hub_to_bearing: Annotated[str | None, _length("From the hub centre to the main bearing")] = None,
-    bearing_to_gearbox: Annotated[str | None, _length("From the main bearing to the gearbox's support")] = None,
-    tilt: Annotated[str | None, typer.Option(help="Tilt of the shaft, positive with the hub end up: '5 deg'.")] = None,
-    shaft_mass: Annotated[str | None, typer.Option(help="Mass of the shaft without the rotor: '8000 kg'.")] = None,
-    shaft_mass_station: Annotated[str | None, _length("Distance of that mass behind the hub centre")] = None,
+    hub_to_bearing: Annotated[
+        str | None, _length("From the hub centre to the main bearing")
+    ] = None,
+    bearing_to_gearbox: Annotated[
+        str | None, _length("From the main bearing to the gearbox's support")
+    ] = None,
+    tilt: Annotated[
+        str | None, typer.Option(help="Tilt of the shaft, positive with the hub end up: '5 deg'.")
+    ] = None,
+    shaft_mass: Annotated[
+        str | None, typer.Option(help="Mass of the shaft without the rotor: '8000 kg'.")
+    ] = None,
+    shaft_mass_station: Annotated[
+        str | None, _length("Distance of that mass behind the hub centre")
+    ] = None,
     shaft_speed: Annotated[
         str | None, typer.Option(help="Constant shaft speed, in place of the file's: '20 rpm'.")
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="A picture of the loads to write: .png, .svg or .pdf.")
+        Path | None,
+        typer.Option("--output", "-o", help="A picture of the loads to write: .png, .svg or .pdf."),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace the picture if it exists.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the picture if it exists.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
@@ -66,7 +84,9 @@ def inspect(
 
     if output is not None:
         if output.suffix not in _PICTURES:
-            raise InputError("this is no kind of picture", where=str(output), allowed=f"{', '.join(_PICTURES)}")
+            raise InputError(
+                "this is no kind of picture", where=str(output), allowed=f"{', '.join(_PICTURES)}"
+            )
         require(PICTURE)
         check_new_file(output, force=force, inputs=[file, *([case] if case else [])])
     speed = si("--shaft-speed", shaft_speed, SPEED)
@@ -110,7 +130,9 @@ def _read(
     if _holds_bearing_loads(file):
         if speed is not None:
             raise InputError(
-                "--shaft-speed is for hub loads", where=str(file), remedy="Write the speed into the table's column."
+                "--shaft-speed is for hub loads",
+                where=str(file),
+                remedy="Write the speed into the table's column.",
             )
         bearing = BearingLoads.read(file)
         return _described(bearing, "load on the main bearing"), bearing, bearing
@@ -121,7 +143,8 @@ def _read(
     units = {"tilt": "deg", "shaft_mass": "kg"}
     plain = asdict(drivetrain) | {"tilt": math.degrees(drivetrain.tilt)}
     found["drivetrain"] = {"default": drivetrain == Drivetrain()} | {
-        name if name in _NO_UNIT else f"{name} [{units.get(name, 'm')}]": value for name, value in plain.items()
+        name if name in _NO_UNIT else f"{name} [{units.get(name, 'm')}]": value
+        for name, value in plain.items()
     }
     found["main bearing"] = _statistics(_forces(bearing))
     for name in others:
@@ -134,7 +157,10 @@ def _holds_bearing_loads(file: Path) -> bool:
     """Whether a table has the columns of main-bearing loads; other faults show when it is read."""
     from macroslip.loads.table import open_table
 
-    if not file.is_file() or file.suffix.lower() not in (".parquet", ".csv"):  # a pipe would wait for ever
+    if not file.is_file() or file.suffix.lower() not in (
+        ".parquet",
+        ".csv",
+    ):  # a pipe would wait for ever
         return False
     try:
         return any(name.strip().startswith("F_X0") for name in open_table(file).column_names)
@@ -165,7 +191,10 @@ def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
 
 
 def _forces(read: BearingLoads) -> dict[str, NDArray]:
-    forces = {f"{name} [kN]": values / 1e3 for name, values in zip(("F_X0", "F_Y0", "F_Z0"), read.force.T, strict=True)}
+    forces = {
+        f"{name} [kN]": values / 1e3
+        for name, values in zip(("F_X0", "F_Y0", "F_Z0"), read.force.T, strict=True)
+    }
     radial = (read.force[:, 0] ** 2 + read.force[:, 1] ** 2) ** 0.5
     return forces | {"radial [kN]": radial / 1e3}
 
@@ -197,28 +226,35 @@ def _print(found: dict[str, Any]) -> None:
     _table("statistics over the samples", found["statistics"])
     if "main bearing" in found:
         typer.echo()
-        _table(f"load on the main bearing, with {_words(found['drivetrain'])}", found["main bearing"])
+        _table(
+            f"load on the main bearing, with {_words(found['drivetrain'])}", found["main bearing"]
+        )
     for name in (key for key in found if key.endswith(" main bearing")):
         typer.echo()
         _table(f"load on the {name}", found[name])
 
 
 def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
-    rows = [[name, *(number(float(value)) for value in values.values())] for name, values in statistics.items()]
-    print_table(title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows)
+    rows = [
+        [name, *(number(float(value)) for value in values.values())]
+        for name, values in statistics.items()
+    ]
+    print_table(
+        title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows
+    )
 
 
 def _words(given: dict[str, Any]) -> str:
     shaft = "no shaft mass"
     if mass := given["shaft_mass [kg]"]:
         shaft = f"a shaft of {mass:g} kg {given['shaft_mass_station [m]']:g} m behind the hub"
-    start = (
-        f"{'the default' if given['default'] else 'your'} drivetrain ({given['hub_to_bearing [m]']:g} m from hub to "
-    )
+    start = f"{'the default' if given['default'] else 'your'} drivetrain ({given['hub_to_bearing [m]']:g} m from hub to "
     if given["mount"] == "four-point":
         rear = f"{given['front_to_rear [m]']:g} m from front to rear bearing, {given['locating']} locating"
         return f"{start}front bearing, {rear}, {shaft}): the {given['bearing']} bearing"
-    return f"{start}bearing, {given['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
+    return (
+        f"{start}bearing, {given['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
+    )
 
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:
@@ -227,7 +263,9 @@ def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -
     from macroslip.report.load_figures import load_figure
     from macroslip.result.rating import roller_load_series
 
-    parts = {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws} if base else {}
+    parts = (
+        {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws} if base else {}
+    )
     case = Case(loads=bearing, drivetrain=drivetrain, **parts)
     time, rollers = roller_load_series(case, float(bearing.time[0]), float(bearing.time[-1]))
     return load_figure(bearing, time, rollers[:, ROWS.index("upwind")].sum(axis=-1))

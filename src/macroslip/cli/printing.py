@@ -16,12 +16,16 @@ PIPE_WIDTH = 160
 """Characters a line may have where there is no terminal."""
 
 
-def print_table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
+def print_table(
+    title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]
+) -> None:
     """Print a table; each heading comes with whether its column holds numbers."""
     from rich.table import Table
 
     headings = list(headings)
-    shown = Table(box=None, padding=(0, 2, 0, 0), show_header=any(heading for heading, _ in headings))
+    shown = Table(
+        box=None, padding=(0, 2, 0, 0), show_header=any(heading for heading, _ in headings)
+    )
     for heading, numbers in headings:
         shown.add_column(heading, justify="right" if numbers else "left")
     for row in rows:
@@ -36,7 +40,11 @@ def plain_console(*, stderr: bool = False) -> Console:
     from rich.console import Console
 
     out = Console(stderr=stderr, markup=False, highlight=False)
-    return out if out.is_terminal else Console(stderr=stderr, markup=False, highlight=False, width=PIPE_WIDTH)
+    return (
+        out
+        if out.is_terminal
+        else Console(stderr=stderr, markup=False, highlight=False, width=PIPE_WIDTH)
+    )
 
 
 def number(value: float) -> str:

@@ -27,14 +27,19 @@ def report(
     ],
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="The page to write; report.html beside the results if not given."),
+        typer.Option(
+            "--output", "-o", help="The page to write; report.html beside the results if not given."
+        ),
     ] = None,
     title: Annotated[
-        str | None, typer.Option("--title", help="Heading of the page; the title of a study if not given.")
+        str | None,
+        typer.Option("--title", help="Heading of the page; the title of a study if not given."),
     ] = None,
     weibull: Annotated[
         tuple[float, float] | None,
-        typer.Option(help="Of a study: scale [m/s] and shape of the distribution of the wind speed."),
+        typer.Option(
+            help="Of a study: scale [m/s] and shape of the distribution of the wind speed."
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the page if it exists.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,

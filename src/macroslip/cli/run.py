@@ -43,19 +43,28 @@ def run(
     output: Annotated[Path, typer.Option("--output", "-o", help="The netCDF file to write.")],
     laws: Annotated[
         list[Path] | None,
-        typer.Option(help="Python file that registers film or traction laws of your own; it is run. Repeatable."),
+        typer.Option(
+            help="Python file that registers film or traction laws of your own; it is run. Repeatable."
+        ),
     ] = None,
-    threads: Annotated[int | None, typer.Option(min=1, help="Threads; all processors if not given.")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")] = False,
+    threads: Annotated[
+        int | None, typer.Option(min=1, help="Threads; all processors if not given.")
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the output file if it exists.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only, each error on one line.")] = False,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", help="Show failures only, each error on one line.")
+    ] = False,
 ) -> None:
     """Compute the slip of a case's rollers, as netCDF; of both main bearings as OUTPUT-front.nc and OUTPUT-rear.nc."""
     from macroslip.case.case_file import bearings_in, files_named_in
 
     inputs = [case, *(laws or ()), *files_named_in(case)]
     outputs = {
-        name: output.parent / f"{output.stem}-{name}{output.suffix}" if name else output for name in bearings_in(case)
+        name: output.parent / f"{output.stem}-{name}{output.suffix}" if name else output
+        for name in bearings_in(case)
     }
     for path in outputs.values():
         check_new_file(path, force=force, inputs=inputs)
@@ -116,7 +125,9 @@ def _named(case: Path, loads: str) -> Iterator[None]:
     except InputError as problem:
         place = f"loads, {problem.where}" if problem.where.startswith(loads) else problem.where
         where = f"{case}, {place}" if place else str(case)
-        raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+        raise InputError(
+            problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+        ) from None
     except MemoryError:
         what = "the computer has not enough memory for this case"
         raise InputError(what, where=f"{case}, loads, rollers or traces", remedy=MEMORY) from None
@@ -127,7 +138,9 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     from macroslip.result.plausibility import doubtful_result
 
     rows = {
-        one["name"]: {words: math.nan if one[key] is None else one[key] for key, words in _OF_ROW.items()}
+        one["name"]: {
+            words: math.nan if one[key] is None else one[key] for key, words in _OF_ROW.items()
+        }
         for one in row_numbers(dataset)
     }
     window = {
@@ -135,11 +148,16 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         "end [s]": dataset.attrs["window_end"],
         "complete orbits": dataset.sizes["orbit"],
     }
-    found = {name: dataset.attrs[name] for name in ("title", "model", "oil")} | {"window": window, "rows": rows}
+    found = {name: dataset.attrs[name] for name in ("title", "model", "oil")} | {
+        "window": window,
+        "rows": rows,
+    }
     if "inlet_temperature" in dataset:
         found["inlet temperature [degC]"] = float(dataset.inlet_temperature) - ZERO_CELSIUS
     if "static_safety" in dataset:
-        found["rating"] = {words: float(dataset[name]) for name, words in _RATED.items() if name in dataset}
+        found["rating"] = {
+            words: float(dataset[name]) for name, words in _RATED.items() if name in dataset
+        }
         found["rating"]["largest pressure [Pa]"] = float(dataset.largest_pressure.max())
     if "rating_problem" in dataset.attrs:
         found["not rated"] = dataset.attrs["rating_problem"]
@@ -161,7 +179,9 @@ def _summary(dataset: xr.Dataset, bearing: str, path: Path) -> None:
     if bearing:
         typer.echo(f"{bearing} main bearing")
     _print_rows(dataset)
-    print_criteria(*lines(dataset), title="from slip to damage, the worst of either row and any place")
+    print_criteria(
+        *lines(dataset), title="from slip to damage, the worst of either row and any place"
+    )
     typer.echo(f"written: {path}")
 
 
@@ -172,9 +192,15 @@ def _print_rows(dataset: xr.Dataset) -> None:
         *values, rollers, failed = row.values()
         rows.append([name, *map(number, values), f"{failed} of {rollers}"])
     start, end, orbits = found["window"].values()
-    window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
+    window = (
+        f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
+    )
     numbers = [name for name in next(iter(found["rows"].values())) if name != "rollers"]
-    print_table(f"{found['title']}, {window}", [("row", False), *((heading, True) for heading in numbers)], rows)
+    print_table(
+        f"{found['title']}, {window}",
+        [("row", False), *((heading, True) for heading in numbers)],
+        rows,
+    )
     for cage, slip in found.get("cage slip [1]", {}).items():
         whose = "the cage" if len(found["cage slip [1]"]) == 1 else f"the {cage} cage"
         behind = "behind" if slip <= 0.0 else "ahead of"
@@ -187,7 +213,9 @@ def _print_rows(dataset: xr.Dataset) -> None:
     life = years(float(dataset.basic_life))
     modified = years(float(dataset.modified_reference_life.sel(load_along_roller="hertz")))
     below = number(100.0 * float(dataset.share_below_minimum_load))
-    loaded = ", ".join(f"{100.0 * share:.3g} % {row}" for row, share in dataset.loaded_share.to_series().items())
+    loaded = ", ".join(
+        f"{100.0 * share:.3g} % {row}" for row, share in dataset.loaded_share.to_series().items()
+    )
     typer.echo(
         f"beside slip: static safety {safety}, L10h {life}, modified reference life {modified}, largest pressure "
         f"{number(float(dataset.largest_pressure.max()) / 1e9)} GPa, kappa {kappa}, below the minimum load {below} % of the "

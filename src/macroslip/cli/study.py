@@ -29,19 +29,39 @@ _LINE_EVERY = 60.0
 def study(
     study: Annotated[
         Path,
-        typer.Argument(help="The study file; `macroslip init --example study` writes one with every key explained."),
+        typer.Argument(
+            help="The study file; `macroslip init --example study` writes one with every key explained."
+        ),
     ],
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="The folder for the results.")] = None,
-    workers: Annotated[int | None, typer.Option(min=1, help="Start so many worker processes here.")] = None,
-    scheduler: Annotated[str | None, typer.Option(help="Use the workers of this Dask scheduler.")] = None,
-    threads: Annotated[int | None, typer.Option(min=1, help="Threads over the rollers of a case.")] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on where an earlier run ended.")] = False,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="The folder for the results.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Start so many worker processes here.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(help="Use the workers of this Dask scheduler.")
+    ] = None,
+    threads: Annotated[
+        int | None, typer.Option(min=1, help="Threads over the rollers of a case.")
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on where an earlier run ended.")
+    ] = False,
     dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Check what the study needs, show runs, time and disk; compute nothing.")
+        bool,
+        typer.Option(
+            "--dry-run",
+            help="Check what the study needs, show runs, time and disk; compute nothing.",
+        ),
     ] = False,
     strict: Annotated[bool, typer.Option("--strict", help="Stop at the first failure.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the summary, or the dry run, as JSON.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only, each error on one line.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the summary, or the dry run, as JSON.")
+    ] = False,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", help="Show failures only, each error on one line.")
+    ] = False,
 ) -> None:
     """Compute all cases of a study; a failed one does not stop it."""
     from macroslip.study.study_file import read_study
@@ -55,16 +75,22 @@ def study(
         return
     if output is None:
         raise InputError(
-            "there is no folder for the results", where="--output", remedy="Name one, new or empty, with -o."
+            "there is no folder for the results",
+            where="--output",
+            remedy="Name one, new or empty, with -o.",
         )
     from macroslip.study.run import run_study
 
     try:
         with _shown(quiet=quiet) as report:
             chosen = {"workers": workers, "scheduler": scheduler, "threads": threads}
-            ended = run_study(checked, output, **chosen, resume=resume, strict=strict, progress=report)
+            ended = run_study(
+                checked, output, **chosen, resume=resume, strict=strict, progress=report
+            )
     except KeyboardInterrupt:
-        to_stderr(f"interrupted; what is computed is kept in {output}. Go on with the same command and --resume.")
+        to_stderr(
+            f"interrupted; what is computed is kept in {output}. Go on with the same command and --resume."
+        )
         raise typer.Exit(INTERRUPTED) from None
     if as_json or not quiet:
         _summary(ended, output, as_json)
@@ -138,7 +164,9 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
 
         yield line
         return
-    with Bar(BarColumn(20), TextColumn("{task.description}"), console=console, transient=True) as bar:
+    with Bar(
+        BarColumn(20), TextColumn("{task.description}"), console=console, transient=True
+    ) as bar:
         task = bar.add_task("beginning (the first run of all compiles)", total=None)
         yield lambda progress: bar.update(
             task, description=progress.short, total=progress.total, completed=progress.done
@@ -175,12 +203,18 @@ def _failures(ended: Ended, output: Path) -> None:
         shown.add_column(heading, overflow="fold")
     for labels, outcome, reason in ended.failures[:_LISTED]:
         others = [str(labels[name]) for name in ("bearing", "lubricant", "model")]
-        others += [f"{name} {value}" for name, value in labels.items() if "." in name and name != "loads"]
-        shown.add_row(*map(safe_text, (labels["loads"], ", ".join(others), outcome, " ".join(reason.split()))))
+        others += [
+            f"{name} {value}" for name, value in labels.items() if "." in name and name != "loads"
+        ]
+        shown.add_row(
+            *map(safe_text, (labels["loads"], ", ".join(others), outcome, " ".join(reason.split())))
+        )
     plain_console(stderr=True).print(shown)
     total = ended.progress.failed
     if total > _LISTED:
-        to_stderr(f"... and {total - _LISTED} more, in {output}/summary.parquet and {output}/log.txt.")
+        to_stderr(
+            f"... and {total - _LISTED} more, in {output}/summary.parquet and {output}/log.txt."
+        )
     counts = Counter(outcome for _, outcome, _ in ended.failures)
     kinds = ", ".join(f"{outcome}: {count}" for outcome, count in counts.items())
     to_stderr(

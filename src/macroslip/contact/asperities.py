@@ -97,7 +97,10 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
         return film_ratio_share(np.asarray(film_thickness) / interface.roughness) + none
     if name == "masjedi-khonsari":
         groups = line_groups(interface)
-        loads, speeds = groups.load * np.cbrt(load) ** 2, groups.speed * np.asarray(entrainment_speed)
+        loads, speeds = (
+            groups.load * np.cbrt(load) ** 2,
+            groups.speed * np.asarray(entrainment_speed),
+        )
         return np.minimum(1.0, load_ratio(loads, speeds, *groups[2:])) + none
     return none
 
@@ -134,12 +137,26 @@ def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
     """
     # Stations at which v passes each level, or its extremum where it does not reach it; a corner too many does no harm.
     bend = bend + _LEAST * (bend == 0.0)
-    above = 0.5 * (spin + np.copysign(np.sqrt(np.maximum(spin * spin - 4.0 * bend * (sliding - full_slip), 0.0)), spin))
-    below = 0.5 * (spin + np.copysign(np.sqrt(np.maximum(spin * spin - 4.0 * bend * (sliding + full_slip), 0.0)), spin))
+    above = 0.5 * (
+        spin
+        + np.copysign(
+            np.sqrt(np.maximum(spin * spin - 4.0 * bend * (sliding - full_slip), 0.0)), spin
+        )
+    )
+    below = 0.5 * (
+        spin
+        + np.copysign(
+            np.sqrt(np.maximum(spin * spin - 4.0 * bend * (sliding + full_slip), 0.0)), spin
+        )
+    )
     a = np.minimum(np.maximum(above / bend, -half), half)
-    b = np.minimum(np.maximum((sliding - full_slip) / (above + _LEAST * (above == 0.0)), -half), half)
+    b = np.minimum(
+        np.maximum((sliding - full_slip) / (above + _LEAST * (above == 0.0)), -half), half
+    )
     c = np.minimum(np.maximum(below / bend, -half), half)
-    d = np.minimum(np.maximum((sliding + full_slip) / (below + _LEAST * (below == 0.0)), -half), half)
+    d = np.minimum(
+        np.maximum((sliding + full_slip) / (below + _LEAST * (below == 0.0)), -half), half
+    )
     # The four in order.
     low, high = np.minimum(a, b), np.maximum(a, b)
     less, more = np.minimum(c, d), np.maximum(c, d)

@@ -27,7 +27,9 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 
 #: Power series of g, (−4)^n (n!)²/(2n + 1)!, and B up to which it is used; what its last term leaves out is below 1e-16.
-_G_SERIES = np.array([(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)])
+_G_SERIES = np.array(
+    [(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)]
+)
 _COOL = 0.02
 #: Coefficients of M(u)/u² in powers of u²: B_2n 2^2n/((2n)! (2n + 2)) = −(−1)^n 2 ζ(2n)/(π^2n (2n + 2)), and u up to which
 #: they are used. By Riemann's zeta: SciPy's own Bernoulli numbers are good to 12 digits only.
@@ -162,7 +164,9 @@ def patch_integral(pressure_exponent, root_heating):
 
 
 #: Φ of `patch_integral` for arrays.
-_patch = np.vectorize(lambda exponent, heating: patch_integral(exponent, heating)[0], otypes=[float])
+_patch = np.vectorize(
+    lambda exponent, heating: patch_integral(exponent, heating)[0], otypes=[float]
+)
 
 
 class BarusCrook(NamedTuple):
@@ -179,7 +183,10 @@ def prepare_barus_crook(interface: Interface, *, heated: bool) -> BarusCrook:
     return BarusCrook(
         conductance=2.0 * math.pi * hertz.semi_axis_across * hertz.semi_axis_along * oil.viscosity,
         pressure_exponent=oil.pressure_viscosity * hertz.pressure,
-        heating=math.sqrt(oil.temperature_viscosity * oil.viscosity / (8.0 * oil.thermal_conductivity)) * heated,
+        heating=math.sqrt(
+            oil.temperature_viscosity * oil.viscosity / (8.0 * oil.thermal_conductivity)
+        )
+        * heated,
     )
 
 

@@ -17,7 +17,9 @@ import numpy as np
 from macroslip.contact.interface import Interface
 from macroslip.lubricant.temperature import dowson_higginson
 
-MASJEDI_KHONSARI_REFERENCE = "Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514"
+MASJEDI_KHONSARI_REFERENCE = (
+    "Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514"
+)
 MOES_REFERENCE = (
     "Moes, Lubrication and Beyond, University of Twente (2000), as in Gelinck and Schipper, Tribol. Int. 33 (2000) 175, "
     "doi:10.1016/S0301-679X(00)00024-4"
@@ -97,7 +99,9 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
     """
     log_load, log_speed = np.log(load), np.log(speed)
     smooth = 2.691 * np.power(material, 0.556)
-    rough = 0.2 * np.power(roughness, 1.222) * np.power(hardness, 0.223) * np.power(material, -0.842)
+    rough = (
+        0.2 * np.power(roughness, 1.222) * np.power(hardness, 0.223) * np.power(material, -0.842)
+    )
     return smooth * np.exp(-0.135 * log_load + 0.705 * log_speed) * (
         1.0 + rough * np.exp(-0.229 * log_load - 0.748 * log_speed)
     )  # fmt: skip
@@ -106,8 +110,13 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
 def masjedi_khonsari(interface: Interface, load, entrainment_speed):
     """Film thickness h [m] by `masjedi_khonsari_thickness` at loads [N] and speeds [m/s], in range or not."""
     groups = line_groups(interface)
-    load_group, speed_group = groups.load * np.cbrt(load) ** 2, groups.speed * np.asarray(entrainment_speed)
-    return interface.rolling_radius * masjedi_khonsari_thickness(load_group, speed_group, *groups[2:])
+    load_group, speed_group = (
+        groups.load * np.cbrt(load) ** 2,
+        groups.speed * np.asarray(entrainment_speed),
+    )
+    return interface.rolling_radius * masjedi_khonsari_thickness(
+        load_group, speed_group, *groups[2:]
+    )
 
 
 def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
@@ -156,7 +165,9 @@ def log_moes(log_rigid, log_load, log_material):
     order = 1.4 + 1.6 * np.exp(-2.0 * np.exp(np.minimum(log_elastic - log_rigid, 700.0)))
     isoviscous = joined(log_rigid, log_elastic, 7.0 / 3.0)
     piezoviscous = joined(
-        math.log(1.287) + (2.0 / 3.0) * log_material, math.log(1.311) - 0.125 * log_load + 0.75 * log_material, -3.5
+        math.log(1.287) + (2.0 / 3.0) * log_material,
+        math.log(1.311) - 0.125 * log_load + 0.75 * log_material,
+        -3.5,
     )
     return joined(isoviscous, piezoviscous, order)
 
@@ -175,7 +186,9 @@ def joined(first, second, order):
 def moes(interface: Interface, load, entrainment_speed):
     """Film thickness h [m] by `log_moes` at loads [N] and speeds [m/s], in range or not."""
     groups = line_groups(interface)
-    return np.exp(_log_moes_film(groups, interface.rolling_radius, np.log(load), np.log(entrainment_speed)))
+    return np.exp(
+        _log_moes_film(groups, interface.rolling_radius, np.log(load), np.log(entrainment_speed))
+    )
 
 
 def _log_moes_film(groups: LineGroups, radius: float, log_load, log_speed):
@@ -189,7 +202,10 @@ def moes_in_range(interface: Interface, load, entrainment_speed):
     """Whether M and L are at most those at which the formula was compared; lighter loads approach its exact limit."""
     groups = line_groups(interface)
     doubled = 2.0 * groups.speed * np.asarray(entrainment_speed)
-    m, material = groups.load * np.cbrt(load) ** 2 / np.sqrt(doubled), groups.material * doubled**0.25
+    m, material = (
+        groups.load * np.cbrt(load) ** 2 / np.sqrt(doubled),
+        groups.material * doubled**0.25,
+    )
     return (m <= HIGHEST_COMPARED_LOAD) & (material <= HIGHEST_COMPARED_MATERIAL)
 
 
@@ -219,7 +235,10 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
     """
     groups, radius = line_groups(interface), interface.rolling_radius
     log_load, log_speed = np.log(load), np.log(entrainment_speed)
-    log_w, log_u = math.log(groups.load) + (2.0 / 3.0) * log_load, math.log(groups.speed) + log_speed
+    log_w, log_u = (
+        math.log(groups.load) + (2.0 / 3.0) * log_load,
+        math.log(groups.speed) + log_speed,
+    )
     scale = math.log(radius * 2.691) + 0.556 * math.log(groups.material)
     heavy = scale - 0.135 * log_w + 0.705 * log_u
     density = dowson_higginson(interface.hertz.pressure * np.exp(log_load / 3.0))

@@ -105,12 +105,15 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
 #: has come in on the way there.
 _PLACES = np.array([-0.3, 0.0, 0.3, 0.5, 0.652, 0.8, 0.95])
 _NODES, _WEIGHTS = (
-    0.5 * (one + shift) for one, shift in zip(np.polynomial.legendre.leggauss(20), (1.0, 0.0), strict=True)
+    0.5 * (one + shift)
+    for one, shift in zip(np.polynomial.legendre.leggauss(20), (1.0, 0.0), strict=True)
 )
 
 
 @jit
-def transient_flash(time, power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2):
+def transient_flash(
+    time, power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2
+):
     """Largest rise of surface temperature [K] while a band of friction changes in strength and width, from cold.
 
     The n times rise [s]; the band is not there before the first, and the rise after the last is not looked for. The
@@ -154,7 +157,9 @@ def transient_flash(time, power_per_length, half_width, speed_1, speed_2, effusi
                 width = half_width[k - 1] + share * (half_width[k] - half_width[k - 1])
                 inside = 1.0 - ((place - speed * since) / width) ** 2
                 if inside > 0.0:
-                    power = power_per_length[k - 1] + share * (power_per_length[k] - power_per_length[k - 1])
+                    power = power_per_length[k - 1] + share * (
+                        power_per_length[k] - power_per_length[k - 1]
+                    )
                     came += _WEIGHTS[q] * power / width * math.sqrt(inside)
             hottest = max(hottest, 4.0 / math.pi**1.5 * came * span * math.sqrt(speed) / uptake)
     return hottest

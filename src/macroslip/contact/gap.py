@@ -80,7 +80,9 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
     end = float(brentq(flow, 0.0, 0.5, xtol=1e-15))
     start = start_of(end)
     # −∫ t dp and ∫ (1 + t²) dp, dp = 1/(1 + t²)² − (1 + t_e²)/(1 + t²)³.
-    ends = [-0.5 / (1.0 + t * t) + 0.25 * (1.0 + end * end) / (1.0 + t * t) ** 2 for t in (start, end)]
+    ends = [
+        -0.5 / (1.0 + t * t) + 0.25 * (1.0 + end * end) / (1.0 + t * t) ** 2 for t in (start, end)
+    ]
     load = -24.0 * (ends[1] - ends[0])
     rise = math.atan(end) - math.atan(start)
     rolling = 6.0 * math.sqrt(2.0) * (rise - (1.0 + end * end) * (squared(end) - squared(start)))
@@ -103,7 +105,9 @@ class Gap(NamedTuple):
     #: highest power first.
     by_gap: np.ndarray
     log_loads: np.ndarray  #: Shape (knots,). ln Q/(η0 u) [ln m], even.
-    by_load: np.ndarray  #: Shape (4, knots − 1, 3). Cubics of ln h0, ln F_R/(η0 u) and ln S over ln Q/(η0 u).
+    by_load: (
+        np.ndarray
+    )  #: Shape (4, knots − 1, 3). Cubics of ln h0, ln F_R/(η0 u) and ln S over ln Q/(η0 u).
 
 
 @functools.cache
@@ -158,7 +162,9 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     )
     correction = ratios(curvature / gap, np.sqrt(8.0 * radius * gap) / length)
     if math.isfinite(oil_gap):
-        starved = np.array([starved_martin(min(widest_inlet, float(one))) for one in oil_gap / (FLOW * gap)]).T
+        starved = np.array(
+            [starved_martin(min(widest_inlet, float(one))) for one in oil_gap / (FLOW * gap)]
+        ).T
     else:
         starved = np.array(starved_martin(widest_inlet))[:, None]
     values = np.log(slices * correction * starved).T
@@ -166,7 +172,9 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     log_loads = np.linspace(values[-1, _LOAD], values[0, _LOAD], _KNOTS)
     along = np.column_stack([log_gap, values[:, _ROLLING], values[:, _SHEAR]])[::-1]
     over_load = CubicSpline(values[::-1, _LOAD], along)(log_loads)
-    return Gap(log_gap, CubicSpline(log_gap, values).c, log_loads, CubicSpline(log_loads, over_load).c)
+    return Gap(
+        log_gap, CubicSpline(log_gap, values).c, log_loads, CubicSpline(log_loads, over_load).c
+    )
 
 
 def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, place):

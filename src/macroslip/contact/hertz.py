@@ -30,7 +30,9 @@ class HertzContact(NamedTuple):
         return (semi_axis / self.semi_axis_across) ** 3
 
 
-def effective_modulus(modulus_1: float, poisson_1: float, modulus_2: float, poisson_2: float) -> float:
+def effective_modulus(
+    modulus_1: float, poisson_1: float, modulus_2: float, poisson_2: float
+) -> float:
     """Effective elastic modulus E' = 2/[(1−ν1²)/E1 + (1−ν2²)/E2] [Pa].
 
     Of Young's moduli [Pa], > 0, and Poisson's ratios, 0 to 0.5.
@@ -74,7 +76,9 @@ def axis_ratio(curvature_ratio: float) -> float:
     return math.exp(brentq(mismatch, math.log(curvature_ratio) - 1.0, 0.0, xtol=1e-15, rtol=1e-14))
 
 
-def elliptical_contact(rolling_curvature: float, lateral_curvature: float, modulus: float) -> HertzContact:
+def elliptical_contact(
+    rolling_curvature: float, lateral_curvature: float, modulus: float
+) -> HertzContact:
     """Hertz contact from the two relative curvatures.
 
     Raises InputError if a relative curvature is not positive: the bodies would conform and Hertz's theory does not
@@ -113,7 +117,9 @@ def elliptical_contact(rolling_curvature: float, lateral_curvature: float, modul
             raise InputError(what, where="Hertz contact", allowed=allowed, remedy=remedy)
     larger = max(rolling_curvature, lateral_curvature)
     ratio = axis_ratio(min(rolling_curvature, lateral_curvature) / larger)
-    long_axis = float((2.0 * elliprd(0.0, 1.0, ratio**2) / (math.pi * modulus * larger)) ** (1.0 / 3.0))
+    long_axis = float(
+        (2.0 * elliprd(0.0, 1.0, ratio**2) / (math.pi * modulus * larger)) ** (1.0 / 3.0)
+    )
     short_axis = ratio * long_axis
     lateral_is_long = lateral_curvature <= rolling_curvature
     return HertzContact(

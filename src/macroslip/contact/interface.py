@@ -74,7 +74,9 @@ def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Inter
     return inner, outer, pocket
 
 
-def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, microslip: bool) -> ContactShape:
+def contact_shape(
+    bearing: Bearing, interface: Interface, axial_sign: int, *, microslip: bool
+) -> ContactShape:
     """Shape of an interface; on the cage's contact slip is the same all over.
 
     `axial_sign` is +1 for the downwind row and −1 for the upwind row; `microslip` says whether slip varies along the
@@ -88,8 +90,12 @@ def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, mi
     if not microslip or interface.name == "cage":
         return ContactShape(False, math.inf, math.inf, half_length, 0.0, 0.0)
     inner = interface.name == "inner"
-    raceway = (geometry.inner_raceway_contour_radius if inner else geometry.outer_raceway_contour_radius)(bearing)
-    place = geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
+    raceway = (
+        geometry.inner_raceway_contour_radius if inner else geometry.outer_raceway_contour_radius
+    )(bearing)
+    place = (
+        geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
+    )
     return ContactShape(
         microslip=True,
         contour_radius=common_contour_radius(geometry.roller_contour_radius(bearing), raceway),
@@ -106,7 +112,9 @@ def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
     Above it the contact is truncated, and Hertz pressure, film and traction formulas no longer describe it.
     """
     half = 0.5 * bearing.roller_length
-    return min(one.hertz.load_at_semi_axis_across(half) for one in interfaces(bearing, lubricant)[:2])
+    return min(
+        one.hertz.load_at_semi_axis_across(half) for one in interfaces(bearing, lubricant)[:2]
+    )
 
 
 def truncated_share(load: float, truncation: float) -> float:

@@ -41,8 +41,12 @@ class ContactLaws:
     shape: ContactShape
     film_name: str  #: Name of the film law
     oil_gap: float  #: Gap where the inlet begins to be full [m], which thins the film; infinite where flooded
-    thermal_loading: float  #: Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out
-    fluid: Fluid | None  #: The sheared film; None for the paper's closed form and for a traction law of one's own
+    thermal_loading: (
+        float  #: Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out
+    )
+    fluid: (
+        Fluid | None
+    )  #: The sheared film; None for the paper's closed form and for a traction law of one's own
     closed_form: BarusCrook | None  #: The paper's traction
     traction_name: str  #: `mechanisms`, or the name of a registered traction law
     asperity_name: str  #: Law for the share of the load that asperities carry; `none` at a cage whose roller floats
@@ -62,7 +66,11 @@ class ContactLaws:
         height = FILM_LAWS.named(self.film_name)(self.interface, load, speed)
         if self.thermal_loading:
             height = height * film.inlet_heating_factor(self.thermal_loading * speed * speed)
-        return height * film_factor(inlet_at_gap(self.oil_gap, height)) if math.isfinite(self.oil_gap) else height
+        return (
+            height * film_factor(inlet_at_gap(self.oil_gap, height))
+            if math.isfinite(self.oil_gap)
+            else height
+        )
 
     def film_in_range(self, load, entrainment_speed) -> np.ndarray:
         """Whether the film law, without its corrections, is in its range."""
@@ -72,7 +80,9 @@ class ContactLaws:
     def asperity_share(self, load, entrainment_speed, film_thickness) -> np.ndarray:
         """Share of the load that asperities carry [-], 0 to 1, at Q [N], u_e [m/s] and h [m] > 0."""
         speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
-        return asperities.asperity_share(self.asperity_name, self.interface, load, speed, film_thickness)
+        return asperities.asperity_share(
+            self.asperity_name, self.interface, load, speed, film_thickness
+        )
 
     def uniform_traction(self, load, film_thickness, slip) -> np.ndarray:
         """Force of the film [N] with the sign of the slip, which is the same all over the contact.
@@ -83,15 +93,23 @@ class ContactLaws:
             return barus_crook_traction(self.closed_form, load, film_thickness, slip)
         if self.fluid is not None:
             patch = patch_of(self)._replace(microslip=False)
-            pull = traction_values(patch, chord_table(self.fluid), load, film_thickness, 0.0, 0.0, slip)[..., 0]
+            pull = traction_values(
+                patch, chord_table(self.fluid), load, film_thickness, 0.0, 0.0, slip
+            )[..., 0]
             return np.where(np.equal(slip, 0.0), 0.0, pull)[()]
         size = np.maximum(np.abs(slip), LEAST_SLIP)
-        return TRACTION_LAWS.named(self.traction_name)(self.interface, load, film_thickness, size) * (slip / size)
+        return TRACTION_LAWS.named(self.traction_name)(
+            self.interface, load, film_thickness, size
+        ) * (slip / size)
 
     @property
     def own_sources(self) -> str:
         """Text that changes whenever a law of one's own in this contact may; empty without such laws."""
-        own = TRACTION_LAWS.named(self.traction_name).source if self.traction_name != MECHANISMS else ""
+        own = (
+            TRACTION_LAWS.named(self.traction_name).source
+            if self.traction_name != MECHANISMS
+            else ""
+        )
         return FILM_LAWS.named(self.film_name).source + own
 
 
@@ -126,7 +144,9 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     fluid = prepare_fluid(laws, lubricant) if sheared else None
     known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None
     steel = (
-        float(effusivity(bearing.thermal_conductivity, bearing.density, bearing.specific_heat)) if known else math.nan
+        float(effusivity(bearing.thermal_conductivity, bearing.density, bearing.specific_heat))
+        if known
+        else math.nan
     )
     curvatures = (
         geometry.inner_curvatures(bearing),
@@ -146,7 +166,9 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 oil_gap=oil_gap if laws.starvation else math.inf,
                 thermal_loading=film.thermal_loading(interface) if laws.inlet_heating else 0.0,
                 fluid=fluid,
-                closed_form=prepare_barus_crook(interface, heated=laws.heating) if laws.is_closed_form else None,
+                closed_form=prepare_barus_crook(interface, heated=laws.heating)
+                if laws.is_closed_form
+                else None,
                 traction_name=laws.traction,
                 # The film of a roller in its pocket is tens of micrometres thick: no asperity touches.
                 asperity_name="none" if cage and laws.rolling != "none" else laws.asperities,

@@ -85,11 +85,18 @@ def in_plane(plane, tables, log_load, log_speed):
     i, t, by_first = cell_of(plane.load, log_load)
     j, u, by_second = cell_of(plane.speed, log_speed)
     stride = CHANNELS * (plane.speed.cells + 3)
-    value, first, second = splines_in_square(tables, plane.start + i * stride + CHANNELS * j, stride, t, u)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    value, first, second = splines_in_square(
+        tables, plane.start + i * stride + CHANNELS * j, stride, t, u
+    )  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     return (
         value,
         (first[0] * by_first, first[1] * by_first, first[2] * by_first, first[3] * by_first),
-        (second[0] * by_second, second[1] * by_second, second[2] * by_second, second[3] * by_second),
+        (
+            second[0] * by_second,
+            second[1] * by_second,
+            second[2] * by_second,
+            second[3] * by_second,
+        ),
     )
 
 
@@ -109,7 +116,9 @@ def traction(table, tables, load, log_load, ring_speed, slip):
     root_speed, root = math.sqrt(math.sqrt(speed)), math.exp(log_load * (1.0 / 3.0))
     i, t, load_slope = cell_of(table.load, log_load + table.stretch * root)
     k, s, speed_slope = cell_of(table.speed, root_speed)
-    j, u, ratio_slope = cell_of(table.ratio, math.copysign(math.log1p(abs(z) + z * z / (1.0 + size)), z))
+    j, u, ratio_slope = cell_of(
+        table.ratio, math.copysign(math.log1p(abs(z) + z * z / (1.0 + size)), z)
+    )
     inner = CHANNELS * (table.ratio.cells + 3)
     outer = inner * (table.speed.cells + 3)
     start = table.start + i * outer + k * inner + CHANNELS * j
@@ -122,7 +131,10 @@ def traction(table, tables, load, log_load, ring_speed, slip):
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)
     w_by_slip, w_by_speed = 0.25 * sliding * per_speed, along * per_speed
-    y_by_slip, y_by_speed = per_sum * (2.0 - ratio * w_by_slip), -ratio * per_sum * (1.0 + w_by_speed)
+    y_by_slip, y_by_speed = (
+        per_sum * (2.0 - ratio * w_by_slip),
+        -ratio * per_sum * (1.0 + w_by_speed),
+    )
     pull_by_w, pull_by_y = load * second[0] * speed_slope, load * third[0] * ratio_slope
     heavy = load * root * root
     lag_by_w, lag_by_y = heavy * second[1] * speed_slope, heavy * third[1] * ratio_slope

@@ -73,12 +73,19 @@ class Laws:
     'paper, but rheology limiting-shear, viscosity roelands'
     """
 
-    film: Annotated[str, Choice("film thickness", _names("registry", "FILM_LAWS"), _OWN_LAW)] = "masjedi-khonsari"
+    film: Annotated[str, Choice("film thickness", _names("registry", "FILM_LAWS"), _OWN_LAW)] = (
+        "masjedi-khonsari"
+    )
     starvation: Annotated[bool, Flag("film thinned where inlets lack oil (oil_supply)")] = False
     inlet_heating: Annotated[bool, Flag("film thinned by shear heating in the inlet")] = False
-    viscosity: Annotated[str, Choice("how viscosity rises with pressure", lambda: VISCOSITY_LAWS)] = "barus"
+    viscosity: Annotated[
+        str, Choice("how viscosity rises with pressure", lambda: VISCOSITY_LAWS)
+    ] = "barus"
     rheology: Annotated[
-        str, Choice("how the film's stress falls behind the Newtonian one", _names("traction", "RHEOLOGIES"))
+        str,
+        Choice(
+            "how the film's stress falls behind the Newtonian one", _names("traction", "RHEOLOGIES")
+        ),
     ] = "newtonian"
     heating: Annotated[bool, Flag("shear heating of the film")] = True
     microslip: Annotated[bool, Flag("slip that varies along the roller")] = False
@@ -86,9 +93,14 @@ class Laws:
         str, Choice("share of the load that asperities carry", _names("asperities", "REFERENCES"))
     ] = "none"
     rolling: Annotated[
-        str, Choice("rolling resistance, and films of rollers with play", _names("rolling", "REFERENCES"))
+        str,
+        Choice(
+            "rolling resistance, and films of rollers with play", _names("rolling", "REFERENCES")
+        ),
     ] = "none"
-    skew: Annotated[str, Choice("whether rollers turn about the normals of their contacts", lambda: SKEWS)] = "none"
+    skew: Annotated[
+        str, Choice("whether rollers turn about the normals of their contacts", lambda: SKEWS)
+    ] = "none"
     traction: Annotated[
         str,
         Choice(
@@ -145,7 +157,9 @@ class Laws:
         """The set called `name`, paper or physical; InputError for any other name."""
         if name not in PRESETS:
             problem = unknown_name(name, list(PRESETS))
-            raise InputError(problem.what, where="laws.model", allowed=problem.allowed, remedy=problem.remedy)
+            raise InputError(
+                problem.what, where="laws.model", allowed=problem.allowed, remedy=problem.remedy
+            )
         return cls(**PRESETS[name])
 
     def but(self, **changes: Any) -> Laws:
@@ -158,10 +172,16 @@ class Laws:
         differences = {}
         for model in PRESETS:
             other = Laws.named(model)
-            names = [one.name for one in fields(self) if getattr(self, one.name) != getattr(other, one.name)]
+            names = [
+                one.name
+                for one in fields(self)
+                if getattr(self, one.name) != getattr(other, one.name)
+            ]
             differences[model] = sorted(f"{name} {_word(getattr(self, name))}" for name in names)
         nearest = min(differences, key=lambda model: len(differences[model]))
-        return nearest + (f", but {', '.join(differences[nearest])}" if differences[nearest] else "")
+        return nearest + (
+            f", but {', '.join(differences[nearest])}" if differences[nearest] else ""
+        )
 
     @property
     def asks_for_oil(self) -> bool:
@@ -210,6 +230,8 @@ def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
         "eyring_stress": "Eyring's rheology" if laws.rheology == "eyring" else "",
         "boundary_friction": "asperity friction" if laws.asperities != "none" else "",
     }
-    keys = [key for key, mechanism in needed.items() if mechanism and getattr(lubricant, key) is None]
+    keys = [
+        key for key, mechanism in needed.items() if mechanism and getattr(lubricant, key) is None
+    ]
     if keys:
         lubricant.require(*keys, purpose=" and ".join(dict.fromkeys(needed[key] for key in keys)))

@@ -99,8 +99,15 @@ def _node(count, place):
 def _on_line(coefficients, cell, t):
     """Value of a spline of one coordinate."""
     rest = 1.0 - t
-    one, two, three, four = coefficients[cell], coefficients[cell + 1], coefficients[cell + 2], coefficients[cell + 3]
-    middle = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * two + (4.0 - 6.0 * rest * rest + 3.0 * rest * rest * rest) * three
+    one, two, three, four = (
+        coefficients[cell],
+        coefficients[cell + 1],
+        coefficients[cell + 2],
+        coefficients[cell + 3],
+    )
+    middle = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * two + (
+        4.0 - 6.0 * rest * rest + 3.0 * rest * rest * rest
+    ) * three
     return (rest * rest * rest * one + middle + t * t * t * four) * (1.0 / 6.0)
 
 
@@ -132,14 +139,20 @@ def chord_stress_at(chords, node, pressure, slip):
         unit = 1.0 / (math.sqrt(max(fluid.heating, 1e-30)) * node.film)
         ahead = 0.5 * log_eta
     else:
-        unit = fluid.characteristic * pressure if fluid.rheology == LIMITING_SHEAR else fluid.characteristic
+        unit = (
+            fluid.characteristic * pressure
+            if fluid.rheology == LIMITING_SHEAR
+            else fluid.characteristic
+        )
         ahead = log_eta
     log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
     j, u = _node(slips, log_slip / chords.slip_spacing)
     start = (i * films + node.cell) * slips + j
     value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.place, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     # Below the first slip of the table stress is in proportion to slip.
-    stress = unit * math.exp(value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0))
+    stress = unit * math.exp(
+        value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0)
+    )
     # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
     return min(stress, 0.25 * math.pi * unit) if fluid.rheology == LIMITING_SHEAR else stress
 
@@ -176,7 +189,9 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
     end = min(1.0, patch.half_length / across)
     bend, spin = 0.0, 0.0
     if patch.microslip:
-        bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
+        bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (
+            2.0 * patch.contour_radius
+        )
         spin = ring_speed * patch.spin_ratio
     first, second = rolling_lines(bend, spin, slip, across * end)
     edges = (-end, first / across, second / across, end)
@@ -192,7 +207,13 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
             station = across * x
             local = slip + station * (bend * station - spin)
             cosine = math.sqrt(1.0 - x * x)
-            part = area * _WEIGHTS[k] * length * cosine * chord_stress_at(chords, node, pressure * cosine, abs(local))
+            part = (
+                area
+                * _WEIGHTS[k]
+                * length
+                * cosine
+                * chord_stress_at(chords, node, pressure * cosine, abs(local))
+            )
             part = math.copysign(part, local)
             pull += part
             lag += part * station * station * per_drop
@@ -212,7 +233,9 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
     """`patch_traction` of many states, flat arrays of one size; returns shape (states, 4)."""
     found = np.empty((loads.size, 4))
     for n in range(loads.size):
-        patch_traction(patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], found[n])
+        patch_traction(
+            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], found[n]
+        )
     return found
 
 
@@ -223,24 +246,32 @@ def traction_values(patch: Patch, chords: ChordTable, *states: np.ndarray) -> np
     return found.reshape(*states[0].shape, 4)
 
 
-def patch_power(patch: Patch, chords: ChordTable, load: float, film: float, ring_speed: float, slip: float) -> float:
+def patch_power(
+    patch: Patch, chords: ChordTable, load: float, film: float, ring_speed: float, slip: float
+) -> float:
     """Frictional power of a film [W], ∫τ v dA, by the rule of `patch_traction`; parameters as there."""
     found = np.empty(4)
     patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, found)
     return _power(patch, found[0], found[1], found[2], ring_speed, slip)
 
 
-def _power(patch: Patch, pull: float, lag: float, skew: float, ring_speed: float, slip: float) -> float:
+def _power(
+    patch: Patch, pull: float, lag: float, skew: float, ring_speed: float, slip: float
+) -> float:
     curvature = patch.curvature_ratio * patch.roller_radius
     return float(slip * (pull - lag) + ring_speed * (curvature * lag - patch.spin_ratio * skew))
 
 
-def fine_power(patch: Patch, fluid: Fluid, load: float, film: float, ring_speed: float, slip: float) -> float:
+def fine_power(
+    patch: Patch, fluid: Fluid, load: float, film: float, ring_speed: float, slip: float
+) -> float:
     """The same by a finer rule, and with the stress of every chord by quadrature in place of the oil's table."""
     root = load ** (1.0 / 3.0)
     across = patch.across * root
     end = min(1.0, patch.half_length / across)
-    bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
+    bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (
+        2.0 * patch.contour_radius
+    )
     spin = ring_speed * patch.spin_ratio
     first, second = rolling_lines(bend, spin, slip, across * end)
     edges = np.array([-end, first / across, second / across, end])
@@ -250,7 +281,10 @@ def fine_power(patch: Patch, fluid: Fluid, load: float, film: float, ring_speed:
     station, cosine = across * place, np.sqrt(1.0 - place**2)
     local = slip + station * (bend * station - spin)
     stress = chord_stress(
-        fluid, patch.pressure * root * np.maximum(cosine, 1e-9), film, np.maximum(np.abs(local), _NO_SLIP)
+        fluid,
+        patch.pressure * root * np.maximum(cosine, 1e-9),
+        film,
+        np.maximum(np.abs(local), _NO_SLIP),
     )
     part = 2.0 * across * patch.along * root * weight * cosine * np.copysign(stress, local)
     lag = part * station**2 * 0.5 / (patch.contour_radius * patch.roller_radius)

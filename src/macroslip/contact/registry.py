@@ -61,22 +61,36 @@ class Law(NamedTuple):
         found = self._values(self.function, interface, states, "fiu", "real numbers").astype(float)
         bad = ~(np.isfinite(found) & (found > 0.0))
         if bad.any():
-            known = zip(_STATES[self.kind], (np.broadcast_to(one, bad.shape)[bad][0] for one in states), strict=True)
+            known = zip(
+                _STATES[self.kind],
+                (np.broadcast_to(one, bad.shape)[bad][0] for one in states),
+                strict=True,
+            )
             at = ", ".join(f"{name} {value:.4g} {unit}" for (name, unit), value in known)
             what = f"it gives {found[bad][0]:.4g} {_UNITS[self.kind]}"
-            raise _wrong(what, f"{self.kind} law '{self.name}', {interface.name}, {at}", "a finite number above zero")
+            raise _wrong(
+                what,
+                f"{self.kind} law '{self.name}', {interface.name}, {at}",
+                "a finite number above zero",
+            )
         return found[()]
 
     def inside(self, interface: Interface, load, entrainment_speed) -> np.ndarray:
         """Whether a film law is in its range."""
         if self.in_range is None:
             return np.ones(np.broadcast(load, entrainment_speed).shape, dtype=bool)[()]
-        return self._values(self.in_range, interface, (load, entrainment_speed), "b", "truth values", "in_range of ")[
-            ()
-        ]
+        return self._values(
+            self.in_range, interface, (load, entrainment_speed), "b", "truth values", "in_range of "
+        )[()]
 
     def _values(
-        self, function: Callable, interface: Interface, states: tuple, kinds: str, what: str, part: str = ""
+        self,
+        function: Callable,
+        interface: Interface,
+        states: tuple,
+        kinds: str,
+        what: str,
+        part: str = "",
     ) -> np.ndarray:
         """What a function of the law gives at states, refused if it is none of the kinds, or not one for each state."""
         # A law may change the arrays it is given.
@@ -90,10 +104,20 @@ class Law(NamedTuple):
             raise
         except BaseException as error:
             reason = " ".join(str(error).split())[:200]
-            raise _wrong(f"{type(error).__name__} in it ({reason})", where, "a function that raises nothing") from error
+            raise _wrong(
+                f"{type(error).__name__} in it ({reason})", where, "a function that raises nothing"
+            ) from error
         if found.shape != (size,) or found.dtype.kind not in kinds:
-            given = f"an array of shape {found.shape} of type {found.dtype}" if found.ndim else f"{found.item()!r:.80}"
-            raise _wrong(f"for {size} states it gives {given}", where, f"an array of {size} {what}, one for each state")
+            given = (
+                f"an array of shape {found.shape} of type {found.dtype}"
+                if found.ndim
+                else f"{found.item()!r:.80}"
+            )
+            raise _wrong(
+                f"for {size} states it gives {given}",
+                where,
+                f"an array of {size} {what}, one for each state",
+            )
         return found.reshape(arrays[0].shape)
 
     @property
@@ -108,7 +132,11 @@ class Law(NamedTuple):
             return ""
         code = getattr(self.function, "__code__", None)
         path = Path(code.co_filename) if code else Path()
-        text = path.read_text(encoding="utf-8") if path.is_file() else repr(code and (code.co_code, code.co_consts))
+        text = (
+            path.read_text(encoding="utf-8")
+            if path.is_file()
+            else repr(code and (code.co_code, code.co_consts))
+        )
         return f"{self.kind} {self.name}\n{self.function.__module__}\n{text}"
 
 
@@ -136,7 +164,11 @@ class LawList:
         Raises InputError if the name belongs to another module's law, or means something else.
         """
         module = getattr(law.function, "__module__", None)
-        owner = getattr(self._laws[law.name].function, "__module__", None) if law.name in self._laws else module
+        owner = (
+            getattr(self._laws[law.name].function, "__module__", None)
+            if law.name in self._laws
+            else module
+        )
         if law.name in self._reserved or owner != module:
             raise InputError(
                 f"the {self.kind} law '{law.name}' cannot be registered: the name is taken",
@@ -244,7 +276,11 @@ register_film(
 def film_range_notes(name: str, found: Iterable[Interface]) -> list[str]:
     """Numbers outside the range of the film law called `name` at some interface, whatever load and speed."""
     notes = FILM_LAWS.named(name).range_notes
-    return [f"{interface.name}: {note}" for interface in found for note in (notes(interface) if notes else [])]
+    return [
+        f"{interface.name}: {note}"
+        for interface in found
+        for note in (notes(interface) if notes else [])
+    ]
 
 
 def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float) -> None:
@@ -263,7 +299,9 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
 
 
 @functools.lru_cache(maxsize=64)
-def _check(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float, chosen: tuple[Law, ...]) -> None:
+def _check(
+    laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float, chosen: tuple[Law, ...]
+) -> None:
     """Run the check in a thread that is abandoned if a law does not return."""
     problems: list[BaseException] = []
 
@@ -288,7 +326,10 @@ def _check(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float, cho
 
 
 def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, speed: float) -> None:
-    loads, speeds = np.geomspace(1e-6, 1.0, 13)[:, None] * heaviest, np.geomspace(1e-4, 1.0, 13) * speed
+    loads, speeds = (
+        np.geomspace(1e-6, 1.0, 13)[:, None] * heaviest,
+        np.geomspace(1e-4, 1.0, 13) * speed,
+    )
     heights = chosen[0](interface, loads, speeds)
     chosen[0].inside(interface, loads, speeds)
     if len(chosen) == 1:
@@ -296,7 +337,9 @@ def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, sp
     law = chosen[1]
     thin, thick = np.clip([heights.min(), heights.max()], _THINNEST, _THICKEST)
     slips = np.concatenate([[LEAST_SLIP, 2.0 * LEAST_SLIP], np.geomspace(1e-6, 1.0, 19) * speed])
-    loads, films, slips = np.meshgrid(loads[:, 0], np.geomspace(thin, thick, 5), slips, indexing="ij")
+    loads, films, slips = np.meshgrid(
+        loads[:, 0], np.geomspace(thin, thick, 5), slips, indexing="ij"
+    )
     force = law(interface, loads, films, slips)
     off = np.abs(0.5 * force[..., 1] / force[..., 0] - 1.0)
     if off.max() > _PROPORTIONAL:

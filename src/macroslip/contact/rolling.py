@@ -32,13 +32,26 @@ import numpy as np
 from scipy.special import expit
 
 from macroslip.contact.film import joined, log_moes, thermal_loading
-from macroslip.contact.gap import FLOW, ROLLING, ROLLING_AT_GAP, Gap, GapShape, film_at_gap, film_at_load, prepare_gap
+from macroslip.contact.gap import (
+    FLOW,
+    ROLLING,
+    ROLLING_AT_GAP,
+    Gap,
+    GapShape,
+    film_at_gap,
+    film_at_load,
+    prepare_gap,
+)
 from macroslip.contact.interface import Interface
 from macroslip.contact.starvation import inlet_at_gap, rigid_rolling_factor
 from macroslip.errors import InputError
 
-GOKSEM_HARGREAVES_REFERENCE = "Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346 and 353, doi:10.1115/1.3453183"
-BIBOULET_HOUPERT_REFERENCE = "Biboulet and Houpert, Proc. IMechE J 224 (2010) 763 and 777, doi:10.1243/13506501JET608"
+GOKSEM_HARGREAVES_REFERENCE = (
+    "Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346 and 353, doi:10.1115/1.3453183"
+)
+BIBOULET_HOUPERT_REFERENCE = (
+    "Biboulet and Houpert, Proc. IMechE J 224 (2010) 763 and 777, doi:10.1243/13506501JET608"
+)
 #: Choices of `rolling:`, and works to cite for each.
 REFERENCES = {
     "none": "",
@@ -100,7 +113,13 @@ def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, t
     0.896
     """
     flow = 1e6 * kinematic_viscosity * np.abs(speed) * 30.0 / math.pi
-    return np.exp(-constant * flow * (bore + outside) * 1e3 * math.sqrt(type_factor / (2e3 * (outside - bore))))
+    return np.exp(
+        -constant
+        * flow
+        * (bore + outside)
+        * 1e3
+        * math.sqrt(type_factor / (2e3 * (outside - bore)))
+    )
 
 
 def inlet_heating_of_rolling(loading):
@@ -162,7 +181,9 @@ def line_rolling(name: str, load, material):
     1.4705
     """
     log_m = np.log(load)
-    return np.exp(joined(_LOG_RIGID + 0.5 * log_m, log_elastic(name, log_m, np.log(material)), -ORDERS[name]))
+    return np.exp(
+        joined(_LOG_RIGID + 0.5 * log_m, log_elastic(name, log_m, np.log(material)), -ORDERS[name])
+    )
 
 
 class Plug(NamedTuple):
@@ -227,7 +248,9 @@ def prepare_rolling(
     """
     if name not in REFERENCES:
         what = f"there is no rolling law '{name}'"
-        raise InputError(what, where="laws.rolling", allowed=", ".join(REFERENCES), remedy="Choose one of these")
+        raise InputError(
+            what, where="laws.rolling", allowed=", ".join(REFERENCES), remedy="Choose one of these"
+        )
     if name == "none":
         return None
     radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
@@ -250,7 +273,11 @@ def prepare_rolling(
         area=math.pi * across * interface.hertz.semi_axis_along,
         share_1=radius / roller_radius,
         oil_gap=oil_gap,
-        plug=Plug(shape.length * (oil.grease_yield_stress or 0.0), 2.0 * shape.rolling_radius, roller_radius),
+        plug=Plug(
+            shape.length * (oil.grease_yield_stress or 0.0),
+            2.0 * shape.rolling_radius,
+            roller_radius,
+        ),
     )
 
 
@@ -262,7 +289,9 @@ def _log_film(numbers: RollingNumbers, log_gap, log_load, log_speed):
     """Ln of the film of the volume flow, by Moes' blend whose rigid, isoviscous limit is the gap of finite length."""
     scale = numbers.log_film + 0.5 * log_speed
     log_m = numbers.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed
-    return scale + log_moes(log_gap + _LOG_FLOW - scale, log_m, numbers.log_material + 0.25 * log_speed)
+    return scale + log_moes(
+        log_gap + _LOG_FLOW - scale, log_m, numbers.log_material + 0.25 * log_speed
+    )
 
 
 def _beside(numbers: RollingNumbers, log_load, log_speed, log_h0):
@@ -311,12 +340,20 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
     log_gap, log_rolling, _ = film_at_load(numbers.gap, _log_group(numbers, log_load, log_speed))
     log_film = _log_film(numbers, log_gap, log_load, log_speed)
     # No film is thicker than the oil that there is.
-    log_flow = joined(log_film, math.log(numbers.oil_gap), -8.0) if math.isfinite(numbers.oil_gap) else log_film
+    log_flow = (
+        joined(log_film, math.log(numbers.oil_gap), -8.0)
+        if math.isfinite(numbers.oil_gap)
+        else log_film
+    )
     _, _, log_shear = film_at_gap(numbers.gap, log_flow - _LOG_FLOW)
     shear, film = np.exp(log_shear), np.exp(log_flow)
     inside = numbers.area * np.exp((2.0 / 3.0) * log_load) / film
     conductance = numbers.viscosity * shear * shear / (shear + inside)
-    return conductance, _resistance(numbers, log_load, log_speed, log_rolling, log_film - _LOG_FLOW), film
+    return (
+        conductance,
+        _resistance(numbers, log_load, log_speed, log_rolling, log_film - _LOG_FLOW),
+        film,
+    )
 
 
 def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h0):
@@ -347,7 +384,9 @@ def plug_force(numbers: RollingNumbers, gap):
     roller's radius away.
     """
     reach = np.maximum(numbers.oil_gap - gap, 0.0)
-    return numbers.plug.per_length * np.minimum(np.sqrt(numbers.plug.double_radius * reach), numbers.plug.longest)
+    return numbers.plug.per_length * np.minimum(
+        np.sqrt(numbers.plug.double_radius * reach), numbers.plug.longest
+    )
 
 
 def contact_at_gap(numbers: RollingNumbers, gap):

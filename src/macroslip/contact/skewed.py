@@ -75,7 +75,9 @@ class SkewedContact(NamedTuple):
 
     def middle(self, tilt, shift):
         """ζ_c [m] at θ [rad] and δ [m]."""
-        return (-self.side * tilt + self.along * (shift + self.side * self.roller_radius * tilt)) / self.lateral
+        return (
+            -self.side * tilt + self.along * (shift + self.side * self.roller_radius * tilt)
+        ) / self.lateral
 
 
 class Resultants(NamedTuple):
@@ -118,7 +120,9 @@ def constant_friction(coefficient: float) -> Shear:
     return lambda pressure, film, slip: coefficient * pressure + 0.0 * film * slip
 
 
-def skewed_contact(laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None) -> SkewedContact:
+def skewed_contact(
+    laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None
+) -> SkewedContact:
     """A raceway contact of a roller that may be skewed.
 
     `laws` are those of the inner or outer raceway, with a sheared film, whose stress `shear` may replace; `axial_sign`
@@ -126,8 +130,12 @@ def skewed_contact(laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: 
     """
     inner = laws.name == "inner"
     side = -1 if inner else 1
-    place = geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
-    contour = geometry.inner_raceway_contour_radius(bearing) if inner else bearing.outer_raceway_radius
+    place = (
+        geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
+    )
+    contour = (
+        geometry.inner_raceway_contour_radius(bearing) if inner else bearing.outer_raceway_radius
+    )
     if shear is None:
         if laws.fluid is None:
             raise ValueError("a skewed contact needs the stress of a sheared film")
@@ -144,9 +152,16 @@ def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> S
     """Slip of a contact; parameters as of `resultants`."""
     k, r = contact.side, contact.roller_radius
     spin, ring = (ring_speed - slip) / r, k * ring_speed / contact.raceway_radius
-    rim, offset = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along), contact.lateral * shift
+    rim, offset = (
+        1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along),
+        contact.lateral * shift,
+    )
     aside = (offset + k * tilt) / contact.along  # δ + k r θ
-    fall, turned, per_xi = spin - ring * contact.cosine, k * spin * skew, -(contact.sine * ring + spin * tilt)
+    fall, turned, per_xi = (
+        spin - ring * contact.cosine,
+        k * spin * skew,
+        -(contact.sine * ring + spin * tilt),
+    )
     return SlipLines(
         slip - 0.25 * fall * offset * shift - k * contact.sine * ring * aside,
         0.5 * fall * offset - k * ring * (contact.cosine * tilt + contact.sine),
@@ -179,12 +194,16 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     >>> float(round(abs(found.axial) / 2500.0, 2))
     1.0
     """
-    states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (load, ring_speed, slip, skew, shift, tilt)))
+    states = np.broadcast_arrays(
+        *(np.asarray(one, dtype=float) for one in (load, ring_speed, slip, skew, shift, tilt))
+    )
     shape = states[0].shape
     load, ring_speed, slip, skew, shift, tilt = (one.reshape(-1, 1, 1) for one in states)
     k, r, hertz = contact.side, contact.roller_radius, contact.laws.interface.hertz
     root = np.cbrt(load)
-    across, width, pressure = (one * root for one in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure))
+    across, width, pressure = (
+        one * root for one in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure)
+    )
     rim = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along)
     offset = contact.lateral * shift
     aside = (offset + k * tilt) / contact.along  # δ + k r θ
@@ -208,7 +227,9 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
         return values.sum(axis=(1, 2)).reshape(shape)[()]
 
     distance = (
-        contact.raceway_radius - k * contact.cosine * (drop + k * tilt * station) - contact.sine * (station + aside)
+        contact.raceway_radius
+        - k * contact.cosine * (drop + k * tilt * station)
+        - contact.sine * (station + aside)
     )
     per_pressure = area * pressure * height * _SINES
     bent = 1.0 / r - 1.0 / contact.roller_contour
@@ -225,22 +246,34 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     )
 
 
-def _chords(contact: SkewedContact, across, shift, constant, linear, square) -> tuple[np.ndarray, np.ndarray]:
+def _chords(
+    contact: SkewedContact, across, shift, constant, linear, square
+) -> tuple[np.ndarray, np.ndarray]:
     """Stations of the chords [m] and their weights [m], graded towards the lines of pure rolling and the ends."""
-    low, high = np.maximum(shift - across, -contact.half_length), np.minimum(shift + across, contact.half_length)
+    low, high = (
+        np.maximum(shift - across, -contact.half_length),
+        np.minimum(shift + across, contact.half_length),
+    )
     inside = linear * linear - 4.0 * square * constant
     larger = -0.5 * (linear + np.copysign(np.sqrt(np.maximum(inside, 0.0)), linear))
     with np.errstate(divide="ignore", invalid="ignore"):
         # Where v has no zero both are its extremum.
-        lines = [np.where(inside > 0.0, one, -0.5 * linear / square) for one in (larger / square, constant / larger)]
+        lines = [
+            np.where(inside > 0.0, one, -0.5 * linear / square)
+            for one in (larger / square, constant / larger)
+        ]
     first, second = (np.clip(np.nan_to_num(one), low, high) for one in lines)
-    edges = np.concatenate([low, np.minimum(first, second), np.maximum(first, second), high], axis=1)
+    edges = np.concatenate(
+        [low, np.minimum(first, second), np.maximum(first, second), high], axis=1
+    )
     length = np.diff(edges, axis=1)
     station = (edges[:, :-1] + length * _NODES).reshape(len(edges), -1, 1)
     return station, (length * _WEIGHTS).reshape(station.shape)
 
 
-def _stresses(contact: SkewedContact, load, entrainment, pressure, speed) -> tuple[np.ndarray, np.ndarray]:
+def _stresses(
+    contact: SkewedContact, load, entrainment, pressure, speed
+) -> tuple[np.ndarray, np.ndarray]:
     laws = contact.laws
     film = laws.film_thickness(load, entrainment)
     share = laws.asperity_share(load, entrainment, film)

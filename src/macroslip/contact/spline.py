@@ -26,7 +26,12 @@ _INDEX, _SIZE = ir.IntType(32), ir.IntType(64)
 _EMPTY = ir.Constant(_VECTOR, ir.Undefined)
 _FOUR = types.UniTuple(types.float64, CHANNELS)
 #: The four weights as a polynomial of the place in the cell, constant term first, and their derivatives.
-_CUBIC = [[1 / 6, 4 / 6, 1 / 6, 0.0], [-0.5, 0.0, 0.5, 0.0], [0.5, -1.0, 0.5, 0.0], [-1 / 6, 0.5, -0.5, 1 / 6]]
+_CUBIC = [
+    [1 / 6, 4 / 6, 1 / 6, 0.0],
+    [-0.5, 0.0, 0.5, 0.0],
+    [0.5, -1.0, 0.5, 0.0],
+    [-1 / 6, 0.5, -0.5, 1 / 6],
+]
 _QUADRATIC = [[-0.5, 0.0, 0.5, 0.0], [1.0, -2.0, 1.0, 0.0], [-0.5, 1.5, -1.5, 0.5]]
 
 
@@ -80,10 +85,14 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
         right[-1] -= inner[-2]
         bands = np.tile([[1.0], [4.0], [1.0]], len(right))
         # With three diagonals LAPACK starts no threads, which wait for each other on a busy machine.
-        inner[2:-2] = solve_banded((1, 1), bands, right.reshape(len(right), -1)).reshape(right.shape)
+        inner[2:-2] = solve_banded((1, 1), bands, right.reshape(len(right), -1)).reshape(
+            right.shape
+        )
         for side in (slice(None), slice(None, None, -1)):
             for place in (1, 0):
-                found[side][place] = 6.0 * nodes[side][place] - 4.0 * found[side][place + 1] - found[side][place + 2]
+                found[side][place] = (
+                    6.0 * nodes[side][place] - 4.0 * found[side][place + 1] - found[side][place + 2]
+                )
         values = np.moveaxis(found, 0, dimension)
     return np.ascontiguousarray(values)
 
@@ -97,11 +106,15 @@ class _Vectors:
     def splat(self, value: Any) -> Any:
         """The same number in all lanes."""
         first = self.builder.insert_element(_EMPTY, value, ir.Constant(_INDEX, 0))
-        return self.builder.shuffle_vector(first, _EMPTY, ir.Constant(ir.VectorType(_INDEX, CHANNELS), [0] * CHANNELS))
+        return self.builder.shuffle_vector(
+            first, _EMPTY, ir.Constant(ir.VectorType(_INDEX, CHANNELS), [0] * CHANNELS)
+        )
 
     def lanes(self, vector: Any) -> list[Any]:
         """The four numbers."""
-        return [self.builder.extract_element(vector, ir.Constant(_INDEX, n)) for n in range(CHANNELS)]
+        return [
+            self.builder.extract_element(vector, ir.Constant(_INDEX, n)) for n in range(CHANNELS)
+        ]
 
     def add_product(self, one: Any, other: Any, added: Any) -> Any:
         """A product and a sum, in one operation where the processor has it."""
@@ -132,7 +145,9 @@ class _Vectors:
         step = ir.Constant(_SIZE, 8 * CHANNELS)
         found = []
         for _ in range(4):
-            found.append(self.builder.load(self.builder.inttoptr(address, _VECTOR.as_pointer()), align=8))
+            found.append(
+                self.builder.load(self.builder.inttoptr(address, _VECTOR.as_pointer()), align=8)
+            )
             address = self.builder.add(address, step)
         return found
 
@@ -177,7 +192,10 @@ def spline_value(typingctx, table, start, strides, places):
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
         corner = _place(context, builder, table, arguments[0], arguments[1])
-        first, second = (builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8)) for k in range(2))
+        first, second = (
+            builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8))
+            for k in range(2)
+        )
         t, s, u = (builder.extract_value(arguments[3], k) for k in range(3))
         w, z = write.weights(_CUBIC, t), write.weights(_CUBIC, s)
         planes = []
@@ -207,7 +225,10 @@ def splines_in_square(typingctx, table, start, stride, t, u):
         write = _Vectors(builder)
         address = _place(context, builder, table, arguments[0], arguments[1])
         step = builder.mul(arguments[2], ir.Constant(_SIZE, 8))
-        (w, dw), (z, dz) = ([write.weights(terms, place) for terms in (_CUBIC, _QUADRATIC)] for place in arguments[3:])
+        (w, dw), (z, dz) = (
+            [write.weights(terms, place) for terms in (_CUBIC, _QUADRATIC)]
+            for place in arguments[3:]
+        )
         sums, slopes = [], []
         for _ in range(4):
             line = write.line(address)
@@ -234,9 +255,15 @@ def splines_in_cube(typingctx, table, start, strides, places):
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
         corner = _place(context, builder, table, arguments[0], arguments[1])
-        first, second = (builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8)) for k in range(2))
+        first, second = (
+            builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8))
+            for k in range(2)
+        )
         (w, dw), (z, dz), (v, dv) = (
-            [write.weights(terms, builder.extract_value(arguments[3], k)) for terms in (_CUBIC, _QUADRATIC)]
+            [
+                write.weights(terms, builder.extract_value(arguments[3], k))
+                for terms in (_CUBIC, _QUADRATIC)
+            ]
             for k in range(3)
         )
         planes, by_second, by_third = [], [], []
@@ -251,7 +278,12 @@ def splines_in_cube(typingctx, table, start, strides, places):
             by_second.append(write.sum(dz, sums))
             by_third.append(write.sum(z, slopes))
             corner = builder.add(corner, first)
-        found = [write.sum(w, planes), write.sum(dw, planes), write.sum(w, by_second), write.sum(w, by_third)]
+        found = [
+            write.sum(w, planes),
+            write.sum(dw, planes),
+            write.sum(w, by_second),
+            write.sum(w, by_third),
+        ]
         fours = [context.make_tuple(builder, _FOUR, write.lanes(one)) for one in found]
         return context.make_tuple(builder, signature.return_type, fours)
 

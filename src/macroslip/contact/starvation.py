@@ -55,7 +55,10 @@ def inlet_for_rolling(factor: float) -> float:
     174.7
     """
     square, linear = 1.0 - factor, 162.8 - 193.1 * factor
-    return max(1.0 + _LEAST, (math.sqrt(linear * linear + 4.0 * square * 1257.0 * factor) - linear) / (2.0 * square))
+    return max(
+        1.0 + _LEAST,
+        (math.sqrt(linear * linear + 4.0 * square * 1257.0 * factor) - linear) / (2.0 * square),
+    )
 
 
 @functools.cache

@@ -60,7 +60,9 @@ class Box(NamedTuple):
     fineness: float  #: Distances between nodes over those at the default tolerance
 
 
-def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float, falling: float = 0.0) -> Box:
+def table_box(
+    ring_speeds: np.ndarray, highest_load: float, tolerance: float, falling: float = 0.0
+) -> Box:
     """The box of a case, rounded outward so that cases alike share their tables.
 
     u2 [m/s] is linear between all load samples, at which it is given; `highest_load` is the largest load of a roller,
@@ -110,7 +112,9 @@ class Tables:
         return found
 
 
-def write_plane(record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box) -> None:
+def write_plane(
+    record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box
+) -> None:
     """Make a plane over ln Q and ln u and write where it stands.
 
     Of up to four quantities `values(load [N], speed [m/s])`, on arrays of one shape, from the least load [N] and speed
@@ -126,7 +130,9 @@ def write_plane(record: np.void, tables: Tables, values: Callable, lightest: flo
     record["load"], record["speed"] = tuple(load), tuple(speed)
 
 
-def film_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
+def film_values(
+    contact: ContactLaws, load: np.ndarray, speed: np.ndarray
+) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of a contact's film: ln h and the asperities' share of the load."""
     film = contact.film_thickness(load, speed)
     return np.log(film), contact.asperity_share(load, speed, film)
@@ -138,7 +144,9 @@ def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tup
     return conductance, resistance, np.log(film)
 
 
-def cage_values(contact: ContactLaws, pocket_gap: float, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
+def cage_values(
+    contact: ContactLaws, pocket_gap: float, load: np.ndarray, speed: np.ndarray
+) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of the cage, over ln Q and ln of the roller's surface speed.
 
     Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `pocket_gap` [m]
@@ -166,11 +174,18 @@ def tractions(
     film = contact.film_thickness(load, entrainment)
     share = contact.asperity_share(load, entrainment, film)
     if contact.fluid is not None:
-        found = traction_values(patch_of(contact), chord_table(contact.fluid), load, film, share, ring_speed, slip)
+        found = traction_values(
+            patch_of(contact), chord_table(contact.fluid), load, film, share, ring_speed, slip
+        )
         return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
     rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
     none = np.zeros_like(load)
-    return (1.0 - share) * contact.uniform_traction(load, film, slip) + rough, none, none, rough * slip
+    return (
+        (1.0 - share) * contact.uniform_traction(load, film, slip) + rough,
+        none,
+        none,
+        rough * slip,
+    )
 
 
 class _Grid(NamedTuple):
@@ -186,12 +201,16 @@ class _Grid(NamedTuple):
         logarithm = np.array(coordinates)
         for _ in range(100):
             root = np.exp(logarithm / 3.0)
-            logarithm -= (logarithm + self.stretch * root - coordinates) / (1.0 + self.stretch * root / 3.0)
+            logarithm -= (logarithm + self.stretch * root - coordinates) / (
+                1.0 + self.stretch * root / 3.0
+            )
         return np.exp(logarithm)
 
     def slips(self, coordinates: np.ndarray) -> np.ndarray:
         """Slips as part of w, from −2 to 2, of coordinates."""
-        ratio = np.clip(self.middle + self.scale * np.sinh(coordinates), -_LARGEST_RATIO, _LARGEST_RATIO)
+        ratio = np.clip(
+            self.middle + self.scale * np.sinh(coordinates), -_LARGEST_RATIO, _LARGEST_RATIO
+        )
         return ratio / (1.0 + 0.0625 * ratio * ratio)
 
     def coordinates(self, slip: np.ndarray | float) -> np.ndarray:
@@ -208,7 +227,10 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
         per_pressure = fluid.exponent * fluid.index / fluid.reference_pressure
     stretch = _STRETCH * per_pressure * hertz.pressure
     if shape.microslip:
-        middle, scale = shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio), _MICROSLIP
+        middle, scale = (
+            shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio),
+            _MICROSLIP,
+        )
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
@@ -216,7 +238,9 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     # slip without entrainment in the middle between two: there the film ends, and a node would spread that over its cells.
     fine, beyond = _RATIO_SPACING * box.fineness, _NO_ENTRAINMENT - middle
     scale = beyond / math.sinh(fine * (math.floor(math.asinh(beyond / scale) / fine) + 0.5))
-    below, above = (math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle))
+    below, above = (
+        math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle)
+    )
     # Speeds of sheets are those of all cases whose fastest speed is of the same order.
     spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
     first = max(math.floor(box.slowest**0.25 / spacing) - _BEYOND, 0)
@@ -243,13 +267,17 @@ def _bent_ratio(contact: ContactLaws, box: Box) -> float:
 def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
     """Quantities at all loads and slip ratios at one speed w [m/s], and last the processor time it took [s]."""
     began = time.thread_time()
-    load, slip = np.meshgrid(grid.loads(grid.load.nodes), grid.slips(grid.ratio.nodes), indexing="ij")
+    load, slip = np.meshgrid(
+        grid.loads(grid.load.nodes), grid.slips(grid.ratio.nodes), indexing="ij"
+    )
     speed = max(speed, REST_SPEED)
     along = speed * np.sqrt(np.maximum(1.0 - 0.25 * slip * slip, 0.0))
     pull, lag, skew, rough = tractions(contact, load, along, speed * slip)
     root = np.cbrt(load)
     heavy = load * root * root
-    found = np.stack([pull / load, lag / heavy, skew / (load * root), rough / (heavy * speed)], axis=-1)
+    found = np.stack(
+        [pull / load, lag / heavy, skew / (load * root), rough / (heavy * speed)], axis=-1
+    )
     return np.append(found.ravel(), time.thread_time() - began)
 
 
@@ -295,7 +323,13 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
     sheets, seconds = [], 0.0
     for root_speed in grid.speed.nodes:
         name = table_key(
-            key, grid.load, grid.ratio, grid.stretch, grid.middle, grid.scale, round(float(root_speed), 12)
+            key,
+            grid.load,
+            grid.ratio,
+            grid.stretch,
+            grid.middle,
+            grid.scale,
+            round(float(root_speed), 12),
         )
         (found,) = stored(name, lambda speed=float(root_speed) ** 4: [_sheet(contact, grid, speed)])
         sheets.append(found[:-1].reshape(shape))
@@ -303,7 +337,9 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
     nodes = np.stack(sheets, axis=1)
     coefficients = spline_coefficients(nodes, 3)
     return _Made(
-        coefficients, _rising(grid, nodes), _errors(contact, grid, coefficients, box)._replace(build_time=seconds)
+        coefficients,
+        _rising(grid, nodes),
+        _errors(contact, grid, coefficients, box)._replace(build_time=seconds),
     )
 
 
@@ -354,7 +390,8 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
         )
     ]
     found = [
-        map_coordinates(coefficients[..., channel], places, order=3, prefilter=False) for channel in range(CHANNELS)
+        map_coordinates(coefficients[..., channel], places, order=3, prefilter=False)
+        for channel in range(CHANNELS)
     ]
     along = speed * np.sqrt(1.0 - 0.25 * slip * slip)
     expected = tractions(contact, load, along, speed * slip)
@@ -362,12 +399,18 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
     shape = contact.shape
     curvature = shape.curvature_ratio * shape.roller_radius if shape.microslip else 0.0
 
-    def spin_and_power(values: list[np.ndarray] | tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarray]:
+    def spin_and_power(
+        values: list[np.ndarray] | tuple[np.ndarray, ...],
+    ) -> tuple[np.ndarray, np.ndarray]:
         pull, lag, skew, _ = values
-        return pull - lag, speed * slip * (pull - lag) + along * (curvature * lag - abs(shape.spin_ratio) * skew)
+        return pull - lag, speed * slip * (pull - lag) + along * (
+            curvature * lag - abs(shape.spin_ratio) * skew
+        )
 
     spin, power = spin_and_power(expected)
-    other, other_power = spin_and_power([one * scale for one, scale in zip(found, scales, strict=True)])
+    other, other_power = spin_and_power(
+        [one * scale for one, scale in zip(found, scales, strict=True)]
+    )
     largest = np.abs(spin).max(axis=-1, keepdims=True)
     off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
     least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)

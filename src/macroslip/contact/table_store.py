@@ -50,10 +50,14 @@ def table_key(*parts: Any) -> str:
 
 def _described(value: Any) -> str:
     if isinstance(value, np.ndarray):
-        return f"{value.dtype}{value.shape}{hashlib.sha256(np.ascontiguousarray(value)).hexdigest()}"
+        return (
+            f"{value.dtype}{value.shape}{hashlib.sha256(np.ascontiguousarray(value)).hexdigest()}"
+        )
     if isinstance(value, tuple):
         kind = type(value)
-        return f"{kind.__module__}.{kind.__qualname__}({','.join(_described(one) for one in value)})"
+        return (
+            f"{kind.__module__}.{kind.__qualname__}({','.join(_described(one) for one in value)})"
+        )
     return repr(value)
 
 
@@ -81,7 +85,9 @@ def remembered(key: str, make: Callable[[], Made]) -> Made:
             found = make()
             with _guard:
                 _in_memory[key] = found
-                while len(_in_memory) > 1 and sum(map(_size, _in_memory.values())) > _MOST_IN_MEMORY:
+                while (
+                    len(_in_memory) > 1 and sum(map(_size, _in_memory.values())) > _MOST_IN_MEMORY
+                ):
                     _in_memory.popitem(last=False)
         return found
 
@@ -104,7 +110,11 @@ def folder() -> Path:
     Raises RuntimeError if the user has no home folder.
     """
     given = os.environ.get("NUMBA_CACHE_DIR")
-    home = Path(given).absolute() / "macroslip" if given else user_cache_path("macroslip", appauthor=False)
+    home = (
+        Path(given).absolute() / "macroslip"
+        if given
+        else user_cache_path("macroslip", appauthor=False)
+    )
     if not home.is_absolute():
         raise RuntimeError("there is no home folder")
     return home / "tables"

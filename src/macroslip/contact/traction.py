@@ -86,7 +86,9 @@ def limited_stress(rheology: int, viscous_stress, characteristic_stress):
     if rheology == NEWTONIAN:
         return viscous_stress + 0.0 * characteristic_stress
     ratio = viscous_stress / characteristic_stress
-    return characteristic_stress * (-np.expm1(-ratio) if rheology == LIMITING_SHEAR else np.arcsinh(ratio))
+    return characteristic_stress * (
+        -np.expm1(-ratio) if rheology == LIMITING_SHEAR else np.arcsinh(ratio)
+    )
 
 
 def _elasticity(rheology: int, ratio):
@@ -122,9 +124,13 @@ def heated_shear(rheology: int, viscous_stress, characteristic_stress, heat):
         return np.where(c < 1e-4, stress * (1.0 - power * (2.0 / 3.0)), stress * _thinning(c))[()]
     hot = power >= _SMALL
     slight = (power > 0.0) & ~hot
-    stress[slight] *= 1.0 - (2.0 / 3.0) * power[slight] * _elasticity(rheology, viscous[slight] / limit[slight])
+    stress[slight] *= 1.0 - (2.0 / 3.0) * power[slight] * _elasticity(
+        rheology, viscous[slight] / limit[slight]
+    )
     if hot.any():
-        stress[hot] = _hot_stress(rheology, viscous[hot] / limit[hot], heat[hot] * limit[hot]) * limit[hot]
+        stress[hot] = (
+            _hot_stress(rheology, viscous[hot] / limit[hot], heat[hot] * limit[hot]) * limit[hot]
+        )
     return stress[()]
 
 
@@ -132,14 +138,18 @@ def _thinning(c):
     """2c/sinh 2c [-], by which heating lowers the mean viscosity of the film."""
     # Beyond 340 the stress is nothing, but its logarithm has to exist.
     decay = np.exp(-2.0 * np.minimum(c, 340.0))
-    return np.where(c < 1e-3, 1.0 - c * c * (2.0 / 3.0), 4.0 * c * decay / np.maximum(1.0 - decay * decay, 1e-4))
+    return np.where(
+        c < 1e-3, 1.0 - c * c * (2.0 / 3.0), 4.0 * c * decay / np.maximum(1.0 - decay * decay, 1e-4)
+    )
 
 
 def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarray:
     """Stress over τ_L where heat counts, by Newton's method on c tanh c = heat · t(ratio 2c/sinh 2c), kept in a bracket."""
     power = heat * limited_stress(rheology, ratio, 1.0)
     # Neither more than without thinning by heat, nor more than in a Newtonian film.
-    high = np.minimum(np.sqrt(power) * np.sqrt(1.0 + power), np.arcsinh(np.sqrt(heat) * np.sqrt(ratio)))
+    high = np.minimum(
+        np.sqrt(power) * np.sqrt(1.0 + power), np.arcsinh(np.sqrt(heat) * np.sqrt(ratio))
+    )
     low, c = np.zeros_like(high), high.copy()
     left = np.arange(c.size)
     for _ in range(60):
@@ -175,7 +185,9 @@ class Fluid(NamedTuple):
     exponent: float
     index: float
     reference_pressure: float
-    characteristic: float  #: γ = τ_L/p [-] for limiting shear, τ_E [Pa] for Eyring; 1 for a Newtonian film
+    characteristic: (
+        float  #: γ = τ_L/p [-] for limiting shear, τ_E [Pa] for Eyring; 1 for a Newtonian film
+    )
     heating: float  #: β/(8k) [m/W]; 0 without shear heating
 
 
@@ -188,11 +200,25 @@ def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
         index = roelands_index(lubricant.viscosity, lubricant.pressure_viscosity)
         exponent, pressure = math.log(lubricant.viscosity) + 9.67, ROELANDS_PRESSURE
     else:
-        index, exponent, pressure = 1.0, lubricant.pressure_viscosity * _BARUS_PRESSURE, _BARUS_PRESSURE
+        index, exponent, pressure = (
+            1.0,
+            lubricant.pressure_viscosity * _BARUS_PRESSURE,
+            _BARUS_PRESSURE,
+        )
     rheology = RHEOLOGIES[laws.rheology]
-    characteristic = {NEWTONIAN: 1.0, LIMITING_SHEAR: lubricant.limiting_shear, EYRING: lubricant.eyring_stress}
-    heating = lubricant.temperature_viscosity / (8.0 * lubricant.thermal_conductivity) if laws.heating else 0.0
-    found = Fluid(rheology, lubricant.viscosity, exponent, index, pressure, characteristic[rheology], heating)
+    characteristic = {
+        NEWTONIAN: 1.0,
+        LIMITING_SHEAR: lubricant.limiting_shear,
+        EYRING: lubricant.eyring_stress,
+    }
+    heating = (
+        lubricant.temperature_viscosity / (8.0 * lubricant.thermal_conductivity)
+        if laws.heating
+        else 0.0
+    )
+    found = Fluid(
+        rheology, lubricant.viscosity, exponent, index, pressure, characteristic[rheology], heating
+    )
     highest = float(log_viscosity(found, HIGHEST_PRESSURE))
     if highest > _HIGHEST_LOG_VISCOSITY:
         raise InputError(
@@ -253,11 +279,15 @@ def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
     >>> float(round(chord_stress(full, 1e9, 5e-7, 1.0) / (0.04 * 1e9 * math.pi / 4), 4))
     0.9999
     """
-    pressure, film, slip = (np.asarray(one, dtype=float)[..., None] for one in (pressure, film_thickness, slip))
+    pressure, film, slip = (
+        np.asarray(one, dtype=float)[..., None] for one in (pressure, film_thickness, slip)
+    )
     local = pressure * _COSINES
     viscous = np.exp(log_viscosity(fluid, local)) * slip / film
     heat = fluid.heating * film * slip
-    return heated_shear(fluid.rheology, viscous, characteristic_stress(fluid, local), heat) @ _WEIGHTS
+    return (
+        heated_shear(fluid.rheology, viscous, characteristic_stress(fluid, local), heat) @ _WEIGHTS
+    )
 
 
 class _LocalStress(NamedTuple):
@@ -288,15 +318,26 @@ def _local_stress(rheology: int) -> _LocalStress:
 def _log_local_stress(rheology: int, viscous: np.ndarray, heat: np.ndarray) -> np.ndarray:
     """ln(τ/τ_L) at arrays of both coordinates of `_LocalStress`, from its table where it is good."""
     table = _local_stress(rheology)
-    places = [(one - low) / _SPACING for one, (low, _) in zip((viscous, heat), _BOUNDS, strict=True)]
-    cells = [np.clip(one, 0.0, size - 1.0).astype(int) for one, size in zip(places, table.good.shape, strict=True)]
-    inside = [(one >= 0.0) & (one < size) for one, size in zip(places, table.good.shape, strict=True)]
+    places = [
+        (one - low) / _SPACING for one, (low, _) in zip((viscous, heat), _BOUNDS, strict=True)
+    ]
+    cells = [
+        np.clip(one, 0.0, size - 1.0).astype(int)
+        for one, size in zip(places, table.good.shape, strict=True)
+    ]
+    inside = [
+        (one >= 0.0) & (one < size) for one, size in zip(places, table.good.shape, strict=True)
+    ]
     known = inside[0] & inside[1] & table.good[cells[0], cells[1]]
     found = np.empty(viscous.shape)
     # A spline has one coefficient before its first node.
     nodes = [one[known] + 1.0 for one in places]
-    found[known] = map_coordinates(table.coefficients, nodes, order=3, prefilter=False, mode="nearest")
-    found[~known] = np.log(heated_shear(rheology, np.exp(viscous[~known]), 1.0, np.exp(heat[~known])))
+    found[known] = map_coordinates(
+        table.coefficients, nodes, order=3, prefilter=False, mode="nearest"
+    )
+    found[~known] = np.log(
+        heated_shear(rheology, np.exp(viscous[~known]), 1.0, np.exp(heat[~known]))
+    )
     return found
 
 
@@ -316,11 +357,15 @@ def local_stress(fluid: Fluid, pressure, log_film, log_slip):
         slip = np.exp(log_slip)
         heat = fluid.heating * np.exp(log_film) * slip
         return heated_shear(
-            fluid.rheology, np.exp(log_eta - log_film) * slip, characteristic_stress(fluid, pressure), heat
+            fluid.rheology,
+            np.exp(log_eta - log_film) * slip,
+            characteristic_stress(fluid, pressure),
+            heat,
         )
     log_limit = np.log(characteristic_stress(fluid, pressure))
     viscous, heat = np.broadcast_arrays(
-        log_slip - log_film + (log_eta - log_limit), math.log(fluid.heating) + log_slip + log_film + log_limit
+        log_slip - log_film + (log_eta - log_limit),
+        math.log(fluid.heating) + log_slip + log_film + log_limit,
     )
     return np.exp(_log_local_stress(fluid.rheology, viscous, heat) + log_limit)
 
@@ -379,7 +424,9 @@ def chord_table(fluid: Fluid | None) -> ChordTable:
     return ChordTable(fluid, coefficients.shape, coefficients.ravel(), log_viscosities, *numbers)
 
 
-def _chord_values(fluid: Fluid, pressure: float, slips: np.ndarray, films: np.ndarray) -> np.ndarray:
+def _chord_values(
+    fluid: Fluid, pressure: float, slips: np.ndarray, films: np.ndarray
+) -> np.ndarray:
     """Ln of the stress over its unit at one pressure [Pa], shape (films, slips); slips and films are logarithms."""
     log_eta, film = log_viscosity(fluid, pressure), np.exp(films)
     scale = characteristic_slip(fluid, log_eta, pressure, film)
@@ -390,9 +437,16 @@ def _chord_values(fluid: Fluid, pressure: float, slips: np.ndarray, films: np.nd
     where_film = np.nonzero(solved)[0]
     slip, log_film = log_slip[solved], films[where_film]
     stress = local_stress(fluid, pressure * _COSINES, log_film[:, None], slip[:, None]) @ _WEIGHTS
-    unit = np.exp(log_eta) * scale / film if fluid.rheology == NEWTONIAN else characteristic_stress(fluid, pressure)
+    unit = (
+        np.exp(log_eta) * scale / film
+        if fluid.rheology == NEWTONIAN
+        else characteristic_stress(fluid, pressure)
+    )
     values[solved] = np.log(stress) - np.broadcast_to(np.log(unit), film.shape)[where_film]
     # Beyond, a straight line through the last two that were solved for.
     last = solved.sum(axis=1)[:, None] - 1
-    end, before = np.take_along_axis(values, last, axis=1), np.take_along_axis(values, last - 1, axis=1)
+    end, before = (
+        np.take_along_axis(values, last, axis=1),
+        np.take_along_axis(values, last - 1, axis=1),
+    )
     return np.where(solved, values, end + (np.arange(slips.size) - last) * (end - before))

@@ -57,7 +57,9 @@ class ThrustTest:
     roller_diameter: float = 11e-3  #: [m]
     rollers: int = 15
 
-    def power(self, profile: str = "uniform", slices: int = 200) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def power(
+        self, profile: str = "uniform", slices: int = 200
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Places along the roller [m], outwards, and e_a of a washer there [W/m²].
 
         The load is even along the roller (`uniform`), or that of ISO/TS 16281's `logarithmic` profile, 0.00035 D ln
@@ -73,11 +75,17 @@ class ThrustTest:
         (5.61, 4.84)
         """
         width = self.roller_length / slices
-        place = np.asarray((np.arange(slices) + 0.5) * width - 0.5 * self.roller_length, dtype=np.float64)
+        place = np.asarray(
+            (np.arange(slices) + 0.5) * width - 0.5 * self.roller_length, dtype=np.float64
+        )
         mean = self.force / (self.rollers * self.roller_length)
         load = np.full(slices, mean)
         if profile == "logarithmic":
-            gap = 0.00035 * self.roller_diameter * -np.log1p(-((2.0 * place / self.roller_length) ** 2))
+            gap = (
+                0.00035
+                * self.roller_diameter
+                * -np.log1p(-((2.0 * place / self.roller_length) ** 2))
+            )
             approach = 1e-3 * (1e-3 * mean / 35948.0) ** 0.9
             load = slice_loads(gap, self.force / self.rollers, 10.0 / 9.0 * mean / approach, width)
         radius = self.pitch_radius + place

@@ -13,7 +13,9 @@ REFERENCES = (
 )
 
 
-def share_below(amounts: ArrayLike, edges: Sequence[float], film_ratio: float) -> NDArray[np.float64]:
+def share_below(
+    amounts: ArrayLike, edges: Sequence[float], film_ratio: float
+) -> NDArray[np.float64]:
     """Share [-] of time, or of passes, in films thinner than a film ratio; NaN where there is nothing.
 
     Of amounts over (..., class of Λ, class of slip); the film ratio is one of the upper edges of the classes of Λ.

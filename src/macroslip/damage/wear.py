@@ -131,7 +131,10 @@ def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DE
         rate = np.zeros_like(depth)
         for i, one in enumerate(contacts):
             if one.load > 0.0:
-                power = slice_loads(one.contour + depth[i] + depth[2], one.load, one.stiffness, width) * one.slip
+                power = (
+                    slice_loads(one.contour + depth[i] + depth[2], one.load, one.stiffness, width)
+                    * one.slip
+                )
                 rate[i] += one.ring * power
                 rate[2] += one.roller * power
         fastest = rate.max()

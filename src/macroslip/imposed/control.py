@@ -21,7 +21,9 @@ from macroslip.roller.forces import net_force, powers
 _ROOT_6 = math.sqrt(6.0)
 
 
-_THIRD = np.linalg.solve(np.vander(NODES, 3, increasing=True).T, np.array([1.0 - 1.0 / EIGENVALUE, 0.5, 1.0 / 3.0]))
+_THIRD = np.linalg.solve(
+    np.vander(NODES, 3, increasing=True).T, np.array([1.0 - 1.0 / EIGENVALUE, 0.5, 1.0 / 3.0])
+)
 #: Weights of (third-order rule with weight 1/EIGENVALUE at the start) − (Radau rule), at nodes 0, c1, c2, 1.
 EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
 
@@ -84,7 +86,9 @@ def first_cusp(work):
     """
     at, one, two, three = work.at, work.stage_at[0], work.stage_at[1], work.stage_at[2]
     held = work.forces.cage_load - at.tangential
-    part = crossing(at.tangential + held, one.tangential + held, two.tangential + held, three.tangential + held)
+    part = crossing(
+        at.tangential + held, one.tangential + held, two.tangential + held, three.tangential + held
+    )
     part = min(part, crossing(at.ring_speed, one.ring_speed, two.ring_speed, three.ring_speed))
     if work.zone == FREE:
         part = min(part, crossing(_lean(at), _lean(one), _lean(two), _lean(three)))
@@ -110,7 +114,11 @@ def slip_error(path, work):
     if not (firm and microslip):
         # A held roller's slip is the balance of the instant, solved for at the end of the step.
         least = max(min(work.forces.slope, forces[0].slope, forces[1].slope, last), 0.0)
-        error = abs(embedded_slip_error(work.scale, least, net_force(work.forces), work.s[0], work.s[1], work.s[2]))
+        error = abs(
+            embedded_slip_error(
+                work.scale, least, net_force(work.forces), work.s[0], work.s[1], work.s[2]
+            )
+        )
     turn = work.length * path.body.mobility
     # With microslip grip ceases gradually.
     for check in range(0 if firm else (2 if work.zone == EDGE and not microslip else 1)):

@@ -27,7 +27,9 @@ from macroslip.roller.step import write_stage
 #: largest_slip : slip beyond which the integration stops as unstable [m/s]. Friction pulls a roller's surface towards the speed of
 #:     the rings and of the cage only, so its true slip never leaves the range these speeds span.
 #: end : of the integration [s]; the last step is shortened to meet it
-RULE = np.dtype([("step", "f8"), ("implicit", "i8"), ("tolerance", "f8"), ("largest_slip", "f8"), ("end", "f8")])
+RULE = np.dtype(
+    [("step", "f8"), ("implicit", "i8"), ("tolerance", "f8"), ("largest_slip", "f8"), ("end", "f8")]
+)
 
 
 @jit_inline
@@ -61,7 +63,9 @@ def backward_euler_step(path, work, step, tolerance):
             if defect >= 0.0 and candidate < high:
                 high = candidate
         slope = newer_defect - older_defect
-        trial = newer - newer_defect * (newer - older) / slope if slope != 0.0 else newer - newer_defect
+        trial = (
+            newer - newer_defect * (newer - older) / slope if slope != 0.0 else newer - newer_defect
+        )
         if not low <= trial <= high and math.isfinite(low) and math.isfinite(high):
             trial = 0.5 * (low + high)
         if not math.isfinite(trial):
@@ -93,7 +97,11 @@ def integrate_fixed_step(path, work, steps):
             write_point(path, work, steps[count])
             return COMPLETED, count + 1
         after = min(start + (work.count[0] + 1) * rule.step, rule.end)
-        span, interval, row = after - work.time, interval_of(motion, after, work.interval), steps[count]
+        span, interval, row = (
+            after - work.time,
+            interval_of(motion, after, work.interval),
+            steps[count],
+        )
         locate(path, after, interval, work.stage_at[0])
         frame(work, row, 1, after)
         row.weight[0] = span

@@ -29,7 +29,15 @@ from macroslip.contact.look_up import rising_slip
 from macroslip.imposed import tuning
 from macroslip.imposed.zones import EDGE, FIRM, FREE
 from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import FORCES, STATION, magnitude, net_force, powers, slip_forces, station
+from macroslip.roller.forces import (
+    FORCES,
+    STATION,
+    magnitude,
+    net_force,
+    powers,
+    slip_forces,
+    station,
+)
 from macroslip.roller.step import write_stage
 
 _ROOT_6 = math.sqrt(6.0)
@@ -37,8 +45,16 @@ _ROOT_6 = math.sqrt(6.0)
 NODES = ((4.0 - _ROOT_6) / 10.0, (4.0 + _ROOT_6) / 10.0, 1.0)
 MATRIX = np.array(
     [
-        [(88.0 - 7.0 * _ROOT_6) / 360.0, (296.0 - 169.0 * _ROOT_6) / 1800.0, (-2.0 + 3.0 * _ROOT_6) / 225.0],
-        [(296.0 + 169.0 * _ROOT_6) / 1800.0, (88.0 + 7.0 * _ROOT_6) / 360.0, (-2.0 - 3.0 * _ROOT_6) / 225.0],
+        [
+            (88.0 - 7.0 * _ROOT_6) / 360.0,
+            (296.0 - 169.0 * _ROOT_6) / 1800.0,
+            (-2.0 + 3.0 * _ROOT_6) / 225.0,
+        ],
+        [
+            (296.0 + 169.0 * _ROOT_6) / 1800.0,
+            (88.0 + 7.0 * _ROOT_6) / 360.0,
+            (-2.0 - 3.0 * _ROOT_6) / 225.0,
+        ],
         [(16.0 - _ROOT_6) / 36.0, (16.0 + _ROOT_6) / 36.0, 1.0 / 9.0],
     ]
 )
@@ -56,7 +72,9 @@ class Path(NamedTuple):
     """The way of one roller and how it is to be integrated."""
 
     body: Any  #: Record of a roller
-    tables: int  #: Address of the flat array of its tables: an array would be counted at every look-up
+    tables: (
+        int  #: Address of the flat array of its tables: an array would be counted at every look-up
+    )
     flat: np.ndarray  #: The array itself
     motion: Any
     start_angle: float  #: Position φ at the first sample [rad]
@@ -137,7 +155,13 @@ def start_at(path, work):
 @jit_inline
 def frame(work, row, stages, end):
     """Write the fields of a row on the whole step, which ends at `end` [s]."""
-    row.start, row.end, row.stages, row.stretch, row.sampled = work.time, end, stages, work.stretch, 0
+    row.start, row.end, row.stages, row.stretch, row.sampled = (
+        work.time,
+        end,
+        stages,
+        work.stretch,
+        0,
+    )
     for i in range(3):
         row.power_before[i] = work.powers[i]
 
@@ -153,7 +177,11 @@ def write_point(path, work, row):
 @jit_inline
 def set_step(path, work, length, held):
     """Set up a step of `length` [s] from now on, of three stages or held."""
-    work.length, work.scale, work.held = length, 1.0 / (length * path.body.mobility), 1 if held else 0
+    work.length, work.scale, work.held = (
+        length,
+        1.0 / (length * path.body.mobility),
+        1 if held else 0,
+    )
     interval = work.interval
     for k in range(3):
         work.weights[k] = SIMPSON[k] if held else WEIGHTS[k]
@@ -226,7 +254,11 @@ def collocation(part, z1, z2, z3):
     second = ((z2 - z1) / (b - a) - first) / b
     third = ((z3 - z2) / (1.0 - b) - (z2 - z1) / (b - a)) / (1.0 - a) - second
     increment = part * (first + (part - a) * (second + (part - b) * third))
-    rate = first + second * (2.0 * part - a) + third * ((part - a) * (part - b) + part * (2.0 * part - a - b))
+    rate = (
+        first
+        + second * (2.0 * part - a)
+        + third * ((part - a) * (part - b) + part * (2.0 * part - a - b))
+    )
     return increment, rate
 
 
@@ -244,7 +276,10 @@ def force_tolerance(tolerance, microslip):
     """Part of the sum of force magnitudes that may stay unbalanced, for the tolerance of the integration."""
     if not microslip:
         return tuning.FORCE_TOLERANCE
-    return max(tuning.FORCE_TOLERANCE, min(tuning.MICROSLIP_FORCE_SHARE * tolerance, tuning.MICROSLIP_FORCE_TOLERANCE))
+    return max(
+        tuning.FORCE_TOLERANCE,
+        min(tuning.MICROSLIP_FORCE_SHARE * tolerance, tuning.MICROSLIP_FORCE_TOLERANCE),
+    )
 
 
 @jit_inline
@@ -284,7 +319,9 @@ def solve_stages(path, work):
     one, two, three = work.stage_forces[0], work.stage_forces[1], work.stage_forces[2]
     for iteration in range(tuning.ITERATIONS):
         _evaluate_stages(path, work, 0)
-        rest = residuals(scale, work.s[0], work.s[1], work.s[2], net_force(one), net_force(two), net_force(three))
+        rest = residuals(
+            scale, work.s[0], work.s[1], work.s[2], net_force(one), net_force(two), net_force(three)
+        )
         size, solved = max(abs(rest[0]), abs(rest[1]), abs(rest[2])), True
         for k in range(3):
             forces = work.stage_forces[k]
@@ -351,10 +388,16 @@ def solve_held(path, work):
     work.v[1] = held_slip(path.body.microslip, slip, at, middle, work.exponent)
     evaluate(path, middle, work.v[1], second)
     # The middle first, with the end as far ahead as the middle: its solution makes a good guess of the end.
-    rest = scale * 2.0 * (work.v[1] - slip - (middle.ring_speed - at.ring_speed)) + net_force(second)
+    rest = scale * 2.0 * (work.v[1] - slip - (middle.ring_speed - at.ring_speed)) + net_force(
+        second
+    )
     ahead = work.v[1] - rest / (2.0 * scale + second.slope)
     work.v[2] = held_slip(
-        path.body.microslip, ahead, middle, end, held_exponent(at, slip, middle, ahead, work.exponent)
+        path.body.microslip,
+        ahead,
+        middle,
+        end,
+        held_exponent(at, slip, middle, ahead, work.exponent),
     )
     evaluate(path, end, work.v[2], third)
     work.count[2] += 2
@@ -397,7 +440,11 @@ def held_slip(microslip, slip, at, later, exponent):
         return slip
     if abs(later.ring_speed) > tuning.MOST_QUICKENING * abs(at.ring_speed):
         return slip
-    return slip * (later.elastic_load / at.elastic_load) ** exponent * (later.ring_speed / at.ring_speed)
+    return (
+        slip
+        * (later.elastic_load / at.elastic_load) ** exponent
+        * (later.ring_speed / at.ring_speed)
+    )
 
 
 @jit_inline
@@ -406,7 +453,11 @@ def held_exponent(at, slip, later, later_slip, exponent):
     if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
         return exponent
     change = math.log(later.elastic_load / at.elastic_load)
-    ratio = later_slip * at.ring_speed / (slip * later.ring_speed) if slip * later.ring_speed != 0.0 else 0.0
+    ratio = (
+        later_slip * at.ring_speed / (slip * later.ring_speed)
+        if slip * later.ring_speed != 0.0
+        else 0.0
+    )
     if abs(change) < tuning.LEAST_CHANGE or ratio <= 0.0:
         return exponent
     return min(max(math.log(ratio) / change, -tuning.STEEPEST), tuning.STEEPEST)
@@ -423,11 +474,15 @@ def guess(path, work):
     h, slip, forces, at = work.length, work.slip, work.forces, work.at
     microslip, last = path.body.microslip, work.last_s
     gripped = path.body.mobility * forces.slope * h
-    continues = work.zone != FIRM and h <= tuning.MOST_AHEAD * work.last_length and gripped < tuning.GRIPPED
+    continues = (
+        work.zone != FIRM and h <= tuning.MOST_AHEAD * work.last_length and gripped < tuning.GRIPPED
+    )
     drifts = gripped < 1.0 and work.zone != EDGE
     # The cage may hold the roller: its spin then stays as it is, at zero.
     spins = drifts or forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope)
-    follows = work.zone == FIRM or (microslip and gripped > tuning.GRIPPED and work.stage_at[2].elastic_load > 0.0)
+    follows = work.zone == FIRM or (
+        microslip and gripped > tuning.GRIPPED and work.stage_at[2].elastic_load > 0.0
+    )
     drift = -path.body.mobility * net_force(forces) * h if drifts else 0.0
     for k in range(3):
         quickening = work.stage_at[k].ring_speed - at.ring_speed
@@ -450,7 +505,11 @@ def _steady_slip(law, tables, closed_form, load, speed):
     if law.heating == 0.0:
         return 2.0 * speed  # where the film ends
     # The middle of the contact is its hottest point.
-    return _ROOT_HEATING_AT_PEAK / law.heating * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
+    return (
+        _ROOT_HEATING_AT_PEAK
+        / law.heating
+        * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
+    )
 
 
 @jit
@@ -477,7 +536,10 @@ def is_continuous(path, work):
         if work.stage_forces[k].slope < -0.5 * work.scale:
             return False
         change, largest = max(change, abs(work.v[k] - slip)), max(largest, abs(work.v[k]))
-        inner, outer = max(inner, work.stage_at[k].inner_load), max(outer, work.stage_at[k].outer_load)
+        inner, outer = (
+            max(inner, work.stage_at[k].inner_load),
+            max(outer, work.stage_at[k].outer_load),
+        )
     if (
         change <= tuning.HOT_CHANGE * abs(slip) + tuning.SMALL_CHANGE * limits.speed_scale
         or largest <= limits.cold_slip

@@ -45,7 +45,13 @@ class Problem:
 
 
 def radau_limits(
-    roller: Roller, motion: Motion, *, tolerance: float, max_steps: int, heaviest: float, window: float
+    roller: Roller,
+    motion: Motion,
+    *,
+    tolerance: float,
+    max_steps: int,
+    heaviest: float,
+    window: float,
 ) -> np.ndarray:
     """Bounds of the Radau integrator that hold for all rollers of a case.
 
@@ -69,7 +75,9 @@ def radau_limits(
         contacts = (body[name]["traction"] for name in ("inner", "outer"))
         widest = max(one["scale"] / one["ratio"]["per_spacing"] for one in contacts)
         grain = tuning.PLACE_ROUNDING * widest * speed
-    return np.array([(tolerance, max_steps, speed, energy, longest, cold, firm, window, grain)], LIMITS)
+    return np.array(
+        [(tolerance, max_steps, speed, energy, longest, cold, firm, window, grain)], LIMITS
+    )
 
 
 def fixed_step(
@@ -107,6 +115,10 @@ def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator
     last = work[0]
     outcome.status = status
     outcome.steps, outcome.rejections, outcome.evaluations = (int(one) for one in last["count"])
-    outcome.unbalanced, outcome.time, outcome.slip = float(last["unbalanced"]), float(last["time"]), float(last["slip"])
+    outcome.unbalanced, outcome.time, outcome.slip = (
+        float(last["unbalanced"]),
+        float(last["time"]),
+        float(last["slip"]),
+    )
     if status == COMPLETED and not radau:
         outcome.rejections = 0

@@ -14,7 +14,13 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.spline import uncounted
 from macroslip.imposed import tuning
-from macroslip.imposed.control import energy_error, first_cusp, held_energy_error, slip_error, step_factor
+from macroslip.imposed.control import (
+    energy_error,
+    first_cusp,
+    held_energy_error,
+    slip_error,
+    step_factor,
+)
 from macroslip.imposed.radau import (
     Path,
     evaluate,
@@ -30,7 +36,14 @@ from macroslip.imposed.radau import (
     start_at,
     write_point,
 )
-from macroslip.imposed.status import COMPLETED, NOT_FINITE, OUTSIDE_TABLES, STEP_TOO_SMALL, TOO_MANY_STEPS, UNDER_WAY
+from macroslip.imposed.status import (
+    COMPLETED,
+    NOT_FINITE,
+    OUTSIDE_TABLES,
+    STEP_TOO_SMALL,
+    TOO_MANY_STEPS,
+    UNDER_WAY,
+)
 from macroslip.imposed.zones import EDGE, FIRM, FREE, edge_time
 from macroslip.ring.orbit import Motion, interval_of, last_before
 from macroslip.roller.forces import net_force, powers
@@ -55,7 +68,9 @@ def _rebalance(path, work):
     that still skids, or has not settled yet, is left as it is.
     """
     body, motion, k = path.body, path.motion, work.interval
-    acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+    acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
+        motion.time[k + 1] - motion.time[k]
+    )
     needed = -body.orbit_ratio * body.outer_radius * acceleration / body.mobility
     slip = work.slip
     for _ in range(3):
@@ -111,13 +126,18 @@ def _attempt(path, work):
         solve_stages(path, work)
     work.totals[0], work.energy = work.powers[0] + work.powers[1] + work.powers[2], 0.0
     for k in range(3):
-        total = powers(path.body, work.stage_at[k], work.stage_forces[k], work.v[k], work.stage_powers[k])
+        total = powers(
+            path.body, work.stage_at[k], work.stage_forces[k], work.v[k], work.stage_powers[k]
+        )
         work.totals[k + 1] = total
         work.energy += work.length * work.weights[k] * total
     if work.converged == 0 or not is_continuous(path, work):
         return math.inf
     if work.held:
-        slip_off, energy_off = 0.0, held_energy_error(work.energy, work.length, work.totals[0], work.totals[3])
+        slip_off, energy_off = (
+            0.0,
+            held_energy_error(work.energy, work.length, work.totals[0], work.totals[3]),
+        )
     else:
         slip_off, energy_off = slip_error(path, work), energy_error(path, work)
     since = path.limits.window if work.time >= path.limits.window else path.motion.time[0]
@@ -127,7 +147,9 @@ def _attempt(path, work):
     share, limits = max(work.length, tuning.SHORT_PART * work.sample_step), path.limits
     worth = max(mean_power * share, work.energy, tuning.NO_ENERGY * limits.energy_scale)
     slip_off /= tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
-    return max(abs(slip_off), abs(energy_off) / (tuning.ENERGY_SHARE * limits.tolerance * worth + 1e-300))
+    return max(
+        abs(slip_off), abs(energy_off) / (tuning.ENERGY_SHARE * limits.tolerance * worth + 1e-300)
+    )
 
 
 @jit_inline
@@ -140,7 +162,10 @@ def _reject(path, work, error):
     part = tuning.UNSOLVED_PART
     if error < math.inf:
         # With microslip a step that is too long crosses the kink of the loads at a sample: its error is of second order.
-        part = max(tuning.LEAST_PART, tuning.SAFETY / math.sqrt(error) if path.body.microslip else step_factor(error))
+        part = max(
+            tuning.LEAST_PART,
+            tuning.SAFETY / math.sqrt(error) if path.body.microslip else step_factor(error),
+        )
     work.step = part * work.length
     # A shorter step should not cross samples if it is short.
     sample = path.motion.time[work.interval + 1]
@@ -180,7 +205,10 @@ def _film_ends_at(work, resolved):
     """
     if min(abs(work.slip), abs(work.v[2])) <= resolved:
         return 1.0
-    before, after = work.at.ring_speed - 0.5 * work.slip, work.stage_at[2].ring_speed - 0.5 * work.v[2]
+    before, after = (
+        work.at.ring_speed - 0.5 * work.slip,
+        work.stage_at[2].ring_speed - 0.5 * work.v[2],
+    )
     return before / (before - after) if before * after < 0.0 else 1.0
 
 
@@ -215,7 +243,10 @@ def _write_samples(path, work, resolved, cusp, rows):
 @jit_inline
 def _accept(path, work, end, rows):
     """Write a step, which ends at `end` [s], and go on to there; returns the number of rows."""
-    resolved, count = tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale, 0
+    resolved, count = (
+        tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale,
+        0,
+    )
     cusp = _film_ends_at(work, resolved) if path.body.closed_form else 1.0
     sampled = cusp < 1.0 or _may_peak_inside(path, work, resolved)
     if sampled:
@@ -226,12 +257,26 @@ def _accept(path, work, end, rows):
     top = 0.0 if work.zone == FREE else work.top_power
     for k in range(3):
         row.time[k], row.weight[k] = end if k == 2 else work.times[k], work.length * work.weights[k]
-        write_stage(row, k, path.body, work.stage_at[k], work.stage_forces[k], work.v[k], work.stage_powers[k])
+        write_stage(
+            row,
+            k,
+            path.body,
+            work.stage_at[k],
+            work.stage_forces[k],
+            work.v[k],
+            work.stage_powers[k],
+        )
         top = max(top, work.stage_powers[k, 0], work.stage_powers[k, 1])
     work.count[0] += 1
-    work.spent, work.top_power, work.unbalanced = work.spent + work.energy, top, max(work.unbalanced, work.left)
+    work.spent, work.top_power, work.unbalanced = (
+        work.spent + work.energy,
+        top,
+        max(work.unbalanced, work.left),
+    )
     if work.zone == FIRM:
-        work.exponent = held_exponent(work.at, work.slip, work.stage_at[2], work.v[2], work.exponent)
+        work.exponent = held_exponent(
+            work.at, work.slip, work.stage_at[2], work.v[2], work.exponent
+        )
     work.last_length = 0.0 if work.held else work.length
     for k in range(3):
         work.last_s[k], work.powers[k] = work.s[k], work.stage_powers[2, k]
@@ -285,14 +330,21 @@ def integrate(path, stops, classes, work, steps):
             # Rounding has put the roller on the barrier.
             work.time = work.barrier
             continue
-        length = left if work.step >= 0.95 * left else (0.5 * left if work.step > 0.6 * left else work.step)
+        length = (
+            left
+            if work.step >= 0.95 * left
+            else (0.5 * left if work.step > 0.6 * left else work.step)
+        )
         if length <= 4e-16 * abs(work.time) + 1e-300:
             return STEP_TOO_SMALL, count
         set_step(path, work, length, work.failed == 0 and follows_loads(path, work, length))
         if length > tuning.CUSP_PART * limits.longest_step and work.held == 0:
             part = first_cusp(work)
             if part < 1.0:
-                work.step, work.barrier = part * length, min(work.barrier, work.time + part * length)
+                work.step, work.barrier = (
+                    part * length,
+                    min(work.barrier, work.time + part * length),
+                )
                 continue
         error = _attempt(path, work)
         if error < math.inf and not math.isfinite(work.energy):
@@ -302,6 +354,11 @@ def integrate(path, stops, classes, work, steps):
             continue
         if _leaves_tables(path.body, work):
             return OUTSIDE_TABLES, count
-        count += _accept(path, work, work.barrier if length == left else work.times[2], steps[count:])
-        work.step, work.failed = length * min(1.0 if work.failed else tuning.GROWTH, step_factor(error)), 0
+        count += _accept(
+            path, work, work.barrier if length == left else work.times[2], steps[count:]
+        )
+        work.step, work.failed = (
+            length * min(1.0 if work.failed else tuning.GROWTH, step_factor(error)),
+            0,
+        )
     return UNDER_WAY, count

@@ -15,12 +15,30 @@ class Status(IntEnum):
     """
 
     COMPLETED = 0, "completed"
-    STEP_TOO_SMALL = 1, "the step fell below what time resolves; loosen the tolerance or look at the load at that time"
-    NOT_FINITE = 2, "forces or slip became NaN or infinite; use an implicit integrator or a smaller step"
-    TOO_MANY_STEPS = 3, "the step limit was reached; loosen the tolerance or raise integrator.max_steps"
-    NO_ROOT = 4, "the implicit equation of a step was not solved to its tolerance; use a smaller step"
-    IMPOSSIBLE_SLIP = 5, "slip left the range that friction allows, so the step is unstable; use a smaller one or radau"
-    OUTSIDE_TABLES = 6, "load or speed left the range of the contacts' tables; look at the loads at that time"
+    STEP_TOO_SMALL = (
+        1,
+        "the step fell below what time resolves; loosen the tolerance or look at the load at that time",
+    )
+    NOT_FINITE = (
+        2,
+        "forces or slip became NaN or infinite; use an implicit integrator or a smaller step",
+    )
+    TOO_MANY_STEPS = (
+        3,
+        "the step limit was reached; loosen the tolerance or raise integrator.max_steps",
+    )
+    NO_ROOT = (
+        4,
+        "the implicit equation of a step was not solved to its tolerance; use a smaller step",
+    )
+    IMPOSSIBLE_SLIP = (
+        5,
+        "slip left the range that friction allows, so the step is unstable; use a smaller one or radau",
+    )
+    OUTSIDE_TABLES = (
+        6,
+        "load or speed left the range of the contacts' tables; look at the loads at that time",
+    )
 
     def __new__(cls, value: int, sentence: str):
         """Make a member that carries its sentence."""
@@ -31,6 +49,8 @@ class Status(IntEnum):
 
 
 #: Plain integers for compiled code.
-COMPLETED, STEP_TOO_SMALL, NOT_FINITE, TOO_MANY_STEPS, NO_ROOT, IMPOSSIBLE_SLIP, OUTSIDE_TABLES = range(7)
+COMPLETED, STEP_TOO_SMALL, NOT_FINITE, TOO_MANY_STEPS, NO_ROOT, IMPOSSIBLE_SLIP, OUTSIDE_TABLES = (
+    range(7)
+)
 #: Status of an integration whose buffer of steps is full.
 UNDER_WAY = -1

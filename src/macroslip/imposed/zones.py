@@ -29,8 +29,12 @@ def relaxation_rate(body, tables, load, ring_speed):
     slip, low, high = 0.0, -math.inf, math.inf
     rate, ln_load = 0.0, log_load(load)
     for _ in range(20):
-        inner = raceway_traction(body.inner, tables, body.closed_form, load, ln_load, ring_speed, slip)
-        outer = raceway_traction(body.outer, tables, body.closed_form, load, ln_load, ring_speed, slip)
+        inner = raceway_traction(
+            body.inner, tables, body.closed_form, load, ln_load, ring_speed, slip
+        )
+        outer = raceway_traction(
+            body.outer, tables, body.closed_form, load, ln_load, ring_speed, slip
+        )
         rest = inner.pull - inner.lag + outer.pull - outer.lag
         slope = inner.pull_by_slip - inner.lag_by_slip + outer.pull_by_slip - outer.lag_by_slip
         rate = body.mobility * slope
@@ -83,14 +87,18 @@ def classify(body, motion, start_angle, firm, classes):
     round, and the classes keep that margin.
     """
     before = interference_at(body, motion, start_angle, 0, motion.time[0])
-    waves = 4.0 * math.hypot(body.second_x, body.second_y) + 9.0 * math.hypot(body.third_x, body.third_y)
+    waves = 4.0 * math.hypot(body.second_x, body.second_y) + 9.0 * math.hypot(
+        body.third_x, body.third_y
+    )
     for k in range(motion.time.size - 1):
         after = interference_at(body, motion, start_angle, k, motion.time[k + 1])
         near, far = motion.displacement[k], motion.displacement[k + 1]
         span = abs(body.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
         turn = span * max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
         quickening = span * abs(motion.shaft_speed[k + 1] - motion.shaft_speed[k])
-        reach = math.sqrt(max(near[0] * near[0] + near[1] * near[1], far[0] * far[0] + far[1] * far[1]))
+        reach = math.sqrt(
+            max(near[0] * near[0] + near[1] * near[1], far[0] * far[0] + far[1] * far[1])
+        )
         shift = math.sqrt((far[0] - near[0]) ** 2 + (far[1] - near[1]) ** 2)
         margin = 0.125 * ((turn * turn + quickening) * (reach + waves) + 2.0 * turn * shift) + 1e-15
         classes[k] = EDGE

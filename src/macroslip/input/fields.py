@@ -132,10 +132,16 @@ class Quantity(Form):
         finite = is_finite_number(value)
         if finite and not self.whole:
             return float(value)
-        if finite and (hasattr(value, "__index__") or (abs(value) <= _MOST and float(value).is_integer())):
+        if finite and (
+            hasattr(value, "__index__") or (abs(value) <= _MOST and float(value).is_integer())
+        ):
             return int(value)
-        quotes = "Write it without quotes and units." if given.in_file and isinstance(value, str) else ""
-        raise self.wrong(value, quotes, self.form if self.whole or given.in_file else "a finite number")
+        quotes = (
+            "Write it without quotes and units." if given.in_file and isinstance(value, str) else ""
+        )
+        raise self.wrong(
+            value, quotes, self.form if self.whole or given.in_file else "a finite number"
+        )
 
     def _check_range(self, value: float, given: Given, written: str, unit: str) -> None:
         known = self
@@ -167,7 +173,9 @@ class Quantity(Form):
         """
         ends, unit = (self.lowest, self.highest), unit or self.dimension.si_unit
         texts = [self.dimension.text(end, unit) if math.isfinite(end) else "" for end in ends]  # pyright: ignore[reportArgumentType]
-        low, high = (re.sub(r"e([+-])0*", lambda found: f"e{found[1].strip('+')}", end) for end in texts)
+        low, high = (
+            re.sub(r"e([+-])0*", lambda found: f"e{found[1].strip('+')}", end) for end in texts
+        )
         if not high:
             return f"a number {'above' if self.above else 'from'} {low}"
         low = low.partition(" ")[0]
@@ -278,7 +286,11 @@ class Texts(Form):
     def read(self, value: Any, given: Given) -> list[str]:
         """Check every text."""
         texts = value if isinstance(value, list) else [value]
-        if not texts or not all(isinstance(text, str) and text for text in texts) or len(set(texts)) != len(texts):
+        if (
+            not texts
+            or not all(isinstance(text, str) and text for text in texts)
+            or len(set(texts)) != len(texts)
+        ):
             raise self.wrong(value, f"It is the {self.about}.")
         for text in texts:
             check_no_zero_byte(text)

@@ -38,7 +38,9 @@ class Source:
     def where(self, *keys: object) -> str:
         """Name file and line of a key, or of the entry around it, as far as they are known."""
         depths = range(len(keys), 0, -1)
-        line = next((self.lines[keys[:depth]] for depth in depths if keys[:depth] in self.lines), None)
+        line = next(
+            (self.lines[keys[:depth]] for depth in depths if keys[:depth] in self.lines), None
+        )
         return ", ".join(part for part in (self.file, f"line {line}" if line else "") if part)
 
 
@@ -83,7 +85,9 @@ class Place:
         return self.problem(what, problem.allowed, problem.remedy)
 
 
-def read_text(path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> str:
+def read_text(
+    path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = ""
+) -> str:
     """Read a text file that a user has named, whatever the name leads to: a pipe or a device would never end.
 
     Raises InputError if it cannot be read, in the words given, such as "the case file cannot be read"; if it is no
@@ -114,7 +118,9 @@ def read_text(path: Path, what: str, *, where: str = "", allowed: str = "", reme
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError:
-        raise InputError("the file is not UTF-8 text", where=str(path), remedy="Save it as UTF-8.") from None
+        raise InputError(
+            "the file is not UTF-8 text", where=str(path), remedy="Save it as UTF-8."
+        ) from None
 
 
 def parse(
@@ -139,8 +145,12 @@ def parse(
         where = f"{file}, line {error.problem_mark.line + 1}" if error.problem_mark else file
         if isinstance(error, DuplicateKeyError):
             what, allowed = str(error.problem).split(" with value ")[0], "every key once"
-            raise InputError(what, where=where, allowed=allowed, remedy="Delete one of the two.") from None
-        raise not_yaml(" ".join(str(part) for part in (error.context, error.problem) if part), where) from None
+            raise InputError(
+                what, where=where, allowed=allowed, remedy="Delete one of the two."
+            ) from None
+        raise not_yaml(
+            " ".join(str(part) for part in (error.context, error.problem) if part), where
+        ) from None
     except (YAMLError, ValueError) as error:  # forbidden characters; dates that do not exist
         raise not_yaml(str(error).split("\n")[0], file) from None
     except TypeError:  # a key cannot be looked up
@@ -183,12 +193,16 @@ def _check_size(text: str, file: str) -> None:
             if event.anchor:
                 largest[event.anchor] = 1
         if nodes > MOST_NODES:
-            raise too_large(f"more than {MOST_NODES} keys and values, those behind its aliases counted")
+            raise too_large(
+                f"more than {MOST_NODES} keys and values, those behind its aliases counted"
+            )
         if len(open_nodes) > MOST_LEVELS:
             raise too_large(f"more than {MOST_LEVELS} levels of brackets or indentation")
 
 
-def _lines(mapping: CommentedMap, outer: tuple[object, ...] = ()) -> Iterator[tuple[tuple[object, ...], int]]:
+def _lines(
+    mapping: CommentedMap, outer: tuple[object, ...] = ()
+) -> Iterator[tuple[tuple[object, ...], int]]:
     """Yield keys with their lines; a key merged in from an anchor has none and falls back to the entry around it."""
     for key in mapping.lc.data or {}:
         yield (*outer, key), mapping.lc.key(key)[0] + 1

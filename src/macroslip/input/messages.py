@@ -47,10 +47,16 @@ def unknown_name(value: Any, names: Sequence[str], more: str = "") -> InputError
     """
     close = nearest(value, names)
     remedy = f"Did you mean {close}?" if close else "Choose one of these."
-    return InputError(f"{shown(value)} does not exist", allowed=", ".join(names), remedy=f"{remedy} {more}".strip())
+    return InputError(
+        f"{shown(value)} does not exist",
+        allowed=", ".join(names),
+        remedy=f"{remedy} {more}".strip(),
+    )
 
 
-def unknown_key(key: object, allowed: Iterable[str], *, where: str = "", inside: str = "") -> InputError:
+def unknown_key(
+    key: object, allowed: Iterable[str], *, where: str = "", inside: str = ""
+) -> InputError:
     """The error for a key that does not exist, with the closest key that does.
 
     `where` is file and line, `inside` the key of the section that contains it, empty at the top level.

@@ -17,7 +17,14 @@ from macroslip.input.fields import Choice, Form, Given, Quantity, Text
 from macroslip.input.files import Place, Source, parse, read_text, yaml_text
 from macroslip.input.messages import shown, together
 from macroslip.input.section import Field, Fields, Group, form_from, grouped, read_keys, read_value
-from macroslip.input.units import NUMBER, Dimension, is_finite_number, parse_quantity, quantity_pattern, with_unit
+from macroslip.input.units import (
+    NUMBER,
+    Dimension,
+    is_finite_number,
+    parse_quantity,
+    quantity_pattern,
+    with_unit,
+)
 from macroslip.overview import html_overview
 
 #: Provenance tags and their meaning.
@@ -54,7 +61,9 @@ class Provenance:
         """The entry of a catalogue file for a quantity of this origin."""
         entry = asdict(self)
         return (
-            entry | {"range": list(self.range)} if self.range else {key: entry[key] for key in entry if key != "range"}
+            entry | {"range": list(self.range)}
+            if self.range
+            else {key: entry[key] for key in entry if key != "range"}
         )
 
     @property
@@ -82,7 +91,11 @@ class _Range(Form):
     form = "two numbers in the unit of the value, [lowest, highest], with the value between them"
 
     def read(self, value: Any, given: Given) -> tuple[float, float]:
-        pair: Any = value if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2 else ()
+        pair: Any = (
+            value
+            if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2
+            else ()
+        )
         middle = given.before.get("value")
         good = pair and all(map(is_finite_number, pair))
         if not good or not (middle is None or pair[0] <= middle <= pair[1]):
@@ -115,7 +128,9 @@ def _entry(dimension: Dimension, whole: bool = False) -> Group:
         "note": Text("free text", may_be_empty=True, line=True),
         "range": _Range("lowest and highest value; four out of five lie between them"),
     }
-    return Group("", {key: Field(form, key in ("value", "unit"), False) for key, form in forms.items()})
+    return Group(
+        "", {key: Field(form, key in ("value", "unit"), False) for key, form in forms.items()}
+    )
 
 
 @dataclass(frozen=True)
@@ -151,7 +166,9 @@ class _Entry(Form):
         return {"anyOf": [_entry(dimension, self.quantity.whole).json(), text, *plain]}
 
 
-def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tuple[float, Provenance]:
+def read_entry(
+    key: str, entry: Any, dimension: Dimension, source: Source
+) -> tuple[float, Provenance]:
     """Value [SI] and provenance of an entry of a catalogue file; see `_Entry`."""
     field = Field(_Entry("", Quantity("", dimension)), True, False)
     origin = read_value(field, entry, Given(Place(source, (key,)), in_file=True))
@@ -198,7 +215,10 @@ class Record:
         if problems:
             raise together(problems)
         found = {key: found.get(key, one.default) for key, one in fields.items()}
-        known = {key: provenance.get(key) or Provenance(found[key], kind.si_unit) for key, kind in kinds.items()}
+        known = {
+            key: provenance.get(key) or Provenance(found[key], kind.si_unit)
+            for key, kind in kinds.items()
+        }
         given = tuple(one for one in known.items() if found[one[0]] is not None)
         vars(self).update(found, _provenance=given, _derived=derived)
         problems = [*self._wide_ranges(source), *self._inconsistencies(source)]
@@ -244,8 +264,12 @@ class Record:
     __str__ = __repr__
 
     def _repr_html_(self) -> str:
-        rows = [[key, origin.written, TAGS[origin.tag], origin.note] for key, origin in self._provenance]
-        return html_overview(repr(self)[1:-1], ["quantity", "value", "where it comes from", "note"], rows)
+        rows = [
+            [key, origin.written, TAGS[origin.tag], origin.note] for key, origin in self._provenance
+        ]
+        return html_overview(
+            repr(self)[1:-1], ["quantity", "value", "where it comes from", "note"], rows
+        )
 
     @property
     def provenance(self) -> Mapping[str, Provenance]:
@@ -295,17 +319,23 @@ class Record:
         optional = {key: one._replace(is_required=False) for key, one in fields.items()}
         found, problems = read_keys(optional, entries, Given(Place(source), in_file=True))
         for part in problems:
-            part.is_placed = False  # in the record's own file; a case file that names it adds its own place
+            part.is_placed = (
+                False  # in the record's own file; a case file that names it adds its own place
+            )
         if problems:
             raise together(problems)
         for section in cls.sections.keys() & found.keys():
             found |= {f"{section}_{key}": value for key, value in found.pop(section).items()}
         lines = {
-            (f"{keys[0]}_{keys[1]}", *keys[2:]) if keys[0] in cls.sections and keys[1:] else keys: line
+            (f"{keys[0]}_{keys[1]}", *keys[2:])
+            if keys[0] in cls.sections and keys[1:]
+            else keys: line
             for keys, line in source.lines.items()
         }
         origins = {key: one for key, one in found.items() if isinstance(one, Provenance)}
-        values = {key: dimensions(cls)[key].to_si(one.value, one.unit) for key, one in origins.items()}
+        values = {
+            key: dimensions(cls)[key].to_si(one.value, one.unit) for key, one in origins.items()
+        }
         record = cls.__new__(cls)
         record._fill(found | values, origins, Source(source.file, lines))
         return record
@@ -332,7 +362,10 @@ class Record:
                 where=f"{self.noun} {self.name}",
                 allowed="; ".join(f"{key}: {known[key].range_text()}" for key in missing),
                 remedy="Add to its file: "
-                + ", ".join(f"{key}: {{value: ..., unit: {known[key].dimension.choices}}}" for key in missing),
+                + ", ".join(
+                    f"{key}: {{value: ..., unit: {known[key].dimension.choices}}}"
+                    for key in missing
+                ),
             )
 
     def as_dict(self) -> dict[str, Any]:
@@ -345,7 +378,11 @@ class Record:
         given = [key for key in fields_of(type(self)) if key in origins or key not in kinds]
         given = [key for key in given if key not in self._derived]
         return self._nested(
-            {key: origins[key].as_entry() if key in origins else getattr(self, key) for key in given}, {}
+            {
+                key: origins[key].as_entry() if key in origins else getattr(self, key)
+                for key in given
+            },
+            {},
         )
 
     def _nested(self, entries: Mapping[str, Any], found: dict[str, Any]) -> dict[str, Any]:
@@ -362,13 +399,17 @@ class Record:
 
     def as_yaml(self) -> str:
         """Give the record as the text of a catalogue file, every key explained; `read` gives it back as it is."""
-        explained = {key: one.form.about for key, one in fields_of(type(self)).items()} | dict(self.sections)
+        explained = {key: one.form.about for key, one in fields_of(type(self)).items()} | dict(
+            self.sections
+        )
         return yaml_text(self.as_dict(), _HEADER.format(self.noun), explained)
 
     def replace(self, **values: Any) -> Self:
         """Copy the record with other values [SI], checked as any other input; they get the tag U."""
         kept = {key: origin for key, origin in self._provenance if key not in values}
-        given = {key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived}
+        given = {
+            key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived
+        }
         record = type(self).__new__(type(self))
         record._fill(given | values, kept, Source())
         return record
@@ -380,7 +421,10 @@ class Record:
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
-        about = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": f"{cls.noun} of macroslip"}
+        about = {
+            "$schema": "https://json-schema.org/draft/2020-12/schema",
+            "title": f"{cls.noun} of macroslip",
+        }
         return about | Group("", _in_file(cls)).json()
 
 
@@ -391,8 +435,14 @@ def fields_of(record: type[Record]) -> Fields:
     for key, hint in get_type_hints(record, include_extras=True).items():
         if hasattr(hint, "__metadata__"):
             required, others = not hasattr(record, key), " and ".join(record.sources.get(key, ()))
-            remedy = f"Add it, or the figures of a data sheet from which it follows: {others}." if others else "Add it."
-            found[key] = Field(form_from(hint), required, not required, getattr(record, key, None), remedy)
+            remedy = (
+                f"Add it, or the figures of a data sheet from which it follows: {others}."
+                if others
+                else "Add it."
+            )
+            found[key] = Field(
+                form_from(hint), required, not required, getattr(record, key, None), remedy
+            )
     return found
 
 
@@ -404,8 +454,12 @@ def _in_file(record: type[Record]) -> Fields:
         form = one.form
         if isinstance(form, Quantity):
             form = _Entry(f"{form.about}: {form.range_text()}", form)
-        fields[key] = one._replace(form=form, is_required=one.is_required and key not in record.sources)
-    keys = {name: tuple(key for key in fields if key.startswith(f"{name}_")) for name in record.sections}
+        fields[key] = one._replace(
+            form=form, is_required=one.is_required and key not in record.sources
+        )
+    keys = {
+        name: tuple(key for key in fields if key.startswith(f"{name}_")) for name in record.sections
+    }
     return grouped(fields, {name: (about, keys[name]) for name, about in record.sections.items()})
 
 

@@ -12,7 +12,17 @@ import sys
 import types
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, NamedTuple, TypeVar, Union, dataclass_transform, get_args, get_origin, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    NamedTuple,
+    TypeVar,
+    Union,
+    dataclass_transform,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from macroslip.errors import InputError
 from macroslip.files import check_no_zero_byte
@@ -73,12 +83,16 @@ def input_section(
     groups : mapping
         Sections that only files have: by name the meaning of the section, and the fields in it.
     """
-    given = dataclasses.replace(PYTHON, place=Place(Source(), tuple(noun.split(".")) if noun else ()))
+    given = dataclasses.replace(
+        PYTHON, place=Place(Source(), tuple(noun.split(".")) if noun else ())
+    )
 
     def decorate(kind: type[Kind]) -> type[Kind]:
         made: Any = dataclass(frozen=True, slots=True, kw_only=not positional)(kind)
         fields = _fields(made)
-        _SECTIONS[made] = _Section(about, fields, grouped(fields, groups or {}), one_of, gone or {}, made.__init__)
+        _SECTIONS[made] = _Section(
+            about, fields, grouped(fields, groups or {}), one_of, gone or {}, made.__init__
+        )
 
         @functools.wraps(made.__init__)
         def initialise(self: Any, *first: Any, **values: Any) -> None:
@@ -112,7 +126,9 @@ def _kinds(annotation: Any) -> tuple[Any, ...]:
 
 def form_from(annotation: Any) -> Form:
     """The form in an annotation: the form that it carries, or the section that it is."""
-    form = next((item for item in getattr(annotation, "__metadata__", ()) if isinstance(item, Form)), None)
+    form = next(
+        (item for item in getattr(annotation, "__metadata__", ()) if isinstance(item, Form)), None
+    )
     if form and not isinstance(form, OrWord):
         return form
     (kind,) = (kind for kind in _kinds(annotation) if kind is not type(None))
@@ -138,15 +154,23 @@ def grouped(fields: Fields, groups: Mapping[str, tuple[str, tuple[str, ...]]]) -
 
 def _fill(made: Any, values: Mapping[str, Any], given: Given) -> None:
     known = _SECTIONS[type(made)]
-    found, problems = read_keys(known.in_file if given.in_file else known.fields, values, given, known.gone)
+    found, problems = read_keys(
+        known.in_file if given.in_file else known.fields, values, given, known.gone
+    )
     if problems:
         raise together(problems)
     try:
         chosen = [key for key in known.one_of if found.get(key) is not None]
         if known.one_of and len(chosen) != 1:
-            what = f"{' and '.join(chosen)} stand together" if chosen else "none of the keys it needs is there"
+            what = (
+                f"{' and '.join(chosen)} stand together"
+                if chosen
+                else "none of the keys it needs is there"
+            )
             remedy = "Remove or comment out the others." if chosen else "Add one of them."
-            raise InputError(what, allowed=f"exactly one of {', '.join(known.one_of)}", remedy=remedy)
+            raise InputError(
+                what, allowed=f"exactly one of {', '.join(known.one_of)}", remedy=remedy
+            )
         known.fill(made, **found)
     except InputError as problem:
         if not given.place.keys:  # a class without a place names the places itself
@@ -170,13 +194,17 @@ def read_keys(
     for key in unknown:
         where = place.source.where(*place.keys, key)
         if key in gone:
-            problem = InputError(f"the key '{key}' inside {place.key} is gone", where=where, remedy=gone[key])
+            problem = InputError(
+                f"the key '{key}' inside {place.key} is gone", where=where, remedy=gone[key]
+            )
         else:
             problem = unknown_key(key, [*more, *fields], where=where, inside=place.key)
         problem.is_placed = True
         problems.append(problem)
     meant = {nearest(key, fields) for key in unknown}  # a misspelled key is not missing as well
-    before = {key: one.default for key, one in fields.items() if key not in data and not one.is_required}
+    before = {
+        key: one.default for key, one in fields.items() if key not in data and not one.is_required
+    }
     for key, one in fields.items():
         if key in data:
             if data[key] is None and one.is_optional and not given.in_file:
@@ -200,9 +228,13 @@ def read_value(one: Field, value: Any, given: Given) -> Any:
         raise together(given.place.blamed(part) for part in parts_of(problem)) from None
 
 
-def read_fields(kind: type, data: Mapping[str, Any], place: Place) -> tuple[dict[str, Any], list[InputError]]:
+def read_fields(
+    kind: type, data: Mapping[str, Any], place: Place
+) -> tuple[dict[str, Any], list[InputError]]:
     """Read a whole file as far as it is right, as `read_keys` does; `kind` is its section class."""
-    return read_keys(fields_of(kind), data, dataclasses.replace(IN_FILE, place=place), _SECTIONS[kind].gone)
+    return read_keys(
+        fields_of(kind), data, dataclasses.replace(IN_FILE, place=place), _SECTIONS[kind].gone
+    )
 
 
 @dataclass(frozen=True)
@@ -232,7 +264,10 @@ class Group(Form):
         """An object with the keys."""
         return {
             "type": "object",
-            "properties": {key: one.form.json() | {"description": one.form.about} for key, one in self.fields.items()},
+            "properties": {
+                key: one.form.json() | {"description": one.form.about}
+                for key, one in self.fields.items()
+            },
             "required": [key for key, one in self.fields.items() if one.is_required],
             "additionalProperties": False,
         }
@@ -257,7 +292,9 @@ class Section(Group):
     def json(self) -> dict[str, Any]:
         """An object with the keys, of some exactly one."""
         one_of = _SECTIONS[self.kind].one_of
-        return super().json() | ({"oneOf": [{"required": [key]} for key in one_of]} if one_of else {})
+        return super().json() | (
+            {"oneOf": [{"required": [key]} for key in one_of]} if one_of else {}
+        )
 
 
 @dataclass(frozen=True, init=False)
@@ -397,14 +434,20 @@ class MappingOf(Form):
 
         def one(key: str, item: Any, given: Given) -> Any:
             check_no_zero_byte(key)
-            optional = item is None and type(None) in _kinds(self.item)  # as a call in Python may leave it open
-            checked = item if self.item is Any or optional else form_from(self.item).read(item, given)
+            optional = item is None and type(None) in _kinds(
+                self.item
+            )  # as a call in Python may leave it open
+            checked = (
+                item if self.item is Any or optional else form_from(self.item).read(item, given)
+            )
             return self.each(key, checked) if self.each else checked
 
         return dict(zip(value, read_all(value.items(), one, given), strict=True))
 
 
-def read_all(items: Iterable[tuple[str, Any]], read: Callable[[str, Any, Given], Any], given: Given) -> list[Any]:
+def read_all(
+    items: Iterable[tuple[str, Any]], read: Callable[[str, Any, Given], Any], given: Given
+) -> list[Any]:
     """Read values by their keys; all that is wrong is raised together, each problem with its place."""
     found, problems = [], []
     for key, item in items:
@@ -445,7 +488,10 @@ def _keys_inside(fields: Fields, prefix: str) -> Iterator[tuple[str, Field]]:
         form, name = one.form.written if isinstance(one.form, Made) else one.form, f"{prefix}{key}."
         form = form.section if isinstance(form, OrWord) else form
         if isinstance(form, Variants):
-            yield name + form.key, Field(Choice(form.about, functools.partial(list, form.sections)), False, False)
+            yield (
+                name + form.key,
+                Field(Choice(form.about, functools.partial(list, form.sections)), False, False),
+            )
             for section in dict.fromkeys(form.sections.values()):
                 yield from keys_of(section, name)
         elif isinstance(form, Group):

@@ -109,7 +109,9 @@ INVERSE_PRESSURE = _dimension(**{"1/Pa": 1, "1/GPa": Fraction(1, 10**9)})
 ANGLE = _dimension(rad=1, mrad=Fraction(1, 10**3), deg=Fraction(math.pi) / 180)
 TEMPERATURE = Dimension({"K": Unit(Fraction(1)), "degC": Unit(Fraction(1), Fraction("273.15"))})
 INVERSE_TEMPERATURE = _dimension(**{"1/K": 1})
-KINEMATIC_VISCOSITY = _dimension(**{"m2/s": 1, "mm2/s": Fraction(1, 10**6), "cSt": Fraction(1, 10**6)})
+KINEMATIC_VISCOSITY = _dimension(
+    **{"m2/s": 1, "mm2/s": Fraction(1, 10**6), "cSt": Fraction(1, 10**6)}
+)
 VISCOSITY = _dimension(**{"Pa s": 1})
 INVERSE_SPEED = _dimension(**{"s/m": 1})
 CONDUCTIVITY = _dimension(**{"W/(m K)": 1})
@@ -120,7 +122,9 @@ DENSITY = _dimension(**{"kg/m3": 1})
 NUMBER = _dimension(**{"1": 1})
 
 
-def parse_quantity(given: str | float, dimension: Dimension, what: str = "it", where: str = "") -> tuple[float, str]:
+def parse_quantity(
+    given: str | float, dimension: Dimension, what: str = "it", where: str = ""
+) -> tuple[float, str]:
     """The number as written, an integer where it was written as one, and the unit, "1" for a pure number.
 
     Raises InputError if the text is no number, has no unit or another one, or is too large for a float; `what` and
@@ -135,14 +139,18 @@ def parse_quantity(given: str | float, dimension: Dimension, what: str = "it", w
 
     def problem(why: str, remedy: str = "") -> InputError:
         allowed = "a number" if pure else f"a number with its unit, {dimension.choices}"
-        return InputError(f"{what} is {shown(given)}, which {why}", where=where, allowed=allowed, remedy=remedy)
+        return InputError(
+            f"{what} is {shown(given)}, which {why}", where=where, allowed=allowed, remedy=remedy
+        )
 
     # The text after the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
     match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,]|$)\s*(?P<unit>.*?)\s*", text)
     if match is None:
         decimal = re.match(r"\s*[+-]?\d+,\d", text)
         example = f"Write {with_unit(1, dimension.si_unit)}, for example."
-        raise problem("is not a quantity", "Use a decimal point, not a comma." if decimal else example)
+        raise problem(
+            "is not a quantity", "Use a decimal point, not a comma." if decimal else example
+        )
     number, unit = match["number"], match["unit"] or ("1" if pure else "")
     if not unit:
         # Whoever left the unit out may mean any of them: a tilt of 5 is hardly one of 5 rad.

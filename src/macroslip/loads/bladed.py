@@ -68,13 +68,21 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
     hub = _group_with(_LOADS, groups, path)
     columns = _columns(hub, _LOADS)
     result = {"time": hub.time, "force": columns[:, :3], "moment": columns[:, 3:]}
-    reading = [f"force and moment: Stationary hub Fx … Mz of {hub.header.name}, axes as in the file"]
+    reading = [
+        f"force and moment: Stationary hub Fx … Mz of {hub.header.name}, axes as in the file"
+    ]
     if speed_needed or any(_SPEED in group.names for group in groups):
         drive = _group_with((_SPEED,), groups, path)
-        if drive.samples != hub.samples or not np.allclose(drive.time, hub.time, atol=1e-6 * drive.step, rtol=0.0):
+        if drive.samples != hub.samples or not np.allclose(
+            drive.time, hub.time, atol=1e-6 * drive.step, rtol=0.0
+        ):
             what = f"{drive.header.name} and {hub.header.name} have different time steps"
-            remedy = "Write both groups with the same output step, or give the speed: loads.shaft_speed."
-            raise InputError(what, where=str(path), allowed="the same samples in both groups", remedy=remedy)
+            remedy = (
+                "Write both groups with the same output step, or give the speed: loads.shaft_speed."
+            )
+            raise InputError(
+                what, where=str(path), allowed="the same samples in both groups", remedy=remedy
+            )
         result["shaft_speed"] = _columns(drive, (_SPEED,))[:, 0]
         reading.append(f"shaft speed: {_SPEED} of {drive.header.name}")
     return result | {"reading": tuple(reading)}
@@ -90,7 +98,12 @@ def _groups(path: Path) -> list[_Group]:
     if not headers:
         allowed = "the headers (.%nn) and the data (.$nn) of a run in one folder"
         remedy = "Copy the headers too: without them the data cannot be read."
-        raise InputError(f"there is no header {stem}.%nn beside it", where=str(path), allowed=allowed, remedy=remedy)
+        raise InputError(
+            f"there is no header {stem}.%nn beside it",
+            where=str(path),
+            allowed=allowed,
+            remedy=remedy,
+        )
     return [group for group in map(_header, headers) if group is not None]
 
 
@@ -101,7 +114,8 @@ def _group_with(names: tuple[str, ...], groups: list[_Group], path: Path) -> _Gr
     present = {name for group in groups for name in group.names}
     missing = [name for name in names if name not in present]
     raise InputError(
-        f"the run has no {', '.join(missing or names)}" + ("" if missing else " together in one group"),
+        f"the run has no {', '.join(missing or names)}"
+        + ("" if missing else " together in one group"),
         where=str(path),
         allowed=f"a group with {', '.join(names)}, among the headers of the run: "
         f"{', '.join(group.header.name for group in groups) or 'none has a time axis'}",
@@ -114,7 +128,9 @@ def _group_with(names: tuple[str, ...], groups: list[_Group], path: Path) -> _Gr
 def _fields(path: Path) -> list[tuple[str, str]]:
     """Keys and values of a header; further lines belong to the key before."""
     if path.stat().st_size > 10_000_000:
-        raise InputError("the header is larger than 10 MB", where=str(path), remedy="Check that it is one.")
+        raise InputError(
+            "the header is larger than 10 MB", where=str(path), remedy="Check that it is one."
+        )
     fields: list[tuple[str, str]] = []
     for line in path.read_text(encoding="latin-1").splitlines():
         key, _, rest = line.strip().partition("\t" if "\t" in line.strip() else " ")
@@ -143,7 +159,9 @@ def _header(path: Path) -> _Group | None:
         number = None if form == "F" else _NUMBERS[given["FORMAT"].strip().upper()]
         first, step = float(given["MIN"]), float(given["STEP"])
         if not (step > 0.0 and math.isfinite(first + step * samples)):
-            raise ValueError(f"MIN {first:g} and STEP {step:g}, where times are finite and the step is above 0")
+            raise ValueError(
+                f"MIN {first:g} and STEP {step:g}, where times are finite and the step is above 0"
+            )
         mean = tuple(float(word) for word in given.get("MEAN", "").split())
         if not all(map(math.isfinite, mean)):
             raise ValueError("MEAN is not finite")
@@ -167,13 +185,19 @@ def _columns(group: _Group, names: tuple[str, ...]) -> NDArray[np.float64]:
         if unit != _UNITS[name]:
             what = f"{name} has the unit code {unit}"
             allowed = f"{_UNITS[name]}, in SI units"
-            raise InputError(what, where=str(group.header), allowed=allowed, remedy="Run Bladed with SI output.")
+            raise InputError(
+                what, where=str(group.header), allowed=allowed, remedy="Run Bladed with SI output."
+            )
     data = group.header.with_suffix(group.header.suffix.replace("%", "$"))
     if not data.is_file():
         what = f"there is no {data.name} beside the header"
         raise InputError(what, where=str(group.header), remedy="Copy the data file too.")
     count = group.samples * len(group.names)
-    values = announced(data, group.number, count, "its header", _AGAIN).reshape(group.samples, -1).astype(np.float64)
+    values = (
+        announced(data, group.number, count, "its header", _AGAIN)
+        .reshape(group.samples, -1)
+        .astype(np.float64)
+    )
     mean = values.mean(axis=0)
     if len(group.mean) == len(group.names):
         off = np.abs(mean - np.array(group.mean)) / np.maximum(np.abs(values).max(axis=0), 1e-30)

@@ -36,15 +36,30 @@ class BundledCase:
     @property
     def path(self) -> Path:
         """The file."""
-        return Path(str(importlib.resources.files("macroslip.loads") / "cases" / f"{self.name}.parquet"))
+        return Path(
+            str(importlib.resources.files("macroslip.loads") / "cases" / f"{self.name}.parquet")
+        )
 
 
 def _year() -> list[BundledCase]:
-    paper = [BundledCase(f"{speed}{letter}", speed, letter) for speed in range(12, 25, 2) for letter in "ABC"]
-    below = [BundledCase(f"{speed}{letter}", speed, letter) for speed in range(4, 11, 2) for letter in "AB"]
+    paper = [
+        BundledCase(f"{speed}{letter}", speed, letter)
+        for speed in range(12, 25, 2)
+        for letter in "ABC"
+    ]
+    below = [
+        BundledCase(f"{speed}{letter}", speed, letter)
+        for speed in range(4, 11, 2)
+        for letter in "AB"
+    ]
     second = [BundledCase(f"{speed}B-2", speed, "B", 2) for speed in (8, 10, 12, 16, 24)]
     events = [
-        BundledCase(name, float(name.rpartition("-")[2]), "-" if name[:3] in ("eog", "ecd") else "B", event=name)
+        BundledCase(
+            name,
+            float(name.rpartition("-")[2]),
+            "-" if name[:3] in ("eog", "ecd") else "B",
+            event=name,
+        )
         for name in EVENTS
     ]
     return paper + below + second + events

@@ -27,7 +27,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
-from macroslip.loads.source_file import ANGLE, FORCE, MOMENT, MOST_VALUES, SPEED, announced, in_si, turn_to_fixed
+from macroslip.loads.source_file import (
+    ANGLE,
+    FORCE,
+    MOMENT,
+    MOST_VALUES,
+    SPEED,
+    announced,
+    in_si,
+    turn_to_fixed,
+)
 
 _REMEDY = (
     "Add to the output section of the .htc file\n  mbdy forcevec shaft N 2 shaft ;\n  mbdy momentvec shaft N 2 shaft ;\n"
@@ -61,13 +70,17 @@ def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
     damaged, lacks a channel, or its forces do not show the rotor's weight.
     """
     if path.suffix.lower() == ".dat":
-        path = _beside(path, ".sel", "A .dat file is read as HAWC2 output: copy the list of channels too.")
+        path = _beside(
+            path, ".sel", "A .dat file is read as HAWC2 output: copy the list of channels too."
+        )
     output = _read_gtsdf(path) if path.suffix.lower() in (".hdf5", ".h5") else _read_sel(path)
     force, node = _vector(output, "force", FORCE)
     moment, _ = _vector(output, "moment", MOMENT, node)
     angle = _channel(output, r"angle(?!\s*_?speed)", ANGLE, prefix="bea|bearing|shaft_rot")
     if angle is None:
-        raise InputError("there is no angle of the shaft's bearing", where=output.where, remedy=_REMEDY)
+        raise InputError(
+            "there is no angle of the shaft's bearing", where=output.where, remedy=_REMEDY
+        )
     force, moment, turned = _to_fixed(force, moment, angle[0], output.where)
     how = f"turned back by {turned[0]} {angle[1]}, sign {turned[1]} by the rotor's weight"
     reading = [f"force and moment: main body shaft, node {node}, {how}"]
@@ -76,7 +89,9 @@ def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
     if speed is None and speed_needed:
         allowed = "constraint bearing1 of the shaft, or aero omega"
         remedy = "Add one of them to the output section, or give the speed: loads.shaft_speed."
-        raise InputError("there is no speed of the shaft", where=output.where, allowed=allowed, remedy=remedy)
+        raise InputError(
+            "there is no speed of the shaft", where=output.where, allowed=allowed, remedy=remedy
+        )
     if speed is not None:
         result["shaft_speed"] = np.abs(speed[0]) if np.all(speed[0] <= 0.0) else speed[0]
         reading.append(f"shaft speed: {speed[1]}")
@@ -114,7 +129,9 @@ def _channel(
     return None
 
 
-def _to_fixed(force: NDArray, moment: NDArray, angle: NDArray, where: str) -> tuple[NDArray, NDArray, tuple[str, str]]:
+def _to_fixed(
+    force: NDArray, moment: NDArray, angle: NDArray, where: str
+) -> tuple[NDArray, NDArray, tuple[str, str]]:
     """Force and moment in axes that do not turn, with the direction of the angle and the sign that the weight gives."""
     best = None
     for direction in (1.0, -1.0):
@@ -144,21 +161,33 @@ def _turned(vector: NDArray, angle: NDArray) -> NDArray:
 
 def _read_sel(path: Path) -> _Output:
     if path.stat().st_size > 50_000_000:
-        raise InputError("the list of channels is larger than 50 MB", where=str(path), remedy="Check that it is one.")
+        raise InputError(
+            "the list of channels is larger than 50 MB",
+            where=str(path),
+            remedy="Check that it is one.",
+        )
     lines = path.read_text(encoding="latin-1").splitlines()
     try:
         start = next(i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"])
         scans, channels, duration, kind = lines[start + 1].split()
         scans, channels, duration = int(scans), int(channels), float(duration)
-        if not (0 < scans * channels <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in ("ASCII", "BINARY"):
+        if not (0 < scans * channels <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in (
+            "ASCII",
+            "BINARY",
+        ):
             raise ValueError(f"{scans} scans of {channels} channels in {duration} s, format {kind}")
         rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:channels]
         # Name, unit and description of a channel are in fixed columns.
-        columns = [(line[12:43].strip(), line[43:54].strip(), line[54:].strip()) for line in map(str.expandtabs, rows)]
+        columns = [
+            (line[12:43].strip(), line[43:54].strip(), line[54:].strip())
+            for line in map(str.expandtabs, rows)
+        ]
         names, units, texts = zip(*columns, strict=True)
         if len(rows) != channels:
             raise ValueError(f"{len(rows)} channels are listed, {channels} are announced")
-        numbers = [line.split()[0] for line in lines if re.fullmatch(r"\s*[-+]?\d\.\d+E[-+]\d+\s*", line)]
+        numbers = [
+            line.split()[0] for line in lines if re.fullmatch(r"\s*[-+]?\d\.\d+E[-+]\d+\s*", line)
+        ]
         if kind == "BINARY" and len(numbers) < channels:
             raise ValueError(f"{len(numbers)} scale factors for {channels} channels")
         scale = np.array(numbers[-channels:], dtype=np.float64) if kind == "BINARY" else None
@@ -168,9 +197,15 @@ def _read_sel(path: Path) -> _Output:
     data = _beside(path, ".dat", "Copy the data file too.")
     count, header = scans * channels, "the list of channels"
     values = announced(data, None if scale is None else "<i2", count, header, _AGAIN)
-    values = values.reshape(scans, channels) if scale is None else values.reshape(channels, scans).T * scale
+    values = (
+        values.reshape(scans, channels)
+        if scale is None
+        else values.reshape(channels, scans).T * scale
+    )
     if names[0].strip().lower() == "time":
-        time = _announced_time(values[:, 0], duration, 0.0 if scale is None else abs(float(scale[0])), data)
+        time = _announced_time(
+            values[:, 0], duration, 0.0 if scale is None else abs(float(scale[0])), data
+        )
     else:
         time = np.arange(scans) * duration / scans
     return _Output(list(names), list(units), list(texts), values, time, str(path))
@@ -178,14 +213,22 @@ def _read_sel(path: Path) -> _Output:
 
 def _beside(path: Path, extension: str, remedy: str) -> Path:
     """The file of the same output with another extension, in whatever case it is written."""
-    found = (one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == extension)
+    found = (
+        one
+        for one in path.parent.iterdir()
+        if one.stem == path.stem and one.suffix.lower() == extension
+    )
     for one in found:
         if one.is_file():
             return one
-    raise InputError(f"there is no {path.stem}{extension} beside it", where=str(path), remedy=remedy)
+    raise InputError(
+        f"there is no {path.stem}{extension} beside it", where=str(path), remedy=remedy
+    )
 
 
-def _announced_time(stamps: NDArray, duration: float, resolution: float, data: Path) -> NDArray[np.float64]:
+def _announced_time(
+    stamps: NDArray, duration: float, resolution: float, data: Path
+) -> NDArray[np.float64]:
     """Times of the samples, which have to last as long as the list of channels announces.
 
     16 bits resolve the time of a long run to more than a step, so that binary times are taken as equal steps.
@@ -193,15 +236,15 @@ def _announced_time(stamps: NDArray, duration: float, resolution: float, data: P
     # Some programs announce the time from first to last sample, others one step more.
     near = 2.5 * duration / stamps.size + resolution + 1e-3
     if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
-        what = (
-            f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels announces {duration:g} s"
-        )
+        what = f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels announces {duration:g} s"
         raise InputError(what, where=str(data), remedy=_AGAIN)
     if not resolution:
         return stamps
     even = np.linspace(stamps[0], stamps[-1], stamps.size)
     if np.abs(stamps - even).max() > 2.0 * resolution:
-        raise InputError("the samples of its time are not equally spaced", where=str(data), remedy=_AGAIN)
+        raise InputError(
+            "the samples of its time are not equally spaced", where=str(data), remedy=_AGAIN
+        )
     return even
 
 
@@ -224,7 +267,9 @@ def _read_gtsdf(path: Path) -> _Output:
             time = np.concatenate([_block_time(block) for block in blocks])
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise InputError(
-            f"not readable as HAWC2 output in the format gtsdf ({error})", where=str(path), remedy=_AGAIN
+            f"not readable as HAWC2 output in the format gtsdf ({error})",
+            where=str(path),
+            remedy=_AGAIN,
         ) from error
     if values.shape != (time.size, len(names)):
         what = f"data of shape {values.shape} for {time.size} times and {len(names)} channels"
@@ -248,7 +293,14 @@ def _block_values(block) -> NDArray[np.float64]:
 
 
 def _block_time(block) -> NDArray[np.float64]:
-    start, step = float(block.attrs.get("time_start", 0.0)), float(block.attrs.get("time_step", 1.0))
+    start, step = (
+        float(block.attrs.get("time_start", 0.0)),
+        float(block.attrs.get("time_step", 1.0)),
+    )
     if "time" in block:
-        return block["time"][:] * step + start if "time_step" in block.attrs else block["time"][:] + start
+        return (
+            block["time"][:] * step + start
+            if "time_step" in block.attrs
+            else block["time"][:] + start
+        )
     return start + step * np.arange(block["data"].shape[0])

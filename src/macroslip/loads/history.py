@@ -50,7 +50,13 @@ _HUB_FILES = {
     ".hdf5": "HAWC2 output in the format gtsdf",
 } | _TABLES
 #: Readers by extension; all others are Bladed's.
-_READERS = {".out": read_openfast, ".outb": read_openfast, ".sel": read_hawc2, ".dat": read_hawc2, ".hdf5": read_hawc2}
+_READERS = {
+    ".out": read_openfast,
+    ".outb": read_openfast,
+    ".sel": read_hawc2,
+    ".dat": read_hawc2,
+    ".hdf5": read_hawc2,
+}
 _READERS |= dict.fromkeys(_TABLES, read_hub_table)
 
 
@@ -92,7 +98,9 @@ class History:
                     remedy=f"Give one value for each of the {time.size} time stamps"
                     + ("." if components is None else f" and component ({', '.join(components)})."),
                 )
-            for name, values in zip(components or (field,), array.reshape(time.size, -1).T, strict=True):
+            for name, values in zip(
+                components or (field,), array.reshape(time.size, -1).T, strict=True
+            ):
                 limits = {"shaft_speed": (self._FASTEST, "rad/s"), **MAGNITUDE_LIMITS}
                 _check_values(name, values, *limits[field], time, source)
             object.__setattr__(self, field, array)
@@ -106,11 +114,15 @@ class History:
         """The samples with ``start <= time <= end`` [s]; None keeps that end. Outside the record: InputError."""
         record: Any = self
         columns = {one.name: getattr(self, one.name) for one in fields(record)}
-        columns = {name: values for name, values in columns.items() if isinstance(values, np.ndarray)}
+        columns = {
+            name: values for name, values in columns.items() if isinstance(values, np.ndarray)
+        }
         return replace(record, **cut(columns, start, end, self.source))
 
     def __repr__(self) -> str:
-        means = ", ".join(f"{name} {values.mean() / 1e3:.4g} kN" for name, values in self._forces().items())
+        means = ", ".join(
+            f"{name} {values.mean() / 1e3:.4g} kN" for name, values in self._forces().items()
+        )
         rpm = self.shaft_speed.mean() / RPM
         return f"<{type(self).__name__} from {self.source}: {self._span()}; means: {means}, shaft {rpm:.4g} rpm>"
 
@@ -118,7 +130,13 @@ class History:
         channels = {"shaft speed [rpm]": self.shaft_speed / RPM}
         channels |= {f"{name} [kN]": values / 1e3 for name, values in self._forces().items()}
         rows = [
-            [name, *(f"{value:.4g}" for value in (values.mean(), values.std(), values.min(), values.max()))]
+            [
+                name,
+                *(
+                    f"{value:.4g}"
+                    for value in (values.mean(), values.std(), values.min(), values.max())
+                ),
+            ]
             for name, values in channels.items()
         ]
         title = f"{type(self).__name__} from {self.source}: {self._span()}"
@@ -159,7 +177,10 @@ class HubLoads(History):
         Whether they are of a start, a stop, idling or the like: the window then opens at the first sample.
     """
 
-    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}
+    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {
+        "force": ("fx", "fy", "fz"),
+        "moment": ("mx", "my", "mz"),
+    }
     time: NDArray[np.float64]
     shaft_speed: NDArray[np.float64]
     force: NDArray[np.float64]
@@ -170,7 +191,13 @@ class HubLoads(History):
 
     @classmethod
     def constant(
-        cls, force: ArrayLike, moment: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05
+        cls,
+        force: ArrayLike,
+        moment: ArrayLike,
+        shaft_speed: float,
+        duration: float,
+        *,
+        step: float = 0.05,
     ) -> HubLoads:
         """The same force (3,) [N], moment (3,) [N m] and shaft speed [rad/s] over `duration`, in equal steps up to `step` [s].
 
@@ -266,7 +293,9 @@ class BearingLoads(History):
     event: bool = False
 
     @classmethod
-    def constant(cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05) -> BearingLoads:
+    def constant(
+        cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05
+    ) -> BearingLoads:
         """The same force (3,) [N] and shaft speed [rad/s] from t = 0 to `duration` [s], in steps of at most `step` [s].
 
         Examples
@@ -291,7 +320,9 @@ class BearingLoads(History):
         return cls(**cut(columns, start, end, str(path)), source=str(path))
 
 
-def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, source: str) -> dict[str, Any]:
+def cut(
+    columns: Mapping[str, NDArray], start: float | None, end: float | None, source: str
+) -> dict[str, Any]:
     """Keep the samples with ``start <= time <= end`` [s]; None is the end of the record on that side.
 
     Works on arrays that are not validated yet, so that a bad stretch of a file can be cut away on reading.
@@ -299,14 +330,18 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
     columns = {name: np.asarray(values) for name, values in columns.items()}
     for name, value in (("start", start), ("end", end)):
         if value is not None and (isinstance(value, bool) or not isinstance(value, Real)):
-            raise InputError(f"{name} is {value!r}", where=source, allowed="a number of seconds, or None")
+            raise InputError(
+                f"{name} is {value!r}", where=source, allowed="a number of seconds, or None"
+            )
     if start is None and end is None:
         return columns
     stamps = columns["time"][np.isfinite(columns["time"])]
     if stamps.size < 2:  # nothing to cut; validation reports the fault
         return columns
     first, last = float(stamps.min()), float(stamps.max())
-    slack = 1e-6 * (last - first) / (stamps.size - 1)  # a stamp such as 0.30000000000000004 s must not lose its sample
+    slack = (
+        1e-6 * (last - first) / (stamps.size - 1)
+    )  # a stamp such as 0.30000000000000004 s must not lose its sample
     low, high = first if start is None else start, last if end is None else end
     window = f"the window from {low:.10g} s to {high:.10g} s"
     if not (first - slack <= low < high <= last + slack):
@@ -319,7 +354,9 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
     inside = np.flatnonzero((columns["time"] >= low - slack) & (columns["time"] <= high + slack))
     if inside.size < 2:
         what = f"{window} holds {inside.size} sample(s)"
-        raise InputError(what, where=source, allowed="at least 2 samples", remedy="Widen the window.")
+        raise InputError(
+            what, where=source, allowed="at least 2 samples", remedy="Widen the window."
+        )
     # A stamp that is not a number may lie inside: it is kept, so that validation refuses it.
     unknown = np.flatnonzero(~np.isfinite(columns["time"]))
     unknown = unknown[(unknown > inside[0]) & (unknown < inside[-1])]
@@ -327,11 +364,15 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
     return {name: values[keep] for name, values in columns.items()}
 
 
-def _constant(duration: float, step: float, shaft_speed: float, **vectors: ArrayLike) -> dict[str, Any]:
+def _constant(
+    duration: float, step: float, shaft_speed: float, **vectors: ArrayLike
+) -> dict[str, Any]:
     """Fields of a load that does not change, at times equally spaced by at most `step` [s]."""
     for name, value in (("duration", duration), ("step", step)):
         if not (is_finite_number(value) and value > 0):
-            raise InputError(f"the {name} of a constant load is {value} s", allowed="a finite number above 0 s")
+            raise InputError(
+                f"the {name} of a constant load is {value} s", allowed="a finite number above 0 s"
+            )
     if duration / step > _MOST_SAMPLES:
         raise InputError(
             f"the duration of a constant load is {duration:g} s, {duration / step:.3g} samples",
@@ -340,13 +381,20 @@ def _constant(duration: float, step: float, shaft_speed: float, **vectors: Array
         )
     source = "constant load"
     if not is_finite_number(shaft_speed):
-        raise InputError(f"the shaft_speed is {shaft_speed!r}", where=source, allowed="a finite number")
+        raise InputError(
+            f"the shaft_speed is {shaft_speed!r}", where=source, allowed="a finite number"
+        )
     count = max(2, math.ceil(duration / step * (1 - 1e-12)) + 1)
-    fields = {"time": np.linspace(0.0, duration, count), "shaft_speed": np.full(count, float(shaft_speed))}
+    fields = {
+        "time": np.linspace(0.0, duration, count),
+        "shaft_speed": np.full(count, float(shaft_speed)),
+    }
     for name, value in vectors.items():
         vector = _numbers(name, value, source)
         if vector.shape != (3,):
-            raise InputError(f"the {name} has shape {vector.shape}", where=source, allowed="three components")
+            raise InputError(
+                f"the {name} has shape {vector.shape}", where=source, allowed="three components"
+            )
         fields[name] = np.tile(vector, (count, 1))
     return fields | {"source": source}
 
@@ -369,7 +417,9 @@ def _check_time(time: NDArray, source: str) -> None:
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
         what = f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)"
-        raise InputError(what, where=source, allowed="finite numbers [s]", remedy="Remove or repair that sample.")
+        raise InputError(
+            what, where=source, allowed="finite numbers [s]", remedy="Remove or repair that sample."
+        )
     steps = np.diff(time)
     bad = np.flatnonzero(steps <= 0)
     if bad.size:
@@ -401,7 +451,9 @@ def _check_time(time: NDArray, source: str) -> None:
         )
 
 
-def _check_values(name: str, values: NDArray, limit: float, unit: str, time: NDArray, source: str) -> None:
+def _check_values(
+    name: str, values: NDArray, limit: float, unit: str, time: NDArray, source: str
+) -> None:
     bad = np.flatnonzero(~np.isfinite(values))
     if bad.size:
         raise InputError(
@@ -412,7 +464,10 @@ def _check_values(name: str, values: NDArray, limit: float, unit: str, time: NDA
         )
     worst = int(np.abs(values).argmax())
     if abs(values[worst]) > limit:
-        rpm, kilo = "Is it in rpm, or the speed of the generator?", "Is a value already in newtons declared as kN?"
+        rpm, kilo = (
+            "Is it in rpm, or the speed of the generator?",
+            "Is a value already in newtons declared as kN?",
+        )
         raise InputError(
             f"{name} is {values[worst]:.6g} {unit}, beyond any wind turbine",
             where=f"{source}, t = {time[worst]:.10g} s",

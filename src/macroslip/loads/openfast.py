@@ -58,9 +58,7 @@ _MEANING = {
     "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating",
 }
 _AGAIN = "Copy the file again, or run OpenFAST again."
-_INVALID = (
-    "OpenFAST writes INVALID for a channel that it cannot compute with this model; check that ElastoDyn is in use."
-)
+_INVALID = "OpenFAST writes INVALID for a channel that it cannot compute with this model; check that ElastoDyn is in use."
 
 
 def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
@@ -70,7 +68,9 @@ def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
     damaged, lacks a channel (the error gives the lines to add to the output list), or declares a unit that is not
     known.
     """
-    channels = _Channels(*(_read_binary if path.suffix.lower() == ".outb" else _read_text)(path), str(path))
+    channels = _Channels(
+        *(_read_binary if path.suffix.lower() == ".outb" else _read_text)(path), str(path)
+    )
     found = {"time": channels.column(("Time",), _TIMES)}
     if speed_needed or channels.has_all((_SPEED,)):
         found["shaft_speed"] = channels.column(_SPEED, _SPEEDS)
@@ -117,7 +117,10 @@ class _Channels:
         return in_si(self.data[:, i], unit, factors, channel=name, where=self.where, remedy=remedy)
 
     def across(
-        self, fixed: tuple[tuple[str, ...], ...], rotating: tuple[tuple[str, ...], ...], factors: Mapping[str, float]
+        self,
+        fixed: tuple[tuple[str, ...], ...],
+        rotating: tuple[tuple[str, ...], ...],
+        factors: Mapping[str, float],
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The components along y and z, from the non-rotating pair or else from the rotating pair."""
         if self.has_all(fixed):
@@ -139,8 +142,14 @@ class _Channels:
         if "time" not in self.index:
             remedy = "This is not an OpenFAST time series."
             raise InputError("there is no channel Time", where=self.where, remedy=remedy)
-        lines = "\n".join(f'"{name}"{" " * (14 - len(name))}- {_MEANING[name]}' for name in self.missing)
-        gauge = [name for name in self.names if name.lower() in ("lssgagmys", "lssgagmzs", "lssgagmya", "lssgagmza")]
+        lines = "\n".join(
+            f'"{name}"{" " * (14 - len(name))}- {_MEANING[name]}' for name in self.missing
+        )
+        gauge = [
+            name
+            for name in self.names
+            if name.lower() in ("lssgagmys", "lssgagmzs", "lssgagmya", "lssgagmza")
+        ]
         note = (
             f" The file's {' and '.join(gauge)} cannot stand in: they belong to the strain gauge, not to the hub."
             if gauge and any(name.startswith("LSSTip") for name in self.missing)
@@ -210,7 +219,9 @@ def _binary_size(path: Path) -> int:
             file.seek(8 * channels if packed else 0, io.SEEK_CUR)
             (description,) = take("i")
         except struct.error:
-            raise InputError("the file is cut off within its header", where=str(path), remedy=_AGAIN) from None
+            raise InputError(
+                "the file is cut off within its header", where=str(path), remedy=_AGAIN
+            ) from None
         if description < 0:
             raise damaged
         header = file.tell() + description + 2 * (channels + 1) * name_length
@@ -247,7 +258,9 @@ def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
         if fault:
             what = f"not readable as OpenFAST text output (line {number + 9} {fault})"
             remedy = "If the run was stopped or the copy cut off, delete the incomplete last line"
-            raise InputError(what, where=str(path), remedy=f"{remedy}; otherwise run OpenFAST again.")
+            raise InputError(
+                what, where=str(path), remedy=f"{remedy}; otherwise run OpenFAST again."
+            )
     # A line cut within its last number still parses. OpenFAST ends every line, and all data lines are equally long.
     if not content.endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip()):
         remedy = "Copy the file again, run OpenFAST again, or delete that line."

@@ -69,30 +69,49 @@ class RollerLoads(History):
             values.setflags(write=False)
             object.__setattr__(self, name, values)
         if (self.load < 0.0).any():
-            raise InputError("a load is negative", where=self.source, allowed="0 N or more; rollers only press")
+            raise InputError(
+                "a load is negative", where=self.source, allowed="0 N or more; rollers only press"
+            )
         turned = np.sort(np.mod(self.angle, 2.0 * math.pi), axis=2)
         if (np.diff(turned, axis=2) <= 1e-9).any():
-            raise InputError("a place is given twice", where=self.source, allowed="different angles in a row at a time")
+            raise InputError(
+                "a place is given twice",
+                where=self.source,
+                allowed="different angles in a row at a time",
+            )
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None) -> RollerLoads:
+    def read(
+        cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None
+    ) -> RollerLoads:
         """Read a table (``.csv``, ``.parquet``) with the columns time_s, shaft_speed_rpm, row, angle_deg and load_N.
 
         One line for each time, row and place, in any order; row is downwind or upwind. `start` and `end` [s]: as
         `HubLoads.read`. Raises InputError if the file cannot be read, lacks a column, or has not as many places in each
         row at each time.
         """
-        path, _ = source_file(path, {".csv": "table", ".parquet": "table"}, "Columns: " + ", ".join(COLUMNS))
+        path, _ = source_file(
+            path, {".csv": "table", ".parquet": "table"}, "Columns: " + ", ".join(COLUMNS)
+        )
         with reading(path, DAMAGED):
             table = open_table(path).to_pandas().rename(columns=str.strip)
         missing = [name for name in COLUMNS if name not in table]
         if missing:
             what = f"no column {', '.join(missing)}. The columns are: {', '.join(map(str, table.columns))}"
-            raise InputError(what, where=str(path), allowed=", ".join(COLUMNS), remedy="Add or rename the columns.")
+            raise InputError(
+                what,
+                where=str(path),
+                allowed=", ".join(COLUMNS),
+                remedy="Add or rename the columns.",
+            )
         strange = sorted({str(name) for name in table.row} - set(ROW_NAMES))
         if strange:
-            raise InputError(f"row is {strange[0]}", where=str(path), allowed=" or ".join(ROW_NAMES))
-        table = table.assign(row=table.row.map(ROW_NAMES.index)).sort_values(["time_s", "row", "angle_deg"])
+            raise InputError(
+                f"row is {strange[0]}", where=str(path), allowed=" or ".join(ROW_NAMES)
+            )
+        table = table.assign(row=table.row.map(ROW_NAMES.index)).sort_values(
+            ["time_s", "row", "angle_deg"]
+        )
         counts = table.groupby(["time_s", "row"]).size()
         if counts.size != 2 * table.time_s.nunique() or counts.nunique() != 1:
             raise InputError(
@@ -104,13 +123,24 @@ class RollerLoads(History):
         try:
             numbers = table[["time_s", "shaft_speed_rpm", "angle_deg", "load_N"]].to_numpy(float)
         except ValueError as error:
-            raise InputError(f"a value is no number ({error})", where=str(path), allowed="numbers") from None
-        time, speed, angle, load = numbers.reshape(-1, len(ROW_NAMES), int(counts.iloc[0]), 4).transpose(3, 0, 1, 2)
+            raise InputError(
+                f"a value is no number ({error})", where=str(path), allowed="numbers"
+            ) from None
+        time, speed, angle, load = numbers.reshape(
+            -1, len(ROW_NAMES), int(counts.iloc[0]), 4
+        ).transpose(3, 0, 1, 2)
         if np.ptp(speed, axis=(1, 2)).any():
             raise InputError(
-                "the shaft has two speeds at one time", where=str(path), allowed="one shaft_speed_rpm a time"
+                "the shaft has two speeds at one time",
+                where=str(path),
+                allowed="one shaft_speed_rpm a time",
             )
-        columns = {"time": time[:, 0, 0], "shaft_speed": speed[:, 0, 0] * RPM, "angle": np.radians(angle), "load": load}
+        columns = {
+            "time": time[:, 0, 0],
+            "shaft_speed": speed[:, 0, 0] * RPM,
+            "angle": np.radians(angle),
+            "load": load,
+        }
         return cls(**cut(columns, start, end, str(path)), source=str(path))
 
     def _forces(self) -> dict[str, NDArray[np.float64]]:

@@ -27,7 +27,9 @@ SPEED = {"rpm": RPM, "rad/s": 1.0, "deg/s": math.pi / 180.0}
 ANGLE = {"deg": math.pi / 180.0, "rad": 1.0}
 
 
-def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
+def source_file(
+    path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = ""
+) -> tuple[Path, str]:
     """Return the path and its lower-case extension, which has to be among `kinds`; they name the content of a file.
 
     `remedy` is what to do about another extension.
@@ -36,15 +38,24 @@ def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: 
     check_regular(path, "Name a file with loads.")
     if not path.is_file():
         what = "is a folder, not a file" if path.is_dir() else "no such file"
-        raise InputError(what, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}.")
+        raise InputError(
+            what, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}."
+        )
     extension = path.suffix.lower()
     # Bladed numbers its groups of results: run.%23 and run.$23.
     numbered = re.fullmatch(r"\.[%$](\d{1,4}|pj)", extension)
     if extension not in kinds and not (numbered and ".%nn" in kinds):
         allowed = ", ".join(f"{ext} ({meaning})" for ext, meaning in kinds.items())
-        raise InputError(f"the extension {path.suffix!r} is not known", where=str(path), allowed=allowed, remedy=remedy)
+        raise InputError(
+            f"the extension {path.suffix!r} is not known",
+            where=str(path),
+            allowed=allowed,
+            remedy=remedy,
+        )
     if path.stat().st_size == 0:
-        raise InputError("the file is empty", where=str(path), remedy="Write or copy the file again.")
+        raise InputError(
+            "the file is empty", where=str(path), remedy="Write or copy the file again."
+        )
     return path, extension
 
 
@@ -89,7 +100,9 @@ def announced(path: Path, number: DTypeLike | None, count: int, header: str, aga
     try:
         values = np.array(path.read_text(encoding="ascii").split(), dtype=np.float64)
     except ValueError as error:
-        raise InputError(f"not readable as numbers ({error})", where=str(path), remedy=again) from error
+        raise InputError(
+            f"not readable as numbers ({error})", where=str(path), remedy=again
+        ) from error
     if values.size != count:
         what = f"the file holds {values.size} numbers, {header} announces {count}"
         raise InputError(what, where=str(path), remedy=again)

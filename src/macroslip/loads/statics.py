@@ -67,14 +67,24 @@ class Drivetrain:
     """
 
     mount: Annotated[str, Choice("what carries the shaft", lambda: MOUNTS)] = "three-point"
-    hub_to_bearing: Annotated[float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)] = 1.26
-    bearing_to_gearbox: Annotated[float, Positive("distance from main bearing to gearbox support", LENGTH, 20.0)] = (
-        _TO_GEARBOX
-    )
-    front_to_rear: Annotated[float | None, Positive("distance from front to rear main bearing", LENGTH, 20.0)] = None
-    locating: Annotated[str | None, Choice("main bearing that carries thrust", lambda: BEARINGS)] = None
-    bearing: Annotated[str | None, Choice("main bearing that is simulated", lambda: BEARINGS, _BOTH)] = None
-    tilt: Annotated[float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)] = math.radians(5.0)
+    hub_to_bearing: Annotated[
+        float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)
+    ] = 1.26
+    bearing_to_gearbox: Annotated[
+        float, Positive("distance from main bearing to gearbox support", LENGTH, 20.0)
+    ] = _TO_GEARBOX
+    front_to_rear: Annotated[
+        float | None, Positive("distance from front to rear main bearing", LENGTH, 20.0)
+    ] = None
+    locating: Annotated[
+        str | None, Choice("main bearing that carries thrust", lambda: BEARINGS)
+    ] = None
+    bearing: Annotated[
+        str | None, Choice("main bearing that is simulated", lambda: BEARINGS, _BOTH)
+    ] = None
+    tilt: Annotated[
+        float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)
+    ] = math.radians(5.0)
     shaft_mass: Annotated[float, Quantity("mass of the shaft without rotor", MASS, 0.0, 1e6)] = 0.0
     shaft_mass_station: Annotated[
         float,
@@ -151,11 +161,19 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     _, my, mz = hub_loads.moment.T
     weight_moment = (arm - drivetrain.shaft_mass_station) * weight * math.cos(drivetrain.tilt)
     thrust = fx + weight * math.sin(drivetrain.tilt)
-    x, y, none = (arm * fy - mz) / span, (arm * fz + my - weight_moment) / span, np.zeros_like(thrust)
+    x, y, none = (
+        (arm * fy - mz) / span,
+        (arm * fz + my - weight_moment) / span,
+        np.zeros_like(thrust),
+    )
     first_carries = not four_point or drivetrain.locating == "front"
     first = np.column_stack([x, y, thrust if first_carries else none])
-    second = np.column_stack([fy - x, fz - weight * math.cos(drivetrain.tilt) - y, none if first_carries else thrust])
-    return dict(zip(BEARINGS if four_point else ("bearing", "gearbox"), (first, second), strict=True))
+    second = np.column_stack(
+        [fy - x, fz - weight * math.cos(drivetrain.tilt) - y, none if first_carries else thrust]
+    )
+    return dict(
+        zip(BEARINGS if four_point else ("bearing", "gearbox"), (first, second), strict=True)
+    )
 
 
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
@@ -175,5 +193,9 @@ def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoa
     force = support_loads(hub_loads, drivetrain)[name]
     which = f"{name} main bearing" if drivetrain.bearing else "main bearing"
     return BearingLoads(
-        hub_loads.time, hub_loads.shaft_speed, force, f"{which} under {hub_loads.source}", hub_loads.event
+        hub_loads.time,
+        hub_loads.shaft_speed,
+        force,
+        f"{which} under {hub_loads.source}",
+        hub_loads.event,
     )

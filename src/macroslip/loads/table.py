@@ -67,7 +67,10 @@ def _read(
     quantities = dict(_BASE)
     for field, components in vectors.items():
         quantities |= {name: ((name,), units[field]) for name in components}
-    found = {quantity: _find(names, quantity, *choice, str(path)) for quantity, choice in quantities.items()}
+    found = {
+        quantity: _find(names, quantity, *choice, str(path))
+        for quantity, choice in quantities.items()
+    }
     missing = [
         " or ".join(_spellings(*quantities[quantity]))
         for quantity, place in found.items()
@@ -78,12 +81,18 @@ def _read(
         raise InputError(
             f"no column for {'; '.join(missing)}. The columns are: {', '.join(names) or 'none'}",
             where=str(path),
-            remedy=other_remedy if other else "Add or rename the columns; the unit is part of the name.",
+            remedy=other_remedy
+            if other
+            else "Add or rename the columns; the unit is part of the name.",
         )
     chosen = {quantity: place for quantity, place in found.items() if place is not None}
-    columns = {name: _values(table, *place, name == "time", str(path)) for name, place in chosen.items()}
+    columns = {
+        name: _values(table, *place, name == "time", str(path)) for name, place in chosen.items()
+    }
     result: dict = {name: columns[name] for name in _BASE if name in columns}
-    result |= {field: np.column_stack([columns[name] for name in vectors[field]]) for field in vectors}
+    result |= {
+        field: np.column_stack([columns[name] for name in vectors[field]]) for field in vectors
+    }
     return result | {"reading": tuple(names[i] for i, _ in chosen.values())}
 
 
@@ -92,7 +101,11 @@ def _spellings(prefixes: tuple[str, ...], factors: Mapping[str, float]) -> dict[
 
 
 def _find(
-    names: list[str], quantity: str, prefixes: tuple[str, ...], factors: Mapping[str, float], where: str
+    names: list[str],
+    quantity: str,
+    prefixes: tuple[str, ...],
+    factors: Mapping[str, float],
+    where: str,
 ) -> tuple[int, float] | None:
     """Column of a quantity and the factor that makes it SI; None if there is none."""
     spellings = _spellings(prefixes, factors)
@@ -106,7 +119,11 @@ def _find(
         )
     if found:
         return found[0], spellings[names[found[0]]]
-    near = [name for name in names if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes)]
+    near = [
+        name
+        for name in names
+        if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes)
+    ]
     if near:
         raise InputError(
             f"column {near[0]} has no known unit",
@@ -195,7 +212,11 @@ def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:
     rate = max(1, round(1.0 / step))
     index = np.arange(time.size, dtype=float)
     tolerance = float(np.spacing(np.float32(np.abs(time).max())))
-    for axis in (first + index / rate, first + index * float(f"{step:.6g}"), time[0] + index * step):
+    for axis in (
+        first + index / rate,
+        first + index * float(f"{step:.6g}"),
+        time[0] + index * step,
+    ):
         if np.abs(axis - time).max() <= tolerance:
             return axis
     return time

@@ -18,7 +18,9 @@ class BaseOil(NamedTuple):
     over_gold: tuple[float, float, float]
     density_15: float  #: Density at 15 degC [kg/m3]
     density_scatter: float  #: Half its range [kg/m3]
-    limiting_shear: tuple[float, float, float]  #: Limiting shear stress over pressure [-]: lowest, mean, highest
+    limiting_shear: tuple[
+        float, float, float
+    ]  #: Limiting shear stress over pressure [-]: lowest, mean, highest
     thermal_conductivity: float  #: [W/(m K)]
 
 
@@ -31,17 +33,41 @@ class BaseOil(NamedTuple):
 _SCATTER = (0.8, 1.0, 1.2)
 BASE_OILS: Mapping[str, BaseOil] = MappingProxyType(
     {
-        "pao": BaseOil("polyalphaolefin", 7.382, 0.1335, _SCATTER, 855.0, 15.0, (0.035, 0.042, 0.050), 0.14),
-        "mineral": BaseOil("mineral, paraffinic", 9.904, 0.139, _SCATTER, 895.0, 15.0, (0.044, 0.047, 0.050), 0.13),
-        "naphthenic": BaseOil("mineral, naphthenic", 9.904, 0.139, _SCATTER, 920.0, 15.0, (0.050, 0.053, 0.056), 0.13),
+        "pao": BaseOil(
+            "polyalphaolefin", 7.382, 0.1335, _SCATTER, 855.0, 15.0, (0.035, 0.042, 0.050), 0.14
+        ),
+        "mineral": BaseOil(
+            "mineral, paraffinic", 9.904, 0.139, _SCATTER, 895.0, 15.0, (0.044, 0.047, 0.050), 0.13
+        ),
+        "naphthenic": BaseOil(
+            "mineral, naphthenic", 9.904, 0.139, _SCATTER, 920.0, 15.0, (0.050, 0.053, 0.056), 0.13
+        ),
         "pao-mineral": BaseOil(
-            "polyalphaolefin and mineral", 8.643, 0.136, _SCATTER, 875.0, 25.0, (0.035, 0.045, 0.050), 0.135
+            "polyalphaolefin and mineral",
+            8.643,
+            0.136,
+            _SCATTER,
+            875.0,
+            25.0,
+            (0.035, 0.045, 0.050),
+            0.135,
         ),
         "pao-ester": BaseOil(
-            "polyalphaolefin and ester", 7.0, 0.135, _SCATTER, 880.0, 30.0, (0.035, 0.042, 0.050), 0.14
+            "polyalphaolefin and ester",
+            7.0,
+            0.135,
+            _SCATTER,
+            880.0,
+            30.0,
+            (0.035, 0.042, 0.050),
+            0.14,
         ),
-        "ester": BaseOil("ester", 6.605, 0.136, (1.0, 1.1, 1.33), 930.0, 30.0, (0.030, 0.042, 0.050), 0.15),
-        "polyglycol": BaseOil("polyglycol", 5.489, 0.1485, (1.0, 1.15, 1.4), 1040.0, 40.0, (0.041, 0.044, 0.047), 0.15),
+        "ester": BaseOil(
+            "ester", 6.605, 0.136, (1.0, 1.1, 1.33), 930.0, 30.0, (0.030, 0.042, 0.050), 0.15
+        ),
+        "polyglycol": BaseOil(
+            "polyglycol", 5.489, 0.1485, (1.0, 1.15, 1.4), 1040.0, 40.0, (0.041, 0.044, 0.047), 0.15
+        ),
     }
 )
 """Families by the name that `base_oil` has in a lubricant file."""

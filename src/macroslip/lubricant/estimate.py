@@ -79,9 +79,16 @@ def estimate_lubricant(
             spread=(low / usual, high / usual),
         ),
         "reference_temperature": _entry(40, "degC", "of the viscosity in Gold's law"),
-        "thermal_conductivity": _entry(family.thermal_conductivity, "W/(m K)", "usual for the family"),
+        "thermal_conductivity": _entry(
+            family.thermal_conductivity, "W/(m K)", "usual for the family"
+        ),
         "density_15": _entry(family.density_15, "kg/m3", "usual for the family")
-        | {"range": [family.density_15 - family.density_scatter, family.density_15 + family.density_scatter]},
+        | {
+            "range": [
+                family.density_15 - family.density_scatter,
+                family.density_15 + family.density_scatter,
+            ]
+        },
         "fill_factor": _entry(0.7, "1", "as in the base case"),
         "drag_coefficient": _entry(1, "1", "as in the base case"),
         "boundary_friction": _entry(
@@ -90,10 +97,12 @@ def estimate_lubricant(
         | {"range": [0.034, 0.1]},
     }
     low, mean, high = family.limiting_shear
-    entries["limiting_shear"] = _entry(mean, "1", "usual for the family, see docs/lubricants.md") | {
-        "range": [low, high]
-    }
-    index = roelands_index(viscosities(line, T40, density_at(family.density_15, T15, T40))[0], alpha)
+    entries["limiting_shear"] = _entry(
+        mean, "1", "usual for the family, see docs/lubricants.md"
+    ) | {"range": [low, high]}
+    index = roelands_index(
+        viscosities(line, T40, density_at(family.density_15, T15, T40))[0], alpha
+    )
     viscosity, _ = viscosities(line, INLET, density_at(family.density_15, T15, INLET))
     at_inlet = pressure_viscosity_at(index, viscosity)
     stress = eyring_stress(mean, mean_pressure_viscosity(viscosity, at_inlet, _CONTACT_PRESSURE))
@@ -106,7 +115,12 @@ def _entry(
     value: float, unit: str, note: str, *, tag: str = "E", spread: tuple[float, float] | None = None
 ) -> dict[str, Any]:
     """An entry of a lubricant file, to three digits where it is an estimate with a relative spread."""
-    entry: dict[str, Any] = {"value": float(f"{value:.12g}"), "unit": unit, "tag": tag, "note": note}
+    entry: dict[str, Any] = {
+        "value": float(f"{value:.12g}"),
+        "unit": unit,
+        "tag": tag,
+        "note": note,
+    }
     if spread:
         entry["value"] = float(f"{value:.3g}")
         entry["range"] = [float(f"{share * value:.3g}") for share in spread]

@@ -66,7 +66,13 @@ def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
     line = walther_line_with_slope(inlet.temperature, kinematic, fall)
     viscosity, temperature_viscosity = viscosities(line, temperature, density)
     index = roelands_index(inlet.viscosity, inlet.pressure_viscosity)
-    return Inlet(temperature, density, viscosity, temperature_viscosity, pressure_viscosity_at(index, viscosity))
+    return Inlet(
+        temperature,
+        density,
+        viscosity,
+        temperature_viscosity,
+        pressure_viscosity_at(index, viscosity),
+    )
 
 
 def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
@@ -88,15 +94,26 @@ def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dic
         density = density_at(given["density_15"], T15, temperature)
         follows("density", density, "kg/m3", "from density_15, less 0.65 kg/(m3 K)", "density_15")
     viscosity, line = given.get("viscosity"), None
-    if density is not None and {"kinematic_viscosity_40", "kinematic_viscosity_100"} <= given.keys():
-        line = walther_line_through(T40, given["kinematic_viscosity_40"], T100, given["kinematic_viscosity_100"])
+    if (
+        density is not None
+        and {"kinematic_viscosity_40", "kinematic_viscosity_100"} <= given.keys()
+    ):
+        line = walther_line_through(
+            T40, given["kinematic_viscosity_40"], T100, given["kinematic_viscosity_100"]
+        )
         eta, beta = viscosities(line, temperature, density)
         if viscosity is None:
             viscosity = eta
             note = "Walther line through the viscosities at 40 and 100 degC, times density"
             follows("viscosity", eta, "Pa s", note, "kinematic_viscosity_40")
         if "temperature_viscosity" not in given:
-            follows("temperature_viscosity", beta, "1/K", "slope of the Walther line at the inlet temperature", "")
+            follows(
+                "temperature_viscosity",
+                beta,
+                "1/K",
+                "slope of the Walther line at the inlet temperature",
+                "",
+            )
     if viscosity is None or "pressure_viscosity" in given:
         return found
     index = given.get("roelands_index")

@@ -36,7 +36,11 @@ _SOURCES: Mapping[str, tuple[str, ...]] = {
     "density": ("density_15",),
     "viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),
     "temperature_viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),
-    "pressure_viscosity": ("roelands_index", "reference_pressure_viscosity", "reference_temperature"),
+    "pressure_viscosity": (
+        "roelands_index",
+        "reference_pressure_viscosity",
+        "reference_temperature",
+    ),
 }
 
 
@@ -59,68 +63,115 @@ class Lubricant(Record):
     """
 
     noun: ClassVar[str] = "lubricant"
-    sections: ClassVar[Mapping[str, str]] = {"grease": "a grease's own behaviour, beside that of its base oil"}
+    sections: ClassVar[Mapping[str, str]] = {
+        "grease": "a grease's own behaviour, beside that of its base oil"
+    }
     #: Gap where the inlets of contacts begin to be full [m], as `supplied` gives it.
     oil_gap = math.inf
     sources: ClassVar[Mapping[str, tuple[str, ...]]] = _SOURCES
 
     name: Annotated[str, Text("short name of the lubricant, used in results", line=True)]
-    title: Annotated[str, Text("one line that describes the lubricant", may_be_empty=True, line=True)] = ""
-    base_oil: Annotated[str, Text(f"family of the base oil: {', '.join(BASE_OILS)}", may_be_empty=True, line=True)] = ""
+    title: Annotated[
+        str, Text("one line that describes the lubricant", may_be_empty=True, line=True)
+    ] = ""
+    base_oil: Annotated[
+        str, Text(f"family of the base oil: {', '.join(BASE_OILS)}", may_be_empty=True, line=True)
+    ] = ""
     thickener: Annotated[
-        str, Text("thickener of a grease; only the base oil enters the contacts here", may_be_empty=True, line=True)
+        str,
+        Text(
+            "thickener of a grease; only the base oil enters the contacts here",
+            may_be_empty=True,
+            line=True,
+        ),
     ] = ""
 
-    inlet_temperature: Annotated[float, Quantity("temperature at the inlet of the contacts", TEMPERATURE, 200, 500)]
+    inlet_temperature: Annotated[
+        float, Quantity("temperature at the inlet of the contacts", TEMPERATURE, 200, 500)
+    ]
     kinematic_viscosity_40: Annotated[
         _Optional, Quantity("kinematic viscosity at 40 degC", KINEMATIC_VISCOSITY, 2e-6, 0.1)
     ] = None
     kinematic_viscosity_100: Annotated[
         _Optional, Quantity("kinematic viscosity at 100 degC", KINEMATIC_VISCOSITY, 1e-6, 0.1)
     ] = None
-    viscosity: Annotated[float, Positive("dynamic viscosity at inlet temperature, ambient pressure", VISCOSITY, 1000)]
-    roelands_index: Annotated[_Optional, Positive("Roelands' pressure-viscosity index Z", NUMBER, 2)] = None
+    viscosity: Annotated[
+        float, Positive("dynamic viscosity at inlet temperature, ambient pressure", VISCOSITY, 1000)
+    ]
+    roelands_index: Annotated[
+        _Optional, Positive("Roelands' pressure-viscosity index Z", NUMBER, 2)
+    ] = None
     reference_pressure_viscosity: Annotated[
-        _Optional, Positive("pressure-viscosity coefficient at the reference temperature", INVERSE_PRESSURE, 1e-7)
+        _Optional,
+        Positive(
+            "pressure-viscosity coefficient at the reference temperature", INVERSE_PRESSURE, 1e-7
+        ),
     ] = None
     reference_temperature: Annotated[
-        _Optional, Quantity("temperature of the reference pressure-viscosity coefficient", TEMPERATURE, 200, 500)
+        _Optional,
+        Quantity(
+            "temperature of the reference pressure-viscosity coefficient", TEMPERATURE, 200, 500
+        ),
     ] = None
     pressure_viscosity: Annotated[
-        float, Positive("pressure-viscosity coefficient at inlet temperature", INVERSE_PRESSURE, 1e-7)
+        float,
+        Positive("pressure-viscosity coefficient at inlet temperature", INVERSE_PRESSURE, 1e-7),
     ]
     temperature_viscosity: Annotated[
         float,
-        Positive("temperature-viscosity coefficient beta in exp(-beta * temperature rise)", INVERSE_TEMPERATURE, 1),
+        Positive(
+            "temperature-viscosity coefficient beta in exp(-beta * temperature rise)",
+            INVERSE_TEMPERATURE,
+            1,
+        ),
     ]
     thermal_conductivity: Annotated[float, Positive("thermal conductivity", CONDUCTIVITY, 10)]
     density_15: Annotated[_Optional, Quantity("density at 15 degC", DENSITY, 100, 5000)] = None
     density: Annotated[float, Quantity("density at inlet temperature", DENSITY, 100, 5000)]
     fill_factor: Annotated[
-        float, Quantity("share of the space between the rollers that is filled, for drag", NUMBER, 0, 1)
+        float,
+        Quantity("share of the space between the rollers that is filled, for drag", NUMBER, 0, 1),
     ]
     drag_coefficient: Annotated[
         float, Quantity("drag coefficient of a roller moving through the lubricant", NUMBER, 0, 100)
     ]
 
-    limiting_shear: Annotated[_Optional, Positive("limiting shear stress / pressure of the film", NUMBER, 0.5)] = None
+    limiting_shear: Annotated[
+        _Optional, Positive("limiting shear stress / pressure of the film", NUMBER, 0.5)
+    ] = None
     eyring_stress: Annotated[
-        _Optional, Quantity("Eyring stress at inlet temperature, at which shear thinning sets in", PRESSURE, 1e4, 1e9)
+        _Optional,
+        Quantity(
+            "Eyring stress at inlet temperature, at which shear thinning sets in",
+            PRESSURE,
+            1e4,
+            1e9,
+        ),
     ] = None
     boundary_friction: Annotated[
         _Optional, Quantity("friction coefficient where asperities carry the load", NUMBER, 0, 1)
     ] = None
     starvation: Annotated[
-        _Optional, Positive("key of files before version 0.2, oil_supply where the case has none", NUMBER, 1)
+        _Optional,
+        Positive("key of files before version 0.2, oil_supply where the case has none", NUMBER, 1),
     ] = None
     fullness: Annotated[
-        _Optional, Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 0.01, 1)
+        _Optional,
+        Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 0.01, 1),
     ] = None
     inlet_film: Annotated[
-        _Optional, Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 1, 1e6, above=True)
+        _Optional,
+        Quantity(
+            "key of files before version 0.2, whose place oil_supply takes",
+            NUMBER,
+            1,
+            1e6,
+            above=True,
+        ),
     ] = None
     grease_yield_stress: Annotated[
-        _Optional, Quantity("yield stress, which acts on idle rollers and in pockets", PRESSURE, 0, 1e5)
+        _Optional,
+        Quantity("yield stress, which acts on idle rollers and in pockets", PRESSURE, 0, 1e5),
     ] = None
 
     def _fill(
@@ -130,12 +181,18 @@ class Lubricant(Record):
         source: Source,
         derived: frozenset[str] = frozenset(),
     ) -> None:
-        usable = {key: float(value) for key, value in values.items() if is_finite_number(value) and value > 0}
+        usable = {
+            key: float(value)
+            for key, value in values.items()
+            if is_finite_number(value) and value > 0
+        }
         try:
             found = derive(usable, provenance)
         except InputError as problem:
             where = source.file or problem.where
-            raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+            raise InputError(
+                problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+            ) from None
         follows = {key: origin.value for key, origin in found.items()}
         super()._fill({**values, **follows}, {**provenance, **found}, source, frozenset(found))
 
@@ -178,7 +235,11 @@ class Lubricant(Record):
         kept = {key: origin for key, origin in self.provenance.items() if key not in sources}
         values = {key: getattr(self, key) for key in fields_of(type(self)) if key not in sources}
         record = type(self).__new__(type(self))
-        record._fill(values | {key: origin.value for key, origin in changes.items()}, kept | changes, Source())
+        record._fill(
+            values | {key: origin.value for key, origin in changes.items()},
+            kept | changes,
+            Source(),
+        )
         return record
 
     def at(self, temperature: float | str) -> Self:
@@ -212,21 +273,31 @@ class Lubricant(Record):
         """
         where = f"lubricant {self.name}"
         if isinstance(temperature, str):
-            temperature = TEMPERATURE.to_si(*parse_quantity(temperature, TEMPERATURE, "the inlet temperature", where))
+            temperature = TEMPERATURE.to_si(
+                *parse_quantity(temperature, TEMPERATURE, "the inlet temperature", where)
+            )
         if not is_finite_number(temperature) or not COLDEST <= temperature <= HOTTEST:
             what = f"the inlet temperature is {shown(temperature)} K"
             allowed = f"{COLDEST:g} K to {HOTTEST:g} K, -20 to 150 degC, where Walther's line holds"
-            raise InputError(what, where=where, allowed=allowed, remedy="Give kelvin, or text such as '50 degC'.")
+            raise InputError(
+                what, where=where, allowed=allowed, remedy="Give kelvin, or text such as '50 degC'."
+            )
         temperature = float(temperature)
         if temperature == self.inlet_temperature:
             return self
         here = Inlet(
-            self.inlet_temperature, self.density, self.viscosity, self.temperature_viscosity, self.pressure_viscosity
+            self.inlet_temperature,
+            self.density,
+            self.viscosity,
+            self.temperature_viscosity,
+            self.pressure_viscosity,
         )
         try:
             there = moved_inlet(here, temperature)
         except InputError as problem:
-            raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+            raise InputError(
+                problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+            ) from None
         given = f"at {self.inlet_temperature:g} K"
         notes = {
             "density": f"0.65 kg/(m3 K) from {self.density:g} {given}",
@@ -237,10 +308,14 @@ class Lubricant(Record):
         values = there._asdict()
         if self.eyring_stress is not None:
             notes["eyring_stress"] = f"2 gamma/alpha, from {self.eyring_stress:g} Pa {given}"
-            values["eyring_stress"] = self.eyring_stress * self.pressure_viscosity / there.pressure_viscosity
+            values["eyring_stress"] = (
+                self.eyring_stress * self.pressure_viscosity / there.pressure_viscosity
+            )
         kinds, origins = dimensions(type(self)), self.provenance
         changes = {"inlet_temperature": Provenance(temperature, "K")} | {
-            key: Provenance(values[key], kinds[key].si_unit, "D", note, scaled_range(origins[key], values[key]))
+            key: Provenance(
+                values[key], kinds[key].si_unit, "D", note, scaled_range(origins[key], values[key])
+            )
             for key, note in notes.items()
         }
         return self._stated(**changes)
@@ -248,7 +323,9 @@ class Lubricant(Record):
     def supplied(self, oil_gap: float) -> Lubricant:
         """The lubricant with inlets of contacts that are full from a gap [m] on; from 1 m on they are flooded."""
         made = SuppliedLubricant.__new__(SuppliedLubricant)
-        values = {key: getattr(self, key) for key in fields_of(Lubricant) if key not in self._derived}
+        values = {
+            key: getattr(self, key) for key in fields_of(Lubricant) if key not in self._derived
+        }
         made._fill(values | {"oil_gap": oil_gap}, dict(self._provenance), Source())
         return made
 
@@ -256,4 +333,6 @@ class Lubricant(Record):
 class SuppliedLubricant(Lubricant):
     """A lubricant and the inlets that it fills, as `Lubricant.supplied` gives it."""
 
-    oil_gap: Annotated[float, Quantity("gap where the inlets of contacts begin to be full", LENGTH, 1e-9, 1e3)]
+    oil_gap: Annotated[
+        float, Quantity("gap where the inlets of contacts begin to be full", LENGTH, 1e-9, 1e3)
+    ]

@@ -67,7 +67,10 @@ def walther_coefficient(line: WaltherLine, temperature: float) -> float:
 
 
 def walther_line_through(
-    first_temperature: float, first_viscosity: float, second_temperature: float, second_viscosity: float
+    first_temperature: float,
+    first_viscosity: float,
+    second_temperature: float,
+    second_viscosity: float,
 ) -> WaltherLine:
     """Line through two kinematic viscosities [m2/s], above 0.3 mm2/s, at two temperatures [K].
 
@@ -91,7 +94,9 @@ def walther_line_through(
     return WaltherLine(ordinates[0] + slope * math.log10(first_temperature), slope)
 
 
-def walther_line_with_slope(temperature: float, viscosity: float, coefficient: float) -> WaltherLine:
+def walther_line_with_slope(
+    temperature: float, viscosity: float, coefficient: float
+) -> WaltherLine:
     """Line through one kinematic viscosity [m2/s] at T [K] and its relative fall [1/K]; inverse of `walther_coefficient`.
 
     Raises InputError if the coefficient is not positive.
@@ -164,8 +169,12 @@ def roelands_index(viscosity: float, pressure_viscosity: float) -> float:
     constant = math.log(viscosity) + 9.67 if viscosity > 0.0 else -math.inf
     if not constant > 0.0:
         what = f"Roelands' law has no viscosity of {viscosity:g} Pa s at ambient pressure"
-        allowed = f"above {ROELANDS_LOWEST_VISCOSITY:.2g} Pa s, where ln(viscosity) + 9.67 is positive"
-        remedy = "Check the unit; lubricating oils have 0.001 to 10 Pa s. Barus' law has no such limit"
+        allowed = (
+            f"above {ROELANDS_LOWEST_VISCOSITY:.2g} Pa s, where ln(viscosity) + 9.67 is positive"
+        )
+        remedy = (
+            "Check the unit; lubricating oils have 0.001 to 10 Pa s. Barus' law has no such limit"
+        )
         raise InputError(what, where="viscosity", allowed=allowed, remedy=remedy)
     return pressure_viscosity * ROELANDS_PRESSURE / constant
 

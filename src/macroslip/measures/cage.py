@@ -39,7 +39,9 @@ class CageMeasures:
     def add(self, part: Part) -> None:
         """Take up a part of the integration."""
         self.books.add(part)
-        counted = (part.bearing["start"] >= self._window) & (part.bearing["end"] > part.bearing["start"])
+        counted = (part.bearing["start"] >= self._window) & (
+            part.bearing["end"] > part.bearing["start"]
+        )
         if counted.any():
             self._add_pushes(part, counted)
             self._add_slip(part, counted)
@@ -50,7 +52,9 @@ class CageMeasures:
         for k in range(2):
             push, weight = steps["cage_load"][..., k], steps["weight"][..., k]
             turn = whole["turn"][:, k][:, self._bearing.places["cage"]]
-            place = ((turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * PLACES).astype(int) % PLACES
+            place = ((turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * PLACES).astype(
+                int
+            ) % PLACES
             for side, here in enumerate((push < 0.0, push > 0.0)):
                 size = np.where(here, np.abs(push), 0.0)
                 self.impulse[:, side] += (weight * size).sum(axis=0)
@@ -66,7 +70,9 @@ class CageMeasures:
         nominal = self._bearing.orbit_ratio * speed[turns] * self._bearing.pitch_radius
         for c in range(self._bearing.cages):
             slip = whole["cages"][turns, c, 0] / nominal
-            self.slip[c] += np.array([one @ span[turns] for one in (np.ones_like(slip), slip, slip * slip)])
+            self.slip[c] += np.array(
+                [one @ span[turns] for one in (np.ones_like(slip), slip, slip * slip)]
+            )
 
     def _trace(self, part: Part) -> None:
         _, rows, places = np.intersect1d(part.bearing["end"], self._times, return_indices=True)
@@ -77,9 +83,14 @@ class CageMeasures:
         every = np.arange(rows.size)
         speed = whole["shaft_speed"][every, last]
         cages = whole["cages"][:, : bearing.cages]
-        self.traces[places, :, 0] = (cages[..., 0] + 0.5 * speed[:, None] * bearing.inner_radius) / bearing.pitch_radius
+        self.traces[places, :, 0] = (
+            cages[..., 0] + 0.5 * speed[:, None] * bearing.inner_radius
+        ) / bearing.pitch_radius
         self.traces[places, :, 1], self.traces[places, :, 2] = cages[..., 1], cages[..., 4]
-        self.traces[places, :, 3], self.traces[places, :, 4] = cages[..., 5], whole["torque"][:, : bearing.cages]
+        self.traces[places, :, 3], self.traces[places, :, 4] = (
+            cages[..., 5],
+            whole["torque"][:, : bearing.cages],
+        )
         self.offset[places] = part.offset[rows]
         inner, outer = steps["inner_slip"][every, :, last], steps["outer_slip"][every, :, last]
         ring = speed[:, None] * (bearing.places["inner_radius"] - 0.5 * bearing.inner_radius)

@@ -25,7 +25,14 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.flash import flash_temperature, transient_flash
 from macroslip.contact.look_up import log_load, log_speed
-from macroslip.contact.patch import Patch, chord_stress_at, film_node, fine_power, patch_of, patch_power
+from macroslip.contact.patch import (
+    Patch,
+    chord_stress_at,
+    film_node,
+    fine_power,
+    patch_of,
+    patch_power,
+)
 from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.measures.totals import END, RACEWAYS, Batch, loaded_contacts, orbit_at, write_end
 from macroslip.ring.orbit import angle_at
@@ -109,9 +116,13 @@ _MAPS = np.dtype(
 class Wanted:
     """Measures that are wanted."""
 
-    edges: np.ndarray  #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
+    edges: (
+        np.ndarray
+    )  #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
     highest_speed: float  #: Largest raceway speed of the history [m/s]
-    trace_time: np.ndarray  #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
+    trace_time: (
+        np.ndarray
+    )  #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
     details: bool  #: Whether contacts are looked at station by station
     spacing: float = 1.0  #: Changes between looks, over those of a roller on an imposed orbit
 
@@ -129,7 +140,9 @@ class Details(NamedTuple):
     memory: np.ndarray  #: Of `_MEMORY`, shape (1,)
     maps: np.ndarray  #: Of `_MAPS`, shape (1,); its fields are those that follow
     station_energy: np.ndarray  #: Energy by raceway and station along the roller [J]
-    surface_energy: np.ndarray  #: Energy by raceway, sector, station, sign of slip and film regime [J]
+    surface_energy: (
+        np.ndarray
+    )  #: Energy by raceway, sector, station, sign of slip and film regime [J]
     #: Largest power per area [W/m²] over raceway, sector and station, mean over the contact's width
     surface_density: np.ndarray
     surface_asperities: np.ndarray  #: Energy of asperities [J], as `surface_density`
@@ -146,7 +159,9 @@ def new_details(edges: np.ndarray) -> Details:
     sizes = ((orbits, 3, len(EXTREMES)), (2, 2), orbits, (orbits, 2, len(EXTREMES)))
     views = [maps[name][0] for name in Details._fields[Details._fields.index("maps") + 1 :]]
     found = Details._make([edges, *map(np.zeros, sizes), np.zeros(1, _MEMORY), maps, *views])
-    found.extreme[..., EXTREMES.index("film_ratio")] = found.entry_extreme[..., EXTREMES.index("film_ratio")] = np.inf
+    found.extreme[..., EXTREMES.index("film_ratio")] = found.entry_extreme[
+        ..., EXTREMES.index("film_ratio")
+    ] = np.inf
     found.memory["orbit"], found.memory["time"], found.memory["pressed"] = -1, np.nan, np.nan
     return found
 
@@ -167,7 +182,13 @@ def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
     def contact(one: ContactLaws) -> Contact:
         # Tables are made for one side; here the row's own tilt counts.
         patch = patch_of(one)._replace(spin_ratio=one.shape.spin_ratio)
-        return Contact(patch, chord_table(one.fluid), one.fluid is not None, one.interface.roughness, one.effusivity)
+        return Contact(
+            patch,
+            chord_table(one.fluid),
+            one.fluid is not None,
+            one.interface.roughness,
+            one.effusivity,
+        )
 
     return contact(laws.inner), contact(laws.outer), contact(laws.cage)
 
@@ -181,8 +202,18 @@ def _density(power, load):
 def _compared(step, last):
     """The values that are compared with `highest`."""
     power, speed, slip = step.power[last], step.outer_speed[last], step.outer_slip[last]
-    inner, outer = _density(power[0], step.inner_load[last]), _density(power[1], step.outer_load[last])
-    return power[0], power[1], power[2], inner, outer, abs(slip) / max(abs(speed - 0.5 * slip), LOWEST_SPEED)
+    inner, outer = (
+        _density(power[0], step.inner_load[last]),
+        _density(power[1], step.outer_load[last]),
+    )
+    return (
+        power[0],
+        power[1],
+        power[2],
+        inner,
+        outer,
+        abs(slip) / max(abs(speed - 0.5 * slip), LOWEST_SPEED),
+    )
 
 
 @jit_inline
@@ -209,7 +240,12 @@ def _remember(step, last, orbit, memory):
     memory.count, memory.orbit, memory.time = memory.count + 1, orbit, step.end
     memory.ahead = step.ahead
     for i in range(2):
-        memory.power[i], memory.energy[i], memory.moment[i], memory.rough[i] = values[i], 0.0, 0.0, 0.0
+        memory.power[i], memory.energy[i], memory.moment[i], memory.rough[i] = (
+            values[i],
+            0.0,
+            0.0,
+            0.0,
+        )
 
 
 @jit_inline
@@ -221,7 +257,10 @@ def _enter(step, last, memory, outer_radius):
         memory.entry = memory.entries
     elif memory.entry > 0:
         slip = max(abs(step.inner_slip[last]), abs(step.outer_slip[last]))
-        settled = slip < _SETTLED * abs(speed) or abs(speed) * (step.end - memory.since) > _ENTRY * outer_radius
+        settled = (
+            slip < _SETTLED * abs(speed)
+            or abs(speed) * (step.end - memory.since) > _ENTRY * outer_radius
+        )
         if settled or load <= 0.0:
             memory.entry = 0
     memory.pressed = load
@@ -250,7 +289,11 @@ def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
         if orbit >= 0:
             entries[orbit] += memory.entries - known
         # While a roller enters, at every step.
-        if memory.entry > 0 or orbit != memory.orbit or _is_due(step, last, memory, outer_radius, spacing):
+        if (
+            memory.entry > 0
+            or orbit != memory.orbit
+            or _is_due(step, last, memory, outer_radius, spacing)
+        ):
             look = looks[found]
             look.orbit, look.number = orbit, memory.count
             _begin(look, memory, step)
@@ -292,12 +335,17 @@ def _spread(maps, interface, way, mean_time, spent, before, after):
     work of pressure and slip [s], each before and now.
     """
     for k in range(STATIONS):
-        maps.station_energy[interface, k] += spent[0] * abs(before.power[k]) + spent[1] * abs(after.power[k])
+        maps.station_energy[interface, k] += spent[0] * abs(before.power[k]) + spent[1] * abs(
+            after.power[k]
+        )
     lowest = math.floor(min(way))
     for n in range(math.floor(max(way)) - lowest + 1):
         share, even = _share(way, lowest + n, mean_time), _share(way, lowest + n, 0.5)
         sector = int((lowest + n) % SECTORS)
-        energy, rough = maps.surface_energy[interface, sector], maps.surface_asperities[interface, sector]
+        energy, rough = (
+            maps.surface_energy[interface, sector],
+            maps.surface_asperities[interface, sector],
+        )
         work = maps.surface_work[interface, sector]
         for k in range(STATIONS):
             old, new = before.power[k], after.power[k]
@@ -321,12 +369,20 @@ def _look_along(maps, interface, contact, state, look, passes, along):
 
     `state` has load [N], u2 and slip [m/s]. Returns the largest power per area [W/m²], slip [m/s], and class of Λ.
     """
-    patch, film, share, power = contact.patch, look.film[interface], look.share[interface], look.at.power[interface]
+    patch, film, share, power = (
+        contact.patch,
+        look.film[interface],
+        look.share[interface],
+        look.at.power[interface],
+    )
     load, ring_speed, slip = state
     mean, film_class = ring_speed - 0.5 * slip, 0
     while film_class < len(FILM_EDGES) and film >= FILM_EDGES[film_class] * contact.roughness:
         film_class += 1
-    entrainment, pressed = math.copysign(max(abs(mean), LOWEST_SPEED), mean), look.at.elastic_load > 0.0
+    entrainment, pressed = (
+        math.copysign(max(abs(mean), LOWEST_SPEED), mean),
+        look.at.elastic_load > 0.0,
+    )
     root = load ** (1.0 / 3.0)
     across, half_along, pressure = patch.across * root, patch.along * root, patch.pressure * root
     line = look.lines[interface]
@@ -345,14 +401,25 @@ def _look_along(maps, interface, contact, state, look, passes, along):
         station, covered = 0.5 * (first + last), (last - first) / width
         height = 1.0 - (station - middle) * (station - middle) / (across * across)
         local, chord = v0 + station * (v2 * station + v1), math.sqrt(height)
-        speed, half_width = math.hypot(local, w0 + station * (w2 * station + w1)), half_along * chord
+        speed, half_width = (
+            math.hypot(local, w0 + station * (w2 * station + w1)),
+            half_along * chord,
+        )
         per_length = 0.75 * height / across * power
         asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
         if contact.chorded:
-            pull = (1.0 - share) * 2.0 * half_width * chord_stress_at(contact.chords, node, pressure * chord, speed)
+            pull = (
+                (1.0 - share)
+                * 2.0
+                * half_width
+                * chord_stress_at(contact.chords, node, pressure * chord, speed)
+            )
             per_length = pull * speed + asperities
         # Of power only its share of all stations counts; of p |v| its size does.
-        along.power[k], along.rough[k] = math.copysign(per_length * covered, local), asperities * covered
+        along.power[k], along.rough[k] = (
+            math.copysign(per_length * covered, local),
+            asperities * covered,
+        )
         along.work[k] = 0.75 * height / across * load * speed * covered * width
         along.total += abs(along.power[k])
         along.rough_total += along.rough[k]
@@ -361,7 +428,9 @@ def _look_along(maps, interface, contact, state, look, passes, along):
             slip_class, ratio = 0, math.copysign(speed, local) / entrainment
             while slip_class < len(SLIP_EDGES) and ratio >= SLIP_EDGES[slip_class]:
                 slip_class += 1
-            maps.film_slip[interface, film_class, slip_class, 0] += (look.time - look.since) * covered / STATIONS
+            maps.film_slip[interface, film_class, slip_class, 0] += (
+                (look.time - look.since) * covered / STATIONS
+            )
             maps.film_slip[interface, film_class, slip_class, 1] += passes * covered / STATIONS
         density = along.density[k] = per_length / (2.0 * half_width)
         # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
@@ -379,7 +448,10 @@ def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
     for n in range(looks.size):
         look = looks[n]
         at, span = look.at, look.time - look.since
-        states = (at.inner_load, at.inner_speed, at.inner_slip), (at.outer_load, at.outer_speed, at.outer_slip)
+        states = (
+            (at.inner_load, at.inner_speed, at.inner_slip),
+            (at.outer_load, at.outer_speed, at.outer_slip),
+        )
         for i in range(2):
             ratio, load = body.orbit_ratio - (1.0 if i == 0 else 0.0), states[i][0]
             start = (start_angle + ratio * look.turned[0] + look.ahead[0]) * _PER_ANGLE
@@ -407,8 +479,12 @@ def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
             spent = (
                 (1.0 - late) * look.energy[i] / before.total if before.total > 0.0 else 0.0,
                 late * look.energy[i] / after.total if late > 0.0 and after.total > 0.0 else 0.0,
-                (1.0 - late_rough) * look.rough[i] / before.rough_total if before.rough_total > 0.0 else 0.0,
-                late_rough * look.rough[i] / after.rough_total if late_rough > 0.0 and after.rough_total > 0.0 else 0.0,
+                (1.0 - late_rough) * look.rough[i] / before.rough_total
+                if before.rough_total > 0.0
+                else 0.0,
+                late_rough * look.rough[i] / after.rough_total
+                if late_rough > 0.0 and after.rough_total > 0.0
+                else 0.0,
                 0.5 * span,
                 0.5 * span if load > 0.0 else 0.0,
             )
@@ -431,9 +507,14 @@ def _look_at_cage(body, tables, contact, look, extreme):
     if load > 0.0:
         root = load ** (1.0 / 3.0)
         force = cage_traction(body, tables, load, log_load(load), surface, log_speed(surface))[0]
-        hot[0], hot[1] = 0.75 * abs(surface * force) / (contact.patch.across * root), contact.patch.along * root
+        hot[0], hot[1] = (
+            0.75 * abs(surface * force) / (contact.patch.across * root),
+            contact.patch.along * root,
+        )
         ratio = abs(surface) / max(0.5 * abs(surface), LOWEST_SPEED)
-        _raise(extreme, look.orbit, 2, hot[0] / (2.0 * hot[1]), ratio, look.film[2] / contact.roughness)
+        _raise(
+            extreme, look.orbit, 2, hot[0] / (2.0 * hot[1]), ratio, look.film[2] / contact.roughness
+        )
 
 
 @jit
@@ -445,7 +526,12 @@ def _heat_entries(rows, effusivity, extreme):
             continue
         orbit, entry = int(rows[start, 1]), rows[start:n].T
         for i in range(2 if orbit >= 0 else 0):
-            power, half, roller, ring = entry[3 + 4 * i], entry[4 + 4 * i], entry[5 + 4 * i], entry[6 + 4 * i]
+            power, half, roller, ring = (
+                entry[3 + 4 * i],
+                entry[4 + 4 * i],
+                entry[5 + 4 * i],
+                entry[6 + 4 * i],
+            )
             rise = transient_flash(entry[2], power, half, roller, ring, effusivity, effusivity)
             extreme[orbit, i, 0] = max(extreme[orbit, i, 0], rise)
         start = n
@@ -468,8 +554,18 @@ class Looker:
         start_angle: float,
         skew: SkewMeasures | None = None,
     ):
-        self.details, self._spacing, self._start_angle = new_details(wanted.edges), wanted.spacing, start_angle
-        self._roller, self._laws, self._contacts, self._motion, self._skew = roller, laws, contacts, motion, skew
+        self.details, self._spacing, self._start_angle = (
+            new_details(wanted.edges),
+            wanted.spacing,
+            start_angle,
+        )
+        self._roller, self._laws, self._contacts, self._motion, self._skew = (
+            roller,
+            laws,
+            contacts,
+            motion,
+            skew,
+        )
         self._last, self._looks = np.zeros(1, STEP), Batch(_LOOK)
         #: Rows for `_heat_entries` of the entry under way.
         self._entering = np.zeros((0, 11))
@@ -479,7 +575,9 @@ class Looker:
         self._last = steps[-1:, j].copy()
         looks, memory = self._looks.room(len(steps), self._look), self.details.memory[0]
         radius, found = float(self._roller.body[0]["outer_radius"]), self.details
-        self._looks.count += _choose(steps, j, found.edges, found.entries, memory, radius, self._spacing, looks)
+        self._looks.count += _choose(
+            steps, j, found.edges, found.entries, memory, radius, self._spacing, looks
+        )
 
     def finish(self) -> None:
         """Spread what has been kept since the last look."""
@@ -503,7 +601,11 @@ class Looker:
         lines = looks["lines"]
         lines[...] = 0.0
         for i, name in enumerate(RACEWAYS):
-            patch, speed, slip = self._contacts[i].patch, looks["at"][f"{name}_speed"], looks["at"][f"{name}_slip"]
+            patch, speed, slip = (
+                self._contacts[i].patch,
+                looks["at"][f"{name}_speed"],
+                looks["at"][f"{name}_slip"],
+            )
             lines[:, i, 1], lines[:, i, 2] = slip, -speed * patch.spin_ratio
             if patch.microslip:
                 fall = speed * patch.curvature_ratio - slip / patch.roller_radius
@@ -513,14 +615,24 @@ class Looker:
         looks["turned"] = angle_at(self._motion, np.stack([looks["since"], looks["time"]], axis=1))
         found, steel = self.details, self._contacts[0].effusivity
         roller = self._roller.body[0], self._roller.tables.ctypes.data
-        _look(looks, self._contacts, roller, self._start_angle, found.maps[0], found.extreme, found.entry_extreme)
+        _look(
+            looks,
+            self._contacts,
+            roller,
+            self._start_angle,
+            found.maps[0],
+            found.extreme,
+            found.entry_extreme,
+        )
         inside = looks["orbit"] >= 0
         power, half, own, other = np.moveaxis(looks["hot"][inside], -1, 0)
         flash = flash_temperature(power, half, own, other, steel, steel)
         np.maximum.at(found.extreme[..., 0], looks["orbit"][inside], flash)
         entering = looks[looks["entry"] > 0]
         columns = [entering[name] for name in ("entry", "orbit", "time")]
-        rows = np.concatenate([self._entering, np.column_stack([*columns, entering["hot"][:, :2].reshape(-1, 8)])])
+        rows = np.concatenate(
+            [self._entering, np.column_stack([*columns, entering["hot"][:, :2].reshape(-1, 8)])]
+        )
         under_way = int(np.searchsorted(rows[:, 0], rows[-1, 0])) if rows.size else 0
         self._heat(rows[:under_way])
         self._entering = rows[under_way:]
@@ -535,10 +647,15 @@ class Looker:
         for look in looks[looks["number"] % _FINE == 0]:
             for i, name in enumerate(RACEWAYS):
                 law: ContactLaws = getattr(self._laws, name)
-                load, ring_speed, slip = (float(look["at"][f"{name}_{one}"]) for one in ("load", "speed", "slip"))
+                load, ring_speed, slip = (
+                    float(look["at"][f"{name}_{one}"]) for one in ("load", "speed", "slip")
+                )
                 if load <= 0.0 or not law.shape.microslip or law.fluid is None:
                     continue
-                state, span = (load, float(look["film"][i]), ring_speed, slip), look["time"] - look["since"]
+                state, span = (
+                    (load, float(look["film"][i]), ring_speed, slip),
+                    look["time"] - look["since"],
+                )
                 used = patch_power(self._contacts[i].patch, self._contacts[i].chords, *state)
                 fine = fine_power(self._contacts[i].patch, law.fluid, *state)
                 self.details.quadrature[i] += span * fine, span * abs(used - fine)

@@ -7,7 +7,16 @@ import numpy as np
 from macroslip.contact.laws import RollerLaws
 from macroslip.measures.details import SECTORS, Details, Looker, Wanted, prepare
 from macroslip.measures.skew import Skewing, SkewMeasures
-from macroslip.measures.totals import END, INTERFACES, Batch, Totals, book, film_times, loaded_contacts, new_totals
+from macroslip.measures.totals import (
+    END,
+    INTERFACES,
+    Batch,
+    Totals,
+    book,
+    film_times,
+    loaded_contacts,
+    new_totals,
+)
 from macroslip.ring.orbit import Motion, angle_at
 from macroslip.roller.model import Roller, RollerModel
 
@@ -16,9 +25,20 @@ class Row:
     """Models, laws and contacts, as compiled code takes them, that the measures of a row's rollers share."""
 
     def __init__(
-        self, model: RollerModel, roller: Roller, motion: Motion, wanted: Wanted, skewing: Skewing | None = None
+        self,
+        model: RollerModel,
+        roller: Roller,
+        motion: Motion,
+        wanted: Wanted,
+        skewing: Skewing | None = None,
     ):
-        self.model, self.roller, self.motion, self.wanted, self.skewing = model, roller, motion, wanted, skewing
+        self.model, self.roller, self.motion, self.wanted, self.skewing = (
+            model,
+            roller,
+            motion,
+            wanted,
+            skewing,
+        )
         self.contacts = prepare(model.laws) if wanted.details else None
 
 
@@ -35,7 +55,9 @@ class RollerMeasures:
         self.film_times, self._states = np.zeros((2, 3)), Batch(END)
         self.skew = SkewMeasures(row.skewing, row.roller, wanted.edges[0]) if row.skewing else None
         places = row.contacts, row.motion, start_angle, self.skew
-        self.looker = Looker(wanted, row.roller, row.model.laws, *places) if wanted.details else None
+        self.looker = (
+            Looker(wanted, row.roller, row.model.laws, *places) if wanted.details else None
+        )
         self._last: np.ndarray | np.void = np.zeros((), END)
         #: Largest power by place on the orbit [W], where no orbit is complete.
         self.sector_power = None if wanted.edges.size > 1 else np.zeros((SECTORS, 3))
@@ -88,7 +110,11 @@ class RollerMeasures:
     def _places(self, steps: np.ndarray) -> np.ndarray:
         """Sectors of the orbit in which the stages of steps lie."""
         ratio = self.row.model.orbit_ratio
-        angle = self._start_angle + ratio * angle_at(self.row.motion, steps["time"]) + steps["ahead"][:, None]
+        angle = (
+            self._start_angle
+            + ratio * angle_at(self.row.motion, steps["time"])
+            + steps["ahead"][:, None]
+        )
         return np.floor(angle / (2.0 * np.pi) % 1.0 * SECTORS).astype(int) % SECTORS
 
     def _trace(self, steps: np.ndarray, states: np.ndarray) -> None:
@@ -125,7 +151,11 @@ class RollerMeasures:
             "power": found["power"],
             "rolling_power": found["rolling"],
             "film_thickness": _films(found, model.laws),
-            **(self.skew.traces(found) if self.skew else {"skew_moment": _skew_moments(found, model.laws)}),
+            **(
+                self.skew.traces(found)
+                if self.skew
+                else {"skew_moment": _skew_moments(found, model.laws)}
+            ),
         }
 
 
@@ -149,7 +179,9 @@ def _skew_moments(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
         shape = getattr(laws, name).shape
         if shape.microslip and shape.spin_ratio != 0.0:
             with np.errstate(invalid="ignore", divide="ignore"):
-                found[:, i] = -sign * at["skew_power"][:, i] / (at[f"{name}_speed"] * shape.spin_ratio)
+                found[:, i] = (
+                    -sign * at["skew_power"][:, i] / (at[f"{name}_speed"] * shape.spin_ratio)
+                )
         else:
             found[np.isnan(at["inner_load"]), i] = np.nan
     return found

@@ -60,7 +60,9 @@ def _add(skewing, roller, steps, j, places, window, totals):
             if load > 0.0:
                 found = turned(table, guide, load, step.outer_speed[k], step.cage_load[k])
                 inner, outer = found.inner_power, found.outer_power
-                ends, rough = _power_of_ends(roller, abs(found.held) / guide.arm, step.cage_load[k], step.cage_speed[k])
+                ends, rough = _power_of_ends(
+                    roller, abs(found.held) / guide.arm, step.cage_load[k], step.cage_speed[k]
+                )
                 step.power[k, 0] += inner
                 step.power[k, 1] += outer
                 step.power[k, 2] += ends
@@ -89,7 +91,11 @@ def _follow(table, guide, loads, speeds, pushes, found):
         if loads[n] > 0.0:
             at = turned(table, guide, loads[n], speeds[n], pushes[n])
             found[n, 0], found[n, 1], found[n, 2] = at.skew, at.tilt, at.axial
-            found[n, 3], found[n, 4], found[n, 5] = at.inner_moment, at.outer_moment, abs(at.held) / guide.arm
+            found[n, 3], found[n, 4], found[n, 5] = (
+                at.inner_moment,
+                at.outer_moment,
+                abs(at.held) / guide.arm,
+            )
             found[n, 6], found[n, 7] = at.shift, at.slip
         elif not math.isnan(loads[n]):
             found[n, 2:] = 0.0
@@ -129,7 +135,11 @@ class SkewMeasures:
         found, pressed = self._states(at), at["elastic_load"] > 0.0
         skew, tilt, shift, more = found[pressed][:, [0, 1, 6, 7]].T
         for i, (name, one) in enumerate(zip(RACEWAYS, self._skewing.pair, strict=True)):
-            speed, slip, middle = at[f"{name}_speed"][pressed], at[f"{name}_slip"][pressed], one.middle(tilt, shift)
+            speed, slip, middle = (
+                at[f"{name}_speed"][pressed],
+                at[f"{name}_slip"][pressed],
+                one.middle(tilt, shift),
+            )
             lines = slip_lines(one, speed, slip + more, skew, middle, tilt)
             looks["lines"][pressed, i] = np.stack([middle, *lines[:6]], axis=-1)
 
@@ -152,10 +162,15 @@ class SkewMeasures:
         """Traces by name, from states of `END`; skew and tilt are NaN where the rings do not press the roller."""
         found = self._states(raw)
         names = ("skew_angle", "tilt", "axial_force")
-        return dict(zip(names, found.T, strict=False)) | {"skew_moment": found[:, 3:5], "stop_force": found[:, 5]}
+        return dict(zip(names, found.T, strict=False)) | {
+            "skew_moment": found[:, 3:5],
+            "stop_force": found[:, 5],
+        }
 
     def _states(self, raw: np.ndarray) -> np.ndarray:
-        columns = (np.ascontiguousarray(raw[name]) for name in ("elastic_load", "outer_speed", "cage_load"))
+        columns = (
+            np.ascontiguousarray(raw[name]) for name in ("elastic_load", "outer_speed", "cage_load")
+        )
         found = np.full((raw.size, 8), np.nan)
         _follow(self._skewing.table, self._skewing.guide, *columns, found)
         return found

@@ -81,10 +81,13 @@ class Batch:
         self.count = 0
 
 
-def loaded_contacts(at: np.ndarray, laws: RollerLaws) -> list[tuple[ContactLaws, np.ndarray, np.ndarray]]:
+def loaded_contacts(
+    at: np.ndarray, laws: RollerLaws
+) -> list[tuple[ContactLaws, np.ndarray, np.ndarray]]:
     """Of each interface its laws, load [N], not negative, and entrainment speed [m/s], from `LOWEST_SPEED` on."""
     found = [
-        (getattr(laws, name), at[f"{name}_load"], at[f"{name}_speed"] - 0.5 * at[f"{name}_slip"]) for name in RACEWAYS
+        (getattr(laws, name), at[f"{name}_load"], at[f"{name}_speed"] - 0.5 * at[f"{name}_slip"])
+        for name in RACEWAYS
     ]
     found.append((laws.cage, np.abs(at["cage_load"]), 0.5 * at["cage_speed"]))
     return [(law, load, np.maximum(np.abs(speed), LOWEST_SPEED)) for law, load, speed in found]
@@ -93,7 +96,9 @@ def loaded_contacts(at: np.ndarray, laws: RollerLaws) -> list[tuple[ContactLaws,
 class Totals(NamedTuple):
     """Sums over the steps of one roller. Interfaces are in the order inner, outer, cage."""
 
-    edges: np.ndarray  #: Times at which orbits of the window begin and end [s]; the window opens at the first
+    edges: (
+        np.ndarray
+    )  #: Times at which orbits of the window begin and end [s]; the window opens at the first
     energy: np.ndarray  #: Dissipated by friction (34) in the window by interface [J]
     rolling_energy: np.ndarray  #: Dissipated by rolling resistance, apart from friction [J]
     asperity_energy: np.ndarray  #: Part of the energy of friction by asperities [J]
@@ -104,7 +109,9 @@ class Totals(NamedTuple):
     #: Smallest ω/ω_pure in the window [-], −inf once the shaft has turned back; speed of the rings from which on it has
     #: a meaning [m/s]; and the sign of that speed, 0 before.
     spin_ratio: np.ndarray
-    film_load: np.ndarray  #: Time [s], and the integral over it of the load that films carry beside the rings' [N s]
+    film_load: (
+        np.ndarray
+    )  #: Time [s], and the integral over it of the load that films carry beside the rings' [N s]
     #: The last two times [s] and powers [W], newest last, for the parabola through three; shape (2, 4)
     samples: np.ndarray
     place: np.ndarray  #: Orbit and stretch of the last step; -2 before the first
@@ -115,7 +122,9 @@ def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
     orbits = edges.size - 1
     shapes = (3, 3, 3, (3, len(MECHANISMS)), (orbits, 3), (orbits + 1, 3))
     ratio = np.array([np.inf, max(SPIN_RATIO_SPEED * highest_speed, STANDSTILL), 0.0])
-    return Totals._make([edges, *map(np.zeros, shapes), ratio, np.zeros(2), np.zeros((2, 4)), np.array([-2, -1])])
+    return Totals._make(
+        [edges, *map(np.zeros, shapes), ratio, np.zeros(2), np.zeros((2, 4)), np.array([-2, -1])]
+    )
 
 
 @jit
@@ -150,7 +159,12 @@ def vertex(ta, pa, tb, pb, tc, pc):
 def _follow(samples, peak, time, powers):
     """Take up the powers at a new time; raise the orbit's peaks to them and to the parabolas through three of them."""
     before, after = samples[1, 0] - samples[0, 0], time - samples[1, 0]
-    even = before > 0.0 and after > 0.0 and before < MOST_UNEVEN * after and after < MOST_UNEVEN * before
+    even = (
+        before > 0.0
+        and after > 0.0
+        and before < MOST_UNEVEN * after
+        and after < MOST_UNEVEN * before
+    )
     for interface in range(3):
         power = powers[interface]
         peak[interface] = max(peak[interface], power)

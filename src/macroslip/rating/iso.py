@@ -34,7 +34,9 @@ MINIMUM_SHARE = 0.01
 """Least equivalent load over static load rating of spherical roller bearings."""
 
 
-def static_equivalent_load(radial_load: ArrayLike, axial_load: ArrayLike, factor_y0: float) -> NDArray[np.float64]:
+def static_equivalent_load(
+    radial_load: ArrayLike, axial_load: ArrayLike, factor_y0: float
+) -> NDArray[np.float64]:
     """Static equivalent radial load P0 = Fr + Y0 |Fa| [N] of a double-row bearing, ISO 76:2006, section 6.2, X0 = 1.
 
     Of Fr, not negative, and Fa, either sign [N], with the catalogue's Y0 [-]; 0.44 cot(alpha) in the standard.
@@ -118,7 +120,10 @@ def mean_equivalent_load(equivalent_load: ArrayLike, revolutions: ArrayLike) -> 
     weight = np.asarray(revolutions, float)
     if weight.sum() == 0.0:
         return math.nan
-    return float(np.average(np.asarray(equivalent_load, float) ** LIFE_EXPONENT, weights=weight) ** (1 / LIFE_EXPONENT))
+    return float(
+        np.average(np.asarray(equivalent_load, float) ** LIFE_EXPONENT, weights=weight)
+        ** (1 / LIFE_EXPONENT)
+    )
 
 
 def reference_viscosity(speed: float, pitch: float) -> float:
@@ -137,7 +142,9 @@ def reference_viscosity(speed: float, pitch: float) -> float:
     return 1e-6 * by_speed * (1e3 * pitch) ** -0.5
 
 
-def life_modification(viscosity_ratio: float, contamination: float, load_ratio: ArrayLike) -> NDArray[np.float64]:
+def life_modification(
+    viscosity_ratio: float, contamination: float, load_ratio: ArrayLike
+) -> NDArray[np.float64]:
     """Life modification factor a_ISO [-] of radial roller bearings.
 
     a_ISO = 0.1 [1 - (1.5859 - A/kappa^B) (e_C C_u/P)^0.4]^-9.185, at most 50, with (A, B) = (1.3993, 0.054381) for
@@ -159,7 +166,13 @@ def life_modification(viscosity_ratio: float, contamination: float, load_ratio: 
     if not viscosity_ratio >= lowest:
         return np.full_like(ratio, np.nan)
     kappa = min(viscosity_ratio, highest)
-    a, b = (1.3993, 0.054381) if kappa < 0.4 else (1.2348, 0.19087) if kappa < 1.0 else (1.2348, 0.071739)
+    a, b = (
+        (1.3993, 0.054381)
+        if kappa < 0.4
+        else (1.2348, 0.19087)
+        if kappa < 1.0
+        else (1.2348, 0.071739)
+    )
     # At kappa 0.1 the film's part is zero but for the rounding of its coefficients. Where the bracket is not positive the
     # endurance limit is reached.
     bracket = 1.0 - max(1.5859 - a / kappa**b, 0.0) * (contamination * ratio) ** 0.4
@@ -196,7 +209,10 @@ def ring_ratings(
     """
     ratio = 1.038 * ((1.0 - gamma) / (1.0 + gamma)) ** (143 / 108)
     share = dynamic_load_rating / (rollers_per_row * math.cos(contact_angle) * rows ** (7 / 9))
-    return RingRatings(share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9), share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9))
+    return RingRatings(
+        share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9),
+        share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9),
+    )
 
 
 @jit
@@ -257,7 +273,9 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     return found
 
 
-def reference_life(damage: NDArray[np.float64], axis: int | tuple[int, ...] | None = None) -> NDArray[np.float64]:
+def reference_life(
+    damage: NDArray[np.float64], axis: int | tuple[int, ...] | None = None
+) -> NDArray[np.float64]:
     """Basic reference rating life of rings together, L10r = 1e6 (sum (Q_c/Q_e)^(-9/2))^(-8/9) revolutions.
 
     ISO/TS 16281:2008, section 6.3.2; of `damage_series`, over the axes of the rings and rows to take together, None for

@@ -64,7 +64,9 @@ def roller_load_history(
     found = elastic_loads(loads, ring, motion)
     given = isinstance(loads, RollerLoads)
     known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row) if given else loads
-    force = np.column_stack([np.interp(motion.time, known.time, component) for component in known.force.T])
+    force = np.column_stack(
+        [np.interp(motion.time, known.time, component) for component in known.force.T]
+    )
     finer = BearingLoads(motion.time, motion.shaft_speed, force, loads.source)
     return finer, np.moveaxis(found, 0, -1).reshape(len(ROWS), bearing.rollers_per_row, -1)
 
@@ -117,10 +119,18 @@ def rate(
         "load_along_roller": list(DISTRIBUTIONS),
         "load": list(LOADS),
         "wohler_exponent": list(wohler_exponents),
-        "load_class": _variable(0.5 * (edges[1:] + edges[:-1]), "N", "middle of the class of load", "load_class"),
+        "load_class": _variable(
+            0.5 * (edges[1:] + edges[:-1]), "N", "middle of the class of load", "load_class"
+        ),
     }
-    about = {"bearing": bearing.name, "lubricant": lubricant.name, "inlet_temperature": lubricant.inlet_temperature}
-    return xr.Dataset(variables, coordinates, about | {"contamination": contamination, "film_law": FILM_LAW})
+    about = {
+        "bearing": bearing.name,
+        "lubricant": lubricant.name,
+        "inlet_temperature": lubricant.inlet_temperature,
+    }
+    return xr.Dataset(
+        variables, coordinates, about | {"contamination": contamination, "film_law": FILM_LAW}
+    )
 
 
 class _History(NamedTuple):
@@ -165,7 +175,11 @@ def _variable(values: object, units: str, long_name: str, *dims: str) -> tuple:
 
 
 def _history(
-    bearing: Bearing, lubricant: Lubricant, loads: BearingLoads, roller_load: NDArray[np.float64], contamination: float
+    bearing: Bearing,
+    lubricant: Lubricant,
+    loads: BearingLoads,
+    roller_load: NDArray[np.float64],
+    contamination: float,
 ) -> _History:
     keys = ("dynamic_load_rating", "static_load_rating", "axial_factor_e", "axial_factor_y1", "axial_factor_y2",
             "axial_factor_y0")  # fmt: skip
@@ -176,7 +190,11 @@ def _history(
         limit = fatigue_load_limit(static, 2.0 * bearing.pitch_radius)
     roller_load = np.asarray(roller_load, float)
     expected = (len(ROWS), bearing.rollers_per_row, loads.time.size)
-    if roller_load.shape != expected or not np.all(roller_load >= 0.0) or not np.all(np.isfinite(roller_load)):
+    if (
+        roller_load.shape != expected
+        or not np.all(roller_load >= 0.0)
+        or not np.all(np.isfinite(roller_load))
+    ):
         raise InputError(
             f"roller_load has the shape {roller_load.shape}, or loads that are negative or not finite",
             allowed=f"loads from 0 N in the shape {expected}: row, roller, sample",
@@ -203,17 +221,25 @@ def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
 
 def _static(history: _History) -> dict[str, tuple]:
     least, largest = iso.minimum_load(history.static), float(history.static_equivalent.max())
-    below, safety = _share(history.equivalent < least, history.duration), iso.static_safety(history.static, largest)
+    below, safety = (
+        _share(history.equivalent < least, history.duration),
+        iso.static_safety(history.static, largest),
+    )
     return {
         "static_equivalent_load": _variable(largest, "N", "largest static equivalent load P0"),
         "static_safety": _variable(float(safety), "1", "static safety factor C0/P0, the least"),
         "minimum_load": _variable(least, "N", "least load P that the maker requires, 0.01 C0"),
-        "share_below_minimum_load": _variable(below, "1", "share of time in which P is below the minimum load"),
+        "share_below_minimum_load": _variable(
+            below, "1", "share of time in which P is below the minimum load"
+        ),
     }
 
 
 def _iso281(history: _History) -> dict[str, tuple]:
-    mean, limit = iso.mean_equivalent_load(history.equivalent, history.revolutions), history.fatigue_limit
+    mean, limit = (
+        iso.mean_equivalent_load(history.equivalent, history.revolutions),
+        history.fatigue_limit,
+    )
     life = iso.basic_life(history.dynamic, mean) * history.hours_a_revolution
     ratio = limit / mean if mean else math.inf
     factor = float(iso.life_modification(history.viscosity_ratio, history.contamination, ratio))
@@ -221,8 +247,12 @@ def _iso281(history: _History) -> dict[str, tuple]:
     return {
         "equivalent_load": _variable(mean, "N", "mean dynamic equivalent load P_m"),
         "fatigue_load_limit": _variable(limit, "N", "fatigue load limit C_u"),
-        "share_below_fatigue_load_limit": _variable(below, "1", "share of time in which P is below C_u"),
-        "viscosity_ratio": _variable(history.viscosity_ratio, "1", "viscosity ratio kappa at the mean speed"),
+        "share_below_fatigue_load_limit": _variable(
+            below, "1", "share of time in which P is below C_u"
+        ),
+        "viscosity_ratio": _variable(
+            history.viscosity_ratio, "1", "viscosity ratio kappa at the mean speed"
+        ),
         "basic_life": _variable(float(life), "h", "basic rating life L10h, ISO 281"),
         "life_modification": _variable(factor, "1", "life modification factor a_ISO"),
         "modified_life": _variable(float(life * factor), "h", "modified rating life, ISO 281"),
@@ -233,14 +263,20 @@ def _reference(history: _History) -> dict[str, tuple]:
     bearing = history.bearing
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.roller_diameter * cosine / (2.0 * bearing.pitch_radius)
-    ratings = iso.ring_ratings(history.dynamic, len(ROWS), bearing.rollers_per_row, bearing.contact_angle, gamma)
-    semi_axes = [raceway.hertz.semi_axis_across for raceway in interfaces(bearing, history.lubricant)]
+    ratings = iso.ring_ratings(
+        history.dynamic, len(ROWS), bearing.rollers_per_row, bearing.contact_angle, gamma
+    )
+    semi_axes = [
+        raceway.hertz.semi_axis_across for raceway in interfaces(bearing, history.lubricant)
+    ]
     # (Q_e/Q_c)^(9/2) over distribution, row, raceway and sample.
     damages = np.empty((len(DISTRIBUTIONS), len(ROWS), len(RACEWAYS), history.loads.time.size))
     for row, load in enumerate(history.roller_load):
         for k, rating in enumerate(ratings):
             stationary = RACEWAYS[k] == "outer"
-            damages[:, row, k] = iso.damage_series(load, semi_axes[k], bearing.roller_length, rating, stationary)
+            damages[:, row, k] = iso.damage_series(
+                load, semi_axes[k], bearing.roller_length, rating, stationary
+            )
 
     def hours(life: NDArray[np.float64]) -> NDArray[np.float64]:
         # Palmgren and Miner: the shares of life used by each load add up.
@@ -252,13 +288,19 @@ def _reference(history: _History) -> dict[str, tuple]:
     together = iso.reference_life(damages, axis=(1, 2))
     load = history.dynamic * (1e6 / together) ** (1.0 / iso.LIFE_EXPONENT)
     with np.errstate(divide="ignore"):
-        factor = iso.life_modification(history.viscosity_ratio, history.contamination, history.fatigue_limit / load)
+        factor = iso.life_modification(
+            history.viscosity_ratio, history.contamination, history.fatigue_limit / load
+        )
     by_raceway, modified = hours(iso.reference_life(damages, axis=())), hours(together * factor)
     name, along = "basic reference rating life, ISO/TS 16281", "load_along_roller"
     return {
         "reference_life": _variable(hours(together), "h", name, along),
-        "raceway_reference_life": _variable(by_raceway, "h", f"{name}, one raceway", along, "row", "raceway"),
-        "modified_reference_life": _variable(modified, "h", "modified reference rating life", along),
+        "raceway_reference_life": _variable(
+            by_raceway, "h", f"{name}, one raceway", along, "row", "raceway"
+        ),
+        "modified_reference_life": _variable(
+            modified, "h", "modified reference rating life", along
+        ),
     }
 
 
@@ -268,7 +310,9 @@ def _contacts(history: _History) -> dict[str, tuple]:
     raceways = interfaces(bearing, history.lubricant)[: len(RACEWAYS)]
     load = history.roller_load
     largest = load.max(axis=(1, 2))
-    pressure = np.array([[raceway.hertz.pressure * np.cbrt(one) for raceway in raceways] for one in largest])
+    pressure = np.array(
+        [[raceway.hertz.pressure * np.cbrt(one) for raceway in raceways] for one in largest]
+    )
     inner, outer = geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing)
     entrainment = np.abs(history.loads.shaft_speed) * inner * outer / (inner + outer)
     low, middle = np.full((2, len(ROWS), len(RACEWAYS)), np.nan)
@@ -279,15 +323,23 @@ def _contacts(history: _History) -> dict[str, tuple]:
         if carried.any():
             speed = np.broadcast_to(entrainment, carried.shape)[carried]
             ratio = film(raceways[k], load[row][carried], speed) / bearing.composite_roughness
-            quantiles = np.quantile(ratio, (0.05, 0.5), weights=weights[carried], method="inverted_cdf")
+            quantiles = np.quantile(
+                ratio, (0.05, 0.5), weights=weights[carried], method="inverted_cdf"
+            )
             low[row, k], middle[row, k] = quantiles
     loaded = (load > 0.0).mean(axis=1) @ history.duration / history.duration.sum()
     return {
-        "loaded_share": _variable(loaded, "1", "share of time in which a roller carries load, mean of the row", "row"),
+        "loaded_share": _variable(
+            loaded, "1", "share of time in which a roller carries load, mean of the row", "row"
+        ),
         "largest_roller_load": _variable(largest, "N", "largest roller load", "row"),
         "largest_pressure": _variable(pressure, "Pa", "largest Hertz pressure", "row", "raceway"),
-        "film_ratio": _variable(middle, "1", "film ratio Lambda, median over loaded rollers", "row", "raceway"),
-        "film_ratio_low": _variable(low, "1", "film ratio Lambda, 5 % of loaded rollers below", "row", "raceway"),
+        "film_ratio": _variable(
+            middle, "1", "film ratio Lambda, median over loaded rollers", "row", "raceway"
+        ),
+        "film_ratio_low": _variable(
+            low, "1", "film ratio Lambda, 5 % of loaded rollers below", "row", "raceway"
+        ),
     }
 
 
@@ -303,10 +355,16 @@ def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple
     times = [load_duration(load, history.duration, edges) for load in by_name.values()]
     turns = [load_duration(load, history.revolutions, edges) for load in by_name.values()]
     total = history.duration.sum()
-    ranges = [[damage_equivalent_load(load, total, one) for one in exponents] for load in by_name.values()]
+    ranges = [
+        [damage_equivalent_load(load, total, one) for one in exponents] for load in by_name.values()
+    ]
     about = "range of the damage-equivalent load at 1 Hz"
     return {
-        "time_share": _variable(times, "1", "share of time in the class of load", "load", "load_class"),
-        "revolution_share": _variable(turns, "1", "share of revolutions in the class", "load", "load_class"),
+        "time_share": _variable(
+            times, "1", "share of time in the class of load", "load", "load_class"
+        ),
+        "revolution_share": _variable(
+            turns, "1", "share of revolutions in the class", "load", "load_class"
+        ),
         "damage_equivalent_load": _variable(ranges, "N", about, "load", "wohler_exponent"),
     }

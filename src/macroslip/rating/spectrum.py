@@ -21,7 +21,9 @@ def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:
     return 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
 
 
-def load_duration(load: NDArray[np.float64], weight: NDArray[np.float64], edges: NDArray[np.float64]) -> NDArray:
+def load_duration(
+    load: NDArray[np.float64], weight: NDArray[np.float64], edges: NDArray[np.float64]
+) -> NDArray:
     """Shares [-] of time, or of revolutions, that n loads [N] spend in each of k classes; their sum is 1.
 
     `weight` is the time, or the revolutions, that each sample represents, `edges` the k + 1 rising edges of the classes
@@ -55,11 +57,16 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.zeros(0)
     try:
         return np.asarray(fatpack.find_rainflow_ranges(load, k=LEVELS), float)
-    except (ValueError, IndexError):  # fewer reversals than it can count: repeated, the history is one cycle
+    except (
+        ValueError,
+        IndexError,
+    ):  # fewer reversals than it can count: repeated, the history is one cycle
         return np.array([np.ptp(load)])
 
 
-def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0) -> float:
+def damage_equivalent_load(
+    load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0
+) -> float:
     """Range [N] of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
 
     Twice its amplitude; 0 for a constant load. S_i are the `rainflow_ranges` of the load [N], T > 0 its duration [s], m

@@ -35,7 +35,9 @@ def open_result(path: str | Path) -> xr.Dataset:
     Raises InputError if there is no such file, or it cannot be read.
     """
     if Path(path).is_dir():
-        raise InputError("this is a folder", where=str(path), allowed="one netCDF file that macroslip run wrote")
+        raise InputError(
+            "this is a folder", where=str(path), allowed="one netCDF file that macroslip run wrote"
+        )
     (result,) = read_results(Path(path)).values()
     return result
 
@@ -48,11 +50,17 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
     """
     path = Path(path)
     if not path.exists():
-        raise InputError("there is no such file or folder", where=str(path), remedy="Name what macroslip run wrote.")
+        raise InputError(
+            "there is no such file or folder",
+            where=str(path),
+            remedy="Name what macroslip run wrote.",
+        )
     files = sorted(path.glob("*.nc")) if path.is_dir() else [path]
     if not files:
         raise InputError(
-            "the folder holds no netCDF file", where=str(path), allowed="files that macroslip run wrote (*.nc)"
+            "the folder holds no netCDF file",
+            where=str(path),
+            allowed="files that macroslip run wrote (*.nc)",
         )
     for file in files:
         check_regular(file, REMEDY)
@@ -63,7 +71,9 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
             # Units of seconds are units, not times of day.
             found[file.stem] = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
         except (OSError, ValueError, KeyError) as error:
-            raise InputError(f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY) from None
+            raise InputError(
+                f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY
+            ) from None
         check_result(found[file.stem], str(file))
     return found
 
@@ -107,7 +117,9 @@ class Macroslip:
                 "failed rollers [1]": numbers["failed"],
             }
         table = pd.DataFrame(found, dtype=float)
-        table.attrs = {name: result.attrs[name] for name in ("title", "model", "oil") if name in result.attrs}
+        table.attrs = {
+            name: result.attrs[name] for name in ("title", "model", "oil") if name in result.attrs
+        }
         return table
 
     @property
@@ -119,7 +131,12 @@ class Macroslip:
 
     def _rows(self) -> list[list[str]]:
         return [
-            [one["name"], number(one["energy"]), number(one["spin"], 3), f"{one['failed']} of {one['rollers']}"]
+            [
+                one["name"],
+                number(one["energy"]),
+                number(one["spin"], 3),
+                f"{one['failed']} of {one['rollers']}",
+            ]
             for one in row_numbers(self._result)
         ]
 
@@ -128,11 +145,20 @@ class Macroslip:
             f"{name} {energy} J a roller, lowest spin {spin} of pure rolling, {failed} rollers failed"
             for name, energy, spin, failed in self._rows()
         )
-        warning = f"; warning: {self._result.attrs['books_warning']}" if "books_warning" in self._result.attrs else ""
+        warning = (
+            f"; warning: {self._result.attrs['books_warning']}"
+            if "books_warning" in self._result.attrs
+            else ""
+        )
         return f"<{self._result.attrs.get('title', 'result')}: {rows}{warning}>"
 
     def _repr_html_(self) -> str:
-        headings = ["row", "mean energy of a roller [J]", "lowest spin / pure rolling [1]", "failed rollers"]
+        headings = [
+            "row",
+            "mean energy of a roller [J]",
+            "lowest spin / pure rolling [1]",
+            "failed rollers",
+        ]
         return html_overview(self._result.attrs.get("title", "result"), headings, self._rows())
 
 
@@ -142,16 +168,22 @@ class Plot:
     def __init__(self, result: xr.Dataset):
         self._result = result
 
-    def _new_axes(self, projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any) -> Any:
+    def _new_axes(
+        self, projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any
+    ) -> Any:
         """Axes in a new figure, which a notebook shows by itself, under the model, oil and temperature."""
         try:
             from matplotlib import pyplot
         except ModuleNotFoundError:
-            raise MacroslipError("a picture needs matplotlib: pip install 'macroslip[figures]'") from None
+            raise MacroslipError(
+                "a picture needs matplotlib: pip install 'macroslip[figures]'"
+            ) from None
         options |= {"layout": "constrained", "subplot_kw": {"projection": projection}}
         figure, axes = pyplot.subplots(rows, columns, **options)
         if "oil" in self._result.attrs:
-            figure.suptitle(f"model {self._result.attrs['model']}, {self._result.attrs['oil']}", fontsize=SMALL)
+            figure.suptitle(
+                f"model {self._result.attrs['model']}, {self._result.attrs['oil']}", fontsize=SMALL
+            )
         return axes
 
     def _row(self, row: str | None, first: str = "downwind") -> str:
@@ -163,22 +195,30 @@ class Plot:
 
     def rollers(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Energy of every roller of a row (the downwind one by default), over the mean of the row."""
-        return draw.plot_roller_spread(axes or self._new_axes(), self._result.energy, self._row(row))
+        return draw.plot_roller_spread(
+            axes or self._new_axes(), self._result.energy, self._row(row)
+        )
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
         """Share of orbits whose largest power exceeds a value, for both rows."""
         return _legend(draw.plot_peak_exceedance(axes or self._new_axes(), self._result))
 
-    def spin(self, row: str | None = None, roller: int | None = None, *, axes: Axes | None = None) -> Axes:
+    def spin(
+        self, row: str | None = None, roller: int | None = None, *, axes: Axes | None = None
+    ) -> Axes:
         """Spin of a roller over time, with its spin in pure rolling; by default the upwind row's first. Needs traces."""
         number = int(self._result.roller[0]) if roller is None else roller
-        return draw.plot_spin_over_time(axes or self._new_axes(), self._result, self._row(row, "upwind"), number)
+        return draw.plot_spin_over_time(
+            axes or self._new_axes(), self._result, self._row(row, "upwind"), number
+        )
 
     def load_zone(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Roller load over angle and time. Needs traces that begin with the loads."""
         from macroslip.result.orbit import load_zone
 
-        return draw.plot_load_zone(axes or self._new_axes(), load_zone(self._result), self._row(row))
+        return draw.plot_load_zone(
+            axes or self._new_axes(), load_zone(self._result), self._row(row)
+        )
 
     def orbit(self, row: str | None = None, *, axes: PolarAxes | None = None) -> PolarAxes:
         """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
@@ -197,7 +237,9 @@ class Plot:
         """All rows to scale, coloured by slip, at the moment of the largest power. Needs traces as `load_zone`."""
         from macroslip.result.orbit import still
 
-        return draw.plot_bearing(axes or self._new_axes(), still(self._result), run_input(self._result).bearing)
+        return draw.plot_bearing(
+            axes or self._new_axes(), still(self._result), run_input(self._result).bearing
+        )
 
     def damage(self, *, axes: Axes | None = None) -> Axes:
         """Criteria of damage side by side, each over what it is compared with. Needs details of the contacts."""
@@ -205,7 +247,11 @@ class Plot:
 
     def wear(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Worn profile of the inner raceway, the outer raceway and the rollers of a row over the years."""
-        return _legend(draw.plot_worn_profile(axes or self._new_axes(), self._result.macroslip.damage, self._row(row)))
+        return _legend(
+            draw.plot_worn_profile(
+                axes or self._new_axes(), self._result.macroslip.damage, self._row(row)
+            )
+        )
 
     def maps(self, quantity: str = "energy", *, axes: Sequence[Axes] | None = None) -> list[Axes]:
         """Where the raceways suffer: energy, or with "power" the largest power, per area on each of the four.
@@ -215,7 +261,9 @@ class Plot:
         from macroslip.result.surface_maps import energy_density
 
         if quantity not in ("energy", "power"):
-            raise InputError(f"the quantity of the maps is {quantity!r}", allowed="'energy' or 'power'")
+            raise InputError(
+                f"the quantity of the maps is {quantity!r}", allowed="'energy' or 'power'"
+            )
         density = energy_density(self._result)
         units = "J/mm²"
         if quantity == "power":
@@ -224,7 +272,8 @@ class Plot:
         if axes is None:
             axes = self._new_axes(rows=len(shown) // 2, columns=2, figsize=(9.0, 6.0)).ravel()
         return [
-            draw.plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)
+            draw.plot_map(one, values, units, title)
+            for one, (title, values) in zip(axes, shown.items(), strict=True)
         ]
 
     def film_and_slip(
@@ -238,13 +287,19 @@ class Plot:
             raise InputError(f"the quantity is {quantity!r}", allowed="'time' or 'passes'")
         if "film_slip_time" not in self._result:
             remedy = "Write laws: {model: physical} and contact_details: true in the case."
-            raise InputError("the result has no time by film and slip", allowed="details of contacts", remedy=remedy)
+            raise InputError(
+                "the result has no time by film and slip",
+                allowed="details of contacts",
+                remedy=remedy,
+            )
         row = self._row(row)
         amounts = self._result[f"film_slip_{quantity}"].sel(row=row)
         if axes is None:
             axes = self._new_axes(columns=2, figsize=(10.0, 3.8)).ravel()
         return [
-            draw.plot_film_and_slip(one, amounts.sel(raceway=name), draw.FILM_AND_SLIP[quantity], f"{row} row, {name}")
+            draw.plot_film_and_slip(
+                one, amounts.sel(raceway=name), draw.FILM_AND_SLIP[quantity], f"{row} row, {name}"
+            )
             for one, name in zip(axes, amounts.raceway.values.tolist(), strict=True)
         ]
 

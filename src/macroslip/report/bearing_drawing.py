@@ -31,7 +31,9 @@ def draw_bearing(bearing: Bearing) -> Figure:
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_aspect("equal")
     axes.axis("off")
-    width = bearing.width if bearing.width is not None else 2.1 * geometry.envelope(bearing).farthest
+    width = (
+        bearing.width if bearing.width is not None else 2.1 * geometry.envelope(bearing).farthest
+    )
     half = 0.5 * _MILLI * width
     _rings(axes, bearing, half)
     for side in (-1, 1):
@@ -39,14 +41,20 @@ def draw_bearing(bearing: Bearing) -> Figure:
     _dimensions(axes, bearing, half)
     axes.plot([-1.15 * half, 1.15 * half], [0, 0], color="black", lw=0.8, ls="-.")
     axes.text(-1.17 * half, 0, "bearing axis", ha="right", va="center", fontsize=9)
-    axes.set(xlim=(-3.0 * half, 3.0 * half), ylim=(-0.08 * _outside(bearing), 1.2 * _outside(bearing)))
+    axes.set(
+        xlim=(-3.0 * half, 3.0 * half), ylim=(-0.08 * _outside(bearing), 1.2 * _outside(bearing))
+    )
     axes.text(0, 1.14 * _outside(bearing), bearing.name, ha="center", va="center", fontsize=12)
     return figure
 
 
 def _outside(bearing: Bearing) -> float:
     diameter = bearing.outside_diameter
-    return 0.5 * _MILLI * diameter if diameter is not None else 1.05 * _MILLI * bearing.outer_raceway_radius
+    return (
+        0.5 * _MILLI * diameter
+        if diameter is not None
+        else 1.05 * _MILLI * bearing.outer_raceway_radius
+    )
 
 
 def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
@@ -57,7 +65,9 @@ def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
         axes.fill_between(place, raceway, _outside(bearing), fc=STEEL, ec="black", lw=1.0)
     if bearing.bore_diameter is not None:
         bore = 0.5 * _MILLI * bearing.bore_diameter
-        axes.fill_between(place, bore, _inner_raceway(bearing, np.abs(place)), fc=STEEL, ec="black", lw=1.0)
+        axes.fill_between(
+            place, bore, _inner_raceway(bearing, np.abs(place)), fc=STEEL, ec="black", lw=1.0
+        )
     turn = np.radians(np.linspace(-40, 40, 200))
     axes.plot(sphere * np.sin(turn), sphere * np.cos(turn), color=SPHERE, lw=0.8, ls=":")
 
@@ -67,7 +77,10 @@ def _inner_raceway(bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.f
     contour = _MILLI * geometry.inner_raceway_contour_radius(bearing)
     along, across = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     reach = contour - 0.5 * _MILLI * bearing.roller_diameter
-    centre = _MILLI * bearing.row_offset + reach * along, _MILLI * bearing.pitch_radius + reach * across
+    centre = (
+        _MILLI * bearing.row_offset + reach * along,
+        _MILLI * bearing.pitch_radius + reach * across,
+    )
     return centre[1] - np.sqrt(np.maximum(contour**2 - (place - centre[0]) ** 2, 0.0))
 
 
@@ -94,7 +107,11 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
         ((0, 0.72 * y), (z, 0.72 * y), LINE),
         ((-1.08 * half, 0), (-1.08 * half, y), LINE),
         ((-z - r * sine, y + r * cosine), (-z + r * sine, y - r * cosine), LINE),
-        ((-z + length * cosine, y + length * sine), (-z - length * cosine, y - length * sine), LINE),
+        (
+            (-z + length * cosine, y + length * sine),
+            (-z - length * cosine, y - length * sine),
+            LINE,
+        ),
     ]
     # Key, side and height of the words, and the place they belong to.
     labels = [
@@ -116,7 +133,9 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
         if getattr(bearing, key) is not None:
             end, place = 0.5 * _MILLI * getattr(bearing, key), share * half
             arrows.append(((-place, 0), (-place, end), "black"))
-            labels.append((key, -1, (1.0 - share) * end + 0.02 * outside, (-place, (1.1 - share) * end)))
+            labels.append(
+                (key, -1, (1.0 - share) * end + 0.02 * outside, (-place, (1.1 - share) * end))
+            )
     axes.plot([0, 0], [0, 1.04 * outside], color="black", lw=0.6, ls="-.")
     axes.plot([z, z], [0.70 * y, y], color=LINE, lw=0.6)
     axes.plot([-1.1 * half, -z], [y, y], color=LINE, lw=0.6)

@@ -70,7 +70,9 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
         total = width * values.sum()
         orbit = f"{three_digits(1e-3 * total)} J" if total >= 1e3 else f"{three_digits(total)} mJ"
         label = f"{interface}: {orbit} per orbit"
-        axes.plot(theta, np.append(values, values[0]), label=label, linewidth=1.6, **INTERFACE[interface])
+        axes.plot(
+            theta, np.append(values, values[0]), label=label, linewidth=1.6, **INTERFACE[interface]
+        )
     axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(MaxNLocator(3, prune="lower"))
     return _round(axes, "S", ["bottom", "left", "top", "right"], f"{row} row [mJ/°]")
@@ -149,19 +151,35 @@ def plot_bearing(axes: Axes, still: xr.Dataset, bearing: Bearing) -> Axes:
         place = np.array([-np.sin(np.radians(one.angle)), -np.cos(np.radians(one.angle))])
         ends = np.multiply.outer([1.06 * outer, 1.06 * outer], np.ones(place.shape[1]))
         ends[1] += 0.3 * outer * one.roller_load.values / most
-        axes.plot(centre + ends * place[0], ends * place[1], color=GREY, linewidth=3.0, solid_capstyle="butt")
+        axes.plot(
+            centre + ends * place[0],
+            ends * place[1],
+            color=GREY,
+            linewidth=3.0,
+            solid_capstyle="butt",
+        )
         rollers += [Circle((centre + pitch * x, pitch * y), radius) for x, y in place.T]
         axes.text(centre, 0.0, row, ha="center", va="center", fontsize=LABEL)
     shown = PatchCollection(rollers, cmap="cividis", edgecolor=BLACK, linewidth=0.6)
     shown.set_array(100.0 * still.slip.transpose("row", "roller").values.ravel())
     shown.set_clim(0.0, 100.0)
     axes.add_collection(shown)
-    axes.set(xlim=(-reach, (2.0 * still.sizes["row"] - 1.0) * reach), ylim=(-reach, reach), aspect="equal")
+    axes.set(
+        xlim=(-reach, (2.0 * still.sizes["row"] - 1.0) * reach),
+        ylim=(-reach, reach),
+        aspect="equal",
+    )
     axes.axis("off")
-    scale = axes.figure.colorbar(shown, ax=axes, orientation="horizontal", pad=0.02, shrink=0.7, aspect=30)
+    scale = axes.figure.colorbar(
+        shown, ax=axes, orientation="horizontal", pad=0.02, shrink=0.7, aspect=30
+    )
     scale.set_label("slip / speed [%]", fontsize=LABEL)
     scale.ax.tick_params(labelsize=SMALL)
-    axes.set_title(f"{float(still.time):.2f} s; spokes: load, to {1e-3 * most:.3g} kN", fontsize=LABEL, loc="left")
+    axes.set_title(
+        f"{float(still.time):.2f} s; spokes: load, to {1e-3 * most:.3g} kN",
+        fontsize=LABEL,
+        loc="left",
+    )
     return axes
 
 
@@ -194,7 +212,9 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
         one, x = one.isel(interface=known), x[known]
         mean, low, high = (getattr(one, name)("roller").values for name in ("mean", "min", "max"))
         axes.bar(x, mean, width, **style)
-        axes.errorbar(x, mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3)
+        axes.errorbar(
+            x, mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3
+        )
         _values_above(axes, x, mean, [f"{value:.3g}" for value in mean], 5)
     axes.set_xticks(np.arange(share.sizes["interface"]), share.interface.values.tolist())
     axes.set_ylim(0.0, 118.0)
@@ -210,7 +230,9 @@ def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") 
         values = energy.sel(row=row).mean("roller").values
         axes.bar(x, values, width, **style)
         some = values > 0.0
-        _values_above(axes, x[some], values[some], [three_digits(value) for value in values[some]], 2)
+        _values_above(
+            axes, x[some], values[some], [three_digits(value) for value in values[some]], 2
+        )
     if np.nanmax(energy.values, initial=0.0) > 0.0:
         axes.set_yscale("log")
         axes.margins(y=0.12)
@@ -245,7 +267,9 @@ def plot_by_mechanism(axes: Axes, energy: xr.DataArray) -> Axes:
     mean = energy.mean("roller").sum("interface")
     for x, width, row, style in _row_bars(mean, "mechanism"):
         axes.barh(x, mean.sel(row=row).values, width, **style)
-    axes.set_yticks(np.arange(mean.sizes["mechanism"]), [str(name) for name in mean.mechanism.values])
+    axes.set_yticks(
+        np.arange(mean.sizes["mechanism"]), [str(name) for name in mean.mechanism.values]
+    )
     return finish(axes, "energy of a roller [J]", "mechanism")
 
 
@@ -255,10 +279,20 @@ def plot_spin_over_time(axes: Axes, result: xr.Dataset, row: str, roller: int) -
     Takes a result with traces.
     """
     if "time" not in result.dims:
-        raise InputError("the result has no traces", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
+        raise InputError(
+            "the result has no traces",
+            remedy="Give the case traces, such as traces: {step: 0.05 s}.",
+        )
     one = result.sel(row=row, roller=roller)
     time = one.time.values
-    axes.plot(time, abs(one.spin_pure.values), color=BLACK, linestyle="--", linewidth=1.2, label="pure rolling")
+    axes.plot(
+        time,
+        abs(one.spin_pure.values),
+        color=BLACK,
+        linestyle="--",
+        linewidth=1.2,
+        label="pure rolling",
+    )
     axes.plot(time, abs(one.spin.values), color=BLUE, linewidth=1.6, label="roller")
     axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False, fontsize=SMALL)
@@ -274,7 +308,9 @@ def raceways(values: xr.DataArray) -> dict[str, xr.DataArray]:
     }
 
 
-def plot_map(axes: Axes, values: xr.DataArray, units: str, title: str, *, difference: bool = False) -> Axes:
+def plot_map(
+    axes: Axes, values: xr.DataArray, units: str, title: str, *, difference: bool = False
+) -> Axes:
     """A raceway unrolled: place along the roller over the angle from the bottom, one map over (angle, station).
 
     The colours of a difference have their middle at zero.
@@ -301,7 +337,9 @@ def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str
     values = amounts.transpose("film_class", "slip_class").values
     shares = 100.0 * values / max(values.sum(), 1e-300)
     shown = np.log10(np.maximum(shares, _LEAST_SHARE) / _LEAST_SHARE)
-    image = axes.pcolormesh(shown, cmap="Blues", vmin=0.0, vmax=np.log10(100.0 / _LEAST_SHARE), edgecolors="white")
+    image = axes.pcolormesh(
+        shown, cmap="Blues", vmin=0.0, vmax=np.log10(100.0 / _LEAST_SHARE), edgecolors="white"
+    )
     for (film, slip), share in np.ndenumerate(shares):
         if share >= 10.0 * _LEAST_SHARE:
             colour = "white" if share > 10.0 else BLACK
@@ -315,7 +353,9 @@ def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str
                 color=colour,
             )
     image.set_rasterized(True)
-    axes.set_xticks(range(1, len(SLIP_EDGES) + 1), [f"{edge:g}" for edge in SLIP_EDGES], rotation=60)
+    axes.set_xticks(
+        range(1, len(SLIP_EDGES) + 1), [f"{edge:g}" for edge in SLIP_EDGES], rotation=60
+    )
     axes.set_yticks(range(1, len(FILM_EDGES) + 1), [f"{edge:g}" for edge in FILM_EDGES])
     finish(axes, "slide-roll ratio, ring − roller [1]", "Λ [1]", f"{title} [% of {units}]")
     axes.spines[["top", "right"]].set_visible(True)
@@ -355,7 +395,11 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
     place = result.position.values
     values = np.maximum(result.largest_force_by_position.sel(row=row).values, 1e-1)
     # A full turn later, not back across the picture.
-    axes.plot(np.append(place, place[0] + 2.0 * np.pi), np.append(values, values[0]), drawstyle="steps-mid")
+    axes.plot(
+        np.append(place, place[0] + 2.0 * np.pi),
+        np.append(values, values[0]),
+        drawstyle="steps-mid",
+    )
     axes.set_rscale("log")
     axes.set_rlim(1e-1, max(10.0, 2.0 * float(values.max())))
     # Looking downwind +X0 is on the left, and φ runs clockwise.
@@ -370,7 +414,9 @@ def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
         (result.momentum_residual / impulse, "angular momentum", {"color": BLUE, "linestyle": "-"}),
         (result.energy_residual / spent, "energy", {"color": ORANGE, "linestyle": "--"}),
     ):
-        axes.plot(result.book_time.values, np.maximum(np.abs(values.values), 1e-17), label=label, **style)
+        axes.plot(
+            result.book_time.values, np.maximum(np.abs(values.values), 1e-17), label=label, **style
+        )
     axes.set_yscale("log")
     return finish(axes, "time [s]", "residual / passed through [–]")
 
@@ -383,7 +429,9 @@ def plot_slip_over_orbit(axes: Axes, slip: xr.DataArray) -> Axes:
     for row in slip.row.values.tolist():
         low, middle, high = 100.0 * slip.sel(row=row).transpose("quantile", "angle").values
         style = {key: ROW[row][key] for key in ("color", "linestyle")}
-        axes.fill_between(slip.angle.values, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
+        axes.fill_between(
+            slip.angle.values, low, high, color=style["color"], alpha=0.18, linewidth=0.0
+        )
         axes.plot(slip.angle.values, middle, label=f"{row} row", linewidth=1.6, **style)
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(_QUARTERS)
@@ -395,7 +443,9 @@ def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
 
     Takes the dataset of `macroslip.result.damage.damage`. A criterion that is passed lies right of 1.
     """
-    some = damage.isel(criterion=np.flatnonzero(np.isfinite(damage.ratio.values) & (damage.ratio.values > 0.0)))
+    some = damage.isel(
+        criterion=np.flatnonzero(np.isfinite(damage.ratio.values) & (damage.ratio.values > 0.0))
+    )
     ratio, factor = some.ratio.values, some.factor.values
     place = np.arange(ratio.size)[::-1]
     axes.axvline(1.0, color=GREY, linewidth=0.8)
@@ -409,7 +459,9 @@ def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
         capsize=3,
     )
     axes.set_xscale("log")
-    axes.set_yticks(place, [str(one).replace(": ", ":\n") for one in some.title.values], fontsize=SMALL)
+    axes.set_yticks(
+        place, [str(one).replace(": ", ":\n") for one in some.title.values], fontsize=SMALL
+    )
     axes.margins(y=0.15)
     return finish(axes, "value / reference [–]", "")
 
@@ -424,13 +476,21 @@ def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
         for k, age in enumerate(depth.age.values):
             label = name if k == depth.age.size - 1 else None
             axes.plot(
-                1e3 * depth.station, depth.sel(place=name, age=age), linewidth=0.7 + 0.5 * k, label=label, **style
+                1e3 * depth.station,
+                depth.sel(place=name, age=age),
+                linewidth=0.7 + 0.5 * k,
+                label=label,
+                **style,
             )
     years = ", ".join(f"{age / (365.25 * 86400.0):g}" for age in depth.age.values)
-    return finish(axes, "place along the roller [mm]", "depth of wear [µm]", f"{row} row, after {years} years")
+    return finish(
+        axes, "place along the roller [mm]", "depth of wear [µm]", f"{row} row, after {years} years"
+    )
 
 
-def _row_bars(values: xr.DataArray, over: str = "interface") -> list[tuple[np.ndarray, float, str, dict[str, Any]]]:
+def _row_bars(
+    values: xr.DataArray, over: str = "interface"
+) -> list[tuple[np.ndarray, float, str, dict[str, Any]]]:
     """Of each row the places of its bars over a dimension, their width, its name, and a style that differs in grey."""
     rows = values.row.values.tolist()
     width = 0.8 / len(rows)
@@ -440,20 +500,35 @@ def _row_bars(values: xr.DataArray, over: str = "interface") -> list[tuple[np.nd
             places + width * (k - 0.5 * (len(rows) - 1)),
             0.9 * width,
             row,
-            {"color": ROW[row]["color"], "edgecolor": "white", "label": f"{row} row", "hatch": "///" if k else None},
+            {
+                "color": ROW[row]["color"],
+                "edgecolor": "white",
+                "label": f"{row} row",
+                "hatch": "///" if k else None,
+            },
         )
         for k, row in enumerate(rows)
     ]
 
 
-def _values_above(axes: Axes, x: np.ndarray, y: np.ndarray, labels: Sequence[str], points: float) -> None:
+def _values_above(
+    axes: Axes, x: np.ndarray, y: np.ndarray, labels: Sequence[str], points: float
+) -> None:
     for place, value, label in zip(x, y, labels, strict=True):
         at = (place, max(value, 0.0))
-        axes.annotate(label, at, xytext=(0, points), textcoords="offset points", ha="center", fontsize=SMALL)
+        axes.annotate(
+            label, at, xytext=(0, points), textcoords="offset points", ha="center", fontsize=SMALL
+        )
 
 
 def _heat_map(
-    axes: Axes, values: np.ndarray, extent: tuple[float, ...], label: str, *, least: float, difference: bool = False
+    axes: Axes,
+    values: np.ndarray,
+    extent: tuple[float, ...],
+    label: str,
+    *,
+    least: float,
+    difference: bool = False,
 ) -> None:
     most = max(float(np.nanmax(abs(values), initial=0.0)), least)
     image = axes.imshow(
@@ -481,8 +556,12 @@ def plot_skew_over_orbit(axes: Axes, result: xr.Dataset) -> Axes:
     order, power = np.argsort(angle), axes.twinx()
     for row in result.row.values.tolist():
         colour, one = ROW[row]["color"], result.sel(row=row)
-        axes.plot(angle[order], 1e3 * one.skew_by_position.values[order], color=colour, label=f"{row} row")
-        power.plot(angle[order], one.skew_power_by_position.values[order], color=colour, linestyle="--")
+        axes.plot(
+            angle[order], 1e3 * one.skew_by_position.values[order], color=colour, label=f"{row} row"
+        )
+        power.plot(
+            angle[order], one.skew_power_by_position.values[order], color=colour, linestyle="--"
+        )
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks([0.0, 90.0, 180.0, 270.0, 360.0])

@@ -57,14 +57,19 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     from matplotlib import colormaps
 
     time, quantities = scene.time.values, []
-    power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(axis=(0, 1))
+    power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(
+        axis=(0, 1)
+    )
     for name, heading, unit, factor, logarithmic in QUANTITIES:
         if name not in scene:
             continue
         values = factor * scene[name].transpose("row", "roller", "time").values.astype(float)
         finite = values[np.isfinite(values)]
         if logarithmic:
-            low, high = np.log10(LEAST_POWER), np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0)))
+            low, high = (
+                np.log10(LEAST_POWER),
+                np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0))),
+            )
             with np.errstate(divide="ignore"):
                 values = np.log10(np.where(values <= 0.0, LEAST_POWER, values))
         elif name in _SIGNED:
@@ -72,7 +77,13 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
             low = -high
         else:
             low, high = 0.0, max(1e-6, finite.max(initial=0.0))
-        about = {"heading": heading, "unit": unit, "logarithmic": logarithmic, "low": float(low), "high": float(high)}
+        about = {
+            "heading": heading,
+            "unit": unit,
+            "logarithmic": logarithmic,
+            "low": float(low),
+            "high": float(high),
+        }
         quantities.append(about | {"codes": _text(quantise(values, low, high))})
     ramp = colormaps["cividis"](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
     return {
@@ -105,7 +116,9 @@ def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     """Places of the rollers in their pockets, drawn enlarged so that neighbouring pockets do not meet."""
     offsets = 1e3 * scene.pocket_offset.transpose("row", "roller", "time").values.astype(float)
     reach = float(np.nanmax(np.abs(offsets), initial=1e-6))
-    free = 1e3 * (2.0 * np.pi * bearing.pitch_radius / bearing.rollers_per_row - bearing.roller_diameter)
+    free = 1e3 * (
+        2.0 * np.pi * bearing.pitch_radius / bearing.rollers_per_row - bearing.roller_diameter
+    )
     return {
         "reach": reach,
         "enlarged": float(min(_ENLARGED, 0.35 * free / reach)),

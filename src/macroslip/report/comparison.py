@@ -27,16 +27,28 @@ from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, design
 #: Pieces of a history whose differences are taken as independent of each other, at most.
 _PIECES = 10
 #: Parts of an input in which two results may differ without being another design.
-_NOT_DESIGN = {"loads.": "loads", "window.": "windows", "laws.": "models of the contacts", "dynamics": "dynamics"}
+_NOT_DESIGN = {
+    "loads.": "loads",
+    "window.": "windows",
+    "laws.": "models of the contacts",
+    "dynamics": "dynamics",
+}
 #: Designs that a sentence names beside the best.
 _MOST_RANKED = 4
 #: Labels of a run, and words for several of each.
-SEVERAL = {"loads": "load histories", "bearing": "bearings", "lubricant": "lubricants", "model": "models"}
+SEVERAL = {
+    "loads": "load histories",
+    "bearing": "bearings",
+    "lubricant": "lubricants",
+    "model": "models",
+}
 ENERGY = CRITERIA["energy"][2]
 COLUMNS = ("quantity", "units", "design", "value", "difference [%]", "low [%]", "high [%]")
 
 
-def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = None) -> pd.DataFrame:
+def compare(
+    *results: xr.Dataset | str | Path, by: Sequence[str] | str | None = None
+) -> pd.DataFrame:
     """Compare results, or the designs of a study.
 
     Parameters
@@ -65,9 +77,16 @@ def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = 
     The range is that of Student's t for the mean of the differences: of up to ten pieces of the history between two results,
     of the runs of a bin between two designs of a study. What the estimates among the inputs leave open is not in it.
     """
-    names = [Path(one).stem if isinstance(one, (str, Path)) else f"result {k + 1}" for k, one in enumerate(results)]
+    names = [
+        Path(one).stem if isinstance(one, (str, Path)) else f"result {k + 1}"
+        for k, one in enumerate(results)
+    ]
     opened = [
-        one if isinstance(one, xr.Dataset) else open_study(one) if is_study(Path(one)) else open_result(one)
+        one
+        if isinstance(one, xr.Dataset)
+        else open_study(one)
+        if is_study(Path(one))
+        else open_result(one)
         for one in results
     ]
     studies = [one for one in opened if "case" in one.dims]
@@ -82,8 +101,14 @@ def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = 
     if by:
         raise InputError("'by' is given for results that are no study", remedy="Leave it out.")
     if len(opened) < 2:
-        raise InputError("there is one result only", allowed="two or more", remedy="Name another to compare it with.")
-    unique = [name if names.count(name) == 1 else f"{name} ({k + 1})" for k, name in enumerate(names)]
+        raise InputError(
+            "there is one result only",
+            allowed="two or more",
+            remedy="Name another to compare it with.",
+        )
+    unique = [
+        name if names.count(name) == 1 else f"{name} ({k + 1})" for k, name in enumerate(names)
+    ]
     return compare_results(dict(zip(unique, opened, strict=True)))
 
 
@@ -106,8 +131,15 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
             ranges[name] = _half_range(variance, pieces.size - 1, values[first][ENERGY, "J/h"])
     frame = _frame(values, ranges)
     shown = {key: one for key, one in differ.items() if key not in ("loads.sha256", "oil_gap")}
-    about = "; ".join(f"{name}: {one.attrs['title']}" for name, one in results.items() if "title" in one.attrs)
-    frame.attrs = {"notes": _notes(results, differ), "inputs": shown, "ranking": _ranking(frame), "about": about}
+    about = "; ".join(
+        f"{name}: {one.attrs['title']}" for name, one in results.items() if "title" in one.attrs
+    )
+    frame.attrs = {
+        "notes": _notes(results, differ),
+        "inputs": shown,
+        "ranking": _ranking(frame),
+        "about": about,
+    }
     return frame
 
 
@@ -127,17 +159,33 @@ def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, Any]]:
 def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list[str]:
     if not differ:
         return ["The results differ in nothing: they were computed from the same input."]
-    apart = [what for start, what in _NOT_DESIGN.items() if any(key.startswith(start) for key in differ)]
-    found = [f"The results have different {one}, so their numbers differ for that reason too." for one in apart]
-    windows = {(round(one.attrs["window_start"], 6), round(one.attrs["window_end"], 6)) for one in results.values()}
+    apart = [
+        what for start, what in _NOT_DESIGN.items() if any(key.startswith(start) for key in differ)
+    ]
+    found = [
+        f"The results have different {one}, so their numbers differ for that reason too."
+        for one in apart
+    ]
+    windows = {
+        (round(one.attrs["window_start"], 6), round(one.attrs["window_end"], 6))
+        for one in results.values()
+    }
     if len(windows) > 1 and "windows" not in apart:
-        found.append("The windows differ, because orbits or loads do; energies are compared by the hour.")
+        found.append(
+            "The windows differ, because orbits or loads do; energies are compared by the hour."
+        )
     if len({tuple(one.roller.values.tolist()) for one in results.values()}) > 1:
         found.append("The results have different rollers; the mean is over those that each has.")
     if failed := [name for name, one in results.items() if bool((one.status != 0).any())]:
-        found.append(f"Rollers failed in {', '.join(failed)}; every mean that they enter is missing.")
+        found.append(
+            f"Rollers failed in {', '.join(failed)}; every mean that they enter is missing."
+        )
     estimates = [estimated_values(one) for one in results.values()]
-    found += [f"Doubtful in {name}: {line}" for name, one in results.items() for line in doubtful_result(one)]
+    found += [
+        f"Doubtful in {name}: {line}"
+        for name, one in results.items()
+        for line in doubtful_result(one)
+    ]
     if any(some for some, _ in estimates):
         most, of = max(estimates)
         found.append(
@@ -155,7 +203,9 @@ def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
         found[f"energy of a mean roller, {row}", "J/h"] = float(energy.sel(row=row))
         peak = one.window_peak_power if "window_peak_power" in one else one.peak_power
         found[f"largest power, {row}", "W"] = float(peak.max(skipna=False))
-        found[f"lowest spin over pure rolling, {row}", "1"] = float(one.min_spin_ratio.min(skipna=False))
+        found[f"lowest spin over pure rolling, {row}", "1"] = float(
+            one.min_spin_ratio.min(skipna=False)
+        )
     for name in ("static_safety", "basic_life", "modified_life"):
         if name in result:
             found[name.replace("_", " "), result[name].attrs["units"]] = float(result[name])
@@ -167,16 +217,29 @@ def _pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray | None:
     if any("orbit_energy" not in one or one.sizes["orbit"] < 4 for one in (first, other)):
         return None
     loads = [stored_settings(one).get("loads", {}).get("sha256") for one in (first, other)]
-    times = [np.concatenate([one.orbit_start.values, one.orbit_end.values[-1:]]) for one in (first, other)]
-    if loads[0] != loads[1] or times[0].shape != times[1].shape or not np.allclose(*times, atol=1e-3, rtol=0.0):
+    times = [
+        np.concatenate([one.orbit_start.values, one.orbit_end.values[-1:]])
+        for one in (first, other)
+    ]
+    if (
+        loads[0] != loads[1]
+        or times[0].shape != times[1].shape
+        or not np.allclose(*times, atol=1e-3, rtol=0.0)
+    ):
         return None
     energies = [
-        one.orbit_energy.sum("interface", skipna=False).mean("roller", skipna=False).sum("row").values
+        one.orbit_energy.sum("interface", skipna=False)
+        .mean("roller", skipna=False)
+        .sum("row")
+        .values
         for one in (first, other)
     ]
     parts = np.array_split(np.arange(times[0].size - 1), min(_PIECES, times[0].size - 1))
     return np.array(
-        [3600.0 * (energies[1] - energies[0])[k].sum() / (times[0][k[-1] + 1] - times[0][k[0]]) for k in parts]
+        [
+            3600.0 * (energies[1] - energies[0])[k].sum() / (times[0][k[-1] + 1] - times[0][k[0]])
+            for k in parts
+        ]
     )
 
 
@@ -184,7 +247,11 @@ def _half_range(variance: float, freedom: int, of: float) -> float:
     """Half of the 95 % range of a mean, in per cent of a value; NaN where nothing is known of its scatter."""
     from scipy.stats import t
 
-    return float(100.0 * t.ppf(0.975, freedom) * np.sqrt(variance) / abs(of)) if freedom and of else np.nan
+    return (
+        float(100.0 * t.ppf(0.975, freedom) * np.sqrt(variance) / abs(of))
+        if freedom and of
+        else np.nan
+    )
 
 
 def compare_designs(
@@ -197,27 +264,52 @@ def compare_designs(
     sampled = sampled_parameters(study)
     by = list(by) if by else [name for name in varied if name not in sampled]
     if wrong := [name for name in by if name not in study.coords or study[name].dims != ("case",)]:
-        raise InputError(f"the study has no label '{wrong[0]}'", where="by", allowed=", ".join(varied) or "none varies")
+        raise InputError(
+            f"the study has no label '{wrong[0]}'",
+            where="by",
+            allowed=", ".join(varied) or "none varies",
+        )
     labels = {name: ("group", study[name].values, study[name].attrs) for name in by}
     design = np.array(design_names(xr.Dataset(coords=labels)) if by else [""])
     names = list(dict.fromkeys(design.tolist()))
     if len(names) < 2:
         raise InputError(
-            f"the study has one {' and '.join(by)} only" if by else "the designs of the study differ in nothing",
-            allowed=f"labels that vary: {', '.join(varied)}" if varied else "a study of several designs",
+            f"the study has one {' and '.join(by)} only"
+            if by
+            else "the designs of the study differ in nothing",
+            allowed=f"labels that vary: {', '.join(varied)}"
+            if varied
+            else "a study of several designs",
         )
     # Other labels of a design are pooled: they become one group.
-    pooled = {str(name): ("case", np.full(design.size, "", dtype=object)) for name in groups if name not in by}
-    parts = {name: study.assign_coords(pooled).isel(case=np.flatnonzero(design == name)) for name in names}
+    pooled = {
+        str(name): ("case", np.full(design.size, "", dtype=object))
+        for name in groups
+        if name not in by
+    }
+    parts = {
+        name: study.assign_coords(pooled).isel(case=np.flatnonzero(design == name))
+        for name in names
+    }
     years = {name: year(part, weights, field=field, width=width) for name, part in parts.items()}
     notes = [coverage(years[names[0]])]
     if also := [one for one in pooled if one in varied]:
-        notes.append(f"The designs also have several values of {', '.join(also)}, which are pooled.")
-    loads = {name: set(part.loads.values.tolist()) for name, part in parts.items() if "loads" in part.coords}
+        notes.append(
+            f"The designs also have several values of {', '.join(also)}, which are pooled."
+        )
+    loads = {
+        name: set(part.loads.values.tolist())
+        for name, part in parts.items()
+        if "loads" in part.coords
+    }
     if len(set(map(frozenset, loads.values()))) > 1:
-        notes.append("The designs have different loads, so their numbers differ for that reason too.")
+        notes.append(
+            "The designs have different loads, so their numbers differ for that reason too."
+        )
     if same := _alike(parts):
-        notes.append(f"{same} differ in nothing but their names: they were computed from the same input.")
+        notes.append(
+            f"{same} differ in nothing but their names: they were computed from the same input."
+        )
     values = {name: _year_numbers(one) for name, one in years.items()}
     notes += dict.fromkeys(itertools.chain(*(designs(one)[1] for one in years.values())))
     total = values[names[0]][ENERGY, "J/year"]
@@ -229,7 +321,12 @@ def compare_designs(
         ranges[name] = _pooled_range(rates, place, bins.probabilities(weights), total)
     frame = _frame(values, ranges)
     inputs = {one: {name: str(parts[name][one].values[0]) for name in names} for one in by}
-    frame.attrs = {"notes": notes, "inputs": inputs, "ranking": _ranking(frame), "about": study_about(study)}
+    frame.attrs = {
+        "notes": notes,
+        "inputs": inputs,
+        "ranking": _ranking(frame),
+        "about": study_about(study),
+    }
     return frame
 
 
@@ -239,11 +336,21 @@ def study_about(study: xr.Dataset) -> str:
     told = {name: file_names([str(one[0])])[0] for name, one in values.items()}
     if not any(str(name).startswith("laws.") for name in study.coords):
         told |= {name: study.attrs[name] for name in ("model",) if name in study.attrs}
-    parts = [f"{one.size} {SEVERAL[name]}" if one.size > 1 else f"{name} {told[name]}" for name, one in values.items()]
+    parts = [
+        f"{one.size} {SEVERAL[name]}" if one.size > 1 else f"{name} {told[name]}"
+        for name, one in values.items()
+    ]
     if "inlet_temperature" in study:
         # Of one run of each lubricant and temperature; every run would open every result.
-        labels = [study[name].values.astype(str) for name in ("lubricant", "temperature") if name in study.coords]
-        warm = study.inlet_temperature[np.sort(np.unique(labels, axis=1, return_index=True)[1])] - ZERO_CELSIUS
+        labels = [
+            study[name].values.astype(str)
+            for name in ("lubricant", "temperature")
+            if name in study.coords
+        ]
+        warm = (
+            study.inlet_temperature[np.sort(np.unique(labels, axis=1, return_index=True)[1])]
+            - ZERO_CELSIUS
+        )
         if bool(warm.notnull().any()):
             parts.append(
                 f"oil at {' to '.join(dict.fromkeys(f'{float(one):.3g}' for one in (warm.min(), warm.max())))} °C"
@@ -261,23 +368,37 @@ def _alike(parts: Mapping[str, xr.Dataset]) -> str:
 
 def _year_numbers(one: xr.Dataset) -> dict[tuple[str, str], float]:
     line = designs(one)[0].iloc[0]
-    found = {(about, units): float(line[name]) for name, (_, units, about) in CRITERIA.items() if name in line}
+    found = {
+        (about, units): float(line[name])
+        for name, (_, units, about) in CRITERIA.items()
+        if name in line
+    }
     found = {(ENERGY, "J/year"): np.nan} | found
     for row in one.row.values.tolist():
-        found[f"energy of a mean roller, {row}", "J/year"] = float(one.total.isel(group=0).sel(row=row))
-    return found | {(name.replace("_", " "), "h"): float(one[name][0]) for name in LIVES if name in one}
+        found[f"energy of a mean roller, {row}", "J/year"] = float(
+            one.total.isel(group=0).sel(row=row)
+        )
+    return found | {
+        (name.replace("_", " "), "h"): float(one[name][0]) for name in LIVES if name in one
+    }
 
 
 def _paired(first: xr.Dataset, other: xr.Dataset) -> pd.Series:
     """Differences of power [W] of both rows under the same loads, by loads; without those that only one of them has."""
     powers = [
-        (one.energy_mean / one.window_length).sum("row", skipna=False).to_series().groupby(one.loads.values).mean()
+        (one.energy_mean / one.window_length)
+        .sum("row", skipna=False)
+        .to_series()
+        .groupby(one.loads.values)
+        .mean()
         for one in (first, other)
     ]
     return (powers[1] - powers[0]).dropna()
 
 
-def _pooled_range(differences: pd.Series, place: Mapping[str, int], share: np.ndarray, total: float) -> float:
+def _pooled_range(
+    differences: pd.Series, place: Mapping[str, int], share: np.ndarray, total: float
+) -> float:
     """Half of the 95 % range of the difference of two years [%], by the scatter of differences in each bin."""
     variance, freedom = 0.0, 0
     for number, values in differences.groupby([place[str(name)] for name in differences.index]):
@@ -287,7 +408,9 @@ def _pooled_range(differences: pd.Series, place: Mapping[str, int], share: np.nd
     return _half_range(variance * YEAR**2, freedom, total)
 
 
-def _frame(values: Mapping[str, Mapping[tuple[str, str], float]], ranges: Mapping[str, float]) -> pd.DataFrame:
+def _frame(
+    values: Mapping[str, Mapping[tuple[str, str], float]], ranges: Mapping[str, float]
+) -> pd.DataFrame:
     first = next(iter(values))
     shared = [key for key in values[first] if all(key in one for one in values.values())]
     rows = []
@@ -314,10 +437,15 @@ def _ranking(frame: pd.DataFrame) -> str:
     factor, units = scaled(best["value"], best["units"])
     told = [f"{best['design']} dissipates least, {factor * best['value']:.4g} {units} ({ENERGY})"]
     shown = others if len(others) <= _MOST_RANKED else [*others[: _MOST_RANKED - 1], others[-1]]
-    told += [f"{one['design']} {100.0 * (one['value'] / best['value'] - 1.0):.3g} % more" for one in shown]
+    told += [
+        f"{one['design']} {100.0 * (one['value'] / best['value'] - 1.0):.3g} % more"
+        for one in shown
+    ]
     if len(shown) < len(others):
         told.append(f"{len(others) - len(shown)} others between them")
-    found = [f"{'; '.join(told)}."] + ([f"The energy of {', '.join(unknown)} is not known."] if unknown else [])
+    found = [f"{'; '.join(told)}."] + (
+        [f"The energy of {', '.join(unknown)} is not known."] if unknown else []
+    )
     first = lines[0]["design"]
     unsure, close = [], []
     for one in [one for one in [best, *shown] if one["design"] != first]:
@@ -326,11 +454,17 @@ def _ranking(frame: pd.DataFrame) -> str:
         if not np.isfinite(low):
             unsure.append(name)
         elif low <= 0.0 <= high:
-            close.append(f"{name}, {change}, is smaller than its scatter of {0.5 * (high - low):.2g} %")
+            close.append(
+                f"{name}, {change}, is smaller than its scatter of {0.5 * (high - low):.2g} %"
+            )
         else:
-            found.append(f"From {first} to {name} it changes by {change} ({low:.3g} to {high:.3g} %).")
+            found.append(
+                f"From {first} to {name} it changes by {change} ({low:.3g} to {high:.3g} %)."
+            )
     if close:
-        found.append(f"The difference between {first} and {'; and '.join(close)}: they are not told apart.")
+        found.append(
+            f"The difference between {first} and {'; and '.join(close)}: they are not told apart."
+        )
     if unsure:
         found.append(
             f"How sure the difference between {first} and {', '.join(unsure)} is cannot be told from these results."

@@ -37,8 +37,16 @@ def plot_shaft_speed(axes: Axes, loads: BearingLoads) -> Axes:
 
 def plot_direction(axes: Axes, loads: BearingLoads) -> Axes:
     """Radial load in the plane of the bearing [kN], looking downwind: X0 points to the left."""
-    axes.plot(loads.force[:, 0] / 1e3, loads.force[:, 1] / 1e3, color=BLUE, linewidth=0.4, alpha=0.6)
-    axes.plot(loads.force[:, 0].mean() / 1e3, loads.force[:, 1].mean() / 1e3, color=ORANGE, marker="o", label="mean")
+    axes.plot(
+        loads.force[:, 0] / 1e3, loads.force[:, 1] / 1e3, color=BLUE, linewidth=0.4, alpha=0.6
+    )
+    axes.plot(
+        loads.force[:, 0].mean() / 1e3,
+        loads.force[:, 1].mean() / 1e3,
+        color=ORANGE,
+        marker="o",
+        label="mean",
+    )
     axes.invert_xaxis()
     axes.axhline(0.0, color=BLACK, linewidth=0.5)
     axes.axvline(0.0, color=BLACK, linewidth=0.5)
@@ -54,14 +62,19 @@ def plot_spectrum(axes: Axes, loads: BearingLoads) -> Axes:
     step = float(np.median(np.diff(loads.time)))
     piece = min(loads.time.size, max(8, round(_SPECTRUM_PIECE / step)))
     radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
-    for values, color, name in ((radial, BLUE, "radial load"), (loads.force[:, 2], ORANGE, "thrust")):
+    for values, color, name in (
+        (radial, BLUE, "radial load"),
+        (loads.force[:, 2], ORANGE, "thrust"),
+    ):
         frequency, density = welch(values / 1e3, 1.0 / step, nperseg=piece)
         if np.any(density[1:] > 0.0):
             axes.plot(frequency[1:], density[1:], color=color, linewidth=0.9, label=name)
     turns = abs(float(loads.shaft_speed.mean())) / (2.0 * math.pi)
     if turns > 0.0:
         for multiple in (1, 3):
-            axes.axvline(multiple * turns, color=GREEN, linewidth=0.8, linestyle=":", label=f"{multiple}P")
+            axes.axvline(
+                multiple * turns, color=GREEN, linewidth=0.8, linestyle=":", label=f"{multiple}P"
+            )
     if axes.lines:
         axes.set(xscale="log", yscale="log")
         axes.legend(frameon=False, fontsize=9)
@@ -72,7 +85,12 @@ def plot_empty_row(axes: Axes, time: NDArray, carried: NDArray, share: float) ->
     """Load that the rollers of the upwind row carry together [kN] over time; none while the row is empty."""
     axes.fill_between(time, carried / 1e3, color=BLUE, alpha=0.5, linewidth=0.0)
     axes.set_ylim(bottom=0.0)
-    return finish(axes, "time [s]", "sum of loads [kN]", f"upwind row: empty {100.0 * share:.3g} % of the time")
+    return finish(
+        axes,
+        "time [s]",
+        "sum of loads [kN]",
+        f"upwind row: empty {100.0 * share:.3g} % of the time",
+    )
 
 
 def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:

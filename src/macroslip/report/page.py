@@ -62,7 +62,9 @@ class Section:
     title: str
     body: Markup  #: From a template; a section without a body is left out
     gist: str = ""  #: Its content in a line; shown beside the title of a folded section
-    group: str = ""  #: Name of the group that several sections in a row make, such as one of several results
+    group: str = (
+        ""  #: Name of the group that several sections in a row make, such as one of several results
+    )
 
 
 @functools.cache
@@ -86,13 +88,18 @@ def words(template: str) -> Any:
     return environment().get_template(template).module
 
 
-def sections(template: str, bodies: Mapping[str, Any], *, suffix: str = "", group: str = "") -> list[Section]:
+def sections(
+    template: str, bodies: Mapping[str, Any], *, suffix: str = "", group: str = ""
+) -> list[Section]:
     """Sections from bodies by name; titles and gists are in the dictionary `titles` of the template.
 
     A suffix is added to the names where a page shows several results.
     """
     titles = words(template).titles
-    return [Section(f"{name}{suffix}", titles[name][0], body, titles[name][1], group) for name, body in bodies.items()]
+    return [
+        Section(f"{name}{suffix}", titles[name][0], body, titles[name][1], group)
+        for name, body in bodies.items()
+    ]
 
 
 def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]) -> str:
@@ -102,7 +109,9 @@ def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]
     printing open them. A policy in the page lets only its own script run and forbids every request.
     """
     files = resources.files("macroslip.report") / "templates"
-    script = "".join((files / name).read_text(encoding="utf-8") for name in ("bearing_view.js", "folds.js"))
+    script = "".join(
+        (files / name).read_text(encoding="utf-8") for name in ("bearing_view.js", "folds.js")
+    )
     shown = [one for one in found if one.body.strip()]
     return (
         environment()
@@ -111,7 +120,10 @@ def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]
             title=title,
             subtitle=subtitle,
             opening=opening,
-            groups=[(group, list(some)) for group, some in itertools.groupby(shown, lambda one: one.group)],
+            groups=[
+                (group, list(some))
+                for group, some in itertools.groupby(shown, lambda one: one.group)
+            ],
             style=(files / "report.css").read_text(encoding="utf-8"),
             script=script,
             script_hash=base64.b64encode(hashlib.sha256(script.encode()).digest()).decode("ascii"),

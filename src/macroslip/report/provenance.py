@@ -26,7 +26,9 @@ def provenance_section(datasets: Mapping[str, xr.Dataset]) -> Section:
     given = {name: stored_settings(one) for name, one in datasets.items()}
     sources = sorted({one.attrs.get("source", "not given") for one in datasets.values()})
     program = [("computed by", ", ".join(sources))]
-    program += [(f"this page: {key}", str(value)) for key, value in machine().items() if value is not None]
+    program += [
+        (f"this page: {key}", str(value)) for key, value in machine().items() if value is not None
+    ]
     ends = [
         (name, str(count), status.sentence)
         for name, dataset in datasets.items()
@@ -35,7 +37,9 @@ def provenance_section(datasets: Mapping[str, xr.Dataset]) -> Section:
     ]
     tables = [
         Table(("", ""), program, "Program and machine"),
-        Table(("", "integrations of rollers", "how they ended"), ends, "Status of the integrations"),
+        Table(
+            ("", "integrations of rollers", "how they ended"), ends, "Status of the integrations"
+        ),
     ]
     for part in ("bearing", "lubricant", ""):
         tables += _input_tables(given, part)
@@ -57,19 +61,35 @@ def _input_tables(given: Mapping[str, Mapping[str, Any]], part: str) -> list[Tab
     """A table of each different bearing or lubricant, or of each different rest of the input, and whose it is."""
     found: dict[str, list[str]] = {}
     for name, settings in given.items():
-        rest = {key: one for key, one in settings.items() if key not in ("bearing", "lubricant", "loads")}
+        rest = {
+            key: one
+            for key, one in settings.items()
+            if key not in ("bearing", "lubricant", "loads")
+        }
         value = settings.get(part) if part else rest
         if isinstance(value, dict) and value:
             found.setdefault(json.dumps(value, ensure_ascii=False), []).append(name)
     tables = []
     for text, names in found.items():
-        title = (part.capitalize() or "Further input") + (f" ({', '.join(names)})" if len(found) > 1 else "")
+        title = (part.capitalize() or "Further input") + (
+            f" ({', '.join(names)})" if len(found) > 1 else ""
+        )
         value = json.loads(text)
         if part:
-            tables.append(Table(("quantity", "value", "from", "note"), [_entry(*one) for one in value.items()], title))
+            tables.append(
+                Table(
+                    ("quantity", "value", "from", "note"),
+                    [_entry(*one) for one in value.items()],
+                    title,
+                )
+            )
         else:
             tables.append(
-                Table(("input", "value (SI units)"), [(key, _text(one)) for key, one in value.items()], title)
+                Table(
+                    ("input", "value (SI units)"),
+                    [(key, _text(one)) for key, one in value.items()],
+                    title,
+                )
             )
     return tables
 
@@ -87,9 +107,15 @@ def _loads(given: Mapping[str, Mapping[str, Any]]) -> Table:
     for name, settings in given.items():
         loads = settings.get("loads", [])
         for one in loads if isinstance(loads, list) else [loads]:
-            *values, checksum = (str(one.get(key, "")) for key in ("source", "samples", "start", "end", "sha256"))
+            *values, checksum = (
+                str(one.get(key, "")) for key in ("source", "samples", "start", "end", "sha256")
+            )
             rows.append((name, *values, checksum[:16]))
-    return Table(("", "loads", "samples", "from [s]", "to [s]", "SHA-256 begins"), list(dict.fromkeys(rows)), "Loads")
+    return Table(
+        ("", "loads", "samples", "from [s]", "to [s]", "SHA-256 begins"),
+        list(dict.fromkeys(rows)),
+        "Loads",
+    )
 
 
 def _text(value: Any) -> str:
@@ -112,10 +138,17 @@ def bibtex(citations: Iterable[str]) -> str:
       doi = {10.1000/182}
     }
     """
-    works = (resources.files("macroslip.report") / "templates" / "works.bib").read_text(encoding="utf-8")
-    known = {re.findall(r"(?:doi|title) = {(.*)}", work)[-1]: work for work in works.strip().split("\n\n")}
+    works = (resources.files("macroslip.report") / "templates" / "works.bib").read_text(
+        encoding="utf-8"
+    )
+    known = {
+        re.findall(r"(?:doi|title) = {(.*)}", work)[-1]: work
+        for work in works.strip().split("\n\n")
+    }
     title = "macroslip: slip of the rollers of a wind turbine's main bearing"
-    entries = [_bibtex_entry("software", "macroslip", {"title": title, "version": macroslip.__version__})]
+    entries = [
+        _bibtex_entry("software", "macroslip", {"title": title, "version": macroslip.__version__})
+    ]
     keys = {""}
     for citation in filter(str.strip, citations):
         entry = next((work for mark, work in known.items() if mark in citation), None)

@@ -38,7 +38,10 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
     found = []
     for name in result.row.values.tolist():
         row = result.sel(row=name)
-        energy, parts = row.energy.sum("interface", skipna=False), row.energy.mean("roller", skipna=False)
+        energy, parts = (
+            row.energy.sum("interface", skipna=False),
+            row.energy.mean("roller", skipna=False),
+        )
         total = _known(energy.mean("roller", skipna=False))
         orbits = row.get("peak_power", row.get("peak_power_max"))
         peak = row.get("window_peak_power", orbits)
@@ -48,7 +51,9 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
         if loaded is None and "roller_load" in row:
             loaded = (row.roller_load > 0.0).mean()
         share = row.get("outside_film_range")
-        raceways = None if share is None else share.sel(interface=share.interface.isin(["inner", "outer"]))
+        raceways = (
+            None if share is None else share.sel(interface=share.interface.isin(["inner", "outer"]))
+        )
         thin = np.array(np.nan)
         if "film_slip_time" in row:
             amounts = row.film_slip_time.transpose("raceway", "film_class", "slip_class").values
@@ -59,13 +64,17 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
                 "energy": total,
                 "least": _known(energy.min("roller")),
                 "most": _known(energy.max("roller")),
-                "interface": str(parts.interface.values[int(np.argmax(parts.values))]) if total else "",
+                "interface": str(parts.interface.values[int(np.argmax(parts.values))])
+                if total
+                else "",
                 "share": 100.0 * float(parts.max()) / total if total else None,
                 "peak": None if peak is None else _known(peak.max()),
                 "typical": None if orbits is None else _known(orbits.median()),
                 "spin": _known(row.min_spin_ratio.min()) if "min_spin_ratio" in row else None,
                 "loaded": None if loaded is None else _known(100.0 * loaded),
-                "outside": None if raceways is None else _known(100.0 * raceways.mean("roller").max()),
+                "outside": None
+                if raceways is None
+                else _known(100.0 * raceways.mean("roller").max()),
                 "outside_most": None if share is None else _known(100.0 * share.max()),
                 "mixed": 100.0 * float(np.nanmax(thin)) if np.isfinite(thin).any() else None,
                 "failed": int((row.status != 0).sum()),
@@ -85,13 +94,19 @@ def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
     if peak is None or not bool(peak.notnull().any()):
         return None
     place = peak.where(peak == peak.max(), drop=True).isel(row=0, interface=0)
-    return {"power": float(peak.max()), "row": place.row.item(), "interface": place.interface.item()}
+    return {
+        "power": float(peak.max()),
+        "row": place.row.item(),
+        "interface": place.interface.item(),
+    }
 
 
 def estimated_values(result: xr.Dataset) -> tuple[int, int]:
     """How many values of bearing and lubricant are engineering estimates, and how many there are."""
     given = stored_settings(result)
-    entries = [one for part in ("bearing", "lubricant") for one in dict(given.get(part) or {}).values()]
+    entries = [
+        one for part in ("bearing", "lubricant") for one in dict(given.get(part) or {}).values()
+    ]
     tags = [entry.get("tag") for entry in entries if isinstance(entry, dict)]
     return tags.count("E"), len(tags)
 
@@ -129,7 +144,12 @@ def overview_table(results: Mapping[str, xr.Dataset]) -> Table:
     )  # fmt: skip
     keys = ("energy", "least", "most", "peak", "spin")
     rows = [
-        (name, row["name"], *(number(row[key]) for key in keys), f"{row['failed']} of {row['rollers']}")
+        (
+            name,
+            row["name"],
+            *(number(row[key]) for key in keys),
+            f"{row['failed']} of {row['rollers']}",
+        )
         for name, result in results.items()
         for row in row_numbers(result)
     ]
@@ -148,12 +168,21 @@ def counterpart(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> str | 
         return {key: value for key, value in stored_settings(one).items() if key not in _OWN_KEYS}
 
     others = {name: one for name, one in results.items() if one is not result and not is_whole(one)}
-    return next((name for name, one in others.items() if "input" in one.attrs and rest(one) == rest(result)), None)
+    return next(
+        (
+            name
+            for name, one in others.items()
+            if "input" in one.attrs and rest(one) == rest(result)
+        ),
+        None,
+    )
 
 
 def balances(result: xr.Dataset) -> dict[str, float]:
     """Residuals of a whole bearing's balances, and all that has passed through: [N m s] and [J]."""
-    impulses = [str(name) for name in result if str(name).endswith("_impulse") and "book" in str(name)]
+    impulses = [
+        str(name) for name in result if str(name).endswith("_impulse") and "book" in str(name)
+    ]
     losses = ("book_raceway_loss", "book_friction_loss", "pocket_loss")
     return {
         "momentum": float(abs(result.momentum_residual).max()),
@@ -169,7 +198,8 @@ def comparison_table(result: xr.Dataset, imposed: xr.Dataset) -> Table:
     for row in result.row.values.tolist():
         for interface in result.interface.values.tolist():
             before, now = (
-                float(one.energy.sel(row=row, interface=interface).mean("roller")) for one in (imposed, result)
+                float(one.energy.sel(row=row, interface=interface).mean("roller"))
+                for one in (imposed, result)
             )
             ratio = now / before if before > 0.0 else None
             rows.append((row, interface, f"{before:.4g}", f"{now:.4g}", number(ratio)))
@@ -183,12 +213,31 @@ def pocket_table(result: xr.Dataset) -> Table:
     for row in result.row.values.tolist():
         for side in result.side.values.tolist():
             one = result.sel(row=row, side=side)
-            mean, contact = (float(values.mean()) / span for values in (one.pocket_impulse, one.pocket_contact_time))
-            rows.append(
-                (row, side, f"{float(one.largest_pocket_force.max()):.4g}", f"{mean:.4g}", f"{100 * contact:.3g}")
+            mean, contact = (
+                float(values.mean()) / span
+                for values in (one.pocket_impulse, one.pocket_contact_time)
             )
-    headings = ("row", "spar", "largest force [N]", "mean force on a roller [N]", "time in contact [%]")
-    return Table(headings, rows, "Forces of the spars in the window; front is the spar ahead along the orbit.")
+            rows.append(
+                (
+                    row,
+                    side,
+                    f"{float(one.largest_pocket_force.max()):.4g}",
+                    f"{mean:.4g}",
+                    f"{100 * contact:.3g}",
+                )
+            )
+    headings = (
+        "row",
+        "spar",
+        "largest force [N]",
+        "mean force on a roller [N]",
+        "time in contact [%]",
+    )
+    return Table(
+        headings,
+        rows,
+        "Forces of the spars in the window; front is the spar ahead along the orbit.",
+    )
 
 
 def rating_tables(result: xr.Dataset) -> list[Table]:
@@ -196,15 +245,25 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
     whole = [(str(result[name].attrs["long_name"]), rating_text(result[name])) for name in _RATING]
     for along, words in (("hertz", "as in a Hertz contact"), ("uniform", "even along the roller")):
         one = result.sel(load_along_roller=along)
-        whole.append((f"reference life, ISO/TS 16281, load {words}", rating_text(one.reference_life)))
-        whole.append((f"modified reference life, load {words}", rating_text(one.modified_reference_life)))
+        whole.append(
+            (f"reference life, ISO/TS 16281, load {words}", rating_text(one.reference_life))
+        )
+        whole.append(
+            (f"modified reference life, load {words}", rating_text(one.modified_reference_life))
+        )
     raceways = []
     for row in result.row.values.tolist():
         for raceway in ("inner", "outer"):
             one = result.sel(row=row, raceway=raceway, load_along_roller="hertz")
-            values = (1e-3 * one.largest_roller_load, 1e-9 * one.largest_pressure, one.film_ratio, one.film_ratio_low)
+            values = (
+                1e-3 * one.largest_roller_load,
+                1e-9 * one.largest_pressure,
+                one.film_ratio,
+                one.film_ratio_low,
+            )
             cells = [
-                rating_text(value) for value in (*(one.drop_attrs() for one in values), one.raceway_reference_life)
+                rating_text(value)
+                for value in (*(one.drop_attrs() for one in values), one.raceway_reference_life)
             ]
             raceways.append((f"{row}, {raceway}", *cells))
     headings = (
@@ -213,11 +272,19 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
     )  # fmt: skip
     exponents = result.wohler_exponent.values.tolist()
     ranges = [
-        (load, *(rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one)) for one in exponents))
+        (
+            load,
+            *(
+                rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one))
+                for one in exponents
+            ),
+        )
         for load in result["load"].values.tolist()
     ]
     loads = Table(
-        ("load", *(f"exponent {one:g}" for one in exponents)), ranges, "Damage-equivalent load, range at 1 Hz"
+        ("load", *(f"exponent {one:g}" for one in exponents)),
+        ranges,
+        "Damage-equivalent load, range at 1 Hz",
     )
     return [Table(("bearing", "value"), whole), Table(headings, raceways), loads]
 
@@ -230,7 +297,11 @@ def rating_summary(study: xr.Dataset) -> Table | None:
     for name in RATING_VARIABLES:
         values = study[name].dropna("case")
         if values.size:
-            ends = (values.min(keep_attrs=True), values.median(keep_attrs=True), values.max(keep_attrs=True))
+            ends = (
+                values.min(keep_attrs=True),
+                values.median(keep_attrs=True),
+                values.max(keep_attrs=True),
+            )
             rows.append((str(study[name].attrs["long_name"]), *map(rating_text, ends)))
     return Table(("", "least", "median of the runs", "largest"), rows)
 
@@ -267,7 +338,9 @@ def usual_units(value: float, unit: str) -> str:
         return "–"
     if unit == "year":
         return years(value * HOURS_A_YEAR)
-    scale, name = {"W/m2": (1e-6, " W/mm²"), "J/m2": (1e-6, " J/mm²"), "1": (1.0, "")}.get(unit, (1.0, f" {unit}"))
+    scale, name = {"W/m2": (1e-6, " W/mm²"), "J/m2": (1e-6, " J/mm²"), "1": (1.0, "")}.get(
+        unit, (1.0, f" {unit}")
+    )
     found = value * scale
     if name == " J/mm²" and found >= 1e3:
         found, name = (1e-6 * found, " MJ/mm²") if found >= 1e6 else (1e-3 * found, " kJ/mm²")
@@ -278,10 +351,16 @@ def criteria_table(lines: list[dict[str, Any]]) -> Table:
     """Criteria of damage from `macroslip.result.damage.lines`: value, reference, ratio, and how sure each is."""
     rows = []
     for one in lines:
-        reference = f"{usual_units(one['reference'], one['unit'])}, " if np.isfinite(one["reference"]) else ""
+        reference = (
+            f"{usual_units(one['reference'], one['unit'])}, "
+            if np.isfinite(one["reference"])
+            else ""
+        )
         value, ratio = usual_units(one["value"], one["unit"]), number(one["ratio"], 2)
         ratio = "< 0.001" if 0.0 < one["ratio"] < 1e-3 else ratio
-        rows.append((one["title"], value, f"{reference}{one['compared with']}", ratio, one["how sure"]))
+        rows.append(
+            (one["title"], value, f"{reference}{one['compared with']}", ratio, one["how sure"])
+        )
     return Table(("criterion", "value", "compared with", "ratio", "how sure"), rows)
 
 
@@ -302,9 +381,12 @@ def surface_shares(density: xr.DataArray) -> list[dict[str, Any]]:
         total = float(one.sum())
         if total > 0.0:
             negative, thin = (
-                float(one.sel(part).sum()) for part in ({"slip_sign": "negative"}, {"film_regime": "below 1"})
+                float(one.sel(part).sum())
+                for part in ({"slip_sign": "negative"}, {"film_regime": "below 1"})
             )
-            found.append({"row": row, "negative": 100.0 * negative / total, "thin": 100.0 * thin / total})
+            found.append(
+                {"row": row, "negative": 100.0 * negative / total, "thin": 100.0 * thin / total}
+            )
     return found
 
 
@@ -316,4 +398,8 @@ def least_film_ratios(orbit: xr.Dataset) -> list[tuple[str, str, float]]:
         for row in orbit.row.values.tolist()
         for interface in ("inner", "outer")
     ]
-    return [(row, interface, float(np.nanmin(one))) for row, interface, one in found if np.isfinite(one).any()]
+    return [
+        (row, interface, float(np.nanmin(one)))
+        for row, interface, one in found
+        if np.isfinite(one).any()
+    ]

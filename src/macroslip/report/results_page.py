@@ -60,7 +60,10 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
     alone = len(results) == 1
     sentences = _sentences(result, short=False) if alone and lines(result)[0] else ""
     overview = words(_TEMPLATE).numbers(
-        numbers.overview_table(results), failed, DETAILED if len(results) > DETAILED else None, sentences
+        numbers.overview_table(results),
+        failed,
+        DETAILED if len(results) > DETAILED else None,
+        sentences,
     )
     found = sections(_TEMPLATE, {"numbers": overview})
     if profiles:
@@ -68,7 +71,9 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
     for place, (name, one) in enumerate(shown.items()):
         options = {"suffix": f"-{place}" if place else "", "group": "" if alone else name}
         intro = str(one.attrs.get("title", ""))
-        found += roller_sections(one, profiles.get(name), intro=intro, no_traces=reasons.get(name, ""), **options)
+        found += roller_sections(
+            one, profiles.get(name), intro=intro, no_traces=reasons.get(name, ""), **options
+        )
         found += _further_sections(one, results, **options)
     found.append(provenance_section(results))
     if alone:
@@ -89,7 +94,9 @@ def _check(name: str, dataset: xr.Dataset) -> None:
 def _subtitle(result: xr.Dataset) -> str:
     parts = [str(result.attrs.get("title", "")).rstrip(".")]
     if "window_end" in result.attrs:
-        parts.append(f"{float(result.attrs['window_start']):.4g} s to {float(result.attrs['window_end']):.4g} s")
+        parts.append(
+            f"{float(result.attrs['window_start']):.4g} s to {float(result.attrs['window_end']):.4g} s"
+        )
     return f"{', '.join(filter(None, parts))}."
 
 
@@ -102,18 +109,26 @@ def result_opening(result: xr.Dataset, profile: Profile | None, no_traces: str =
     text, pictures = words(_TEMPLATE), []
     found, missing = lines(result)
     if profile:
-        load, about = profile["load_zone"].roller_load, "Slip of the rollers of both rows over the orbit"
+        load, about = (
+            profile["load_zone"].roller_load,
+            "Slip of the rollers of both rows over the orbit",
+        )
         # The row with more load, and slip of both.
         carries = str(load.row[int(np.argmax(load.mean(("angle", "time")).values))].item())
         plain = {**OPENING, "legend": ""}
         pictures = [
-            picture(draw.plot_bearing, _BEARING, profile["still"], run_input(result).bearing, **plain),
+            picture(
+                draw.plot_bearing, _BEARING, profile["still"], run_input(result).bearing, **plain
+            ),
             picture(draw.plot_load_zone, _ZONE.format(carries), load, carries, **plain),
             picture(draw.plot_slip_over_orbit, about, profile["orbit"].slip, **OPENING),
         ]
     if len(pictures) < 3 or not found:
         pictures += _bars(
-            draw.plot_energy_by_interface, "Energy of a mean roller by interface", result.energy, **OPENING
+            draw.plot_energy_by_interface,
+            "Energy of a mean roller by interface",
+            result.energy,
+            **OPENING,
         )
         peak = numbers.largest_peak(result)
         if not profile and peak and peak["power"] > 0.0:
@@ -122,8 +137,14 @@ def result_opening(result: xr.Dataset, profile: Profile | None, no_traces: str =
     return Opening(_sentences(result, short=bool(found)), pictures, below=criteria)
 
 
-def _bars(plot: Callable[..., object], about: str, values: xr.DataArray, **options: Any) -> list[Picture]:
-    return [picture(plot, about, values, **options)] if np.nanmax(values.values, initial=0.0) > 0.0 else []
+def _bars(
+    plot: Callable[..., object], about: str, values: xr.DataArray, **options: Any
+) -> list[Picture]:
+    return (
+        [picture(plot, about, values, **options)]
+        if np.nanmax(values.values, initial=0.0) > 0.0
+        else []
+    )
 
 
 def _sentences(result: xr.Dataset, *, short: bool) -> Markup:
@@ -132,8 +153,13 @@ def _sentences(result: xr.Dataset, *, short: bool) -> Markup:
         seconds = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
     known = numbers.rollers_failed([result]), numbers.estimated_values(result)
     rows, peak = numbers.row_numbers(result), numbers.largest_peak(result)
-    idle, orbits = result.attrs.get("oil_supply_note", "").startswith("oil_supply "), result.sizes.get("orbit", 1)
-    sentences = words(_TEMPLATE).answer(rows, seconds, orbits, peak, *known[0], *known[1], short, idle)
+    idle, orbits = (
+        result.attrs.get("oil_supply_note", "").startswith("oil_supply "),
+        result.sizes.get("orbit", 1),
+    )
+    sentences = words(_TEMPLATE).answer(
+        rows, seconds, orbits, peak, *known[0], *known[1], short, idle
+    )
     # In full the range of the films has its sentence already.
     judged = result if short else result.drop_vars("outside_film_range", errors="ignore")
     return sentences + words("parts.html").doubts(doubtful_result(judged))
@@ -155,7 +181,11 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
         if not np.isfinite(values).any():
             continue
         place, row = np.unravel_index(extreme(values), values.shape)
-        extremes[key] = {"name": list(found)[place], "row": rows[row], "value": float(values[place, row])}
+        extremes[key] = {
+            "name": list(found)[place],
+            "row": rows[row],
+            "value": float(values[place, row]),
+        }
         about = f"By result and row: {label}"
         pictures.append(picture(plot_by_result, about, list(found), rows, values, label, **OPENING))
     failed = numbers.rollers_failed(results.values())
@@ -169,7 +199,8 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
 def view_section(profiles: Mapping[str, Profile]) -> Section:
     """The moving bearing, with the profiles of `orbit_profile` by title."""
     scenes = {
-        title: scene_data(profile["scene"], run_input(profile["result"]).bearing) for title, profile in profiles.items()
+        title: scene_data(profile["scene"], run_input(profile["result"]).bearing)
+        for title, profile in profiles.items()
     }
     first = next(iter(profiles.values()))["scene"].time
     pockets = any("pocket_offset" in profile["scene"] for profile in profiles.values())
@@ -195,16 +226,22 @@ def roller_sections(
     about = "Bars of a mean roller's energy by interface and row"
     shown = _bars(draw.plot_energy_by_interface, about, energy, legend="above")
     spread = energy.sum("interface", skipna=False).mean("roller") > 0.0
-    shown += row_pictures(draw.plot_roller_spread, _SPREAD, energy, spread.row.values[spread.values].tolist())
+    shown += row_pictures(
+        draw.plot_roller_spread, _SPREAD, energy, spread.row.values[spread.values].tolist()
+    )
     known = [row for row in numbers.row_numbers(result) if row["least"]]
     polar, about_orbit, films, least, zone = [], (0, 0, 0), [], [], None
     if profile:
         orbit, load = profile["orbit"], profile["load_zone"].roller_load
         over, names = orbit.energy_over_orbit, orbit.row.values.tolist()
-        polar = row_pictures(draw.plot_energy_over_orbit, _ORBIT, over, names, **ROUND, legend="below")
+        polar = row_pictures(
+            draw.plot_energy_over_orbit, _ORBIT, over, names, **ROUND, legend="below"
+        )
         about_orbit = over.attrs["orbits"], 360.0 / orbit.sizes["angle"], over.attrs["energy_ratio"]
         zones = row_pictures(draw.plot_load_zone, _ZONE, load, names)
-        zone = text.load_zone(zones, [(row, 1e-3 * float(load.sel(row=row).max())) for row in names])
+        zone = text.load_zone(
+            zones, [(row, 1e-3 * float(load.sel(row=row).max())) for row in names]
+        )
         about = "Film thickness and film parameter of the {} row over the orbit, by interface"
         films = row_pictures(draw.plot_film_over_orbit, about, orbit, names, legend="above")
         least = numbers.least_film_ratios(orbit)
@@ -213,10 +250,14 @@ def roller_sections(
         shown.append(picture(draw.plot_skew_over_orbit, about, result, legend="above"))
     if "mechanism_energy" in result:
         about = "Bars of a mean roller's energy by mechanism and row"
-        shown.append(picture(draw.plot_by_mechanism, about, result.mechanism_energy, legend="above"))
+        shown.append(
+            picture(draw.plot_by_mechanism, about, result.mechanism_energy, legend="above")
+        )
     bodies = {"energy": text.energy(intro, no_traces, polar, *about_orbit, shown, known)}
     if np.nanmax(result.peak_power.values, initial=0.0) > 0.0:
-        bodies["power"] = text.power([picture(draw.plot_peak_exceedance, _PEAKS, result, legend="above")])
+        bodies["power"] = text.power(
+            [picture(draw.plot_peak_exceedance, _PEAKS, result, legend="above")]
+        )
     if zone:
         bodies["load-zone"] = zone
     about = "Bars of the share of loaded time outside the film formula's range"
@@ -248,7 +289,9 @@ def _surface(result: xr.Dataset) -> Markup:
     bearing = run_input(result).bearing
     along = roller_energy_density(result, bearing)
     about = "Energy per area along the rollers of the {} row, by sign of slip and film ratio"
-    lines = row_pictures(draw.plot_along_roller, about, along, along.row.values.tolist(), legend="above")
+    lines = row_pictures(
+        draw.plot_along_roller, about, along, along.row.values.tolist(), legend="above"
+    )
     of = f"of {result.sizes['roller']} of {bearing.rollers_per_row} rollers of each row"
     maps = map_pictures(energy_density(result), result.surface_power_density)
     return words(_TEMPLATE).surface(*maps, of, lines, numbers.surface_shares(along))
@@ -281,7 +324,10 @@ def map_pictures(energy: xr.DataArray, density: xr.DataArray) -> list[Any]:
     """Maps of energy [J/m²] and largest power per area [W/m²], each kind on one scale, followed by their maxima."""
     found: list[Any] = []
     for values, units in ((energy, "J/mm²"), (density, "W/mm²")):
-        panels = {f"Map of the {title}, {units}": (one, units, title) for title, one in draw.raceways(values).items()}
+        panels = {
+            f"Map of the {title}, {units}": (one, units, title)
+            for title, one in draw.raceways(values).items()
+        }
         found += [compared(draw.plot_map, panels), numbers.by_raceway(1e-6 * values)]
     return found
 
@@ -289,9 +335,15 @@ def map_pictures(energy: xr.DataArray, density: xr.DataArray) -> list[Any]:
 def whole_body(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> Markup:
     """Coupled motion of a whole bearing; a result on imposed orbits of the same case is compared."""
     rows = result.row.values.tolist()
-    slips = zip(result.cage.values.tolist(), result.cage_slip.values, result.cage_slip_deviation.values, strict=True)
+    slips = zip(
+        result.cage.values.tolist(),
+        result.cage_slip.values,
+        result.cage_slip_deviation.values,
+        strict=True,
+    )
     cages = [
-        {"name": name, "slip": 100 * float(slip), "deviation": 100 * float(spread)} for name, slip, spread in slips
+        {"name": name, "slip": 100 * float(slip), "deviation": 100 * float(spread)}
+        for name, slip, spread in slips
     ]
     imposed = numbers.counterpart(result, results)
     about = "Polar plot of the largest force of a spar on the {} row by place on the orbit"

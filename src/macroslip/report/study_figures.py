@@ -28,7 +28,9 @@ MOST_CURVES = 6
 _NAME_LENGTH = 16
 
 
-def _curves(values: xr.DataArray, shown: Sequence[int]) -> Iterator[tuple[xr.DataArray, dict[str, Any]]]:
+def _curves(
+    values: xr.DataArray, shown: Sequence[int]
+) -> Iterator[tuple[xr.DataArray, dict[str, Any]]]:
     """The curve of each row and design with its style: one design has a colour a row, several a colour each.
 
     Names that are too long for a legend are numbers in the order of the designs.
@@ -40,7 +42,10 @@ def _curves(values: xr.DataArray, shown: Sequence[int]) -> Iterator[tuple[xr.Dat
         for row in values.row.values.tolist():
             style = dict(ROW[row])
             if len(shown) > 1:
-                style |= {"color": f"C{k}", "label": names[group] if row == values.row.values[0] else None}
+                style |= {
+                    "color": f"C{k}",
+                    "label": names[group] if row == values.row.values[0] else None,
+                }
             yield values.isel(group=group).sel(row=row), {"label": row, "markersize": 4, **style}
 
 
@@ -69,7 +74,9 @@ def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[i
         one = one[one.values > 0.0]
         axes.plot(one.threshold.values, one.values, **style | {"marker": ""})
     axes.set_yscale("log")
-    drawn = curves.threshold.values[(curves[name].isel(group=list(shown)) > 0.0).any(["group", "row"]).values]
+    drawn = curves.threshold.values[
+        (curves[name].isel(group=list(shown)) > 0.0).any(["group", "row"]).values
+    ]
     if drawn.size and drawn.max() > 50.0 * drawn.min():
         axes.set_xscale("log")
     return finish(axes, EXCEEDED[name], "orbits a year above", _rows(curves[name], shown))
@@ -84,12 +91,20 @@ def plot_effects(axes: Axes, found: xr.Dataset, quantity: str) -> Axes:
     one = one.isel(parameter=np.argsort(np.abs(np.nan_to_num(one.main_effect.values)))[-10:])
     names = [str(name).replace(".", "\n").replace("_", " ") for name in one.parameter.values]
     effect, error = 100.0 * one.main_effect.values, 200.0 * one.main_effect_error.values
-    axes.barh(names, effect, xerr=error, color=[BLUE if value < 0.0 else ORANGE for value in effect], capsize=3)
+    axes.barh(
+        names,
+        effect,
+        xerr=error,
+        color=[BLUE if value < 0.0 else ORANGE for value in effect],
+        capsize=3,
+    )
     axes.axvline(0.0, color=GREY, linewidth=0.8)
     return finish(axes, "change from lower to upper half [%]", "", quantity.replace("_", " "))
 
 
-def plot_by_result(axes: Axes, names: Sequence[str], rows: Sequence[str], values: np.ndarray, label: str) -> Axes:
+def plot_by_result(
+    axes: Axes, names: Sequence[str], rows: Sequence[str], values: np.ndarray, label: str
+) -> Axes:
     """A value of every result and row, over the results.
 
     Takes values over (result, row); one that is missing is left out.
@@ -97,8 +112,12 @@ def plot_by_result(axes: Axes, names: Sequence[str], rows: Sequence[str], values
     places = np.arange(len(names))
     for k, row in enumerate(rows):
         style = {**ROW.get(row, {}), "linestyle": "none"}
-        axes.plot(places + 0.16 * (k - 0.5), values[:, k], markersize=5, label=f"{row} row", **style)
-    shown = [name if len(name) <= _NAME_LENGTH else f"{name[: _NAME_LENGTH - 1]}…" for name in names]
+        axes.plot(
+            places + 0.16 * (k - 0.5), values[:, k], markersize=5, label=f"{row} row", **style
+        )
+    shown = [
+        name if len(name) <= _NAME_LENGTH else f"{name[: _NAME_LENGTH - 1]}…" for name in names
+    ]
     upright = len(names) > 4 or sum(map(len, shown)) > 32
     axes.set_xticks(places, shown, rotation=90 if upright else 0)
     axes.set_xlim(-0.5, len(names) - 0.5)

@@ -32,7 +32,16 @@ from macroslip.study.exceedance import exceedance
 from macroslip.study.export import as_table
 from macroslip.study.lifetime import lifetime_energy, weighted_maps, worst
 from macroslip.study.store import Outcome
-from macroslip.study.weights import IEC_CLASSES, Given, Weibull, Weights, Year, binned, is_parameter, weights_in_use
+from macroslip.study.weights import (
+    IEC_CLASSES,
+    Given,
+    Weibull,
+    Weights,
+    Year,
+    binned,
+    is_parameter,
+    weights_in_use,
+)
 from macroslip.study.year import CRITERIA, coverage, design_names, designs, year
 
 if TYPE_CHECKING:
@@ -69,7 +78,9 @@ _SHOWN = {
 _TEMPLATE = "study.html"
 
 
-def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None = None, years: float = 20.0) -> str:
+def study_page(
+    study: xr.Dataset, *, title: str, weights: Weibull | Given | None = None, years: float = 20.0
+) -> str:
     """A page on a study: HTML in one piece, every name and text in it escaped.
 
     `weights` says how likely each wind speed is, the study file by default. Without any, designs are ranked over all
@@ -101,15 +112,28 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None
         life = lifetime_energy(base, used, years=years, **bins)
         shown = drawable(life.bin_energy, order)
         energies = _table(as_table(life, ["lifetime_energy"]), "Lifetime energy")
-        pictures = [picture(plot_lifetime, "Lifetime energy by wind speed", life, shown, **OPENING)] if shown else []
-        bodies["lifetime"] = text.lifetime(years, named, 100.0 * float(life.covered), energies, pictures)
+        pictures = (
+            [picture(plot_lifetime, "Lifetime energy by wind speed", life, shown, **OPENING)]
+            if shown
+            else []
+        )
+        bodies["lifetime"] = text.lifetime(
+            years, named, 100.0 * float(life.covered), energies, pictures
+        )
     except InputError as problem:
         bodies["lifetime"] = text.no_lifetime(str(problem))
     try:
         curves = exceedance(base, used, **bins)
         shown = drawable(curves.power_orbits, order)
         exceeding = [
-            picture(plot_exceedance, f"Orbits a year of a roller over the {label}", curves, name, shown, **OPENING)
+            picture(
+                plot_exceedance,
+                f"Orbits a year of a roller over the {label}",
+                curves,
+                name,
+                shown,
+                **OPENING,
+            )
             for name, label in (EXCEEDED.items() if shown else ())
         ]
         bodies["exceedance"] = text.exceedance(named, exceeding)
@@ -118,7 +142,9 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None
         bodies["exceedance"] = text.no_exceedance(str(problem))
     bodies["surface"] = _surface(base, used, years, bins)
     if rating := rating_summary(study):
-        bodies["rating"] = text.rating(int(study.static_safety.notnull().sum()), study.sizes["case"], rating)
+        bodies["rating"] = text.rating(
+            int(study.static_safety.notnull().sum()), study.sizes["case"], rating
+        )
     bodies |= {"worst": text.worst(_worst(study)), "failures": text.failures(_failures(study))}
     found = sections(_TEMPLATE, bodies)
     if "status" in study:
@@ -128,10 +154,14 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None
     pictures = [*drawn[:1], *pictures]
     for name, label in _EXTREMES.items():
         if len(pictures) < 4 and name in extremes:
-            pictures.append(picture(_plot_extremes, f"By run: {label}", base, order, name, label, **OPENING))
+            pictures.append(
+                picture(_plot_extremes, f"By run: {label}", base, order, name, label, **OPENING)
+            )
     counts = {one.name: int((study.outcome.values == str(one)).sum()) for one in Outcome}
     judged = study[[name for name in JUDGED if name in study]].median("case")
-    answer = text.answer(counts, ranking, told, list(extremes.values()), driver, doubtful_result(judged))
+    answer = text.answer(
+        counts, ranking, told, list(extremes.values()), driver, doubtful_result(judged)
+    )
     opening = Opening(answer, pictures, table=_designs(table, names, _MOST_DESIGNS))
     return render(title, _subtitle(study, title), opening, found)
 
@@ -145,7 +175,10 @@ def _without_folders(study: str) -> str:
         return without_folders(value) if isinstance(value, str) else value
 
     content = json.loads(study)
-    for section, keys in ((content.get("loads", {}), ("files", "table")), (content, ("bearings", "lubricants"))):
+    for section, keys in (
+        (content.get("loads", {}), ("files", "table")),
+        (content, ("bearings", "lubricants")),
+    ):
         section |= {key: bare(section[key]) for key in keys if key in section}
     return json.dumps(content, ensure_ascii=False)
 
@@ -200,15 +233,29 @@ def _effects(
             else "–"
             for each in (one.sel(parameter=key) for key in found.parameter.values)
         ]
-        rows.append((heading, " … ".join(number(scale * value, 3) for value in one["range"].values), *cells))
-    table = Table(("", "5, 50 and 95 %", *map(str, found.parameter.values)), rows, f"{int(found.points)} points")
+        rows.append(
+            (heading, " … ".join(number(scale * value, 3) for value in one["range"].values), *cells)
+        )
+    table = Table(
+        ("", "5, 50 and 95 %", *map(str, found.parameter.values)),
+        rows,
+        f"{int(found.points)} points",
+    )
     shown = [
-        picture(plot_effects, f"Main effects on the {CRITERIA[name][2]}", found, name, **{**OPENING, "legend": ""})
+        picture(
+            plot_effects,
+            f"Main effects on the {CRITERIA[name][2]}",
+            found,
+            name,
+            **{**OPENING, "legend": ""},
+        )
         for name in ("energy", "wear")
         if name in found.quantity
     ]
     driver = ""
-    if "energy" in found.quantity and bool(found.rank_correlation.sel(quantity="energy").notnull().any()):
+    if "energy" in found.quantity and bool(
+        found.rank_correlation.sel(quantity="energy").notnull().any()
+    ):
         energy = found.sel(quantity="energy")
         first = energy.isel(parameter=int(np.nanargmax(np.abs(energy.rank_correlation.values))))
         numbers = 100.0 * float(first.main_effect), float(first.rank_correlation)
@@ -232,28 +279,44 @@ def _year(found: xr.Dataset, names: list[str]) -> Table:
     for group in range(found.sizes["group"]):
         for place in range(found.sizes["bin"]):
             here = found.isel(group=group, bin=place)
-            share = 100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
+            share = (
+                100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
+            )
             cells = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
             if "entries" in here:
                 cells.append(here.entries.sum(skipna=False))
-            cells += [more[name][1] * here[name].max(skipna=False) for name in ("wear", "mixed_time") if name in here]
-            rows.append((names[group], situation(found, place), *(number(float(value)) for value in cells)))
+            cells += [
+                more[name][1] * here[name].max(skipna=False)
+                for name in ("wear", "mixed_time")
+                if name in here
+            ]
+            rows.append(
+                (names[group], situation(found, place), *(number(float(value)) for value in cells))
+            )
     sides = found.row.values.tolist()
     headings = ("design", "situation", "hours a year", *(f"energy {row} [MJ]" for row in sides), "share of it [%]",
                 *(f"in an hour {row} [J]" for row in sides), "largest power [W]",
                 *(heading for name, (heading, _) in more.items() if name in found))  # fmt: skip
-    return Table(headings, rows[:_MOST_LINES], "A year: energies of a mean roller; wear and Λ < 1 of the worse row")
+    return Table(
+        headings,
+        rows[:_MOST_LINES],
+        "A year: energies of a mean roller; wear and Λ < 1 of the worse row",
+    )
 
 
 def case_names(study: xr.Dataset) -> list[str]:
     """Name of the case of every run: the fields of its loads, `14 m/s, seed 2`, or its loads where these do not tell cases apart."""
     labels = [
-        str(name) for name in study.coords if study[name].dims == ("case",) and not is_parameter(study, str(name))
+        str(name)
+        for name in study.coords
+        if study[name].dims == ("case",) and not is_parameter(study, str(name))
     ]
     fields = [name for name in labels if name not in (*_LEFT_OUT, *SEVERAL, "temperature")]
     loads = study.loads.values.astype(str)
     if fields and any("." in one for one in loads):  # names of files
-        part = xr.Dataset(coords={name: ("group", study[name].values, study[name].attrs) for name in fields})
+        part = xr.Dataset(
+            coords={name: ("group", study[name].values, study[name].attrs) for name in fields}
+        )
         told = [one.replace("wind speed ", "") for one in design_names(part)]
         if len(set(told)) == len(set(loads)):
             return told
@@ -262,8 +325,14 @@ def case_names(study: xr.Dataset) -> list[str]:
 
 def run_names(study: xr.Dataset) -> list[str]:
     """Name of every run: its case, and its design where there are several."""
-    labels = [name for name in study.coords if name in (*SEVERAL, "temperature") or is_parameter(study, str(name))]
-    coords = {name: ("group", study[name].values, study[name].attrs) for name in labels if name != "loads"}
+    labels = [
+        name
+        for name in study.coords
+        if name in (*SEVERAL, "temperature") or is_parameter(study, str(name))
+    ]
+    coords = {
+        name: ("group", study[name].values, study[name].attrs) for name in labels if name != "loads"
+    }
     designed = design_names(xr.Dataset(coords=coords), 3)
     return [", ".join(filter(None, one)) for one in zip(case_names(study), designed, strict=True)]
 
@@ -275,25 +344,38 @@ def _extremes(study: xr.Dataset) -> dict[str, dict[str, Any]]:
         if bool(values.notnull().any()):
             place = values.argmax(["case", "row"])
             row, run = study.row[place["row"]].item(), names[int(place["case"])]
-            found[name] = {"quantity": name, "value": float(study[name].isel(place)), "row": row, "run": run}
+            found[name] = {
+                "quantity": name,
+                "value": float(study[name].isel(place)),
+                "row": row,
+                "run": run,
+            }
     return found
 
 
 def _plot_extremes(axes: Axes, study: xr.Dataset, order: list[int], name: str, label: str) -> Axes:
     values = study[name].transpose("case", "row").values
-    extreme = (-study[name].min("row") if name == "lowest_spin_ratio" else study[name].max("row")).values
+    extreme = (
+        -study[name].min("row") if name == "lowest_spin_ratio" else study[name].max("row")
+    ).values
     shown = np.sort(np.argsort(-np.nan_to_num(extreme, nan=-np.inf), kind="stable")[:_MOST_NAMES])
     names = case_names(study)
     if len(order) > 1:
         group = binned(study, None).group
         names = [f"{one} #{order.index(int(k)) + 1}" for one, k in zip(names, group, strict=True)]
-    plot_by_result(axes, [names[case] for case in shown], study.row.values.tolist(), values[shown], label)
+    plot_by_result(
+        axes, [names[case] for case in shown], study.row.values.tolist(), values[shown], label
+    )
     if shown.size < study.sizes["case"]:
-        axes.set_title(f"the {shown.size} most extreme of {study.sizes['case']} runs", fontsize=10, loc="left")
+        axes.set_title(
+            f"the {shown.size} most extreme of {study.sizes['case']} runs", fontsize=10, loc="left"
+        )
     return axes
 
 
-def _surface(study: xr.Dataset, weights: Weights, years: float, bins: dict[str, Any]) -> Markup | str:
+def _surface(
+    study: xr.Dataset, weights: Weights, years: float, bins: dict[str, Any]
+) -> Markup | str:
     if "surface_energy" not in study:
         return ""
     text = words(_TEMPLATE)
@@ -301,7 +383,9 @@ def _surface(study: xr.Dataset, weights: Weights, years: float, bins: dict[str, 
         maps = weighted_maps(study, weights, years=years, **bins).isel(group=0)
     except InputError as problem:
         return text.no_maps(str(problem))
-    labels = ", ".join(str(maps[name].item()) for name in ("bearing", "lubricant", "model") if name in maps.coords)
+    labels = ", ".join(
+        str(maps[name].item()) for name in ("bearing", "lubricant", "model") if name in maps.coords
+    )
     of = f"in {years:g} years, of the simulated rollers, {labels}"
     return text.turned() + words("result.html").surface(
         *map_pictures(energy_density(maps), maps.surface_power_density), of
@@ -324,7 +408,9 @@ def _failures(study: xr.Dataset) -> Table | None:
     labels = [name for name, one in failed.coords.items() if one.dims == ("case",)]
     frame = failed[labels].reset_coords().to_dataframe().reset_index()
     columns = [name for name in frame if name not in _LEFT_OUT]
-    return _table(frame[[*columns, "outcome", "reason"]], "Runs without a result, or with rollers that failed")
+    return _table(
+        frame[[*columns, "outcome", "reason"]], "Runs without a result, or with rollers that failed"
+    )
 
 
 def _table(frame: pd.DataFrame, caption: str) -> Table:
@@ -333,7 +419,9 @@ def _table(frame: pd.DataFrame, caption: str) -> Table:
 
     for name in [name for name in frame if str(name).endswith("[J]")]:
         factor, units = scaled(float(frame[name].max()), "J")
-        frame = frame.assign(**{name: factor * frame[name]}).rename(columns={name: f"{name[:-3]}[{units}]"})
+        frame = frame.assign(**{name: factor * frame[name]}).rename(
+            columns={name: f"{name[:-3]}[{units}]"}
+        )
     rows = [tuple(map(cell, line)) for line in frame.head(_MOST_LINES).itertuples(index=False)]
     more = f"; the first {_MOST_LINES} of {len(frame)}" if len(frame) > _MOST_LINES else ""
     return Table([str(name).replace("_", " ") for name in frame], rows, f"{caption}{more}")

@@ -92,7 +92,9 @@ def scaled(largest: float, units: str) -> tuple[float, str]:
     return 1.0, units
 
 
-def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list]:
+def new_figure(
+    width: float, height: float, rows: int = 1, columns: int = 1, **options: Any
+) -> tuple[Figure, list]:
     """A figure of the given size [inches] with a grid of axes, row by row, without any global plotting state."""
     from matplotlib.figure import Figure
     from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -116,7 +118,12 @@ def finish(axes: Axes, x_label: str, y_label: str, title: str = "") -> Axes:
 def legend_above(figure: Figure, axes: Axes, **options: object) -> None:
     """The legend of one of the figure's axes, above all of them."""
     handles, labels = axes.get_legend_handles_labels()
-    options = {"frameon": False, "fontsize": SMALL, "title_fontsize": SMALL, "ncols": len(labels)} | options
+    options = {
+        "frameon": False,
+        "fontsize": SMALL,
+        "title_fontsize": SMALL,
+        "ncols": len(labels),
+    } | options
     figure.legend(handles, labels, loc="outside upper center", **options)
 
 
@@ -185,7 +192,10 @@ def compared(
 
     Takes the data of every panel by its content; the rest as `picture`.
     """
-    drawn = [new_figure(width, height, subplot_kw={"projection": "polar" if polar else None}) for _ in panels]
+    drawn = [
+        new_figure(width, height, subplot_kw={"projection": "polar" if polar else None})
+        for _ in panels
+    ]
     for (_, (axes,)), data in zip(drawn, panels.values(), strict=True):
         plot(axes, *data)
     _share_scales([axes for _, (axes,) in drawn])
@@ -215,7 +225,11 @@ def _svg(figure: Figure, axes: Axes, legend: str) -> str:
     handles, labels = axes.get_legend_handles_labels()
     if legend == "above":
         # Long names do not fit beside each other, and four are two by two.
-        legend_above(figure, axes, ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 and len(labels) != 4 else 2))
+        legend_above(
+            figure,
+            axes,
+            ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 and len(labels) != 4 else 2),
+        )
     elif legend:
         figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=SMALL)
     content = io.BytesIO()

@@ -113,9 +113,14 @@ def damage(
         raise InputError(_NO_DETAILS, allowed="results of contacts with microslip or asperities")
     own, known = dict(thresholds or {}), [one.name for one in CRITERIA]
     for name, one in own.items():
-        if not (name in known and math.isfinite(one.value) and one.value > 0.0 and one.source.strip()):
+        if not (
+            name in known and math.isfinite(one.value) and one.value > 0.0 and one.source.strip()
+        ):
             allowed = f"a number above 0 and where it comes from, for one of {', '.join(known)}"
-            raise InputError(f"the threshold of '{name}' is {one.value!r}, source {one.source!r}", allowed=allowed)
+            raise InputError(
+                f"the threshold of '{name}' is {one.value!r}, source {one.source!r}",
+                allowed=allowed,
+            )
     given = run_input(result)
     coefficients = _coefficients(wear_coefficients, hardness)
     found, missing = _Rates(result, given), []
@@ -146,10 +151,14 @@ def damage(
     else:
         data |= _wear(result, given, found, coefficients, friction)
         middle = len(coefficients) // 2
-        values["wear_time"] = float(np.nanmin(data["wear_time"][1][:, :, 1, middle], initial=math.inf)) / YEAR
+        values["wear_time"] = (
+            float(np.nanmin(data["wear_time"][1][:, :, 1, middle], initial=math.inf)) / YEAR
+        )
     failed = int((result.status != 0).sum())
     if failed:
-        missing.append(f"{failed} rollers failed: their rows have no maps, and their entries are left out.")
+        missing.append(
+            f"{failed} rollers failed: their rows have no maps, and their entries are left out."
+        )
     if math.isnan(values["slower_time"]):
         missing.append(_NO_THIN_FILMS)
     data |= _answer(values, own)
@@ -189,10 +198,20 @@ def _largest(values: np.ndarray) -> float:
 
 def _coefficients(given: Sequence[float] | None, hardness: float | None) -> list[float]:
     found = [float(one) for one in (given if given is not None else wear.COEFFICIENTS)]
-    good = found and all(math.isfinite(one) and one > 0.0 for one in found) and found == sorted(set(found))
+    good = (
+        found
+        and all(math.isfinite(one) and one > 0.0 for one in found)
+        and found == sorted(set(found))
+    )
     if not good or (hardness is not None and not (math.isfinite(hardness) and hardness > 0.0)):
-        allowed = "rising numbers above 0 in m²/N; with a hardness above 0 in Pa they are dimensionless"
-        raise InputError(f"the wear coefficients are {found}, the hardness {hardness}", where="wear", allowed=allowed)
+        allowed = (
+            "rising numbers above 0 in m²/N; with a hardness above 0 in Pa they are dimensionless"
+        )
+        raise InputError(
+            f"the wear coefficients are {found}, the hardness {hardness}",
+            where="wear",
+            allowed=allowed,
+        )
     if hardness is None:
         return found
     if given is None:
@@ -209,13 +228,23 @@ class _Rates:
         self.seconds = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
         self.all_rollers = self.bearing.rollers_per_row / result.sizes["roller"]
         self.area = result.cell_area.transpose("row", "raceway", "station").values
-        self.roller_area = 2.0 * math.pi * geometry.roller_radius(self.bearing) * self.bearing.roller_length / STATIONS
+        self.roller_area = (
+            2.0
+            * math.pi
+            * geometry.roller_radius(self.bearing)
+            * self.bearing.roller_length
+            / STATIONS
+        )
 
     def powers(self, name: str) -> np.ndarray:
         """Energy of a map per second [W] over row, raceway, angle and station, of all rollers of a row."""
         values = self.result[name]
-        values = values.sum([dim for dim in values.dims if dim in ("slip_sign", "film_regime")], skipna=False)
-        return values.transpose("row", "raceway", "angle", "station").values * (self.all_rollers / self.seconds)
+        values = values.sum(
+            [dim for dim in values.dims if dim in ("slip_sign", "film_regime")], skipna=False
+        )
+        return values.transpose("row", "raceway", "angle", "station").values * (
+            self.all_rollers / self.seconds
+        )
 
     def profile(self, name: str) -> np.ndarray:
         """Per area [W/m²] over row, place and station.
@@ -251,12 +280,19 @@ def _films(result: xr.Dataset) -> dict[str, Any]:
     dims, found = ("row", "raceway"), {}
     for kind in ("time", "passes"):
         amounts = result[f"film_slip_{kind}"].transpose(*dims, "film_class", "slip_class").values
-        shares = np.stack([micropitting.share_below(amounts, FILM_EDGES, one) for one in FILM_EDGES], axis=-1)
-        about = described("1", f"share of {'loaded time' if kind == 'time' else 'passes'} with Lambda below film_ratio")
+        shares = np.stack(
+            [micropitting.share_below(amounts, FILM_EDGES, one) for one in FILM_EDGES], axis=-1
+        )
+        about = described(
+            "1",
+            f"share of {'loaded time' if kind == 'time' else 'passes'} with Lambda below film_ratio",
+        )
         found[f"mixed_{kind}"] = ((*dims, "film_ratio"), shares, about)
         if kind == "time":
             thin = amounts[:, :, : FILM_EDGES.index(3.0) + 1].sum(axis=2)
-            about = described("1", "of the time with Lambda below 3 the share with the ring the slower surface")
+            about = described(
+                "1", "of the time with Lambda below 3 the share with the ring the slower surface"
+            )
             found["slower_share"] = (dims, micropitting.slower_share(thin, SLIP_EDGES), about)
     return found
 
@@ -271,13 +307,21 @@ def _entries(result: xr.Dataset, rates: _Rates, own: Mapping[str, Threshold]) ->
     found["entry_rate"] = (("row",), np.nansum(count, axis=(1, 2)) * scale, about)
     for one in CRITERIA[:3]:
         values = result[one.name].transpose("row", "raceway", "roller", "orbit")
-        largest = values.reduce(np.fmax.reduce, ("roller", "orbit")).values  # without a warning where none entered
-        found[one.name] = (dims, largest, described(one.unit, str(result[one.name].attrs["long_name"]).split(",")[0]))
+        largest = values.reduce(
+            np.fmax.reduce, ("roller", "orbit")
+        ).values  # without a warning where none entered
+        found[one.name] = (
+            dims,
+            largest,
+            described(one.unit, str(result[one.name].attrs["long_name"]).split(",")[0]),
+        )
         limit = own[one.name].value if one.name in own else one.reference
         if math.isfinite(limit):
             beyond = smearing.entries_beyond(values.values, count[:, None], limit)
             for bound, number in zip(("least", "most"), beyond, strict=True):
-                about = described("1/s", f"entries of all rollers beyond {limit:g} {one.unit}, at {bound}")
+                about = described(
+                    "1/s", f"entries of all rollers beyond {limit:g} {one.unit}, at {bound}"
+                )
                 found[f"{one.name}_beyond_{bound}"] = (dims, number * scale, about)
     about = described("1", "least Lambda at entry")
     found["entry_film_ratio"] = (
@@ -293,7 +337,9 @@ def _wear(
 ) -> dict[str, Any]:
     """Work of asperities, time to depths, and worn profiles at the middle coefficient."""
     work = wear.worn_volume(1.0, rates.profile("surface_asperity_energy"), friction)
-    about = described("W/m2", "asperities' pressure times slip, mean over time: depth of wear a second over k")
+    about = described(
+        "W/m2", "asperities' pressure times slip, mean over time: depth of wear a second over k"
+    )
     rows = given.models
     times = np.full((len(rows), len(PLACES), len(wear.DEPTHS)), math.inf)
     depth = np.zeros((len(rows), len(_AGES), len(PLACES), STATIONS))
@@ -303,7 +349,11 @@ def _wear(
             times[r] = depth[r] = math.nan
             continue
         worn = _grown(
-            result.sel(row=row), given, work[r], rates.roller_share("surface_asperity_energy")[r] / friction, row
+            result.sel(row=row),
+            given,
+            work[r],
+            rates.roller_share("surface_asperity_energy")[r] / friction,
+            row,
         )
         times[r] = np.stack([worn.work_at(one) for one in wear.DEPTHS], axis=-1)
         ages = np.array([worn.depth_at(middle * age * YEAR) for age in _AGES])
@@ -320,7 +370,9 @@ def _wear(
     }  # fmt: skip
 
 
-def _grown(row: xr.Dataset, given: RunInput, work: np.ndarray, roller_work: np.ndarray, name: str) -> wear.Worn:
+def _grown(
+    row: xr.Dataset, given: RunInput, work: np.ndarray, roller_work: np.ndarray, name: str
+) -> wear.Worn:
     """Wear of a row at the load that stands for it, as deep along the roller as its maps have it in the mean.
 
     `work` and `roller_work` are depth a second over k [W/m²] over place and station, and the roller's over raceway and
@@ -329,21 +381,29 @@ def _grown(row: xr.Dataset, given: RunInput, work: np.ndarray, roller_work: np.n
     bearing, laws = given.bearing, given.models[name].laws
     width, count = bearing.roller_length / (_SLICES * STATIONS), _SLICES * STATIONS
     place = (np.arange(count) + 0.5) * width - 0.5 * bearing.roller_length
-    curvatures = (geometry.inner_curvatures(bearing).lateral, geometry.outer_curvatures(bearing).lateral)
+    curvatures = (
+        geometry.inner_curvatures(bearing).lateral,
+        geometry.outer_curvatures(bearing).lateral,
+    )
     contacts, skew = [], _working_skew(row)
     for i, (law, curvature) in enumerate(zip((laws.inner, laws.outer), curvatures, strict=True)):
         load = float(row.working_load.isel(raceway=i))
         if not load > 0.0 or not work[i].sum() > 0.0:
             contacts.append(wear.Pressed(0.0, np.zeros(count), 1.0, np.zeros(count), 0.0, 0.0))
             continue
-        contour, half = 0.5 * curvature * place**2, law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
+        contour, half = (
+            0.5 * curvature * place**2,
+            law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0),
+        )
         stiffness = wear.hertz_slices(load, half, curvature)
         pressed = wear.slice_loads(contour, load, stiffness, width)
         along = row.surface_work.isel(raceway=i).sum("angle").values
         slip = _slip_profile(law.shape, place, pressed, along, skew)
         total = (pressed * slip).sum() / _SLICES
         contacts.append(
-            wear.Pressed(load, contour, stiffness, slip, work[i].sum() / total, roller_work[i].sum() / total)
+            wear.Pressed(
+                load, contour, stiffness, slip, work[i].sum() / total, roller_work[i].sum() / total
+            )
         )
     return wear.grow((contacts[0], contacts[1]), width)
 
@@ -353,10 +413,14 @@ def _working_skew(row: xr.Dataset) -> float:
     if "skew_by_position" not in row:
         return 0.0
     weight = row.surface_work.sel(raceway="outer").sum("station").values
-    return math.sqrt((np.nan_to_num(row.skew_by_position.values) ** 2 * weight).sum() / max(weight.sum(), 1e-300))
+    return math.sqrt(
+        (np.nan_to_num(row.skew_by_position.values) ** 2 * weight).sum() / max(weight.sum(), 1e-300)
+    )
 
 
-def _slip_profile(shape: Any, place: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float) -> np.ndarray:
+def _slip_profile(
+    shape: Any, place: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
+) -> np.ndarray:
     """|v| along the roller over the ring's speed [-]: skew, microslip, and the slip of the middle that fits ∫ p |v| dt best."""
     if not shape.microslip:
         return np.ones_like(place)
@@ -370,7 +434,9 @@ def _slip_profile(shape: Any, place: np.ndarray, pressed: np.ndarray, work: np.n
 
 def _answer(values: dict[str, float], own: Mapping[str, Threshold]) -> dict[str, Any]:
     value = np.array([values.get(one.name, math.nan) for one in CRITERIA])
-    reference = np.array([own[one.name].value if one.name in own else one.reference for one in CRITERIA])
+    reference = np.array(
+        [own[one.name].value if one.name in own else one.reference for one in CRITERIA]
+    )
     lowest = np.array([one.lowest for one in CRITERIA])
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(lowest, reference / value, value / reference)
@@ -394,9 +460,21 @@ def lines(result: xr.Dataset) -> tuple[list[dict[str, Any]], list[str]]:
 def criterion_lines(found: xr.Dataset) -> tuple[list[dict[str, Any]], list[str]]:
     """The lines of a dataset of `damage`, and the sentences on what is missing."""
     kept = found.isel(criterion=np.flatnonzero(found.value.notnull().values))
-    names = ("criterion", "title", "value", "unit", "reference", "compared_with", "ratio", "factor", "how_sure")
+    names = (
+        "criterion",
+        "title",
+        "value",
+        "unit",
+        "reference",
+        "compared_with",
+        "ratio",
+        "factor",
+        "how_sure",
+    )
     table = zip(*(kept[name].values.tolist() for name in names), strict=True)
-    rows = [dict(zip((name.replace("_", " ") for name in names), line, strict=True)) for line in table]
+    rows = [
+        dict(zip((name.replace("_", " ") for name in names), line, strict=True)) for line in table
+    ]
     for one in rows:
         one["compared with"] = one["compared with"] or "no traced reference"
     return rows, [line for line in found.attrs["not_kept"].split("\n") if line]

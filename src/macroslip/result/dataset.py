@@ -95,7 +95,9 @@ def whole_dataset(
     found = _dataset(ready, wanted, results, attributes, extra, coordinates)
     for name in COUNTS:
         found[name].attrs["long_name"] += ", of all rollers together"
-    found.start_angle.attrs["long_name"] = "pocket's position at the first sample, from +X0 towards +Y0"
+    found.start_angle.attrs["long_name"] = (
+        "pocket's position at the first sample, from +X0 towards +Y0"
+    )
     return found
 
 
@@ -105,18 +107,28 @@ def _open_books(books: Books) -> str:
     Energy is compared with what was dissipated by the end, momentum with the impulse of one kind that was largest.
     """
     flow = {name: np.abs(books.flows[:, k]) for k, name in enumerate(FLOWS)}
-    spent = sum(flow[name][-1] for name in ("raceway_loss", "friction_loss", "guide_loss")) + books.pocket_loss()[-1]
+    spent = (
+        sum(flow[name][-1] for name in ("raceway_loss", "friction_loss", "guide_loss"))
+        + books.pocket_loss()[-1]
+    )
     through = max(values.max() for name, values in flow.items() if name.endswith("_impulse"))
     found = []
     for what, rest, of, beside in (
         ("energy", books.energy_residual(), spent, "of what is dissipated"),
-        ("angular momentum", books.momentum_residual(), through, "of what passes through the bearing"),
+        (
+            "angular momentum",
+            books.momentum_residual(),
+            through,
+            "of what passes through the bearing",
+        ),
     ):
         if (share := np.abs(rest).max() / max(of, _SLIGHT)) > LARGEST_REST:
             found.append(f"{what} to {100.0 * share:.2g} % {beside}")
     words = [f"the books close {' and '.join(found)}, where 0.5 % is good"] if found else []
     if (share := books.driven / max(spent, _SLIGHT)) > _DRIVEN:
-        words.append(f"friction gave back {100.0 * share:.2g} % of what is dissipated, which it cannot")
+        words.append(
+            f"friction gave back {100.0 * share:.2g} % of what is dissipated, which it cannot"
+        )
     remedy = "results may be off by several times that. Compute again with a smaller integrator.tolerance."
     return f"{'; '.join(words)}; {remedy}" if words else ""
 
@@ -130,7 +142,9 @@ def _dataset(
     coordinates: dict[str, Any],
 ) -> xr.Dataset:
     case, curved = ready.case, ready.model.curved
-    table = [[results[row, number] for number in case.roller_numbers] for row in row_names(case.bearing)]
+    table = [
+        [results[row, number] for number in case.roller_numbers] for row in row_names(case.bearing)
+    ]
     values = _window_values(table)
     if ready.edges.size == 1:
         sectors = np.array([[one.measures.sector_power for one in line] for line in table])
@@ -150,8 +164,14 @@ def _dataset(
         # Up to where an integration ended its traces are kept: they show why.
         traced = [[one.measures.traces() for one in line] for line in table]
         names = [name for name in VARIABLES if name in traced[0][0]]
-        names = [name for name in names if (name != "skew_moment" or curved) and (name != "raceway_slip" or extra)]
-        values |= {name: np.array([[one[name] for one in line] for line in traced]) for name in names}
+        names = [
+            name
+            for name in names
+            if (name != "skew_moment" or curved) and (name != "raceway_slip" or extra)
+        ]
+        values |= {
+            name: np.array([[one[name] for one in line] for line in traced]) for name in names
+        }
         coordinates["time"] = ("time", ready.trace_time, _TIME)
     data = {
         name: (dims, values[name], {"units": units, "long_name": long_name})
@@ -160,7 +180,9 @@ def _dataset(
     }
     # Meanings of the numbers, in the form of the CF conventions.
     meanings = " ".join(one.name.lower() for one in Status)
-    data["status"][-1].update(flag_values=np.array([int(one) for one in Status], dtype=np.int8), flag_meanings=meanings)
+    data["status"][-1].update(
+        flag_values=np.array([int(one) for one in Status], dtype=np.int8), flag_meanings=meanings
+    )
     known = roller_coordinates(case, ready.edges, curved=curved, raceways=curved or bool(extra))
     return xr.Dataset(data | extra, known | coordinates, attributes)
 
@@ -194,7 +216,11 @@ def _rings(case: Case) -> dict[str, float]:
         return {}
     inner, outer = rings_at_balance(heat, case.temperature)
     loss = clearance_loss(case.bearing, inner, outer)
-    return {"inner_ring_temperature": inner, "outer_ring_temperature": outer, "clearance_loss": loss}
+    return {
+        "inner_ring_temperature": inner,
+        "outer_ring_temperature": outer,
+        "clearance_loss": loss,
+    }
 
 
 def _failed(table: list[list[Measured]]) -> np.ndarray:
@@ -203,7 +229,9 @@ def _failed(table: list[list[Measured]]) -> np.ndarray:
 
 def _gathered(table: list[list[Measured]], name: str, of: str = "totals") -> np.ndarray:
     """One array of the totals or details over (row, roller, ...); NaN for rollers that failed."""
-    values = np.array([[getattr(getattr(one.measures, of), name) for one in line] for line in table], dtype=float)
+    values = np.array(
+        [[getattr(getattr(one.measures, of), name) for one in line] for line in table], dtype=float
+    )
     values[_failed(table)] = np.nan
     return values
 
@@ -230,7 +258,10 @@ def _window_values(table: list[list[Measured]]) -> dict[str, np.ndarray]:
         "outside_film_range": outside,
         "mean_film_load": films,
         "status": outcome("status").astype(np.int8),
-        **{name: outcome(kept) for name, kept in zip(COUNTS, ("steps", "rejections", "evaluations"), strict=True)},
+        **{
+            name: outcome(kept)
+            for name, kept in zip(COUNTS, ("steps", "rejections", "evaluations"), strict=True)
+        },
         "unbalanced_force": outcome("unbalanced"),
         "end_time": outcome("time"),
         "end_slip": np.array([[one.measures.end_slip for one in line] for line in table]),
@@ -239,7 +270,9 @@ def _window_values(table: list[list[Measured]]) -> dict[str, np.ndarray]:
 
 def _contact_details(table: list[list[Measured]]) -> dict[str, np.ndarray]:
     names = ("extreme", "entry_extreme", "quadrature", "station_energy", "entries")
-    extreme, entry, quadrature, stations, entries = (_gathered(table, name, "details") for name in names)
+    extreme, entry, quadrature, stations, entries = (
+        _gathered(table, name, "details") for name in names
+    )
     extreme[np.isinf(extreme)] = np.nan
     # Orbits in which no entry was looked at.
     entry[np.isinf(entry[..., -1])] = np.nan
@@ -252,11 +285,15 @@ def _contact_details(table: list[list[Measured]]) -> dict[str, np.ndarray]:
         "entries": entries,
         **dict(zip(ENTRY_EXTREMES, np.moveaxis(entry, -1, 0), strict=True)),
         "quadrature_error": error,
-        **surface_maps.values([[one.measures.details for one in line] for line in table], _failed(table)),
+        **surface_maps.values(
+            [[one.measures.details for one in line] for line in table], _failed(table)
+        ),
     }
 
 
-def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: CageMeasures) -> dict[str, Any]:
+def _cage_variables(
+    case: Case, bearing: WholeBearing, outcome: Outcome, cages: CageMeasures
+) -> dict[str, Any]:
     data: dict[str, Any] = {}
     numbers, count = list(case.roller_numbers), case.bearing.rollers_per_row
 
@@ -264,15 +301,35 @@ def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: 
         data[name] = (dims, values, {"units": units, "long_name": long_name})
 
     def by_roller(values: np.ndarray) -> np.ndarray:
-        found = np.array(values, dtype=float).reshape(case.bearing.rows, count, *values.shape[1:])[:, numbers]
+        found = np.array(values, dtype=float).reshape(case.bearing.rows, count, *values.shape[1:])[
+            :, numbers
+        ]
         if outcome.status != Status.COMPLETED:
             found[:] = np.nan
         return found
 
     sided = ("row", "roller", "side")
-    put("pocket_impulse", sided, by_roller(cages.impulse), "N s", "impulse of a spar on its roller in the window")
-    put("largest_pocket_force", sided, by_roller(cages.largest), "N", "largest force of a spar in the window")
-    put("pocket_contact_time", sided, by_roller(cages.time), "s", "time in the window with force on the spar")
+    put(
+        "pocket_impulse",
+        sided,
+        by_roller(cages.impulse),
+        "N s",
+        "impulse of a spar on its roller in the window",
+    )
+    put(
+        "largest_pocket_force",
+        sided,
+        by_roller(cages.largest),
+        "N",
+        "largest force of a spar in the window",
+    )
+    put(
+        "pocket_contact_time",
+        sided,
+        by_roller(cages.time),
+        "s",
+        "time in the window with force on the spar",
+    )
     places = cages.largest_by_place.reshape(case.bearing.rows, count, -1).max(axis=1)
     about = "largest force of a spar in the window by place on the orbit, over all rollers"
     put("largest_force_by_position", ("row", "position"), places, "N", about)
@@ -281,9 +338,19 @@ def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: 
         mean, square = first / span, second / span
         deviation = np.sqrt(np.maximum(square - mean * mean, 0.0))
     put(
-        "cage_slip", ("cage",), mean, "1", "mean of the cage's speed over that of pure rolling, less one, in the window"
+        "cage_slip",
+        ("cage",),
+        mean,
+        "1",
+        "mean of the cage's speed over that of pure rolling, less one, in the window",
     )
-    put("cage_slip_deviation", ("cage",), deviation, "1", "standard deviation of the cage's slip in the window")
+    put(
+        "cage_slip_deviation",
+        ("cage",),
+        deviation,
+        "1",
+        "standard deviation of the cage's slip in the window",
+    )
     books, dims = cages.books, ("book_time",)
     for names, values, since in (
         (STOCKS, books.stocks, "of rollers and cages"),
@@ -296,15 +363,29 @@ def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: 
     put("momentum_residual", dims, books.momentum_residual(), "N m s", about)
     about = "change of kinetic energy less work done and energy dissipated"
     put("energy_residual", dims, books.energy_residual(), "J", about)
-    put("pocket_loss", dims, books.pocket_loss(), "J", "energy dissipated by impacts and squeeze films")
+    put(
+        "pocket_loss",
+        dims,
+        books.pocket_loss(),
+        "J",
+        "energy dissipated by impacts and squeeze films",
+    )
     if case.traces is None:
         return data
     traced = ("row", "roller", "time")
 
     def over_time(values: np.ndarray) -> np.ndarray:
-        return np.moveaxis(values.reshape(len(values), case.bearing.rows, count)[:, :, numbers], 0, -1)
+        return np.moveaxis(
+            values.reshape(len(values), case.bearing.rows, count)[:, :, numbers], 0, -1
+        )
 
-    put("pocket_offset", traced, over_time(cages.offset), "m", "roller's way ahead of the middle of its pocket")
+    put(
+        "pocket_offset",
+        traced,
+        over_time(cages.offset),
+        "m",
+        "roller's way ahead of the middle of its pocket",
+    )
     about = "orbit speed less that of pure rolling"
     put("orbit_speed_deviation", traced, over_time(cages.deviation), "rad/s", about)
     every = cages.offset.reshape(-1, case.bearing.rows, count)
@@ -328,16 +409,31 @@ def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
     return "position", places, {"units": "rad", "long_name": "place on the orbit, from +X0"}
 
 
-def roller_coordinates(case: Case, edges: np.ndarray, *, curved: bool, raceways: bool) -> dict[str, Any]:
+def roller_coordinates(
+    case: Case, edges: np.ndarray, *, curved: bool, raceways: bool
+) -> dict[str, Any]:
     """Rows, rollers, interfaces and orbits, and places and mechanisms where contacts distinguish them."""
     numbers = list(case.roller_numbers)
-    angles = np.array([initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in row_names(case.bearing)])
+    angles = np.array(
+        [
+            initial_angles(row, case.bearing.rollers_per_row)[numbers]
+            for row in row_names(case.bearing)
+        ]
+    )
     about = {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"}
     found: dict[str, Any] = {
         "row": list(row_names(case.bearing)),
-        "roller": ("roller", numbers, {"units": "1", "long_name": "number of the roller in its row"}),
+        "roller": (
+            "roller",
+            numbers,
+            {"units": "1", "long_name": "number of the roller in its row"},
+        ),
         "interface": list(INTERFACES),
-        "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),
+        "orbit": (
+            "orbit",
+            np.arange(edges.size - 1),
+            {"units": "1", "long_name": "complete orbit in the window"},
+        ),
         "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
         "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
         "start_angle": (("row", "roller"), angles, about),

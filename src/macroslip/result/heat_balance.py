@@ -58,10 +58,14 @@ def balance_temperature(
     """
     if not (math.isfinite(conductance) and conductance > 0.0):
         remedy = "40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine."
-        raise InputError(f"the conductance is {conductance:g} W/K", allowed="a positive number", remedy=remedy)
+        raise InputError(
+            f"the conductance is {conductance:g} W/K", allowed="a positive number", remedy=remedy
+        )
     if not (math.isfinite(ambient) and 0.0 < ambient < hottest):
         what = f"the ambient temperature is {ambient:g} K"
-        raise InputError(what, allowed=f"above 0 K and below {hottest:g} K", remedy="Check value and unit.")
+        raise InputError(
+            what, allowed=f"above 0 K and below {hottest:g} K", remedy="Check value and unit."
+        )
 
     def surplus(temperature: float) -> float:
         heat = power(temperature)
@@ -83,7 +87,9 @@ def balance_temperature(
     return root_scalar(surplus, bracket=(ambient, hottest), method="brentq", xtol=1e-9).root
 
 
-def tabulated_power(temperatures: Sequence[float], powers: Sequence[float]) -> Callable[[float], float]:
+def tabulated_power(
+    temperatures: Sequence[float], powers: Sequence[float]
+) -> Callable[[float], float]:
     """Friction power [W] over temperature [K] from a table, monotone between its points, constant beyond its ends.
 
     By SciPy's PCHIP. InputError unless there are two or more rising temperatures and as many powers, none negative.
@@ -99,9 +105,14 @@ def tabulated_power(temperatures: Sequence[float], powers: Sequence[float]) -> C
         what = f"there are {at.size} temperatures and {values.size} powers"
         raise InputError(what, allowed="as many of the one as of the other, two at least")
     if not (np.isfinite(at).all() and (np.diff(at) > 0.0).all()):
-        raise InputError("the temperatures of the table do not rise", allowed="rising, finite temperatures")
+        raise InputError(
+            "the temperatures of the table do not rise", allowed="rising, finite temperatures"
+        )
     if not (np.isfinite(values).all() and (values >= 0.0).all()):
-        raise InputError("the table has a power that is negative or not finite", allowed="powers of 0 W and above")
+        raise InputError(
+            "the table has a power that is negative or not finite",
+            allowed="powers of 0 W and above",
+        )
     curve = PchipInterpolator(at, values)
     return lambda temperature: float(curve(min(max(temperature, at[0]), at[-1])))
 
@@ -139,7 +150,9 @@ def next_temperature(known: Mapping[float, float], heat: Heat) -> tuple[float, b
         if first not in known:
             return first, False
     places = sorted(known)
-    found = balance_temperature(tabulated_power(places, [known[place] for place in places]), heat.to_oil, heat.ambient)
+    found = balance_temperature(
+        tabulated_power(places, [known[place] for place in places]), heat.to_oil, heat.ambient
+    )
     if min(abs(found - place) for place in places) <= _CLOSE:
         return found, True
     if len(known) >= _MOST:
@@ -162,7 +175,9 @@ def case_at_balance(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
         balanced = at_balance(case, temperature)
         if settled:
             return balanced
-        known[temperature] = bearing_friction_power(simulate(replace(balanced, traces=None, contact_details=False)))
+        known[temperature] = bearing_friction_power(
+            simulate(replace(balanced, traces=None, contact_details=False))
+        )
 
 
 def at_balance(case: Case, temperature: float) -> Case:
@@ -209,7 +224,9 @@ def ring_temperatures(
     rate = np.array([[-between, between], [between, -between - out]]) / capacity
     outer = heat.ambient + power / out
     steady = np.array([outer + 0.5 * power / between, outer])
-    return np.array([steady + (expm(rate * t) @ (start - steady) if math.isfinite(t) else 0.0) for t in time])
+    return np.array(
+        [steady + (expm(rate * t) @ (start - steady) if math.isfinite(t) else 0.0) for t in time]
+    )
 
 
 def clearance_loss(bearing: Bearing, inner: float, outer: float) -> float:

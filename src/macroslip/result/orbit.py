@@ -30,7 +30,10 @@ def position(result: xr.Dataset) -> xr.DataArray:
     roller completed.
     """
     if "time" not in result.dims or not result.sizes["time"]:
-        raise InputError("the result has no traces", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
+        raise InputError(
+            "the result has no traces",
+            remedy="Give the case traces, such as traces: {step: 0.05 s}.",
+        )
     loads = run_input(result).settings["loads"]
     if abs(float(result.time[0]) - float(loads["start"])) > 1e-9:
         raise InputError(
@@ -58,7 +61,9 @@ def travelled(result: xr.Dataset) -> np.ndarray:
 def in_window(result: xr.Dataset) -> xr.Dataset:
     """The times of the traces inside the window over which energies are taken."""
     time = result.time
-    return result.sel(time=(time >= result.attrs["window_start"]) & (time <= result.attrs["window_end"]))
+    return result.sel(
+        time=(time >= result.attrs["window_start"]) & (time <= result.attrs["window_end"])
+    )
 
 
 def _middles(sectors: int) -> tuple[str, np.ndarray, dict[str, str]]:
@@ -79,12 +84,16 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
     angle = position(result)
     window = in_window(result)
     if window.sizes["time"] < 2:
-        raise InputError("the traces hold less than two samples of the window", remedy="Give them a later end.")
+        raise InputError(
+            "the traces hold less than two samples of the window", remedy="Give them a later end."
+        )
     power = window.power.transpose(*_ORDER, "interface").values
     seconds = np.gradient(window.time.values)
     seconds[[0, -1]] *= 0.5  # trapezoids
     good, sector = (result.status == 0).values, _sectors(angle.sel(time=window.time), sectors)
-    orbits = np.ptp(travelled(result)[np.isin(result.time.values, window.time.values)]) / (2.0 * np.pi)
+    orbits = np.ptp(travelled(result)[np.isin(result.time.values, window.time.values)]) / (
+        2.0 * np.pi
+    )
     values = np.full((result.sizes["row"], result.sizes["interface"], sectors), np.nan)
     for r in np.flatnonzero(good.any(axis=1) & (orbits > 0.0)):
         here = sector[r, good[r]].ravel()
@@ -93,7 +102,10 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
             values[r, i] = total / (good[r].sum() * orbits * 360.0 / sectors)
     traced, integrated = (power[good] * seconds[:, None]).sum(), result.energy.values[good].sum()
     about = {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit"}
-    about |= {"energy_ratio": float(traced / integrated) if integrated else math.nan, "orbits": float(orbits)}
+    about |= {
+        "energy_ratio": float(traced / integrated) if integrated else math.nan,
+        "orbits": float(orbits),
+    }
     labels = {"row": result.row, "interface": result.interface, "angle": _middles(sectors)}
     return xr.DataArray(values, labels, ("row", "interface", "angle"), "energy_over_orbit", about)
 
@@ -117,14 +129,19 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
 
 
 def over_orbit(
-    values: xr.DataArray, angle: xr.DataArray, quantiles: tuple[float, ...] = (0.05, 0.5, 0.95), sectors: int = SECTORS
+    values: xr.DataArray,
+    angle: xr.DataArray,
+    quantiles: tuple[float, ...] = (0.05, 0.5, 0.95),
+    sectors: int = SECTORS,
 ) -> xr.DataArray:
     """Quantiles of a traced quantity over all rollers and times, by sector of the orbit.
 
     Of values over (row, roller, time, interface) and angles [degrees] over (row, roller, time) come quantiles over
     (row, interface, quantile, angle), NaN where a sector holds no value.
     """
-    found = np.full((values.sizes["row"], values.sizes["interface"], len(quantiles), sectors), np.nan)
+    found = np.full(
+        (values.sizes["row"], values.sizes["interface"], len(quantiles), sectors), np.nan
+    )
     for r, sector in enumerate(_sectors(angle, sectors).reshape(len(found), -1)):
         order = np.argsort(sector, kind="stable")
         ends = np.searchsorted(sector[order], np.arange(sectors + 1))
@@ -133,8 +150,15 @@ def over_orbit(
             here = here[np.isfinite(here)]
             if here.size:
                 found[r, i, :, k] = np.quantile(here, quantiles)
-    labels = {"row": values.row, "interface": values.interface, "quantile": list(quantiles), "angle": _middles(sectors)}
-    return xr.DataArray(found, labels, ("row", "interface", "quantile", "angle"), values.name, values.attrs)
+    labels = {
+        "row": values.row,
+        "interface": values.interface,
+        "quantile": list(quantiles),
+        "angle": _middles(sectors),
+    }
+    return xr.DataArray(
+        found, labels, ("row", "interface", "quantile", "angle"), values.name, values.attrs
+    )
 
 
 def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
@@ -146,14 +170,20 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
     """
     orbit = energy_over_orbit(result).to_dataset()
     window = in_window(result)
-    traced = window.isel(time=slice(None, None, max(1, math.ceil(window.sizes["time"] / _QUANTILE_SAMPLES))))
+    traced = window.isel(
+        time=slice(None, None, max(1, math.ceil(window.sizes["time"] / _QUANTILE_SAMPLES)))
+    )
     angle = position(result).sel(time=traced.time)
-    thickness = orbit["film_thickness"] = over_orbit(traced.film_thickness.transpose(*_ORDER, "interface"), angle)
+    thickness = orbit["film_thickness"] = over_orbit(
+        traced.film_thickness.transpose(*_ORDER, "interface"), angle
+    )
     with np.errstate(invalid="ignore", divide="ignore"):
         slip = (1.0 - traced.spin / traced.spin_pure).expand_dims(interface=["raceways"], axis=-1)
     orbit["slip"] = over_orbit(slip, angle).isel(interface=0, drop=True)
     about = {"units": "1", "long_name": "film thickness over composite roughness, Λ"}
-    orbit["film_parameter"] = (thickness / run_input(result).bearing.composite_roughness).assign_attrs(about)
+    orbit["film_parameter"] = (
+        thickness / run_input(result).bearing.composite_roughness
+    ).assign_attrs(about)
     return {
         "result": result.drop_dims("time"),
         "orbit": orbit,
@@ -175,7 +205,9 @@ def still(result: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(values | {"roller_load": one.roller_load})
 
 
-def scene(result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCENE_STEP) -> xr.Dataset:
+def scene(
+    result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCENE_STEP
+) -> xr.Dataset:
     """A part of the traces to be played, around the largest power: at most `samples`, at least `step` [s] apart.
 
     Over (row, roller, time), as 32-bit numbers: slip [m/s], roller_load [N] and power [W], summed over the interfaces,
@@ -196,12 +228,26 @@ def scene(result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCE
     values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}
     if "pocket_offset" in thin:
         values |= {name: thin[name] for name in ("cage_force", "pocket_offset")}
-    found = xr.Dataset({name: one.transpose(*_ORDER).astype(np.float32) for name, one in values.items()})
-    found.power.attrs = {"units": "W", "long_name": "frictional power, all interfaces, at the instant"}
+    found = xr.Dataset(
+        {name: one.transpose(*_ORDER).astype(np.float32) for name, one in values.items()}
+    )
+    found.power.attrs = {
+        "units": "W",
+        "long_name": "frictional power, all interfaces, at the instant",
+    }
     if "pocket_offset" in thin:
-        lead = np.degrees(thin.cage_lag.transpose("cage", "time").values / run_input(result).bearing.pitch_radius)
+        lead = np.degrees(
+            thin.cage_lag.transpose("cage", "time").values / run_input(result).bearing.pitch_radius
+        )
         leads = np.broadcast_to(lead.astype(np.float32), (result.sizes["row"], lead.shape[1]))
-        found["cage_lead"] = ("row", "time"), leads, {"units": "degree", "long_name": "cage ahead of pure rolling"}
+        found["cage_lead"] = (
+            ("row", "time"),
+            leads,
+            {"units": "degree", "long_name": "cage ahead of pure rolling"},
+        )
     found["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
-    moved, about = turned[every][part], {"units": "degree", "long_name": "angle travelled since the start"}
+    moved, about = (
+        turned[every][part],
+        {"units": "degree", "long_name": "angle travelled since the start"},
+    )
     return found.assign(travelled=("time", moved - moved[0], about))

@@ -32,7 +32,9 @@ JUDGED = ("static_safety", "largest_pressure", "share_below_minimum_load")
 _MOST = 0.5
 
 
-def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearing | None = None) -> list[str]:
+def doubtful_loads(
+    loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearing | None = None
+) -> list[str]:
     """Sentences on loads that cannot be meant so; none where all is plausible.
 
     The rotor's weight is compared with the static load rating of a bearing; without one, with 5 kN to 10 MN.
@@ -90,7 +92,9 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
     found += result.attrs.get("doubtful_loads", "").splitlines()
     known = {name: float(result[name].max()) for name in JUDGED if name in result}
     if "outside_film_range" in result:
-        known["outside"] = float(result.outside_film_range.sel(interface=["inner", "outer"]).mean("roller").max())
+        known["outside"] = float(
+            result.outside_film_range.sel(interface=["inner", "outer"]).mean("roller").max()
+        )
     if (safety := known.get("static_safety", 0.0)) > _SAFEST:
         found.append(
             f"the static safety is {_plain(safety)}, and main bearings in use have 2 to 50: the loads are too small for "
@@ -123,7 +127,10 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
             "modelled; give the bearing more clearance, or check heat.ring_conductance."
         )
     if "mean_film_load" in result and "mean_elastic_load" in result.attrs:
-        films, elastic = float(result.mean_film_load.mean()), float(result.attrs["mean_elastic_load"])
+        films, elastic = (
+            float(result.mean_film_load.mean()),
+            float(result.attrs["mean_elastic_load"]),
+        )
         if films > _FILMS * (films + elastic):
             found.append(
                 f"films of oil carry {100.0 * films / (films + elastic):.3g} % of the rollers' load, and the balance of the rings "

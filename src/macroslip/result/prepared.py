@@ -71,9 +71,13 @@ class Prepared:
         few = Motion(*(values[:: max(1, self.motion.time.size // 200)] for values in self.motion))
         pressed = elastic_loads(case.ring_loads, ring_geometry(case.bearing, self.model), few)
         return {
-            "film_range_notes": "\n".join(film_range_notes(case.laws.film, interfaces(case.bearing, case.oil))),
+            "film_range_notes": "\n".join(
+                film_range_notes(case.laws.film, interfaces(case.bearing, case.oil))
+            ),
             "mean_elastic_load": float(pressed.mean()),
-            "truncated_share": truncated_share(self.largest, truncation_load(case.bearing, case.oil)),
+            "truncated_share": truncated_share(
+                self.largest, truncation_load(case.bearing, case.oil)
+            ),
             "oil_supply_note": supply_note(case),
             "doubtful_loads": "\n".join(doubtful_loads(case.loads, case.bearing)),
             "contact_evaluation": "tables",
@@ -91,8 +95,16 @@ def prepare(case: Case) -> Prepared:
     to fulfil.
     """
     loads = case.ring_loads
-    options = {"tilt": case.drivetrain.tilt, "gravity": case.gravity, "drag": case.drag, "laws": case.laws}
-    models = {row: roller_model(case.bearing, case.oil, AXIAL_SIGNS[row], **options) for row in row_names(case.bearing)}
+    options = {
+        "tilt": case.drivetrain.tilt,
+        "gravity": case.gravity,
+        "drag": case.drag,
+        "laws": case.laws,
+    }
+    models = {
+        row: roller_model(case.bearing, case.oil, AXIAL_SIGNS[row], **options)
+        for row in row_names(case.bearing)
+    }
     model = next(iter(models.values()))
     ring = ring_geometry(case.bearing, model)
     limit = highest_load(case.bearing, case.oil, case.laws)
@@ -102,8 +114,14 @@ def prepare(case: Case) -> Prepared:
     check_own_laws(case.laws, case.bearing, case.oil, fastest)
     body = body_force(model, float(np.abs(motion.shaft_speed).max()))
     # Free rollers drop through their pockets, even where the rings creep.
-    falling = math.sqrt(2.0 * GRAVITY * case.cage.gap) if case.dynamics == WHOLE_BEARING and case.gravity else 0.0
-    tolerance = case.integrator.tolerance if isinstance(case.integrator, Radau) else _FIXED_STEP_TOLERANCE
+    falling = (
+        math.sqrt(2.0 * GRAVITY * case.cage.gap)
+        if case.dynamics == WHOLE_BEARING and case.gravity
+        else 0.0
+    )
+    tolerance = (
+        case.integrator.tolerance if isinstance(case.integrator, Radau) else _FIXED_STEP_TOLERANCE
+    )
     for _ in range(0 if case.laws.skew == "none" or isinstance(loads, RollerLoads) else _BALANCED):
         box = table_box(ring_speeds, largest + body, float(tolerance), falling)
         more = thrust_on_ring(case, model, ring, motion, box)
@@ -136,7 +154,9 @@ def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> 
     # Orbits are counted from the start of the window, not of the history.
     late = motion.time > start
     time = np.concatenate([[start], motion.time[late]])
-    speed = np.concatenate([[np.interp(start, motion.time, motion.shaft_speed)], motion.shaft_speed[late]])
+    speed = np.concatenate(
+        [[np.interp(start, motion.time, motion.shaft_speed)], motion.shaft_speed[late]]
+    )
     times = orbit_times(time, speed, orbit_ratio)
     return np.concatenate([[start], times[times <= end]])
 

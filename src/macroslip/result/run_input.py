@@ -35,11 +35,19 @@ class RunInput:
                 lubricant = lubricant.at(self.settings["temperature"])
             if self.settings.get("oil_gap") is not None:
                 lubricant = lubricant.supplied(self.settings["oil_gap"])
-            laws = Laws(**{name: choice for name, choice in self.settings["laws"].items() if name != "model"})
+            laws = Laws(
+                **{
+                    name: choice
+                    for name, choice in self.settings["laws"].items()
+                    if name != "model"
+                }
+            )
             forces = {name: self.settings["forces"][name] for name in ("gravity", "drag")}
             tilt = self.settings["drivetrain"]["tilt"]
             return {
-                row: roller_model(self.bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, laws=laws, **forces)
+                row: roller_model(
+                    self.bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, laws=laws, **forces
+                )
                 for row in self._rows
             }
 

@@ -102,9 +102,14 @@ def _imposed_orbits(
             report = report or made
             problems = {row: _problem(ready, rollers[row]) for row in names}
             skews = skewing(case, ready.model.laws, ready.box)
-            rows = {row: Row(ready.models[row], rollers[row], ready.motion, wanted, skews.get(row)) for row in names}
+            rows = {
+                row: Row(ready.models[row], rollers[row], ready.motion, wanted, skews.get(row))
+                for row in names
+            }
 
-            def run(row: str, number: int, problems: dict = problems, rows: dict = rows) -> Measured:
+            def run(
+                row: str, number: int, problems: dict = problems, rows: dict = rows
+            ) -> Measured:
                 problem = problems[row]
                 if own_motions:
                     place = names.index(row) * case.bearing.rollers_per_row + number
@@ -152,7 +157,11 @@ def _problem(ready: Prepared, roller: Roller) -> Problem:
         stops = np.unique(np.concatenate([ready.edges, ready.trace_time, [ready.end]]))
         return Problem(roller, motion, limits, stops)
     tolerance = float(integrator.tolerance) if isinstance(integrator, BackwardEuler) else None
-    return Problem(roller, motion, fixed_step(roller, motion, step=integrator.step, end=ready.end, tolerance=tolerance))
+    return Problem(
+        roller,
+        motion,
+        fixed_step(roller, motion, step=integrator.step, end=ready.end, tolerance=tolerance),
+    )
 
 
 def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Event) -> Measured:
@@ -200,7 +209,11 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     skews = skewing(case, ready.model.laws, ready.box)
     rows = {
         row: Row(
-            bearing.models[row], Roller(assembly.bodies[k : k + 1], assembly.tables), motion, wanted, skews.get(row)
+            bearing.models[row],
+            Roller(assembly.bodies[k : k + 1], assembly.tables),
+            motion,
+            wanted,
+            skews.get(row),
         )
         for k, row in enumerate(names)
     }

@@ -72,12 +72,16 @@ def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
     if cage.alignment == "none":
         stop = stop._replace(effective_radius=0.0)
     return {
-        row: Skewing(table, guide_of(stop, AXIAL_SIGNS[row]), raceways(laws, case.bearing, AXIAL_SIGNS[row]))
+        row: Skewing(
+            table, guide_of(stop, AXIAL_SIGNS[row]), raceways(laws, case.bearing, AXIAL_SIGNS[row])
+        )
         for row in ROWS
     }
 
 
-def thrust_on_ring(case: Case, model: RollerModel, ring: RingGeometry, motion: Motion, box: Box) -> np.ndarray:
+def thrust_on_ring(
+    case: Case, model: RollerModel, ring: RingGeometry, motion: Motion, box: Box
+) -> np.ndarray:
     """What the balance of the inner ring feels of skew at the samples of its motion [N], shape (n, 3); 0 after the window."""
     down, up = skewing(case, model.laws, box).values()
     count = motion.time.size
@@ -89,11 +93,14 @@ def thrust_on_ring(case: Case, model: RollerModel, ring: RingGeometry, motion: M
     return found
 
 
-def values(case: Case, table: list[list[SkewMeasures]], failed: np.ndarray, span: float) -> dict[str, np.ndarray]:
+def values(
+    case: Case, table: list[list[SkewMeasures]], failed: np.ndarray, span: float
+) -> dict[str, np.ndarray]:
     """Variables beside traces, of measures by row and roller, for a window of `span` [s]."""
     energy = np.array([[one.energy for one in line] for line in table])
     residual, ends = (
-        np.array([[getattr(one, name) for one in line] for line in table]) for name in ("residual", "stop_energy")
+        np.array([[getattr(one, name) for one in line] for line in table])
+        for name in ("residual", "stop_energy")
     )
     energy[failed] = residual[failed] = ends[failed] = np.nan
     sums = np.array([[one.by_place for one in line] for line in table])
@@ -103,6 +110,13 @@ def values(case: Case, table: list[list[SkewMeasures]], failed: np.ndarray, span
         means = total[..., 1:] / total[..., :1]
         share = case.bearing.rollers_per_row / (~failed).sum(axis=1)
     impulse = total[..., 1 + BY_PLACE.index("axial_force_by_position")].sum(axis=1)
-    thrust = np.where(failed.all(axis=1), np.nan, impulse * share / span * math.cos(case.bearing.contact_angle))
-    found = {"skew_energy": energy, "skew_residual": residual, "stop_energy": ends, "frictional_thrust": thrust}
+    thrust = np.where(
+        failed.all(axis=1), np.nan, impulse * share / span * math.cos(case.bearing.contact_angle)
+    )
+    found = {
+        "skew_energy": energy,
+        "skew_residual": residual,
+        "stop_energy": ends,
+        "frictional_thrust": thrust,
+    }
     return found | dict(zip(BY_PLACE, np.moveaxis(means, -1, 0), strict=True))

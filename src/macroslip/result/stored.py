@@ -51,7 +51,9 @@ def check_result(result: xr.Dataset, where: str) -> None:
     Raises InputError naming the variable or attribute. The result is as read from the file `where`: of a run, or of a
     study, which has everything over `case` too.
     """
-    problem = next(filter(None, (look(result) for look in (_names, _kinds, _labels, _values, _input))), None)
+    problem = next(
+        filter(None, (look(result) for look in (_names, _kinds, _labels, _values, _input))), None
+    )
     if problem:
         allowed = "what macroslip run wrote, or a selection of it"
         raise InputError(problem, where=where, allowed=allowed, remedy=REMEDY)
@@ -61,7 +63,9 @@ def _names(result: xr.Dataset) -> str:
     missing = [name for name in ("energy", "status") if name not in result.data_vars]
     missing += [name for name in ("row", "roller", "interface") if name not in result.dims]
     if "time" in result.dims:
-        missing += [name for name in ("time", "start_angle", *_TRACES) if name not in result.variables]
+        missing += [
+            name for name in ("time", "start_angle", *_TRACES) if name not in result.variables
+        ]
         missing += [name for name in ("window_start", "window_end") if name not in result.attrs]
     return f"the dataset has no {', no '.join(missing)}" if missing else ""
 
@@ -78,7 +82,9 @@ def _kinds(result: xr.Dataset) -> str:
             return f"{name} holds no numbers"
     for name in ("window_start", "window_end"):
         time = result.attrs.get(name, 0.0)
-        if not (np.ndim(time) == 0 and isinstance(time, (int, float, np.number)) and np.isfinite(time)):
+        if not (
+            np.ndim(time) == 0 and isinstance(time, (int, float, np.number)) and np.isfinite(time)
+        ):
             return f"the attribute {name} is no time"
     return ""
 
@@ -87,11 +93,17 @@ def _labels(result: xr.Dataset) -> str:
     for name, known in (("row", tuple(AXIAL_SIGNS)), ("interface", INTERFACES)):
         found = result[name].values.tolist()
         if not found or len(set(found)) != len(found) or not set(found) <= set(known):
-            return f"{name} is {', '.join(map(str, found))[:80] or 'empty'}, not of {', '.join(known)}"
+            return (
+                f"{name} is {', '.join(map(str, found))[:80] or 'empty'}, not of {', '.join(known)}"
+            )
     for name in ("roller", "time"):
         if name in result.dims:
             values = result[name].values
-            numbers = values.dtype.kind in "fiu" and values.size > (name == "time") and np.isfinite(values).all()
+            numbers = (
+                values.dtype.kind in "fiu"
+                and values.size > (name == "time")
+                and np.isfinite(values).all()
+            )
             if not (numbers and (np.diff(values) > 0).all()):
                 return f"the coordinate {name} does not rise from value to value"
     return ""
@@ -110,7 +122,11 @@ def _values(result: xr.Dataset) -> str:
             return "start_angle holds no angles"
     for name, variable in result.variables.items():
         # Where an integration failed its slip may be anything; and lives of the rating may be endless.
-        known = (name in VARIABLES or name in result.coords) and name != "end_slip" and variable.dtype.kind == "f"
+        known = (
+            (name in VARIABLES or name in result.coords)
+            and name != "end_slip"
+            and variable.dtype.kind == "f"
+        )
         if known and (np.abs(variable.values) > _LARGEST).any():
             return f"{name} holds numbers beyond {_LARGEST:g}"
     return ""

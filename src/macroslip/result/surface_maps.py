@@ -18,7 +18,15 @@ import xarray as xr
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
 from macroslip.errors import InputError
-from macroslip.measures.details import FILM_EDGES, FILM_REGIMES, SECTORS, SLIP_EDGES, SLIP_SIGNS, STATIONS, Details
+from macroslip.measures.details import (
+    FILM_EDGES,
+    FILM_REGIMES,
+    SECTORS,
+    SLIP_EDGES,
+    SLIP_SIGNS,
+    STATIONS,
+    Details,
+)
 
 _PLACES = ("row", "raceway", "angle", "station")
 _CLASSES = ("row", "raceway", "film_class", "slip_class")
@@ -54,7 +62,9 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
 def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Maps of the rows; NaN for a row with a roller that failed, whose part is missing."""
     energy = np.array([sum(record.surface_energy for record in line) for line in records])
-    density = np.array([np.max([record.surface_density for record in line], axis=0) for line in records])
+    density = np.array(
+        [np.max([record.surface_density for record in line], axis=0) for line in records]
+    )
     asperities, work, load, classes = (
         np.array([sum(getattr(record, name) for record in line) for line in records])
         for name in ("surface_asperities", "surface_work", "working_load", "film_slip")
@@ -73,14 +83,20 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
 def coordinates(bearing: Bearing) -> dict[str, Any]:
     """Angles, areas of the places, and names of what energy is split by."""
     angle = (np.arange(SECTORS) + 0.5) * (2.0 * math.pi / SECTORS)
-    about = {"units": "rad", "long_name": "angle on the raceway, outer: from +X0 to +Y0, inner: the same on the ring"}
+    about = {
+        "units": "rad",
+        "long_name": "angle on the raceway, outer: from +X0 to +Y0, inner: the same on the ring",
+    }
     # The radius of a place from the bearing's axis changes along the roller.
     edges = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
     middles, width = 0.5 * (edges[1:] + edges[:-1]), bearing.roller_length / STATIONS
     radii = (geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing))
     lean = math.sin(bearing.contact_angle)
     areas = [
-        [(radius - AXIAL_SIGNS[row] * middles * lean) * (2.0 * math.pi / SECTORS) * width for radius in radii]
+        [
+            (radius - AXIAL_SIGNS[row] * middles * lean) * (2.0 * math.pi / SECTORS) * width
+            for radius in radii
+        ]
         for row in row_names(bearing)
     ]
     area = {"units": "m2", "long_name": "area of a place of the raceway"}
@@ -120,7 +136,9 @@ def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
     _require_maps(result)
     area = 2.0 * math.pi * geometry.roller_radius(bearing) * bearing.roller_length / STATIONS
     energy = result.surface_energy.sum(("raceway", "angle"), skipna=False) / result.sizes["roller"]
-    return (energy / area).assign_attrs(units="J/m2", long_name="frictional energy per area of the roller")
+    return (energy / area).assign_attrs(
+        units="J/m2", long_name="frictional energy per area of the roller"
+    )
 
 
 def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> xr.DataArray:
@@ -131,9 +149,10 @@ def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> 
     traced to a primary source.
     """
     weight = (area + 0.0 * density).where(density.notnull())
-    return (weight.where(density > threshold, 0.0).sum(("angle", "station")) / weight.sum(("angle", "station"))).rename(
-        "share_above"
-    )
+    return (
+        weight.where(density > threshold, 0.0).sum(("angle", "station"))
+        / weight.sum(("angle", "station"))
+    ).rename("share_above")
 
 
 def _require_maps(result: xr.Dataset) -> None:

@@ -77,7 +77,12 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
 }  # fmt: skip
 #: Extremes of an orbit, and of entries into the load zone, in the order of `macroslip.measures.details.EXTREMES`.
 ORBIT_EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
-ENTRY_EXTREMES = ("entry_flash_temperature", "entry_power_density", "entry_slide_roll_ratio", "entry_film_ratio")
+ENTRY_EXTREMES = (
+    "entry_flash_temperature",
+    "entry_power_density",
+    "entry_slide_roll_ratio",
+    "entry_film_ratio",
+)
 #: Variables of a case's `contact_details`.
 CONTACT_DETAILS = (
     "station_energy",

@@ -55,7 +55,9 @@ def radial_clearance(ring, cosine, sine):
     """
     twice_x, twice_y = cosine * cosine - sine * sine, 2.0 * cosine * sine
     second = ring.second_x * twice_x + ring.second_y * twice_y
-    third = ring.third_x * (twice_x * cosine - twice_y * sine) + ring.third_y * (twice_y * cosine + twice_x * sine)
+    third = ring.third_x * (twice_x * cosine - twice_y * sine) + ring.third_y * (
+        twice_y * cosine + twice_x * sine
+    )
     return ring.radial_play + second + third
 
 
@@ -128,7 +130,9 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
     # Without a loaded roller there is no stiffness: push the ring along the load until the rollers push back harder.
     push = (magnitude / ring.stiffness) ** (2.0 / 3.0) + abs(ring.radial_play)
     while True:
-        energy = _energy_gradient_hessian(ring, turn_cosine, turn_sine, displacement, force, gradient, hessian)
+        energy = _energy_gradient_hessian(
+            ring, turn_cosine, turn_sine, displacement, force, gradient, hessian
+        )
         if not (magnitude > tolerance and _trace(hessian) == 0.0 and push < _LONGEST_PUSH):
             break
         for i in range(3):
@@ -149,7 +153,9 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
         trial_unbalanced = _length(trial_gradient)
         in_contact = _trace(trial_hessian) > 0.0 or trial_unbalanced <= tolerance
         # Close to the solution the energy no longer resolves the progress that the unbalanced force still shows.
-        if in_contact and (trial_energy <= energy + 1e-4 * slope or trial_unbalanced <= 0.5 * unbalanced):
+        if in_contact and (
+            trial_energy <= energy + 1e-4 * slope or trial_unbalanced <= 0.5 * unbalanced
+        ):
             energy = trial_energy
             for i in range(3):
                 displacement[i] = trial[i]
@@ -181,7 +187,9 @@ def balance(ring, shaft_angle, force, displacement):
         if iterations == _COLD_ITERATIONS:
             for i in range(3):
                 displacement[i] = 0.0
-        unbalanced = _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, iterations)
+        unbalanced = _descend(
+            ring, turn_cosine, turn_sine, force, displacement, tolerance, iterations
+        )
     return unbalanced
 
 
@@ -206,6 +214,8 @@ def roller_loads(ring, shaft_angle, displacement, loads):
     for j in range(ring.cosine.size):
         cosine = ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine
         sine = ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine
-        radial = cosine * displacement[0] + sine * displacement[1] - radial_clearance(ring, cosine, sine)
+        radial = (
+            cosine * displacement[0] + sine * displacement[1] - radial_clearance(ring, cosine, sine)
+        )
         approach = radial * ring.cos_contact_angle + ring.axial[j] * displacement[2]
         loads[j] = ring.stiffness * approach**1.5 if approach > 0.0 else 0.0

@@ -72,7 +72,9 @@ def ring_motion(
     # In pieces, so that an interrupt need not wait for the end of a long history.
     for start in range(0, time.size, _SAMPLES_AT_A_TIME):
         piece = slice(start, start + _SAMPLES_AT_A_TIME)
-        balance_series(ring, angle[piece], force[piece], current, displacement[piece], unbalanced[piece])
+        balance_series(
+            ring, angle[piece], force[piece], current, displacement[piece], unbalanced[piece]
+        )
         load, place = largest_load(ring, angle[piece], displacement[piece])
         if load > largest:
             largest, sample = load, start + place
@@ -100,7 +102,9 @@ def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -
         )
 
 
-def elastic_loads(loads: BearingLoads | RollerLoads, ring: RingGeometry, motion: Motion) -> np.ndarray:
+def elastic_loads(
+    loads: BearingLoads | RollerLoads, ring: RingGeometry, motion: Motion
+) -> np.ndarray:
     """Elastic load of every roller of both rows at the samples of a motion [N], shape (n, rollers)."""
     if isinstance(loads, RollerLoads):
         return ring.stiffness * np.maximum(_given_approach(loads, ring, motion), 0.0) ** 1.5
@@ -119,7 +123,11 @@ def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[
         angle = start[roller] + ring.orbit_ratio * motion.shaft_angle
         cosine, sine = np.cos(angle), np.sin(angle)
         reach = approach[:, roller] / ring.cos_contact_angle + radial_clearance(ring, cosine, sine)
-        found.append(motion._replace(displacement=np.column_stack([reach * cosine, reach * sine, np.zeros(sine.size)])))
+        found.append(
+            motion._replace(
+                displacement=np.column_stack([reach * cosine, reach * sine, np.zeros(sine.size)])
+            )
+        )
     return found
 
 
@@ -127,7 +135,9 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
     """Approach of every roller [m] at the samples of a motion, shape (n, rollers): linear in angle and time."""
     count, full = ring.cosine.size // 2, 2.0 * math.pi
     known = loads.approach(ring.stiffness, max(ring.radial_play, 0.0) * ring.cos_contact_angle)
-    before = np.clip(np.searchsorted(loads.time, motion.time, side="right") - 1, 0, loads.time.size - 2)
+    before = np.clip(
+        np.searchsorted(loads.time, motion.time, side="right") - 1, 0, loads.time.size - 2
+    )
     share = (motion.time - loads.time[before]) / (loads.time[before + 1] - loads.time[before])
     start = np.arctan2(ring.sine, ring.cosine)
     found = np.empty((motion.time.size, 2 * count))
@@ -135,7 +145,10 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
         angles = start + ring.orbit_ratio * motion.shaft_angle[k]
         for row in range(2):
             here = slice(row * count, (row + 1) * count)
-            near, far = (np.interp(angles[here], loads.angle[i, row], known[i, row], period=full) for i in (at, at + 1))
+            near, far = (
+                np.interp(angles[here], loads.angle[i, row], known[i, row], period=full)
+                for i in (at, at + 1)
+            )
             line[here] = near + part * (far - near)
     return found
 

@@ -108,7 +108,9 @@ def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
     """
     k = np.clip(np.searchsorted(motion.time, time, side="right") - 1, 0, motion.time.size - 2)
     since = time - motion.time[k]
-    rise = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+    rise = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
+        motion.time[k + 1] - motion.time[k]
+    )
     return motion.shaft_angle[k] + (motion.shaft_speed[k] + 0.5 * rise * since) * since
 
 

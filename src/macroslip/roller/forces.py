@@ -96,7 +96,11 @@ class Cage(NamedTuple):
 @jit_inline
 def interference(body, cosine, sine, now):
     """Approach δ = (dX cos φ + dY sin φ − c(φ)) cos α + s dZ sin α [m] of a roller at cos φ, sin φ."""
-    radial = now.displacement_x * cosine + now.displacement_y * sine - radial_clearance(body, cosine, sine)
+    radial = (
+        now.displacement_x * cosine
+        + now.displacement_y * sine
+        - radial_clearance(body, cosine, sine)
+    )
     return radial * body.cos_contact_angle + now.displacement_z * body.sin_contact_angle
 
 
@@ -109,7 +113,9 @@ def _films_excess(body, tables, log_q, outward, play, log_u):
     inner, inner_slope, _ = in_plane(body.inner.oil, tables, math.log(inner_load), log_u)
     outer, outer_slope, _ = in_plane(body.outer.oil, tables, math.log(outer_load), log_u)
     one, other = math.exp(inner[2]), math.exp(outer[2])
-    slope = (one * inner_slope[2] * load / inner_load + other * outer_slope[2] * load / outer_load) / (one + other)
+    slope = (
+        one * inner_slope[2] * load / inner_load + other * outer_slope[2] * load / outer_load
+    ) / (one + other)
     approach = (load / body.stiffness) ** (2.0 / 3.0)
     space = play + approach
     return math.log((one + other) / (FLOW * space)), slope - (2.0 / 3.0) * approach / space
@@ -192,14 +198,18 @@ def station(body, tables, start_angle, now, found):
     cosine, sine = math.cos(angle), math.sin(angle)
     approach = interference(body, cosine, sine, now)
     load = body.stiffness * approach * math.sqrt(approach) if approach > 0.0 else 0.0
-    outward = (body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine) * body.cos_contact_angle
+    outward = (
+        body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine
+    ) * body.cos_contact_angle
     outward += body.weight_along_axis * body.sin_contact_angle
     ring_speed = -orbital_speed * body.outer_radius
     found.film_load = film_load(body, tables, load, approach, outward, ring_speed, found.film_load)
     pressed = load + found.film_load
     found.ring_speed, found.interference, found.elastic_load = ring_speed, approach, load
     found.inner_load, found.outer_load = pressed - min(outward, 0.0), pressed + max(outward, 0.0)
-    found.tangential = body.weight_in_plane * cosine + body.drag * orbital_speed * abs(orbital_speed)
+    found.tangential = body.weight_in_plane * cosine + body.drag * orbital_speed * abs(
+        orbital_speed
+    )
 
 
 @jit_inline
@@ -207,7 +217,11 @@ def _asperities(law, share, load, slip):
     """Friction of asperities with the same slip all over [N], and its derivatives by slip [N s/m] and by load [-]."""
     most = law.boundary_friction * share
     if abs(slip) < law.full_slip:
-        return most * load * slip / law.full_slip, most * load / law.full_slip, most * slip / law.full_slip
+        return (
+            most * load * slip / law.full_slip,
+            most * load / law.full_slip,
+            most * slip / law.full_slip,
+        )
     return math.copysign(most * load, slip), 0.0, math.copysign(most, slip)
 
 
@@ -217,17 +231,27 @@ def _closed_form(law, tables, load, ln_load, slip, entrainment_speed):
 
     F [N], ∂F/∂v and ∂F/∂u_e [N s/m], ∂F/∂Q [-], and the power of asperities [W].
     """
-    film, by_load, by_speed = in_plane(law.film, tables, ln_load, log_speed(max(entrainment_speed, LOWEST_SPEED)))
+    film, by_load, by_speed = in_plane(
+        law.film, tables, ln_load, log_speed(max(entrainment_speed, LOWEST_SPEED))
+    )
     share = film[1]
     root = math.exp(ln_load * (1.0 / 3.0))
     exponent = law.pressure_exponent * root
     patch, by_log_slip, by_exponent = patch_integral(exponent, law.heating * abs(slip))
     viscous = law.conductance * root * root * math.exp(-film[0])
     force = viscous * patch * slip
-    force_by_load = (2.0 / 3.0 - by_load[0]) * force / load + viscous * slip * by_exponent * exponent / (3.0 * load)
+    force_by_load = (
+        2.0 / 3.0 - by_load[0]
+    ) * force / load + viscous * slip * by_exponent * exponent / (3.0 * load)
     per_speed = 1.0 / entrainment_speed if entrainment_speed > LOWEST_SPEED else 0.0
     if share == 0.0:
-        return force, viscous * (patch + by_log_slip), -force * by_speed[0] * per_speed, force_by_load, 0.0
+        return (
+            force,
+            viscous * (patch + by_log_slip),
+            -force * by_speed[0] * per_speed,
+            force_by_load,
+            0.0,
+        )
     rough, rough_slope, rough_by_load = _asperities(law, share, load, slip)
     fluid, unlike = 1.0 - share, rough / share - force
     return (
@@ -251,9 +275,13 @@ def raceway_traction(law, tables, closed_form, load, ln_load, ring_speed, slip):
             return _NO_TRACTION
         return traction(law.traction, tables, load, ln_load, ring_speed, slip)
     mean = ring_speed - 0.5 * slip
-    force, by_slip, by_entrainment, by_load, rough = _closed_form(law, tables, load, ln_load, slip, abs(mean))
+    force, by_slip, by_entrainment, by_load, rough = _closed_form(
+        law, tables, load, ln_load, slip, abs(mean)
+    )
     by_speed = math.copysign(1.0, mean) * by_entrainment
-    return Traction(force, 0.0, 0.0, rough, by_slip - 0.5 * by_speed, 0.0, by_speed, 0.0, by_load, 0.0)
+    return Traction(
+        force, 0.0, 0.0, rough, by_slip - 0.5 * by_speed, 0.0, by_speed, 0.0, by_load, 0.0
+    )
 
 
 _NO_OIL = Oil(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -318,7 +346,9 @@ def cage_contact(body, tables, load, surface_speed, ln_surface):
     ln_load = log_load(load)
     friction, by_slip, by_load, rough = 0.0, 0.0, 0.0, 0.0
     if load > 0.0:
-        friction, by_slip, by_load, rough = cage_traction(body, tables, load, ln_load, surface_speed, ln_surface)
+        friction, by_slip, by_load, rough = cage_traction(
+            body, tables, load, ln_load, surface_speed, ln_surface
+        )
     if not body.oily:
         return Cage(friction, 0.0, by_slip, 0.0, by_load, 0.0, 0.0, rough)
     value, along_load, along_speed = in_plane(law.oil, tables, ln_load, ln_surface)
@@ -351,32 +381,64 @@ def slip_forces(body, tables, at, slip, found):
     ln_inner, ln_outer = log_load(at.inner_load), log_load(at.outer_load)
     inner, outer, inner_oil, outer_oil = _NO_TRACTION, _NO_TRACTION, _NO_OIL, _NO_OIL
     if at.inner_load > 0.0:
-        inner = raceway_traction(body.inner, tables, body.closed_form, at.inner_load, ln_inner, at.ring_speed, slip)
+        inner = raceway_traction(
+            body.inner, tables, body.closed_form, at.inner_load, ln_inner, at.ring_speed, slip
+        )
     if at.outer_load > 0.0:
-        outer = raceway_traction(body.outer, tables, body.closed_form, at.outer_load, ln_outer, at.ring_speed, slip)
+        outer = raceway_traction(
+            body.outer, tables, body.closed_form, at.outer_load, ln_outer, at.ring_speed, slip
+        )
     if body.oily:
         ln_mean = log_speed(mean)
         if at.inner_load > 0.0:
-            inner_oil = raceway_oil(body.inner, tables, at.inner_load, ln_inner, mean, ln_mean, slip)
+            inner_oil = raceway_oil(
+                body.inner, tables, at.inner_load, ln_inner, mean, ln_mean, slip
+            )
         if at.outer_load > 0.0:
-            outer_oil = raceway_oil(body.outer, tables, at.outer_load, ln_outer, mean, ln_mean, slip)
+            outer_oil = raceway_oil(
+                body.outer, tables, at.outer_load, ln_outer, mean, ln_mean, slip
+            )
     inner_pull = inner.pull + inner_oil.sliding + body.inner.push * inner_oil.shear
     outer_pull = outer.pull + outer_oil.sliding + body.outer.push * outer_oil.shear
     cage_load = at.tangential + inner_pull - outer_pull
-    cage_load_slope = inner.pull_by_slip + inner_oil.sliding_by_slip + body.inner.push * inner_oil.shear_by_slip
-    cage_load_slope -= outer.pull_by_slip + outer_oil.sliding_by_slip + body.outer.push * outer_oil.shear_by_slip
+    cage_load_slope = (
+        inner.pull_by_slip + inner_oil.sliding_by_slip + body.inner.push * inner_oil.shear_by_slip
+    )
+    cage_load_slope -= (
+        outer.pull_by_slip + outer_oil.sliding_by_slip + body.outer.push * outer_oil.shear_by_slip
+    )
     cage = cage_contact(body, tables, abs(cage_load), surface, log_speed(surface))
     by_load = math.copysign(1.0, cage_load) * (cage.friction_by_load + cage.resistance_by_load)
     found.inner_slope = inner.pull_by_slip - inner.lag_by_slip + inner_oil.sliding_by_slip
     found.outer_slope = outer.pull_by_slip - outer.lag_by_slip + outer_oil.sliding_by_slip
-    slope = found.inner_slope + found.outer_slope + inner_oil.shear_by_slip + outer_oil.shear_by_slip
-    found.slope = slope + cage.friction_by_slip + cage.resistance_by_slip + by_load * cage_load_slope
-    found.inner, found.outer = inner.pull - inner.lag + inner_oil.sliding, outer.pull - outer.lag + outer_oil.sliding
+    slope = (
+        found.inner_slope + found.outer_slope + inner_oil.shear_by_slip + outer_oil.shear_by_slip
+    )
+    found.slope = (
+        slope + cage.friction_by_slip + cage.resistance_by_slip + by_load * cage_load_slope
+    )
+    found.inner, found.outer = (
+        inner.pull - inner.lag + inner_oil.sliding,
+        outer.pull - outer.lag + outer_oil.sliding,
+    )
     found.cage, found.cage_load, found.cage_load_slope = cage.friction, cage_load, cage_load_slope
     found.resistance = inner_oil.shear + outer_oil.shear + cage.resistance
-    found.rolling[0], found.rolling[1], found.rolling[2] = inner_oil.power, outer_oil.power, cage.rolling
-    found.lag[0], found.lag[1], found.skew[0], found.skew[1] = inner.lag, outer.lag, inner.skew, outer.skew
-    found.rough[0], found.rough[1], found.rough[2] = inner.asperity_power, outer.asperity_power, cage.asperity_power
+    found.rolling[0], found.rolling[1], found.rolling[2] = (
+        inner_oil.power,
+        outer_oil.power,
+        cage.rolling,
+    )
+    found.lag[0], found.lag[1], found.skew[0], found.skew[1] = (
+        inner.lag,
+        outer.lag,
+        inner.skew,
+        outer.skew,
+    )
+    found.rough[0], found.rough[1], found.rough[2] = (
+        inner.asperity_power,
+        outer.asperity_power,
+        cage.asperity_power,
+    )
 
 
 @jit_inline
@@ -403,7 +465,11 @@ def raceway_power(law, microslip, slip, ring_speed, force, lag, skew):
 def powers(body, at, forces, slip, found):
     """Write the frictional power (33) at inner, outer and cage interface [W]; returns their sum."""
     ring = at.ring_speed
-    found[0] = raceway_power(body.inner, body.microslip, slip, ring, forces.inner, forces.lag[0], forces.skew[0])
-    found[1] = raceway_power(body.outer, body.microslip, slip, ring, forces.outer, forces.lag[1], forces.skew[1])
+    found[0] = raceway_power(
+        body.inner, body.microslip, slip, ring, forces.inner, forces.lag[0], forces.skew[0]
+    )
+    found[1] = raceway_power(
+        body.outer, body.microslip, slip, ring, forces.outer, forces.lag[1], forces.skew[1]
+    )
     found[2] = abs(forces.cage * (ring - slip))
     return found[0] + found[1] + found[2]

@@ -65,7 +65,9 @@ class RollerModel:
     """One roller on its imposed orbit."""
 
     radius: float  #: r [m]
-    mobility: float  #: r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force
+    mobility: (
+        float  #: r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force
+    )
     stiffness: float  #: K of inner and outer contact in series [N/m^1.5]
     #: Of the contact angle α [-]; the sine carries the row's axial sign s.
     cos_contact_angle: float
@@ -200,7 +202,9 @@ def with_tables(
         load = _faded_load(found, model, box)
         for one in found.values():
             one.body[0]["faded_load"] = load
-    typical, worst, seconds = (max(column) for column in zip(*errors, strict=True)) if errors else (0.0, 0.0, 0.0)
+    typical, worst, seconds = (
+        (max(column) for column in zip(*errors, strict=True)) if errors else (0.0, 0.0, 0.0)
+    )
     return found, TableReport(typical, worst, flat.nbytes, seconds)
 
 
@@ -212,13 +216,22 @@ def _write_contact(
     record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
     slowest = _SLOWEST * box.fastest
     if contact.closed_form is not None:
-        write_plane(record["film"], tables, partial(film_values, contact), _LIGHTEST, REST_SPEED, box)
+        write_plane(
+            record["film"], tables, partial(film_values, contact), _LIGHTEST, REST_SPEED, box
+        )
         for name in ("conductance", "pressure_exponent", "heating"):
             record[name] = getattr(contact.closed_form, name)
     elif contact.name != "cage":
         errors.append(write_traction(record["traction"], tables, contact, box))
     if contact.name == "cage":
-        write_plane(record["oil"], tables, partial(cage_values, contact, pocket_gap), _LIGHTEST, slowest, box)
+        write_plane(
+            record["oil"],
+            tables,
+            partial(cage_values, contact, pocket_gap),
+            _LIGHTEST,
+            slowest,
+            box,
+        )
     elif contact.rolling is not None:
         write_plane(record["oil"], tables, partial(oil_values, contact), _LIGHTEST, slowest, box)
         # Beside its shear the inclined pressure pushes by −2 R/r of it.
@@ -253,7 +266,8 @@ def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> flo
     roller = next(iter(rollers.values()))
     load = 1.0
     while not all(
-        is_faded(roller.body[0], roller.tables.ctypes.data, load, one, box.fastest) for one in (-most, 0.0, most)
+        is_faded(roller.body[0], roller.tables.ctypes.data, load, one, box.fastest)
+        for one in (-most, 0.0, most)
     ):
         load *= 1.1
     return load

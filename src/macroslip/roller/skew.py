@@ -51,7 +51,9 @@ class Equilibrium(NamedTuple):
     #: Shape (..., 2). Frictional power of the raceways, and the asperities' part of it [W].
     power: np.ndarray
     asperity_power: np.ndarray
-    axial: np.ndarray  #: Axial force on the inner ring along z' [N], of friction and of the turned normal force
+    axial: (
+        np.ndarray
+    )  #: Axial force on the inner ring along z' [N], of friction and of the turned normal force
     #: Force of the raceways on the roller along +x [N], of tractions and rolling resistance; a spar bears it, with
     #: weight and drag.
     push: np.ndarray
@@ -65,9 +67,13 @@ class Pair(NamedTuple):
     outer: SkewedContact
 
 
-def raceways(laws: RollerLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None) -> Pair:
+def raceways(
+    laws: RollerLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None
+) -> Pair:
     """The raceway contacts of a roller; parameters as of `macroslip.contact.skewed.skewed_contact`."""
-    inner, outer = (skewed_contact(one, bearing, axial_sign, shear) for one in (laws.inner, laws.outer))
+    inner, outer = (
+        skewed_contact(one, bearing, axial_sign, shear) for one in (laws.inner, laws.outer)
+    )
     return Pair(inner, outer)
 
 
@@ -102,7 +108,9 @@ def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     r = pair.inner.roller_radius
     sides = np.array([one.side for one in pair])
     # By θ and δ: ζ_c, the place ζ + δ + k r θ on the raceway, and the arm of the normal force.
-    middle = np.array([[k * (one.along * r - 1.0), one.along] for k, one in zip(sides, pair, strict=True)])
+    middle = np.array(
+        [[k * (one.along * r - 1.0), one.along] for k, one in zip(sides, pair, strict=True)]
+    )
     middle /= np.array([[one.lateral] for one in pair])
     arm = middle + np.stack([sides * r, np.zeros(2)], axis=1)
     slope = np.array([[one.along] for one in pair]) * (arm + np.array([0.0, 1.0]))
@@ -112,7 +120,9 @@ def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return lies[0], lies[1], np.tensordot(middle, lies, 1)
 
 
-def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equilibrium | None = None) -> Equilibrium:
+def equilibrium(
+    pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equilibrium | None = None
+) -> Equilibrium:
     """The slip, tilt and shift of a roller at a given skew.
 
     Parameters
@@ -128,16 +138,23 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
     start : Equilibrium, optional
         States nearby, such as those of a smaller skew, of the same shape.
     """
-    states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (load, ring_speed, skew)))
+    states = np.broadcast_arrays(
+        *(np.asarray(one, dtype=float) for one in (load, ring_speed, skew))
+    )
     shape = states[0].shape
     load, ring_speed, skew = (one.ravel() for one in states)
-    (resistance, push), longest = _resistance_on(laws, load, ring_speed), _LONGEST * np.abs(ring_speed)
+    (resistance, push), longest = (
+        _resistance_on(laws, load, ring_speed),
+        _LONGEST * np.abs(ring_speed),
+    )
     beside = push
     push = push.copy()
     slip, axial = np.zeros(load.size), np.zeros((2, load.size))
     last_spin, taken = np.zeros(load.size), np.zeros(load.size)
     if start is not None:
-        slip, axial = (np.nan_to_num(one).reshape(-1, load.size) for one in (start.slip, start.tractions))
+        slip, axial = (
+            np.nan_to_num(one).reshape(-1, load.size) for one in (start.slip, start.tractions)
+        )
         slip = slip[0].copy()
     tilt, shift, left = np.empty(load.size), np.empty(load.size), np.empty(load.size)
     moments, power, rough = (np.empty((load.size, 2)) for _ in range(3))
@@ -150,7 +167,15 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
         # Each state, and the same with a little more slip.
         twice = [np.tile(one, 2) for one in (load[going], u, skew[going], tilt[going])]
         inner, outer = (
-            resultants(one, twice[0], twice[1], np.append(here, here + step), twice[2], np.tile(place, 2), twice[3])
+            resultants(
+                one,
+                twice[0],
+                twice[1],
+                np.append(here, here + step),
+                twice[2],
+                np.tile(place, 2),
+                twice[3],
+            )
             for one, place in zip(pair, middles, strict=True)
         )
         count = going.size
@@ -162,7 +187,9 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
         change = np.abs(found - axial[:, going]).max(axis=0)
         axial[:, going] = found if iteration < _DAMPED else 0.5 * (found + axial[:, going])
         left[going] = np.abs(spin) / load[going]
-        moments[going] = np.stack([(one.moment + one.pressure_moment)[:count] for one in (inner, outer)], axis=-1)
+        moments[going] = np.stack(
+            [(one.moment + one.pressure_moment)[:count] for one in (inner, outer)], axis=-1
+        )
         power[going] = np.stack([one.power[:count] for one in (inner, outer)], axis=-1)
         rough[going] = np.stack([one.asperity_power[:count] for one in (inner, outer)], axis=-1)
         place = middles[0] + shift[going] - r * tilt[going]

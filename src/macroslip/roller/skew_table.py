@@ -99,10 +99,16 @@ def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
 
     def make() -> SkewTable:
         sheets = [
-            stored(table_key(key, int(n)), lambda at=(n * _SPEED) ** 4: [_sheet(laws, bearing, load, skew, at)])[0]
+            stored(
+                table_key(key, int(n)),
+                lambda at=(n * _SPEED) ** 4: [_sheet(laws, bearing, load, skew, at)],
+            )[0]
             for n in range(first, last + 1)
         ]
-        cubes = [spline_coefficients(np.stack(sheets, axis=1)[..., part : part + 4], 3).ravel() for part in (0, 4, 8)]
+        cubes = [
+            spline_coefficients(np.stack(sheets, axis=1)[..., part : part + 4], 3).ravel()
+            for part in (0, 4, 8)
+        ]
         return SkewTable(np.concatenate(cubes), cubes[0].size, load, speed, skew)
 
     return remembered(table_key(key, speed), make)
@@ -129,7 +135,10 @@ def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: fl
 def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: float) -> np.ndarray:
     """Quantities of the table, shape (2, loads, 12)."""
     per_moment, per_power = load ** (-4.0 / 3.0), 1.0 / (load * speed)[:, None]
-    added, rough = (at.power - straight.power) * per_power, (at.asperity_power - straight.asperity_power) * per_power
+    added, rough = (
+        (at.power - straight.power) * per_power,
+        (at.asperity_power - straight.asperity_power) * per_power,
+    )
     return np.stack(
         [
             at.moment * per_moment, added[..., 0], added[..., 1], at.axial / load,
@@ -154,7 +163,10 @@ def _at(table, part, load, speed, place):
 @jit_inline
 def raceway_push(table, load, ring_speed):
     """Force of the raceways on a straight roller along the orbit [N], which presses on a spar beside weight and drag."""
-    place, column = cell_of(table.load, math.log(load)), cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed))))
+    place, column = (
+        cell_of(table.load, math.log(load)),
+        cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed)))),
+    )
     return -math.copysign(load, ring_speed) * _at(table, 1, place, column, 0.0)[2]
 
 

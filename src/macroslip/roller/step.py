@@ -62,11 +62,19 @@ def write_stage(row, k, body, at, forces, slip, power):
     row.inner_slip[k] = row.outer_slip[k] = slip
     row.inner_speed[k] = row.outer_speed[k] = at.ring_speed
     row.cage_speed[k] = at.ring_speed - slip
-    row.inner_load[k], row.outer_load[k], row.elastic_load[k] = at.inner_load, at.outer_load, at.elastic_load
+    row.inner_load[k], row.outer_load[k], row.elastic_load[k] = (
+        at.inner_load,
+        at.outer_load,
+        at.elastic_load,
+    )
     row.cage_load[k] = forces.cage_load
     row.force[k, 0], row.force[k, 1], row.force[k, 2] = forces.inner, forces.outer, forces.cage
     for i in range(3):
-        row.power[k, i], row.rolling[k, i], row.rough[k, i] = power[i], forces.rolling[i], forces.rough[i]
+        row.power[k, i], row.rolling[k, i], row.rough[k, i] = (
+            power[i],
+            forces.rolling[i],
+            forces.rough[i],
+        )
     ring = at.ring_speed
     row.lag_power[k, 0], row.skew_power[k, 0] = (
         ring * body.inner.curvature * forces.lag[0],

@@ -40,7 +40,11 @@ def _forces(table, guides, ring, body, angle, speed, displacement, found):
 
 
 def thrust(
-    table: SkewTable, guides: tuple[Guide, Guide], ring: RingGeometry, model: RollerModel, motion: Motion
+    table: SkewTable,
+    guides: tuple[Guide, Guide],
+    ring: RingGeometry,
+    model: RollerModel,
+    motion: Motion,
 ) -> np.ndarray:
     """Force of all rollers on the inner ring by friction and turned normal forces, as they rest under its motion.
 
@@ -62,5 +66,14 @@ def thrust(
     """
     found = np.zeros((motion.time.size, 3))
     body = (model.weight_in_plane, model.drag, model.outer_radius)
-    _forces(table, guides, ring, body, motion.shaft_angle, motion.shaft_speed, motion.displacement, found)
+    _forces(
+        table,
+        guides,
+        ring,
+        body,
+        motion.shaft_angle,
+        motion.shaft_speed,
+        motion.displacement,
+        found,
+    )
     return found

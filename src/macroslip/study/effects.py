@@ -71,7 +71,11 @@ def sampled_parameters(study: xr.Dataset) -> list[str]:
 
 
 def effects(
-    study: xr.Dataset, weights: Weights | None = None, *, field: str = "wind_speed", width: float = 2.0
+    study: xr.Dataset,
+    weights: Weights | None = None,
+    *,
+    field: str = "wind_speed",
+    width: float = 2.0,
 ) -> xr.Dataset:
     """How the criteria and lives of a year change with each sampled parameter.
 
@@ -88,13 +92,23 @@ def effects(
     """
     names = sampled_parameters(study)
     if not names:
-        raise InputError("the study has no sample", allowed="studies with variations: {sample: ...}")
+        raise InputError(
+            "the study has no sample", allowed="studies with variations: {sample: ...}"
+        )
     found = year(study, weights, field=field, width=width)
     table, _ = designs(found)
-    labels = [str(name) for name, one in found.coords.items() if one.dims == ("group",) and name not in names]
+    labels = [
+        str(name)
+        for name, one in found.coords.items()
+        if one.dims == ("group",) and name not in names
+    ]
     table["_block"] = table.groupby(labels, dropna=False, sort=False).ngroup()
     units = {name: unit for name, (_, unit, _) in CRITERIA.items()} | dict.fromkeys(LIVES, "h")
-    quantities = [name for name in units if name in table and np.isfinite(table[name].to_numpy()).sum() >= _FEWEST]
+    quantities = [
+        name
+        for name in units
+        if name in table and np.isfinite(table[name].to_numpy()).sum() >= _FEWEST
+    ]
     shape = len(quantities), len(names)
     effect, error, ranks, chance = np.full((4, *shape), np.nan)
     spread = np.full((shape[0], len(QUANTILES)), np.nan)
@@ -109,11 +123,23 @@ def effects(
     over = ("quantity", "parameter")
     return xr.Dataset(
         {
-            "main_effect": (over, effect, described("1", "change from the lower to the upper half, over the mean")),
+            "main_effect": (
+                over,
+                effect,
+                described("1", "change from the lower to the upper half, over the mean"),
+            ),
             "main_effect_error": (over, error, described("1", "standard error of it")),
             "rank_correlation": (over, ranks, described("1", "Spearman's rank correlation")),
-            "probability": (over, chance, described("1", "probability of such a correlation by chance")),
-            "range": (("quantity", "quantile"), spread, described("see units", "quantiles over the sample")),
+            "probability": (
+                over,
+                chance,
+                described("1", "probability of such a correlation by chance"),
+            ),
+            "range": (
+                ("quantity", "quantile"),
+                spread,
+                described("see units", "quantiles over the sample"),
+            ),
             "points": ((), len(table), described("1", "designs of the sample")),
         },
         {

@@ -16,7 +16,12 @@ THRESHOLDS = np.logspace(-9.0, 9.0, 721)
 
 
 def exceedance(
-    study: xr.Dataset, weights: Weights, *, field: str = "wind_speed", width: float = 2.0, by: Sequence[str] = ()
+    study: xr.Dataset,
+    weights: Weights,
+    *,
+    field: str = "wind_speed",
+    width: float = 2.0,
+    by: Sequence[str] = (),
 ) -> xr.Dataset:
     """How many orbits a year of one roller exceed an energy, and a peak power.
 
@@ -61,14 +66,20 @@ def exceedance(
             present = np.isfinite(energy[row])
             for kind, values in enumerate((energy, power)):
                 above = np.sort(values[row][present])
-                counts[kind][*cell, row] += present.sum() - np.searchsorted(above, THRESHOLDS, side="right")
+                counts[kind][*cell, row] += present.sum() - np.searchsorted(
+                    above, THRESHOLDS, side="right"
+                )
             orbits[*cell, row] += present.sum()
             # An event has all of its record for the orbits that it completes, which may be none.
             alone = float(one.window_length) * max(present.any(axis=-1).sum(), 1)
-            seconds[*cell, row] += alone if event else np.broadcast_to(length, present.shape)[present].sum()
+            seconds[*cell, row] += (
+                alone if event else np.broadcast_to(length, present.shape)[present].sum()
+            )
     weight = bins.probabilities(weights)
     with np.errstate(invalid="ignore", divide="ignore"):
-        found = np.stack([YEAR * weighted(values / seconds[..., None], weight) for values in counts])
+        found = np.stack(
+            [YEAR * weighted(values / seconds[..., None], weight) for values in counts]
+        )
         every = YEAR * weighted(orbits / seconds, weight)
         # Thresholds that some orbits exceed and some do not, and one more at either end.
         some = (found > 0.0) & (found < every[None, ..., None] * (1.0 - 1e-12))
@@ -108,13 +119,17 @@ def load_spectrum(
         raise InputError("the study has not counted cycles", remedy=remedy)
     bins = binned(study, field, width, by)
     lengths = study.loads_length.values
-    rates = (study.load_cycles.isel(case=case).values / lengths[case] for case in range(study.sizes["case"]))
+    rates = (
+        study.load_cycles.isel(case=case).values / lengths[case]
+        for case in range(study.sizes["case"])
+    )
     cycles = years * YEAR * weighted(bins.means(rates)[0], bins.probabilities(weights))
     kept = _span(np.nan_to_num(cycles).any(axis=(0, 1)))
     about = described("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(
         {"cycles": (("group", "component", "load_range"), cycles[..., kept], about)},
-        bins.coordinates(study, bins=False) | {"component": study.component, "load_range": study.load_range[kept]},
+        bins.coordinates(study, bins=False)
+        | {"component": study.component, "load_range": study.load_range[kept]},
         {"title": f"Load cycles: {study.attrs.get('title', '')}", "years": years},
     )
 

@@ -35,7 +35,9 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     frame = part.reset_coords().to_dataframe().reset_index()
     frame = frame.loc[:, [name for name in (*part.coords, *names) if name in frame]]
     units = {name: one.attrs.get("units", "1") for name, one in part.variables.items()}
-    frame.columns = [name if units.get(name, "1") == "1" else f"{name} [{units[name]}]" for name in frame]
+    frame.columns = [
+        name if units.get(name, "1") == "1" else f"{name} [{units[name]}]" for name in frame
+    ]
     return frame
 
 
@@ -49,9 +51,15 @@ def tables(
     them also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where results keep its variables, and, if the study
     counts cycles, `cycles`. Arguments are those of `macroslip.study.lifetime.lifetime_energy`.
     """
-    summary = study.drop_vars([name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}])
+    summary = study.drop_vars(
+        [name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}]
+    )
     by_row = [name for name, one in summary.data_vars.items() if "row" in one.dims]
-    found = {"cases": as_table(summary, [*by_row, *(name for name in summary.data_vars if name not in by_row)])}
+    found = {
+        "cases": as_table(
+            summary, [*by_row, *(name for name in summary.data_vars if name not in by_row)]
+        )
+    }
     failed = summary.isel(case=np.flatnonzero(summary.outcome.values != str(Outcome.COMPLETED)))
     found["failures"] = failed.drop_vars([*failed.data_vars, "row"]).to_dataframe().reset_index()
     found["worst"] = as_table(worst(study), by_row)
@@ -60,10 +68,14 @@ def tables(
     whole = year(study, weights, field=field, width=width, by=by)
     units = {name: unit for name, (_, unit, _) in CRITERIA.items()} | dict.fromkeys(LIVES, "h")
     ranked = designs(whole)[0].dropna(axis="columns", how="all")
-    found["designs"] = ranked.rename(columns={name: f"{name} [{unit}]" for name, unit in units.items() if unit != "1"})
+    found["designs"] = ranked.rename(
+        columns={name: f"{name} [{unit}]" for name, unit in units.items() if unit != "1"}
+    )
     if sampled_parameters(study):
         drivers = effects(study, weights, field=field, width=width)
-        found["effects"] = as_table(drivers, [name for name, one in drivers.items() if "parameter" in one.dims])
+        found["effects"] = as_table(
+            drivers, [name for name, one in drivers.items() if "parameter" in one.dims]
+        )
     if weights is None:
         return found
     by_bin = ["hours", "runs", "energy", "per_hour", "peak", "entry_slip", *SUMS]
@@ -88,7 +100,11 @@ def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> lis
 
     def harmless(value: Any) -> Any:
         # A spreadsheet would take such text as a formula.
-        return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value
+        return (
+            f"'{value}"
+            if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r"))
+            else value
+        )
 
     written = []
     for name, frame in found.items():

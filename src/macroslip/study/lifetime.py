@@ -54,11 +54,17 @@ def lifetime_energy(
     data = {
         "lifetime_energy": (years * found.total).assign_attrs(described("J", about)),
         "bin_energy": (years * found.energy).assign_attrs(described("J", "part of the bin in it")),
-        "power": (found.per_hour / 3600.0).assign_attrs(described("W", "energy of a roller per time, mean over runs")),
-        "probability": (found.hours * 3600.0 / YEAR).assign_attrs(described("1", "share of time in the bin")),
+        "power": (found.per_hour / 3600.0).assign_attrs(
+            described("W", "energy of a roller per time, mean over runs")
+        ),
+        "probability": (found.hours * 3600.0 / YEAR).assign_attrs(
+            described("1", "share of time in the bin")
+        ),
     }
     title = f"Lifetime energy: {study.attrs.get('title', '')}"
-    return found[["runs", "left_out", "covered"]].assign(data).assign_attrs(title=title, years=years)
+    return (
+        found[["runs", "left_out", "covered"]].assign(data).assign_attrs(title=title, years=years)
+    )
 
 
 def percentiles(
@@ -77,19 +83,33 @@ def percentiles(
     bins = binned(study, field, width, by)
     names = ("orbit_energy_mean", "peak_power_mean", "peak_power_max", "lowest_spin_ratio")
     power = (study.energy_mean / study.window_length).transpose("case", "row")
-    wanted = {"power": power.assign_attrs(described("W", "energy dissipated by a roller per time"))} | {
-        name: study[name].transpose("case", "row") for name in names
-    }
+    wanted = {
+        "power": power.assign_attrs(described("W", "energy dissipated by a roller per time"))
+    } | {name: study[name].transpose("case", "row") for name in names}
     shape = len(bins.groups), bins.centres.size, study.sizes["row"]
     cells = [np.repeat(one, shape[2]) for one in (bins.group, bins.bin)]
-    frame = xr.Dataset({name: ("run", one.values.ravel()) for name, one in wanted.items()}).to_dataframe()
-    found = frame.groupby([*cells, np.tile(np.arange(shape[2]), study.sizes["case"])]).quantile(list(quantiles))
+    frame = xr.Dataset(
+        {name: ("run", one.values.ravel()) for name, one in wanted.items()}
+    ).to_dataframe()
+    found = frame.groupby([*cells, np.tile(np.arange(shape[2]), study.sizes["case"])]).quantile(
+        list(quantiles)
+    )
     # A cell without runs has no line.
     every, dims = [*map(range, shape), list(quantiles)], ("group", "bin", "row", "quantile")
-    array = found.rename_axis(index=dims).to_xarray().reindex(dict(zip(dims, every, strict=True))).transpose(*dims)
-    data: dict[str, Any] = {name: (dims, array[name].values, dict(one.attrs)) for name, one in wanted.items()}
+    array = (
+        found.rename_axis(index=dims)
+        .to_xarray()
+        .reindex(dict(zip(dims, every, strict=True)))
+        .transpose(*dims)
+    )
+    data: dict[str, Any] = {
+        name: (dims, array[name].values, dict(one.attrs)) for name, one in wanted.items()
+    }
     data["runs"] = (dims[:2], bins.means(power.values)[1], described("1", "runs of the quantiles"))
-    coordinates = {"row": study.row, "quantile": ("quantile", list(quantiles), described("1", "share of runs below"))}
+    coordinates = {
+        "row": study.row,
+        "quantile": ("quantile", list(quantiles), described("1", "share of runs below")),
+    }
     title = {"title": f"Percentiles over runs: {study.attrs.get('title', '')}"}
     return xr.Dataset(data, bins.coordinates(study) | coordinates, title)
 
@@ -105,16 +125,24 @@ def worst(
     """
     names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
     if variable not in names:
-        raise InputError(f"the summary has no variable '{variable}'", allowed=", ".join(map(str, names)))
+        raise InputError(
+            f"the summary has no variable '{variable}'", allowed=", ".join(map(str, names))
+        )
     if count < 1:
         raise InputError(f"the count is {count}", allowed="a whole number above 0")
-    summary = study.drop_vars([name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}])
+    summary = study.drop_vars(
+        [name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}]
+    )
     values = study[variable].transpose("case", "row").values
     finite = np.flatnonzero(np.isfinite(values))
-    order = finite[np.argsort((1 if smallest else -1) * values.ravel()[finite], kind="stable")][:count]
+    order = finite[np.argsort((1 if smallest else -1) * values.ravel()[finite], kind="stable")][
+        :count
+    ]
     cases, rows = np.unravel_index(order, values.shape)
     found = summary.isel(case=xr.DataArray(cases, dims="rank"), row=xr.DataArray(rows, dims="rank"))
-    return found.assign_coords(rank=("rank", np.arange(1, order.size + 1), described("1", f"rank by {variable}")))
+    return found.assign_coords(
+        rank=("rank", np.arange(1, order.size + 1), described("1", f"rank by {variable}"))
+    )
 
 
 def weighted_maps(
@@ -159,9 +187,15 @@ def weighted_maps(
     return xr.Dataset(
         {
             "surface_energy": (("group", *dims), found, about),
-            "surface_power_density": (("group", *_PLACES), largest, dict(study.surface_power_density.attrs)),
+            "surface_power_density": (
+                ("group", *_PLACES),
+                largest,
+                dict(study.surface_power_density.attrs),
+            ),
         },
-        bins.coordinates(study, bins=False) | {name: study[name] for name in dims} | {"cell_area": _area(study)},
+        bins.coordinates(study, bins=False)
+        | {name: study[name] for name in dims}
+        | {"cell_area": _area(study)},
         {"title": f"Maps of the raceways: {study.attrs.get('title', '')}", "years": years},
     )
 

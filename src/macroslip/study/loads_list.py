@@ -91,7 +91,11 @@ class Pattern:
     def fields_of(self, path: str) -> dict[str, Any] | None:
         """Values of the fields in a path with forward slashes; None if it does not fit."""
         found = re.fullmatch(self._expression, path)
-        return None if found is None else {name: kind(found[name]) for name, kind in self.kinds.items()}
+        return (
+            None
+            if found is None
+            else {name: kind(found[name]) for name, kind in self.kinds.items()}
+        )
 
     def files(self, folder: Path) -> tuple[list[tuple[str, dict[str, Any]]], list[str]]:
         """Find the files of a folder, in which a relative pattern starts: paths with fields, sorted, relative if it is.
@@ -112,10 +116,14 @@ class Pattern:
             base, start = base / names[0], start / names[0]
             names = names[1:]
         paths = sorted(
-            (base / one.relative_to(start)).as_posix() for one in start.glob("/".join(names)) if one.is_file()
+            (base / one.relative_to(start)).as_posix()
+            for one in start.glob("/".join(names))
+            if one.is_file()
         )
         read = [(name, self.fields_of(name)) for name in paths]
-        return [(name, one) for name, one in read if one is not None], [name for name, one in read if one is None]
+        return [(name, one) for name, one in read if one is not None], [
+            name for name, one in read if one is None
+        ]
 
 
 def load_list(
@@ -139,11 +147,17 @@ def load_list(
     for name in names:
         if name in RESERVED or not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             allowed = f"letters, digits and _, and none of {', '.join(RESERVED)}"
-            raise InputError(f"a field is called '{safe_text(name)}'", allowed=allowed, remedy="Give it another name.")
+            raise InputError(
+                f"a field is called '{safe_text(name)}'",
+                allowed=allowed,
+                remedy="Give it another name.",
+            )
     for load in loads:
         if any("\ud800" <= letter <= "\udfff" for letter in load.name):
             what = f"the name of the file {safe_text(load.name)} is not UTF-8"
-            raise InputError(what, remedy="Rename it; results are kept by the names of their loads.")
+            raise InputError(
+                what, remedy="Rename it; results are kept by the names of their loads."
+            )
         for name, value in load.fields.items():
             if type(value) is int and abs(value) > _LARGEST:
                 what = f"the field {name} of {safe_text(load.name)} is {value}"
@@ -153,7 +167,12 @@ def load_list(
     if unknown := [name for name in units if name not in names]:
         what = f"units names {', '.join(unknown)}"
         raise InputError(what, allowed=f"fields: {', '.join(names) or 'there are none'}")
-    return LoadList(source, loads, {name: units.get(name, _BUNDLED_UNITS.get(name, "1")) for name in names}, remarks)
+    return LoadList(
+        source,
+        loads,
+        {name: units.get(name, _BUNDLED_UNITS.get(name, "1")) for name in names},
+        remarks,
+    )
 
 
 def _bundled(names: Sequence[str]) -> list[Load]:
@@ -162,7 +181,8 @@ def _bundled(names: Sequence[str]) -> list[Load]:
     wrong = [name for name in names if name not in known and name not in sets]
     if wrong:
         raise InputError(
-            f"there is no bundled case '{safe_text(wrong[0])}'", allowed=f"all, year, or {', '.join(known)}"
+            f"there is no bundled case '{safe_text(wrong[0])}'",
+            allowed=f"all, year, or {', '.join(known)}",
         )
     chosen = list(dict.fromkeys(one for name in names for one in sets.get(name, [name])))
     return [Load(name, labels) for name, labels in zip(chosen, bundled_labels(chosen), strict=True)]
@@ -199,14 +219,22 @@ def _from_table(path: Path) -> list[Load]:
     readers = {".csv": pa.csv.read_csv, ".parquet": pa.parquet.read_table}
     reader = readers.get(path.suffix.lower())
     if reader is None:
-        raise InputError(f"the extension {path.suffix!r} is not known", where=where, allowed=", ".join(readers))
+        raise InputError(
+            f"the extension {path.suffix!r} is not known", where=where, allowed=", ".join(readers)
+        )
     try:
         rows = (table := reader(path)).to_pylist()
     except (pa.ArrowException, OSError) as error:
         raise InputError(f"the table of load files cannot be read ({error})", where=where) from None
     if "file" not in table.column_names or not rows:
-        what = "the table has no rows" if "file" in table.column_names else "the table has no column 'file'"
-        raise InputError(what, where=where, allowed="a column 'file' with paths, and one column a field")
+        what = (
+            "the table has no rows"
+            if "file" in table.column_names
+            else "the table has no column 'file'"
+        )
+        raise InputError(
+            what, where=where, allowed="a column 'file' with paths, and one column a field"
+        )
     names = set()
     for number, row in enumerate(rows, start=1):
         if not isinstance(row["file"], str) or not row["file"]:

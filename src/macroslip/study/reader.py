@@ -15,7 +15,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from xarray.backends import BackendArray
-from xarray.core import indexing  # the documented interface for arrays of a backend, in spite of its name
+from xarray.core import (
+    indexing,
+)  # the documented interface for arrays of a backend, in spite of its name
 
 from macroslip.bearing.geometry import ROWS
 from macroslip.files import MANIFEST, reading
@@ -63,11 +65,20 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     manifest, runs = _read(directory)
     labels = {"run": ("1", "name of the run")} | manifest["labels"]
     labels |= {name: ("1", f"{name} of the run") for name in ("outcome", "reason", "key")}
-    coordinates = {name: ("case", _column(runs, name), described(*about)) for name, about in labels.items()}
+    coordinates = {
+        name: ("case", _column(runs, name), described(*about)) for name, about in labels.items()
+    }
     summary = {
-        name: (("case", "row"), np.stack([_column(runs, f"{name}_{row}") for row in ROWS], axis=1), described(*about))
+        name: (
+            ("case", "row"),
+            np.stack([_column(runs, f"{name}_{row}") for row in ROWS], axis=1),
+            described(*about),
+        )
         for name, about in ROW_VARIABLES.items()
-    } | {name: ("case", _column(runs, name), described(*about)) for name, about in CASE_VARIABLES.items()}
+    } | {
+        name: ("case", _column(runs, name), described(*about))
+        for name, about in CASE_VARIABLES.items()
+    }
     variables, more, attributes = _of_results(directory, runs)
     number = ("case", np.arange(len(runs)), described("1", "number of the run in its study"))
     about = {"title": manifest["title"], "source": manifest["source"], **attributes}
@@ -104,11 +115,15 @@ def _column(runs: pd.DataFrame, name: str) -> np.ndarray:
     column = runs[name] if name in runs else pd.Series([""] * len(runs))
     if column.dtype.kind in "iufb":
         return column.to_numpy()
-    codes, texts = pd.factorize(column.where(column.notna(), "").astype(str))  # equal texts are one object
+    codes, texts = pd.factorize(
+        column.where(column.notna(), "").astype(str)
+    )  # equal texts are one object
     return np.asarray(texts, dtype=object)[codes]
 
 
-def _of_results(directory: Path, runs: pd.DataFrame) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+def _of_results(
+    directory: Path, runs: pd.DataFrame
+) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """Variables, coordinates and attributes of the results, opened as far as is needed to list them."""
     keys, checksums = (_column(runs, name) for name in ("key", "detail"))
     kinds, texts = pd.factorize(np.where(checksums != "", _column(runs, "layout"), np.array(None)))
@@ -121,12 +136,15 @@ def _of_results(directory: Path, runs: pd.DataFrame) -> tuple[dict[str, Any], di
     numbers = [tuple(one.get("rollers", range(one["sizes"]["roller"]))) for one in layouts]
     rollers = tuple(sorted(set().union(*numbers)))
     sizes = {
-        name: max(one["sizes"].get(name, 0) for one in layouts) for name in set().union(*(o["sizes"] for o in layouts))
+        name: max(one["sizes"].get(name, 0) for one in layouts)
+        for name in set().union(*(o["sizes"] for o in layouts))
     }
     sizes["roller"] = len(rollers)
     shared = _Shared(uuid.uuid4().hex, directory, keys, checksums, numbers, kinds, rollers, sizes)
     variables, coordinates = {}, {}
-    for name, one in {name: one for example in examples for name, one in example.variables.items()}.items():
+    for name, one in {
+        name: one for example in examples for name, one in example.variables.items()
+    }.items():
         if (name,) == one.dims and name not in _RAGGED:  # the same in all results
             if name != "roller":
                 coordinates[name] = (name, one.values, one.attrs)
@@ -140,7 +158,9 @@ def _of_results(directory: Path, runs: pd.DataFrame) -> tuple[dict[str, Any], di
     example = examples[0]
     coordinates["roller"] = ("roller", np.array(rollers), example.roller.attrs)
     coordinates["orbit"] = ("orbit", np.arange(sizes["orbit"]), example.orbit.attrs)
-    attributes = {name: example.attrs[name] for name in ("citations", "model") if name in example.attrs}
+    attributes = {
+        name: example.attrs[name] for name in ("citations", "model") if name in example.attrs
+    }
     return variables, coordinates, attributes
 
 
@@ -165,7 +185,9 @@ class _Stacked(BackendArray):
         self.dtype = np.dtype(float)
 
     def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
-        return indexing.explicit_indexing_adapter(key, self.shape, indexing.IndexingSupport.OUTER, self._values)
+        return indexing.explicit_indexing_adapter(
+            key, self.shape, indexing.IndexingSupport.OUTER, self._values
+        )
 
     def _values(self, key: tuple[Any, ...]) -> np.ndarray:
         numbers, inner = np.arange(self.shape[0])[key[0]], key[1:]
@@ -179,7 +201,9 @@ class _Stacked(BackendArray):
         if shared.kinds[number] < 0:
             return whole
         rollers = shared.layouts[shared.kinds[number]]
-        variables = _result(shared.opened, shared.directory, shared.keys[number], shared.checksums[number]).variables
+        variables = _result(
+            shared.opened, shared.directory, shared.keys[number], shared.checksums[number]
+        ).variables
         if self._name in variables:
             values = variables[self._name].transpose(*self._dims).values
             places = [
@@ -191,7 +215,9 @@ class _Stacked(BackendArray):
 
 
 def _cut(whole: np.ndarray, inner: tuple[Any, ...]) -> np.ndarray:
-    for axis, one in reversed(list(enumerate(inner))):  # from the last, as a number takes its axis away
+    for axis, one in reversed(
+        list(enumerate(inner))
+    ):  # from the last, as a number takes its axis away
         whole = whole[(slice(None),) * axis + (one,)]
     return whole
 

@@ -29,7 +29,14 @@ from macroslip.study.settings import RECORDS
 from macroslip.study.store import BALANCE_RUNS, CASES, Database, Outcome
 from macroslip.study.study_file import Run, Study, read_study
 from macroslip.study.work import program
-from macroslip.study.workers import Processes, ThisProcess, Workers, dask_workers, end_in_worker, look_for
+from macroslip.study.workers import (
+    Processes,
+    ThisProcess,
+    Workers,
+    dask_workers,
+    end_in_worker,
+    look_for,
+)
 
 #: Failures that are kept to be listed at the end; the log and the summary have all.
 _TOLD = 1000
@@ -197,7 +204,13 @@ def run_study(
 
         def compute(trial: Study, folder: Path) -> None:
             run_study(
-                trial, folder, workers=workers, scheduler=scheduler, threads=threads, resume=True, progress=progress
+                trial,
+                folder,
+                workers=workers,
+                scheduler=scheduler,
+                threads=threads,
+                resume=True,
+                progress=progress,
             )
 
         study = study_at_balance(study, directory / BALANCE_RUNS, compute)
@@ -208,9 +221,14 @@ def run_study(
             with session.opened():
                 with session.workers(workers, scheduler, threads) as (found, each):
                     session.go(found, each, strict)
-                store.write_summary(directory, {name: units for name, (units, _) in study.labels.items()})
+                store.write_summary(
+                    directory, {name: units for name, (units, _) in study.labels.items()}
+                )
         except (OSError, sqlite3.OperationalError) as error:
-            where, why = getattr(error, "filename", None) or directory, getattr(error, "strerror", None) or error
+            where, why = (
+                getattr(error, "filename", None) or directory,
+                getattr(error, "strerror", None) or error,
+            )
             remedy = f"{_KEPT} Make room, or get the right to write there, and go on with --resume."
             raise MacroslipError(f"{where}: nothing can be stored ({why}). {remedy}") from error
         return session.ended
@@ -236,7 +254,10 @@ class Session:
         first, *others = text.splitlines() or [""]
         lines = [f"{now} {safe_text(first)}", *(f"    {safe_text(other)}" for other in others)]
         # A full disk is reported where results are stored.
-        with contextlib.suppress(OSError), (self.directory / LOG).open("a", encoding="utf-8") as log:
+        with (
+            contextlib.suppress(OSError),
+            (self.directory / LOG).open("a", encoding="utf-8") as log,
+        ):
             log.write("\n".join(lines) + "\n")
 
     @contextmanager
@@ -244,7 +265,9 @@ class Session:
         """With the database open for the length of the block; the log records how it ended."""
         study = self.study
         try:
-            self.note(f"macroslip {macroslip.__version__}, program {program()[:12]}, {len(study)} runs: {study.title}")
+            self.note(
+                f"macroslip {macroslip.__version__}, program {program()[:12]}, {len(study)} runs: {study.title}"
+            )
             for remark in study.loads.remarks:
                 self.note(remark)
             make_folder(self.directory / CASES)
@@ -254,7 +277,9 @@ class Session:
             with contextlib.closing(Database(self.directory)) as self.database:
                 damaged = self.database.begin((run.name, run.labels) for run in self.study.runs())
                 if damaged:
-                    self.note(f"{damaged} rows of the database are damaged; their runs are computed again")
+                    self.note(
+                        f"{damaged} rows of the database are damaged; their runs are computed again"
+                    )
                 self.note(f"{self.database.results()} results are there already")
                 yield
             how = "stopped at the first failure" if self.ended.stopped else "ended"
@@ -294,9 +319,14 @@ class Session:
         else:
             threads = threads or usable_processors()
             base, _ = self.study.case_of()
-            few = base.dynamics == WHOLE_BEARING or len(ROWS) * len(base.roller_numbers) <= _FEW_ROLLERS * threads
+            few = (
+                base.dynamics == WHOLE_BEARING
+                or len(ROWS) * len(base.roller_numbers) <= _FEW_ROLLERS * threads
+            )
             runs = min(threads, len(self.study)) if few else 1
-            self.note(f"runs are computed in this process, {runs} at once with {threads // runs} threads each")
+            self.note(
+                f"runs are computed in this process, {runs} at once with {threads // runs} threads each"
+            )
             with ThisProcess(runs) as found:
                 yield found, threads // runs
 
@@ -346,7 +376,9 @@ class Session:
         if known == result["detail"]:
             return True
         what = "is damaged" if known else "was not recorded as done"
-        self.note(f"{self._name(self._open[result['run']])}: a stored result {what}; computed again")
+        self.note(
+            f"{self._name(self._open[result['run']])}: a stored result {what}; computed again"
+        )
         return False
 
     def _record(self, entries: list[tuple[Run, dict[str, Any]]]) -> int:
@@ -396,10 +428,14 @@ class Session:
             yield f"{name}: {outcome}: {why}\n{result.get('traceback', '')}".rstrip()
 
     def _name(self, run: Run) -> str:
-        return ", ".join(f"{name} {value}" for name, value in run.labels.items() if name not in run.load.fields)
+        return ", ".join(
+            f"{name} {value}" for name, value in run.labels.items() if name not in run.load.fields
+        )
 
 
-def study_at_balance(study: Study, directory: Path, compute: Callable[[Study, Path], None]) -> Study:
+def study_at_balance(
+    study: Study, directory: Path, compute: Callable[[Study, Path], None]
+) -> Study:
     """The study at the temperature at which mean friction power = conductance (T − ambient), of each group of runs.
 
     Ten minutes of wind do not change the temperature of a bearing whose time constant is hours; the mean power
@@ -412,7 +448,10 @@ def study_at_balance(study: Study, directory: Path, compute: Callable[[Study, Pa
     loads = study.loads.loads
     shares = study.weights.of(loads) if study.weights else [1.0 / len(loads)] * len(loads)
     weights = dict(zip((load.name for load in loads), shares, strict=True))
-    heats = {run.group: study.case_of(run)[0].heat for run in {run.group: run for run in study.runs()}.values()}
+    heats = {
+        run.group: study.case_of(run)[0].heat
+        for run in {run.group: run for run in study.runs()}.values()
+    }
     known: dict[str, dict[float, float]] = {group: {} for group in heats}
     while True:
         found = {group: next_temperature(known[group], heats[group]) for group in heats}
@@ -440,7 +479,9 @@ def study_at_balance(study: Study, directory: Path, compute: Callable[[Study, Pa
 
 def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> dict[str, float]:
     found: dict[str, float] = {}
-    for run, power in zip(study.runs(), open_study(directory).friction_power.values.tolist(), strict=True):
+    for run, power in zip(
+        study.runs(), open_study(directory).friction_power.values.tolist(), strict=True
+    ):
         if not np.isfinite(power):
             raise MacroslipError(
                 f"the friction power of the bearing under the loads {run.load.name} is not known, because the run "

@@ -21,7 +21,16 @@ from macroslip.input.fields import FORM_ONLY, Choice, Quantity, Text, Whole
 from macroslip.input.files import Source
 from macroslip.input.messages import shown, unknown_key
 from macroslip.input.record import Record, dimensions, read_entry
-from macroslip.input.section import Field, MappingOf, OrWord, form_of, input_section, keys_of, read_value, word_of
+from macroslip.input.section import (
+    Field,
+    MappingOf,
+    OrWord,
+    form_of,
+    input_section,
+    keys_of,
+    read_value,
+    word_of,
+)
 from macroslip.input.units import NUMBER, NUMBER_PATTERN, is_finite_number
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.lubricant import Lubricant
@@ -67,7 +76,12 @@ class Setting:
     @property
     def entry(self) -> dict[str, Any]:
         """The value as a catalogue file has it, with the tag of a user's value."""
-        return {"value": self.value, "unit": self.unit or "1", "tag": "U", "note": "varied in a study"}
+        return {
+            "value": self.value,
+            "unit": self.unit or "1",
+            "tag": "U",
+            "note": "varied in a study",
+        }
 
     def checked(self) -> Setting:
         """The setting, if key, form and unit are right; whether it is in range is checked with the case.
@@ -84,7 +98,9 @@ class Setting:
         fields = _settable().get(self.key, [])
         if not fields:
             others = (key for key in _settable() if key.partition(".")[0] not in _ELSEWHERE)
-            records = (f"{noun}.{key}" for noun, record in RECORDS.items() for key in dimensions(record))
+            records = (
+                f"{noun}.{key}" for noun, record in RECORDS.items() for key in dimensions(record)
+            )
             raise unknown_key(self.key, [*others, *records])
         problems = []
         for field in fields:
@@ -99,7 +115,9 @@ class Setting:
         form, word = form_of(field), word_of(field)
         if self.unit and not (isinstance(form, Quantity) and form.dimension is not NUMBER):
             raise InputError(
-                f"it has the unit '{self.unit}'", allowed="a value without unit", remedy="Remove the unit."
+                f"it has the unit '{self.unit}'",
+                allowed="a value without unit",
+                remedy="Remove the unit.",
             )
         if form is None and self.value != word:
             raise InputError(f"it is {shown(self.value)}", allowed=word)
@@ -110,12 +128,17 @@ class Setting:
         if key not in known:
             raise unknown_key(self.key, (f"{record.noun}.{one}" for one in known))
         if not is_finite_number(self.value):
-            raise InputError(f"it is {shown(self.value)}", allowed=f"a number with its unit, {known[key].choices}")
+            raise InputError(
+                f"it is {shown(self.value)}",
+                allowed=f"a number with its unit, {known[key].choices}",
+            )
         try:
             read_entry(key, self.entry, known[key], Source())
         except InputError as problem:
             part = f"{problem.where.rpartition('.')[2]} " if problem.where else ""
-            raise InputError(part + problem.what, allowed=problem.allowed, remedy=problem.remedy) from None
+            raise InputError(
+                part + problem.what, allowed=problem.allowed, remedy=problem.remedy
+            ) from None
 
 
 def _field_key(key: str) -> str:
@@ -152,11 +175,15 @@ def replaced(record: Record, settings: Sequence[Setting]) -> Record:
     """
     head = f"{record.noun}."
     own = [one for one in settings if one.key.startswith(head)]
-    entries = {_field_key(one.key.removeprefix(head)): one.entry for one in own if one.key not in _TOGETHER}
+    entries = {
+        _field_key(one.key.removeprefix(head)): one.entry for one in own if one.key not in _TOGETHER
+    }
     result = record.with_entries(entries) if entries else record
     for one in own:
         if one.key == "lubricant.at":
-            temperature, _ = read_entry("at", one.entry, dimensions(type(record))[_TOGETHER[one.key]], Source())
+            temperature, _ = read_entry(
+                "at", one.entry, dimensions(type(record))[_TOGETHER[one.key]], Source()
+            )
             result = result.at(temperature)
     return result
 
@@ -217,7 +244,9 @@ def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | B
             return HubLoads.bundled(path).window(cut.get("start"), cut.get("end"))
         return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
     except OSError as error:
-        raise InputError(f"the file cannot be read ({error.strerror or error})", where=path) from None
+        raise InputError(
+            f"the file cannot be read ({error.strerror or error})", where=path
+        ) from None
 
 
 @input_section("range", "interval of a sampled parameter", positional=True)
@@ -227,18 +256,26 @@ class Range:
     low: Annotated[float, Quantity("lower end; its unit goes into unit")]
     high: Annotated[float, Quantity("upper end; its unit goes into unit")]
     unit: Annotated[str, Text("unit of both ends", may_be_empty=True)] = ""
-    scale: Annotated[str, Choice("scale on which values are equally likely", lambda: SCALES)] = "linear"
+    scale: Annotated[str, Choice("scale on which values are equally likely", lambda: SCALES)] = (
+        "linear"
+    )
 
     def __post_init__(self) -> None:
         if not self.low < self.high:
-            raise InputError(f"low is {self.low:g} and high is {self.high:g}", allowed="low below high")
+            raise InputError(
+                f"low is {self.low:g} and high is {self.high:g}", allowed="low below high"
+            )
         if self.scale == "log" and self.low <= 0.0:
-            raise InputError(f"low is {self.low:g} on a logarithmic scale", allowed="a number above 0")
+            raise InputError(
+                f"low is {self.low:g} on a logarithmic scale", allowed="a number above 0"
+            )
 
     def at(self, position: float) -> float:
         """The value at a position from 0 to 1."""
         if self.scale == "log":
-            return math.exp(math.log(self.low) + position * (math.log(self.high) - math.log(self.low)))
+            return math.exp(
+                math.log(self.low) + position * (math.log(self.high) - math.log(self.low))
+            )
         return self.low + position * (self.high - self.low)
 
 
@@ -247,7 +284,11 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
     if interval is None:
         if key.partition(".")[0] not in RECORDS:
             what = f"the range of {key} is to come from a file, but it is no value of a bearing or lubricant"
-            raise InputError(what, allowed="keys such as bearing.roller_length", remedy="Give low, high and unit.")
+            raise InputError(
+                what,
+                allowed="keys such as bearing.roller_length",
+                remedy="Give low, high and unit.",
+            )
         noun, _, name = key.partition(".")
         known = dimensions(RECORDS[noun])
         if _field_key(name) not in known:
@@ -293,11 +334,21 @@ class Sample:
             entry, where = records[noun].provenance.get(name), f"variations.sample.ranges.{key}"
             if entry is None or entry.range is None:
                 remedy = "Give low, high and unit, or a range in the file."
-                raise InputError(f"{records[noun].name} has no range for {name}", where=where, remedy=remedy)
+                raise InputError(
+                    f"{records[noun].name} has no range for {name}", where=where, remedy=remedy
+                )
             if isinstance(getattr(records[noun], name), int):
                 remedy = f"List its values in variations.grid: {{{key}: {{values: [...]}}}}."
-                raise InputError(f"{name} is a count, which an interval cannot sample", where=where, remedy=remedy)
-            found[key] = Range(low=entry.range[0], high=entry.range[1], unit="" if entry.unit == "1" else entry.unit)
+                raise InputError(
+                    f"{name} is a count, which an interval cannot sample",
+                    where=where,
+                    remedy=remedy,
+                )
+            found[key] = Range(
+                low=entry.range[0],
+                high=entry.range[1],
+                unit="" if entry.unit == "1" else entry.unit,
+            )
         return Sample(method=self.method, count=self.count, seed=self.seed, ranges=found)
 
     def points(self) -> list[list[Setting]]:
@@ -312,7 +363,9 @@ class Sample:
         from scipy.stats import qmc
 
         kind = {"latin-hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}[self.method]
-        intervals: dict[str, Any] = dict(self.ranges)  # `with_ranges_of` has filled in those that were left open
+        intervals: dict[str, Any] = dict(
+            self.ranges
+        )  # `with_ranges_of` has filled in those that were left open
         positions = kind(len(self.ranges), rng=np.random.default_rng(self.seed)).random(self.count)
         return [
             [

@@ -30,7 +30,16 @@ import xarray as xr
 from filelock import FileLock, Timeout
 
 from macroslip.errors import InputError
-from macroslip.files import DATABASE, LOCK, MANIFEST, STUDY_FILES, SUMMARY, UNFINISHED, check_regular, write_durably
+from macroslip.files import (
+    DATABASE,
+    LOCK,
+    MANIFEST,
+    STUDY_FILES,
+    SUMMARY,
+    UNFINISHED,
+    check_regular,
+    write_durably,
+)
 from macroslip.study.summary import NUMBERS
 
 FORMAT = 3
@@ -41,7 +50,9 @@ _FILES = (*STUDY_FILES, f"{DATABASE}-wal", f"{DATABASE}-shm")
 _EARLIER = "journal.jsonl"
 #: Advice for a damaged manifest or a damaged database.
 REMEDY = "Write it again with macroslip study STUDY.yaml -o DIR --resume; results are kept."
-_DAMAGED = "Put back a copy of it, or remove it and go on with --resume: then all runs are computed again."
+_DAMAGED = (
+    "Put back a copy of it, or remove it and go on with --resume: then all runs are computed again."
+)
 #: Attribute with the description of variables that have no values.
 _EMPTY = "variables_without_values"
 #: Columns of a run that is not done, and their values then.
@@ -54,7 +65,9 @@ class Outcome(StrEnum):
     """State of one run."""
 
     COMPLETED = "completed"  #: Computed and stored
-    ROLLERS_FAILED = "rollers failed"  #: Computed and stored, but the integration of some rollers failed
+    ROLLERS_FAILED = (
+        "rollers failed"  #: Computed and stored, but the integration of some rollers failed
+    )
     FAILED = "failed"  #: Not computed, for the reason given; tried again by every --resume
     MISSING = "missing"  #: Not computed yet
 
@@ -86,14 +99,18 @@ class Database:
                 if columns != _COLUMNS:
                     self._db.execute("DROP TABLE IF EXISTS results")
                     numbers = ", ".join(f'"{name}" REAL' for name in NUMBERS)
-                    texts = "key TEXT PRIMARY KEY, outcome TEXT, reason TEXT, detail TEXT, layout TEXT"
+                    texts = (
+                        "key TEXT PRIMARY KEY, outcome TEXT, reason TEXT, detail TEXT, layout TEXT"
+                    )
                     self._db.execute(f"CREATE TABLE results ({texts}, {numbers}, crc INTEGER)")
         except sqlite3.OperationalError:  # a full disk, or no right to write
             self.close()
             raise
         except sqlite3.DatabaseError as error:
             self.close()
-            raise InputError(f"the database is damaged ({error})", where=str(path), remedy=_DAMAGED) from None
+            raise InputError(
+                f"the database is damaged ({error})", where=str(path), remedy=_DAMAGED
+            ) from None
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
@@ -103,7 +120,9 @@ class Database:
 
     def close(self) -> None:
         """Close the file; without a log beside it, it can be read where nothing can be written."""
-        with contextlib.suppress(sqlite3.Error):  # somebody reads, or the disk is full: the log stays and is read too
+        with contextlib.suppress(
+            sqlite3.Error
+        ):  # somebody reads, or the disk is full: the log stays and is read too
             self._db.execute("PRAGMA journal_mode = DELETE")
         with contextlib.suppress(sqlite3.Error):
             self._db.close()
@@ -115,20 +134,26 @@ class Database:
         """
         texts = ((run, json.dumps(labels, ensure_ascii=False)) for run, labels in runs)
         with self._transaction():
-            self._db.execute("CREATE TABLE IF NOT EXISTS runs (run TEXT, key TEXT, outcome TEXT, reason TEXT)")
+            self._db.execute(
+                "CREATE TABLE IF NOT EXISTS runs (run TEXT, key TEXT, outcome TEXT, reason TEXT)"
+            )
             self._db.execute("ALTER TABLE runs RENAME TO earlier")
             self._db.execute(
                 'CREATE TABLE runs ("case" INTEGER PRIMARY KEY, run TEXT UNIQUE, labels TEXT, crc INTEGER, key TEXT, '
                 "outcome TEXT, reason TEXT)"
             )
             rows = ((case, *pair, _crc(*pair)) for case, pair in enumerate(texts))
-            self._db.executemany('INSERT INTO runs ("case", run, labels, crc) VALUES (?, ?, ?, ?)', rows)
+            self._db.executemany(
+                'INSERT INTO runs ("case", run, labels, crc) VALUES (?, ?, ?, ?)', rows
+            )
             self._db.execute(
                 "UPDATE runs SET (key, outcome, reason) = (earlier.key, earlier.outcome, earlier.reason) FROM earlier "
                 "WHERE earlier.run = runs.run"
             )
             self._db.execute("DROP TABLE earlier")
-            damaged = [row[0] for row in self._db.execute("SELECT * FROM results") if not _sound(row)]
+            damaged = [
+                row[0] for row in self._db.execute("SELECT * FROM results") if not _sound(row)
+            ]
             self._db.executemany("DELETE FROM results WHERE key IS ?", [(key,) for key in damaged])
         return len(damaged)
 
@@ -143,7 +168,9 @@ class Database:
 
     def key(self, run: str) -> str | None:
         """Key of the latest result of a run; None without one."""
-        row = self._db.execute("SELECT key FROM runs WHERE run = ? AND outcome IS NULL", (run,)).fetchone()
+        row = self._db.execute(
+            "SELECT key FROM runs WHERE run = ? AND outcome IS NULL", (run,)
+        ).fetchone()
         return row[0] if row else None
 
     def record(self, entries: Iterable[Mapping[str, Any]]) -> None:
@@ -156,14 +183,28 @@ class Database:
         with self._transaction():
             for entry in entries:
                 if "detail" in entry and "outcome" in entry:
-                    texts = [entry[name] for name in ("key", "outcome", "reason", "detail", "layout")]
+                    texts = [
+                        entry[name] for name in ("key", "outcome", "reason", "detail", "layout")
+                    ]
                     # Adding nothing makes a negative zero positive, as the database keeps it.
                     values = [float(entry["values"][name]) + 0.0 for name in NUMBERS]
-                    row = (*map(str, texts), *(None if value != value else value for value in values))
-                    self._db.execute(f"INSERT OR REPLACE INTO results VALUES (?{places})", (*row, _crc(*row)))
+                    row = (
+                        *map(str, texts),
+                        *(None if value != value else value for value in values),
+                    )
+                    self._db.execute(
+                        f"INSERT OR REPLACE INTO results VALUES (?{places})", (*row, _crc(*row))
+                    )
                 ended = entry if entry.get("outcome") == Outcome.FAILED else {}
-                changed = (entry.get("key"), ended.get("outcome"), ended.get("reason"), entry["run"])
-                self._db.execute("UPDATE runs SET key = ?, outcome = ?, reason = ? WHERE run = ?", changed)
+                changed = (
+                    entry.get("key"),
+                    ended.get("outcome"),
+                    ended.get("reason"),
+                    entry["run"],
+                )
+                self._db.execute(
+                    "UPDATE runs SET key = ?, outcome = ?, reason = ? WHERE run = ?", changed
+                )
 
 
 def _crc(*values: Any) -> int:
@@ -199,7 +240,11 @@ def read_runs(directory: Path) -> pd.DataFrame:
             labels = pd.DataFrame([{"run": row[0], **json.loads(row[1])} for row in rows])
             found = pd.DataFrame(list(map(_line, rows)), columns=[*TEXTS, *NUMBERS])
             frames.append(pd.concat([labels, found.astype(dict.fromkeys(NUMBERS, float))], axis=1))
-    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=["run", *TEXTS, *NUMBERS])
+    return (
+        pd.concat(frames, ignore_index=True)
+        if frames
+        else pd.DataFrame(columns=["run", *TEXTS, *NUMBERS])
+    )
 
 
 def _line(row: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -210,7 +255,10 @@ def _line(row: tuple[Any, ...]) -> tuple[Any, ...]:
     if result[0] is None:
         return (*TEXTS.values(), *numbers)
     if not _sound(result):
-        return (*(TEXTS | {"reason": "its row in the database is damaged"}).values(), *[None] * len(numbers))
+        return (
+            *(TEXTS | {"reason": "its row in the database is damaged"}).values(),
+            *[None] * len(numbers),
+        )
     return (*result[1:3], key, *result[3:5], *numbers)
 
 
@@ -221,12 +269,19 @@ def write_summary(directory: Path, units: dict[str, str]) -> None:
 
     runs = read_runs(directory)
     for name, column in runs.items():
-        if column.map(lambda value: isinstance(value, str)).any():  # words beside numbers make all of a column text
+        if column.map(
+            lambda value: isinstance(value, str)
+        ).any():  # words beside numbers make all of a column text
             runs[name] = column.map(str, na_action="ignore")
     table = pa.Table.from_pandas(runs, preserve_index=False)
-    fields = [field.with_metadata({"units": (units | NUMBERS).get(field.name, "1")}) for field in table.schema]
+    fields = [
+        field.with_metadata({"units": (units | NUMBERS).get(field.name, "1")})
+        for field in table.schema
+    ]
     buffer = io.BytesIO()
-    pq.write_table(table.cast(pa.schema(fields)), buffer, compression="zstd", write_page_checksum=True)
+    pq.write_table(
+        table.cast(pa.schema(fields)), buffer, compression="zstd", write_page_checksum=True
+    )
     write_durably(directory / SUMMARY, buffer.getvalue())
 
 
@@ -246,13 +301,20 @@ def to_bytes(result: xr.Dataset) -> bytes:
     large = {
         name: variable.astype(float)
         for name, variable in result.data_vars.items()
-        if variable.dtype.kind in "iu" and variable.size and np.abs(variable.values.astype(float)).max() >= 2**31
+        if variable.dtype.kind in "iu"
+        and variable.size
+        and np.abs(variable.values.astype(float)).max() >= 2**31
     }
     empty = {str(name): one for name, one in result.variables.items() if one.size == 0}
     about = {
-        name: [one.dims, one.shape, one.dtype.str, one.attrs, name in result.coords] for name, one in empty.items()
+        name: [one.dims, one.shape, one.dtype.str, one.attrs, name in result.coords]
+        for name, one in empty.items()
     }
-    kept = result.assign(large).drop_vars(list(empty)).assign_attrs({_EMPTY: json.dumps(about)} if empty else {})
+    kept = (
+        result.assign(large)
+        .drop_vars(list(empty))
+        .assign_attrs({_EMPTY: json.dumps(about)} if empty else {})
+    )
     return bytes(kept.to_netcdf(engine="scipy", format="NETCDF3_64BIT"))
 
 
@@ -261,8 +323,13 @@ def from_bytes(content: bytes) -> xr.Dataset:
     with xr.open_dataset(io.BytesIO(content), engine="scipy") as opened:
         result = opened.load()
     about = json.loads(result.attrs.pop(_EMPTY, "{}"))
-    empty = {name: (dims, np.empty(shape, dtype), attrs) for name, (dims, shape, dtype, attrs, _) in about.items()}
-    return result.assign(empty).set_coords([name for name, described in about.items() if described[-1]])
+    empty = {
+        name: (dims, np.empty(shape, dtype), attrs)
+        for name, (dims, shape, dtype, attrs, _) in about.items()
+    }
+    return result.assign(empty).set_coords(
+        [name for name, described in about.items() if described[-1]]
+    )
 
 
 def checksum(content: bytes) -> str:
@@ -276,13 +343,17 @@ def layout(result: xr.Dataset) -> str:
     `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and `variables`, a hash of names,
     dimensions and types.
     """
-    variables = sorted((str(name), *map(str, one.dims), one.dtype.str) for name, one in result.variables.items())
+    variables = sorted(
+        (str(name), *map(str, one.dims), one.dtype.str) for name, one in result.variables.items()
+    )
     found: dict[str, Any] = {
         "sizes": {str(name): size for name, size in result.sizes.items()},
         "variables": checksum(json.dumps(variables).encode())[:16],
     }
     numbers = [int(number) for number in result.roller.values]
-    return json.dumps(found if numbers == list(range(len(numbers))) else found | {"rollers": numbers})
+    return json.dumps(
+        found if numbers == list(range(len(numbers))) else found | {"rollers": numbers}
+    )
 
 
 def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:
@@ -296,9 +367,13 @@ def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:
     try:
         content = path.read_bytes()
     except OSError as error:
-        raise InputError(f"a stored result cannot be read ({error.strerror})", where=str(path), remedy=remedy) from None
+        raise InputError(
+            f"a stored result cannot be read ({error.strerror})", where=str(path), remedy=remedy
+        ) from None
     if checksum(content) != expected:
-        raise InputError("a stored result is damaged: its checksum has changed", where=str(path), remedy=remedy)
+        raise InputError(
+            "a stored result is damaged: its checksum has changed", where=str(path), remedy=remedy
+        )
     return from_bytes(content)
 
 
@@ -327,13 +402,19 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
         found = manifest["format"]
     except (FileNotFoundError, NotADirectoryError):
         remedy = "Name a folder that macroslip study has written."
-        raise InputError("there is no study in this folder", where=str(directory), remedy=remedy) from None
+        raise InputError(
+            "there is no study in this folder", where=str(directory), remedy=remedy
+        ) from None
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(f"the manifest cannot be read ({error})", where=str(path), remedy=REMEDY) from None
+        raise InputError(
+            f"the manifest cannot be read ({error})", where=str(path), remedy=REMEDY
+        ) from None
     if found != FORMAT:
         raise _other_version(directory, found)
     if manifest.pop("checksum", "") != checksum(_manifest_content(manifest)):
-        raise InputError("the manifest is damaged: its checksum has changed", where=str(path), remedy=REMEDY)
+        raise InputError(
+            "the manifest is damaged: its checksum has changed", where=str(path), remedy=REMEDY
+        )
     return manifest, checksum(content)
 
 
@@ -381,12 +462,16 @@ def check_folder(directory: Path, *, resume: bool) -> None:
     foreign = sorted(name for name in names if name not in ours and not name.endswith(UNFINISHED))
     if foreign:
         remedy = "Name a folder that is new or empty."
-        raise InputError(f"the folder holds other things, {foreign[0]!r} first", where=where, remedy=remedy)
+        raise InputError(
+            f"the folder holds other things, {foreign[0]!r} first", where=where, remedy=remedy
+        )
 
 
 def remove_unfinished(directory: Path) -> int:
     """Remove files that a process had not finished when it ended; gives their number."""
-    found = itertools.chain(directory.glob(f".*{UNFINISHED}"), (directory / CASES).glob(f"*/.*{UNFINISHED}"))
+    found = itertools.chain(
+        directory.glob(f".*{UNFINISHED}"), (directory / CASES).glob(f"*/.*{UNFINISHED}")
+    )
     return sum(path.unlink(missing_ok=True) is None for path in list(found))
 
 
@@ -409,5 +494,7 @@ def locked(directory: Path) -> Iterator[None]:
     with lock:
         now = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
         with contextlib.suppress(OSError):  # where the disk is full, the lock holds without it
-            path.write_text(f"process {os.getpid()} on {platform.node()}, since {now}", encoding="utf-8")
+            path.write_text(
+                f"process {os.getpid()} on {platform.node()}, since {now}", encoding="utf-8"
+            )
         yield

@@ -55,14 +55,25 @@ class Run:
         return self._hash([self.load.name, self.bearing, self.lubricant, self.model], "")
 
     def _hash(self, labels: list[str], but: str) -> str:
-        parameters = sorted((setting.key, setting.text) for setting in self.settings if setting.key != but)
+        parameters = sorted(
+            (setting.key, setting.text) for setting in self.settings if setting.key != but
+        )
         return hashlib.sha256(json.dumps([labels, parameters]).encode()).hexdigest()[:32]
 
     @property
     def labels(self) -> dict[str, Any]:
         """Loads, fields, bearing, lubricant, model, and the parameters by key."""
-        choices = {"loads": self.load.name, "bearing": self.bearing, "lubricant": self.lubricant, "model": self.model}
-        return choices | dict(self.load.fields) | {setting.key: setting.value for setting in self.settings}
+        choices = {
+            "loads": self.load.name,
+            "bearing": self.bearing,
+            "lubricant": self.lubricant,
+            "model": self.model,
+        }
+        return (
+            choices
+            | dict(self.load.fields)
+            | {setting.key: setting.value for setting in self.settings}
+        )
 
 
 @dataclass(frozen=True)
@@ -131,8 +142,13 @@ class Study:
     def case_of(self, run: Run | None = None) -> tuple[Case, dict[str, float]]:
         """The case of a run, by default the base case, without its loads; and how to read these."""
         known = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
-        records = {noun: one[getattr(run, noun)] if run else next(iter(one.values())) for noun, one in known.items()}
-        case, cut = template(self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder)
+        records = {
+            noun: one[getattr(run, noun)] if run else next(iter(one.values()))
+            for noun, one in known.items()
+        }
+        case, cut = template(
+            self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder
+        )
         if run and self.temperatures:
             case = at_balance(case, self.temperatures[run.group])
         return case, cut
@@ -149,7 +165,10 @@ class Study:
         about = "value of the case; NaN: that of the base case"
         parameters = {key: (units or "1", about) for key, units in self.parameters.items()}
         if self.temperatures:
-            parameters[TEMPERATURE] = ("K", "temperature of the oil at the inlets, of the balance of heat")
+            parameters[TEMPERATURE] = (
+                "K",
+                "temperature of the oil at the inlets, of the balance of heat",
+            )
         return {"loads": ("1", "loads of the case"), **choices, **fields, **parameters}
 
 
@@ -161,7 +180,9 @@ class BaseCase(Form):
 
     def read(self, value: Any, given: Any) -> dict[str, Any]:
         """Check that the loads are left to the study; None: every key of the section is commented out."""
-        loads = {} if value is None else value.get("loads", {}) if isinstance(value, Mapping) else None
+        loads = (
+            {} if value is None else value.get("loads", {}) if isinstance(value, Mapping) else None
+        )
         if not isinstance(loads, Mapping):
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         remedy = "The study's own section loads names where the loads come from."
@@ -205,12 +226,16 @@ class SettingsList(Form):
         if not isinstance(value, list) or not value:
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         numbered = ((str(number), item) for number, item in enumerate(value))
-        items = read_all(numbered, lambda _, item, inner: Settings(self.about).read(item, inner), given)
+        items = read_all(
+            numbered, lambda _, item, inner: Settings(self.about).read(item, inner), given
+        )
         units: dict[str, str] = {}
         for setting in itertools.chain(*items):
             if units.setdefault(setting.key, setting.unit) != setting.unit:
                 both = f"{setting.unit or 'no unit'} and in {units[setting.key] or 'no unit'}"
-                raise InputError(f"{setting.key} is given in {both}", allowed="one unit for all values of a key")
+                raise InputError(
+                    f"{setting.key} is given in {both}", allowed="one unit for all values of a key"
+                )
         return items
 
 
@@ -241,7 +266,9 @@ class Variables(Texts):
         names = super().read(value, given)
         wrong = [name for name in names if name not in VARIABLES]
         if wrong:
-            raise InputError(f"it is {shown(wrong[0])}", allowed=self.form, remedy=f"It is the {self.about}.")
+            raise InputError(
+                f"it is {shown(wrong[0])}", allowed=self.form, remedy=f"It is the {self.about}."
+            )
         return names
 
 
@@ -258,14 +285,20 @@ class StudyLoads:
     """Where the load histories come from, and the fields they are labelled with."""
 
     files: Annotated[
-        list[str] | None, Texts("paths of load files, with fields such as {wind_speed:g} and wildcards")
+        list[str] | None,
+        Texts("paths of load files, with fields such as {wind_speed:g} and wildcards"),
     ] = None
-    table: Annotated[str | None, Text("CSV or Parquet table with a column 'file' and one column a field")] = None
+    table: Annotated[
+        str | None, Text("CSV or Parquet table with a column 'file' and one column a field")
+    ] = None
     bundled: Annotated[
-        list[str] | None, Texts("load cases that come with the package; all for the 21, year for every one")
+        list[str] | None,
+        Texts("load cases that come with the package; all for the 21, year for every one"),
     ] = None
     kind: Annotated[str, Choice("what the files hold", lambda: KINDS)] = "hub"
-    units: Annotated[dict[str, str] | None, MappingOf("units of the fields", item=Annotated[str, Text("unit")])] = None
+    units: Annotated[
+        dict[str, str] | None, MappingOf("units of the fields", item=Annotated[str, Text("unit")])
+    ] = None
 
 
 _Grid = Annotated[
@@ -298,7 +331,9 @@ class StudyFile:
     title: Annotated[str, Text("what the study is about", may_be_empty=True)] = ""
     case: Annotated[dict[str, Any] | None, BaseCase(f"base case: {BaseCase.form}")] = None
     loads: StudyLoads
-    bearings: Annotated[list[str] | None, Texts("bearings: names of the catalogue, or paths of bearing files")] = None
+    bearings: Annotated[
+        list[str] | None, Texts("bearings: names of the catalogue, or paths of bearing files")
+    ] = None
     lubricants: Annotated[
         list[str] | None, Texts("lubricants: names of the catalogue, or paths of lubricant files")
     ] = None
@@ -313,7 +348,9 @@ class StudyFile:
     variations: Variations = Variations()
     weights: Weighting | None = None
     cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False
-    keep: Annotated[list[str] | None, Variables("variables of a result to store; all if left out")] = None
+    keep: Annotated[
+        list[str] | None, Variables("variables of a result to store; all if left out")
+    ] = None
 
 
 #: Keys of a case file that a study file does not have at its top.
@@ -342,7 +379,9 @@ def read_study(path: str | PathLike[str]) -> Study:
     # A single one is a misspelling, for which the closest key of a study is named.
     if len(keys) > 1 and "case" not in data:
         remedy = "Run a case file by macroslip run; in a study they belong under the key case."
-        raise InputError(f"the keys {', '.join(keys)} are those of a case", where=str(path), remedy=remedy)
+        raise InputError(
+            f"the keys {', '.join(keys)} are those of a case", where=str(path), remedy=remedy
+        )
     return _study(data, source, path.parent)
 
 
@@ -377,9 +416,15 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
 
     mapping = values.get("case", {})
     base = attempt("case", lambda: _base(mapping, source, folder))
-    loads = attempt("loads", lambda: load_list(folder, **asdict(values["loads"]))) if "loads" in values else None
+    loads = (
+        attempt("loads", lambda: load_list(folder, **asdict(values["loads"])))
+        if "loads" in values
+        else None
+    )
     records = {
-        noun: attempt(f"{noun}s", lambda noun=noun: _records(RECORDS[noun], values[f"{noun}s"], folder))
+        noun: attempt(
+            f"{noun}s", lambda noun=noun: _records(RECORDS[noun], values[f"{noun}s"], folder)
+        )
         for noun in RECORDS
         if f"{noun}s" in values
     }
@@ -387,8 +432,15 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         if bearing.rows == 1:
             what = f"{bearing.name} is a cylindrical roller bearing, and studies compare rows of spherical ones"
             remedy = "Compute cases of it one by one with macroslip run."
-            problems.append(place.inside("bearings").problem(what, "double-row spherical roller bearings", remedy))
-    variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
+            problems.append(
+                place.inside("bearings").problem(
+                    what, "double-row spherical roller bearings", remedy
+                )
+            )
+    variations, models = (
+        values.get("variations", Variations()),
+        values.get("models") or {"base": []},
+    )
     sample = attempt("variations", lambda: _sample(variations.sample, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))
     heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
@@ -403,7 +455,10 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         sample.points() if sample else [[]],
     )
     # The study names the base case's bearing or lubricant as the file does.
-    own = {noun: {mapping.get(noun) or getattr(base, noun).name: getattr(base, noun)} for noun in RECORDS}
+    own = {
+        noun: {mapping.get(noun) or getattr(base, noun).name: getattr(base, noun)}
+        for noun in RECORDS
+    }
     return Study(
         title=values.get("title", ""),
         folder=folder.absolute(),
@@ -424,7 +479,11 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
 
 def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Case:
     """The base case, so that a mistake in it is found at once, in its own words and lines."""
-    inner = {keys[1:]: line for keys, line in source.lines.items() if keys[:1] == ("case",) and len(keys) > 1}
+    inner = {
+        keys[1:]: line
+        for keys, line in source.lines.items()
+        if keys[:1] == ("case",) and len(keys) > 1
+    }
     return template(mapping, [], {}, source=Source(source.file, inner), folder=folder)[0]
 
 
@@ -433,13 +492,19 @@ def _heat(base: Case, parameters: Mapping[str, str] | None) -> Heat | None:
         return None
     if TEMPERATURE in (parameters or {}):
         remedy = "Vary heat.conductance or heat.ambient, or give the base case a temperature."
-        raise InputError("the temperature is to balance, and it is varied", where=TEMPERATURE, remedy=remedy)
+        raise InputError(
+            "the temperature is to balance, and it is varied", where=TEMPERATURE, remedy=remedy
+        )
     return base.heat
 
 
 def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]) -> Sample | None:
     """The sample, with the ranges of the study's bearing and lubricant where it takes them."""
-    open_nouns = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
+    open_nouns = {
+        key.partition(".")[0]
+        for key, one in (sample.ranges if sample else {}).items()
+        if one is None
+    }
     if sample is None or not open_nouns:
         return sample
     if base is None:  # faults of the case come first
@@ -460,19 +525,30 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
     return {name: kind.read(name if name in catalogue else folder / name) for name in names}
 
 
-def _parameters(variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]) -> dict[str, str]:
+def _parameters(
+    variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]
+) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
-    axes: dict[str, Any] = dict(variations.grid or {})  # lists of settings, which the reader has made of the axes
+    axes: dict[str, Any] = dict(
+        variations.grid or {}
+    )  # lists of settings, which the reader has made of the axes
     places: dict[str, dict[str, str]] = {
         "grid": {key: settings[0].unit for key, settings in axes.items()},
         "list": {one.key: one.unit for one in itertools.chain(*(variations.list or []))},
-        "sample": {key: one.unit for key, one in (sample.ranges if sample else {}).items() if one is not None},
+        "sample": {
+            key: one.unit
+            for key, one in (sample.ranges if sample else {}).items()
+            if one is not None
+        },
         "models": {one.key: one.unit for one in itertools.chain(*models.values())},
     }
     found: dict[str, str] = {}
     for name, units in places.items():
         for key, unit in units.items():
             if key in found:
-                raise InputError(f"{key} is varied in {name} and in another place", allowed="one place for each key")
+                raise InputError(
+                    f"{key} is varied in {name} and in another place",
+                    allowed="one place for each key",
+                )
             found[key] = unit
     return found

@@ -30,8 +30,14 @@ ROW_VARIABLES = {
     "energy_mean": ("J", f"{_IN_WINDOW}: mean over rollers"),
     "energy_min": ("J", f"{_IN_WINDOW}: smallest roller"),
     "energy_max": ("J", f"{_IN_WINDOW}: largest roller"),
-    "energy_inner": ("J", "energy dissipated at the inner raceway in the window, mean over rollers"),
-    "energy_outer": ("J", "energy dissipated at the outer raceway in the window, mean over rollers"),
+    "energy_inner": (
+        "J",
+        "energy dissipated at the inner raceway in the window, mean over rollers",
+    ),
+    "energy_outer": (
+        "J",
+        "energy dissipated at the outer raceway in the window, mean over rollers",
+    ),
     "energy_cage": ("J", "energy dissipated at the cage in the window, mean over rollers"),
     "orbit_energy_mean": ("J", f"{_PER_ORBIT}, all interfaces: mean {_OVER}"),
     "orbit_energy_inner": ("J", f"{_PER_ORBIT} at the inner raceway: mean {_OVER}"),
@@ -41,16 +47,34 @@ ROW_VARIABLES = {
     "peak_power_mean": ("W", f"{_PEAK}: mean {_OVER}"),
     "peak_power_std": ("W", f"{_PEAK}: standard deviation {_OVER}"),
     "peak_power_max": ("W", "largest power at any interface in the window, over all rollers"),
-    "lowest_spin_ratio": ("1", "smallest ratio of spin to spin in pure rolling in the window, of all rollers"),
+    "lowest_spin_ratio": (
+        "1",
+        "smallest ratio of spin to spin in pure rolling in the window, of all rollers",
+    ),
     "failed_rollers": ("1", "number of rollers whose integration failed"),
-    "entry_rate": ("1/s", "entries beyond the slip of a smearing rig, of all rollers of the row, at least"),
+    "entry_rate": (
+        "1/s",
+        "entries beyond the slip of a smearing rig, of all rollers of the row, at least",
+    ),
     "largest_entry_slip": ("1", "largest slide-roll ratio at an entry into the load zone"),
-    "pressure_slip_rate": ("W/m2", "mean of pressure times slip over time, e_a, at the place with most"),
+    "pressure_slip_rate": (
+        "W/m2",
+        "mean of pressure times slip over time, e_a, at the place with most",
+    ),
     "wear_rate": ("m/s", "growth of the deepest wear at k = 1e-17 m2/N, unworn contour"),
-    "mixed_film_time": ("1", "share of time of a roller under load with Lambda < 1, raceway with more"),
+    "mixed_film_time": (
+        "1",
+        "share of time of a roller under load with Lambda < 1, raceway with more",
+    ),
 }
 #: Those of them that need details of the contacts.
-OF_DETAILS = ("entry_rate", "largest_entry_slip", "pressure_slip_rate", "wear_rate", "mixed_film_time")
+OF_DETAILS = (
+    "entry_rate",
+    "largest_entry_slip",
+    "pressure_slip_rate",
+    "wear_rate",
+    "mixed_film_time",
+)
 #: The same of the rating of a case.
 RATING_VARIABLES = {
     "static_safety": ("1", "static safety factor C0/P0, the least"),
@@ -60,12 +84,21 @@ RATING_VARIABLES = {
     "reference_life": ("h", f"basic reference rating life, ISO/TS 16281, {_HERTZ}"),
     "modified_reference_life": ("h", f"modified reference rating life, {_HERTZ}"),
     "viscosity_ratio": ("1", "viscosity ratio kappa at the mean speed"),
-    "least_film_ratio": ("1", "film ratio Lambda, 5 % of loaded rollers below: least of all raceways"),
+    "least_film_ratio": (
+        "1",
+        "film ratio Lambda, 5 % of loaded rollers below: least of all raceways",
+    ),
     "largest_pressure": ("Pa", "largest Hertz pressure of all raceways"),
     "share_below_minimum_load": ("1", "share of time in which P is below the maker's minimum load"),
     "share_below_fatigue_load_limit": ("1", "share of time in which P is below C_u"),
-    "damage_equivalent_load_4": ("N", "range of the damage-equivalent radial load at 1 Hz, exponent 4"),
-    "damage_equivalent_load_10": ("N", "range of the damage-equivalent radial load at 1 Hz, exponent 10"),
+    "damage_equivalent_load_4": (
+        "N",
+        "range of the damage-equivalent radial load at 1 Hz, exponent 4",
+    ),
+    "damage_equivalent_load_10": (
+        "N",
+        "range of the damage-equivalent radial load at 1 Hz, exponent 10",
+    ),
 }
 #: The same of the case as a whole.
 CASE_VARIABLES = {
@@ -73,11 +106,20 @@ CASE_VARIABLES = {
     "orbits": ("1", "complete orbits in the window"),
     "loads_length": ("s", "length of the loads"),
     "shaft_speed_mean": ("rad/s", "mean shaft speed of the loads"),
-    "contact_torque": ("N m", "friction torque of the contacts of all rollers: mean over the turns of the shaft"),
-    "friction_power": ("W", "sliding, rolling, cage and drag of the whole bearing: mean over the window"),
+    "contact_torque": (
+        "N m",
+        "friction torque of the contacts of all rollers: mean over the turns of the shaft",
+    ),
+    "friction_power": (
+        "W",
+        "sliding, rolling, cage and drag of the whole bearing: mean over the window",
+    ),
     **RATING_VARIABLES,
     "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
-    "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
+    "other_seconds": (
+        "s",
+        "wall time of everything else: reading the loads, hashing, summary, storing",
+    ),
 }
 #: Units of all columns of numbers; names of columns by row end in the row.
 NUMBERS = {f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in ROWS} | {
@@ -95,7 +137,9 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     Values that a failed roller enters are NaN, and so are means of peaks and energies per orbit without a complete orbit.
     """
     # An orbit without values stands for none.
-    of_orbits = result[["orbit_energy", "peak_power"]].pad(orbit=(0, int(not result.sizes["orbit"])))
+    of_orbits = result[["orbit_energy", "peak_power"]].pad(
+        orbit=(0, int(not result.sizes["orbit"]))
+    )
     energy, orbit_energy = result.energy, of_orbits.orbit_energy
     rollers, samples = ["roller"], ["roller", "orbit"]
     total = energy.sum("interface", skipna=False)
@@ -106,7 +150,10 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
         "energy_mean": total.mean(rollers, skipna=False),
         "energy_min": total.min(rollers, skipna=False),
         "energy_max": total.max(rollers, skipna=False),
-        **{f"energy_{one}": energy.sel(interface=one).mean(rollers, skipna=False) for one in _INTERFACES},
+        **{
+            f"energy_{one}": energy.sel(interface=one).mean(rollers, skipna=False)
+            for one in _INTERFACES
+        },
         "orbit_energy_mean": of_orbit.mean(samples, skipna=False),
         **{f"orbit_energy_{one}": mean_orbit.sel(interface=one) for one in _INTERFACES},
         "orbit_energy_max": of_orbit.max(samples, skipna=False),
@@ -121,12 +168,18 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     # In an orbit the shaft turns by 2π over the ratio of the speeds.
     turned = 2.0 * np.pi / orbit_ratio(case.bearing)
     failed = bool((result.status != Status.COMPLETED).any())
-    return {f"{name}_{row}": float(values.sel(row=row)) for name, values in found.items() for row in ROWS} | {
+    return {
+        f"{name}_{row}": float(values.sel(row=row))
+        for name, values in found.items()
+        for row in ROWS
+    } | {
         "window_length": float(result.attrs["window_end"] - result.attrs["window_start"]),
         "orbits": float(result.sizes["orbit"]),
         "loads_length": loads.duration,
         "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
-        "contact_torque": case.bearing.rollers_per_row * float(mean_orbit.sum(skipna=False)) / turned,
+        "contact_torque": case.bearing.rollers_per_row
+        * float(mean_orbit.sum(skipna=False))
+        / turned,
         "friction_power": math.nan if failed else bearing_friction_power(result),
         **rating_values(case),
     }
@@ -140,14 +193,22 @@ def damage_values(result: xr.Dataset) -> dict[str, xr.DataArray]:
         return found
     criteria = damage(result)
     below_one = list(FILM_EDGES).index(1.0) + 1
-    mixed = result.film_slip_time.isel(film_class=slice(below_one)).sum(["film_class", "slip_class"], skipna=False)
+    mixed = result.film_slip_time.isel(film_class=slice(below_one)).sum(
+        ["film_class", "slip_class"], skipna=False
+    )
     length = (result.attrs["window_end"] - result.attrs["window_start"]) * result.sizes["roller"]
     found["mixed_film_time"] = (mixed / length).max("raceway", skipna=False)
-    found["pressure_slip_rate"] = criteria.pressure_slip_rate.max(["place", "station"], skipna=False)
+    found["pressure_slip_rate"] = criteria.pressure_slip_rate.max(
+        ["place", "station"], skipna=False
+    )
     if "entry_rate" in criteria:  # there are orbits
         # A row into which no roller has entered has no slip; max would warn of it.
-        found["entry_rate"] = criteria.entry_slide_roll_ratio_beyond_least.reduce(np.fmax.reduce, "raceway")
-        found["largest_entry_slip"] = criteria.entry_slide_roll_ratio.reduce(np.fmax.reduce, "raceway")
+        found["entry_rate"] = criteria.entry_slide_roll_ratio_beyond_least.reduce(
+            np.fmax.reduce, "raceway"
+        )
+        found["largest_entry_slip"] = criteria.entry_slide_roll_ratio.reduce(
+            np.fmax.reduce, "raceway"
+        )
     if "asperity_work_rate" in criteria:
         work = criteria.asperity_work_rate.max(["place", "station"], skipna=False)
         found["wear_rate"] = WEAR_COEFFICIENTS[1] * work
@@ -173,7 +234,9 @@ def rating_values(case: Case) -> dict[str, float]:
         "damage_equivalent_load_4": range_of.sel(wohler_exponent=4.0),
         "damage_equivalent_load_10": range_of.sel(wohler_exponent=10.0),
     }
-    return {name: float(derived[name] if name in derived else rating[name]) for name in RATING_VARIABLES}
+    return {
+        name: float(derived[name] if name in derived else rating[name]) for name in RATING_VARIABLES
+    }
 
 
 def load_cycles(loads: BearingLoads) -> xr.Dataset:
@@ -199,7 +262,9 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     (10.0, '9.17e+04 N')
     """
     counts = [
-        np.histogram(rainflow_ranges(series) if np.ptp(series) >= RANGE_EDGES[0] else [], RANGE_EDGES)[0].astype(float)
+        np.histogram(
+            rainflow_ranges(series) if np.ptp(series) >= RANGE_EDGES[0] else [], RANGE_EDGES
+        )[0].astype(float)
         for series in (np.hypot(loads.force[:, 0], loads.force[:, 1]), loads.force[:, 2])
     ]
     middle = np.sqrt(RANGE_EDGES[1:] * RANGE_EDGES[:-1])

@@ -26,7 +26,9 @@ from macroslip.study.loads_list import Load
 YEAR = 365.25 * 86400.0
 
 
-_SCALE = Quantity("scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True)
+_SCALE = Quantity(
+    "scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True
+)
 _SHAPE = Quantity("shape of the Weibull distribution", NUMBER, 0.0, above=True)
 
 
@@ -53,7 +55,9 @@ class Weibull:
         from scipy.stats import weibull_min
 
         with np.errstate(over="ignore"):  # far beyond the scale, where the probability is 0
-            low, high = weibull_min.sf([centre - 0.5 * width, centre + 0.5 * width], self.shape, scale=self.scale)
+            low, high = weibull_min.sf(
+                [centre - 0.5 * width, centre + 0.5 * width], self.shape, scale=self.scale
+            )
         return float(low - high)
 
 
@@ -65,8 +69,15 @@ class Given:
 
     def __post_init__(self) -> None:
         values = list(self.probabilities.values())
-        if not values or not all(math.isfinite(value) and value >= 0.0 for value in values) or sum(values) > 1.0 + 1e-6:
-            raise InputError(f"the probabilities are {values!r:.200}", allowed="numbers from 0, together at most 1")
+        if (
+            not values
+            or not all(math.isfinite(value) and value >= 0.0 for value in values)
+            or sum(values) > 1.0 + 1e-6
+        ):
+            raise InputError(
+                f"the probabilities are {values!r:.200}",
+                allowed="numbers from 0, together at most 1",
+            )
 
     def probability(self, centre: float, width: float) -> float:
         """Probability of the bin of this centre; InputError if none is given."""
@@ -92,7 +103,9 @@ class Rate:
     """How often an event happens in a year, or for how many hours of it; InputError for numbers below 0."""
 
     number: float
-    in_hours: bool = False  #: Whether it is hours, not the number of times that the whole record happens
+    in_hours: bool = (
+        False  #: Whether it is hours, not the number of times that the whole record happens
+    )
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.number) and self.number >= 0.0):
@@ -109,7 +122,9 @@ class Rate:
         """
         found = re.fullmatch(r"\s*(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(h)?\s+per\s+year\s*", str(text))
         if not found:
-            raise InputError(f"it is {text!r:.100}", allowed="such as '300 per year' or '400 h per year'")
+            raise InputError(
+                f"it is {text!r:.100}", allowed="such as '300 per year' or '400 h per year'"
+            )
         return cls(float(found[1]), bool(found[2]))
 
     def share(self, length: float) -> float:
@@ -122,7 +137,9 @@ class Year:
     """A year of wind speeds and events. Events take their time first; the distribution of the wind speed holds for the rest."""
 
     wind: Weibull | Given
-    events: Mapping[str, Rate] = field(default_factory=dict)  #: By the label `event`; others count nothing
+    events: Mapping[str, Rate] = field(
+        default_factory=dict
+    )  #: By the label `event`; others count nothing
 
 
 Weights = Weibull | Given | Year
@@ -163,13 +180,16 @@ _RATES = MappingOf(
 
 
 @input_section(
-    "weights", "what each load history counts in a year: wind speeds, which the histories of a bin share, and events"
+    "weights",
+    "what each load history counts in a year: wind speeds, which the histories of a bin share, and events",
 )
 class Weighting:
     """How much each load history counts. Scale and shape beside `field` are read as those of `wind.weibull`."""
 
     field: Annotated[str, Text("label of the loads to sort into bins")] = "wind_speed"
-    width: Annotated[float, Quantity("width of a bin, in the unit of the field", NUMBER, 0.0, above=True)] = 2.0
+    width: Annotated[
+        float, Quantity("width of a bin, in the unit of the field", NUMBER, 0.0, above=True)
+    ] = 2.0
     wind: Wind | None = None
     events: Annotated[dict[str, Any] | None, _RATES] = None
     scale: Annotated[float | None, _SCALE] = None
@@ -179,7 +199,9 @@ class Weighting:
         flat = self.scale is not None, self.shape is not None
         if (self.wind is not None and any(flat)) or (self.wind is None and not all(flat)):
             raise InputError(
-                "the wind speeds are given twice" if self.wind else "the distribution of the wind speeds is not given",
+                "the wind speeds are given twice"
+                if self.wind
+                else "the distribution of the wind speeds is not given",
                 allowed="wind: {weibull: {scale: 9.5, shape: 2}} or wind: {weibull: IEC II}",
                 remedy="The keys scale and shape, both, may stand in its place.",
             )
@@ -188,7 +210,9 @@ class Weighting:
     def year(self) -> Year:
         """What a year consists of."""
         wind = (
-            self.wind.weibull if self.wind else Weibull(scale=float(self.scale or 0.0), shape=float(self.shape or 0.0))
+            self.wind.weibull
+            if self.wind
+            else Weibull(scale=float(self.scale or 0.0), shape=float(self.shape or 0.0))
         )
         return Year(wind, self.events or {})
 
@@ -217,11 +241,17 @@ class Weighting:
         bins = Bins.of(values, events, self.width, dict.fromkeys(events, 0.0))
         shares = (bins.probabilities(self.year) / np.bincount(bins.bin))[bins.bin]
         if shares.sum() <= 0.0:
-            raise InputError("no load history has any weight", where="weights", remedy="Give wind speeds or hours.")
+            raise InputError(
+                "no load history has any weight",
+                where="weights",
+                remedy="Give wind speeds or hours.",
+            )
         return (shares / shares.sum()).tolist()
 
 
-def weights_in_use(study: xr.Dataset, wind: Weibull | Given | None = None) -> tuple[Weights | None, str, float]:
+def weights_in_use(
+    study: xr.Dataset, wind: Weibull | Given | None = None
+) -> tuple[Weights | None, str, float]:
     """The weights of a study, field and width of its bins: those of its file, with another `wind` in place of its own."""
     stored = stored_weighting(study)
     if stored is None:
@@ -260,11 +290,15 @@ class Bins:
     bin: np.ndarray
 
     @classmethod
-    def of(cls, values: ArrayLike, events: Sequence[str], width: float, lengths: Mapping[str, float]) -> Bins:
+    def of(
+        cls, values: ArrayLike, events: Sequence[str], width: float, lengths: Mapping[str, float]
+    ) -> Bins:
         """Sort values into bins, those of events by the event; `lengths` are those of the events' records [s]."""
         named = np.asarray(events, dtype=object)
         calm = named == ""
-        numbers, inside = np.unique(bin_numbers(np.asarray(values, dtype=float)[calm], width), return_inverse=True)
+        numbers, inside = np.unique(
+            bin_numbers(np.asarray(values, dtype=float)[calm], width), return_inverse=True
+        )
         names = list(dict.fromkeys(named[~calm].tolist()))
         place = np.empty(named.size, dtype=int)
         place[calm] = inside
@@ -274,7 +308,9 @@ class Bins:
             width=width,
             events=np.array([""] * numbers.size + names, dtype=object),
             # An event without a result has no length: any weight above 0 makes what it enters NaN.
-            lengths=np.nan_to_num([0.0] * numbers.size + [lengths[name] for name in names], nan=1.0),
+            lengths=np.nan_to_num(
+                [0.0] * numbers.size + [lengths[name] for name in names], nan=1.0
+            ),
             bin=place,
         )
 
@@ -292,12 +328,19 @@ class Bins:
                 allowed=", ".join(known) or "none: no loads are events",
             )
         rates = [year.events.get(name) for name in self.events]
-        shares = np.array([one.share(length) if one else 0.0 for one, length in zip(rates, self.lengths, strict=True)])
+        shares = np.array(
+            [
+                one.share(length) if one else 0.0
+                for one, length in zip(rates, self.lengths, strict=True)
+            ]
+        )
         if shares.sum() > 1.0:
             what = f"the events take {shares.sum() * YEAR / 3600.0:.6g} hours of a year"
             raise InputError(what, where="weights.events", allowed=f"up to {YEAR / 3600.0:g} hours")
         windy = self.events == ""
-        wind = np.array([year.wind.probability(float(one), self.width) for one in self.centres[windy]])
+        wind = np.array(
+            [year.wind.probability(float(one), self.width) for one in self.centres[windy]]
+        )
         # What the wind speeds share has to be a probability that sums in floating-point numbers can still tell from 0.
         if wind.size and not wind.sum() > _LEAST:
             first, last = self.centres[windy][[0, -1]]
@@ -350,7 +393,9 @@ class Binning(Bins):
         shape = len(self.groups), self.centres.size
         used, left_out = np.zeros(shape), np.zeros(shape)
         total = np.zeros(shape)
-        for cell, value in zip(zip(self.group, self.bin, strict=True), map(np.asarray, values), strict=True):
+        for cell, value in zip(
+            zip(self.group, self.bin, strict=True), map(np.asarray, values), strict=True
+        ):
             if total.ndim == 2 and value.ndim:
                 total = np.zeros((*shape, *value.shape))
             if np.isfinite(value).all():
@@ -368,7 +413,9 @@ def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
     return np.tensordot(probability[some], values[:, some], axes=(0, 1))
 
 
-def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequence[str] = ()) -> Binning:
+def binned(
+    study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequence[str] = ()
+) -> Binning:
     """Sort the runs of a study into groups and bins.
 
     A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group
@@ -377,7 +424,11 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
     number, or None: then one bin holds all runs. `width` is that of a bin [unit of the field], above 0, and `by` names
     further labels that separate groups: `turbulence`.
     """
-    labels = [str(name) for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
+    labels = [
+        str(name)
+        for name in study.coords
+        if study[name].dims == ("case",) and name not in _NO_LABELS
+    ]
     for name in (*([field] if field else []), *by):
         if name not in labels:
             raise InputError(f"the study has no label '{name}'", allowed=", ".join(labels))
@@ -386,13 +437,23 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
         raise InputError(f"the label '{field}' is not a number", remedy=remedy)
     if not (math.isfinite(width) and width > 0.0):
         raise InputError(f"the width of the bins is {width!r}", allowed="a number above 0")
-    separate = list(dict.fromkeys([*CHOICES, *(name for name in labels if is_parameter(study, name)), *by]))
+    separate = list(
+        dict.fromkeys([*CHOICES, *(name for name in labels if is_parameter(study, name)), *by])
+    )
     labels_of_runs = pd.DataFrame({name: study[name].values for name in separate})
     count = study.sizes["case"]
-    events = [str(one) for one in study["event"].values] if field and "event" in labels else [""] * count
+    events = (
+        [str(one) for one in study["event"].values] if field and "event" in labels else [""] * count
+    )
     lengths = study["window_length"].to_series().groupby(events).mean() if any(events) else {}
     if field is None:
-        bins = Bins(np.array([np.nan]), width, np.array([""], dtype=object), np.zeros(1), np.zeros(count, dtype=int))
+        bins = Bins(
+            np.array([np.nan]),
+            width,
+            np.array([""], dtype=object),
+            np.zeros(1),
+            np.zeros(count, dtype=int),
+        )
     else:
         bins = Bins.of(study[field].values, events, width, lengths)
     return Binning(
@@ -407,7 +468,11 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
 def is_parameter(study: xr.Dataset, label: str) -> bool:
     """Whether the study varies what a label names, as it does `drivetrain.tilt` or `oil_supply`; fields of loads have no dot."""
     varied = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
-    keys = (varied.get("grid") or {}, (varied.get("sample") or {}).get("ranges") or {}, *(varied.get("list") or []))
+    keys = (
+        varied.get("grid") or {},
+        (varied.get("sample") or {}).get("ranges") or {},
+        *(varied.get("list") or []),
+    )
     return "." in label or any(label in one for one in keys)
 
 

@@ -64,10 +64,14 @@ def case_key(case: Case, options: Mapping[str, Any]) -> str:
     given = case.as_dict()
     loads = {name: value for name, value in given["loads"].items() if name != "source"}
     content = {"case": given | {"loads": loads}, "program": program(), "options": options}
-    return hashlib.sha256(json.dumps(content, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
+    return hashlib.sha256(
+        json.dumps(content, sort_keys=True, ensure_ascii=False).encode()
+    ).hexdigest()
 
 
-def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
+def work(
+    task: dict[str, Any], progress: Callable[[int, int], None] | None = None
+) -> dict[str, Any]:
     """Do one run.
 
     Raises StoreError if the result cannot be stored: the disk is full, for example.
@@ -103,12 +107,18 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
     except Exception as error:
         # A fault of the program in one case must not stop the others; the log has the traceback.
         reason = f"internal error, please report it: {type(error).__name__}: {error}"
-        return record | {"outcome": Outcome.FAILED, "reason": reason, "traceback": traceback.format_exc()}
+        return record | {
+            "outcome": Outcome.FAILED,
+            "reason": reason,
+            "traceback": traceback.format_exc(),
+        }
     content = to_bytes(result)
     try:
         write_durably(path, content)
     except OSError as error:
-        raise StoreError(f"{path}: the result cannot be stored ({error.strerror or error})") from None
+        raise StoreError(
+            f"{path}: the result cannot be stored ({error.strerror or error})"
+        ) from None
     values["other_seconds"] = time.perf_counter() - started - values["simulate_seconds"]
     reason = _failed_rollers(result)
     return record | {
@@ -137,7 +147,9 @@ def _setup(directory: str, expected: str) -> dict[str, Any]:
     except InputError as error:
         raise StoreError(f"a worker does not find the study: {error}") from None
     if found != expected:
-        raise StoreError(f"{directory}: the manifest is not that of this study; another one was begun there.")
+        raise StoreError(
+            f"{directory}: the manifest is not that of this study; another one was begun there."
+        )
     setup = manifest["setup"]
     records = {
         noun: {name: kind.from_dict(entries) for name, entries in setup[f"{noun}s"].items()}
@@ -155,17 +167,24 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
         return replace(case, loads=loads)
     except InputError as problem:
         where = f"{loads.source}, {problem.where}"
-        raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+        raise InputError(
+            problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+        ) from None
 
 
 @functools.lru_cache(maxsize=2)
-def _loads(session: str, source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
+def _loads(
+    session: str, source: str, path: str, cut: tuple[tuple[str, float], ...]
+) -> HubLoads | BearingLoads:
     """Read a load history; runs with the same one follow each other. A session does not notice that a file changes."""
     return read_loads(source, path, dict(cut))
 
 
 def _computed(
-    case: Case, options: Mapping[str, Any], threads: int | None, progress: Callable[[int, int], None] | None
+    case: Case,
+    options: Mapping[str, Any],
+    threads: int | None,
+    progress: Callable[[int, int], None] | None,
 ) -> tuple[xr.Dataset, dict[str, float]]:
     from macroslip.result.simulate import simulate
 
@@ -174,7 +193,9 @@ def _computed(
     seconds = time.perf_counter() - started
     values = summary_values(result, case) | {"simulate_seconds": seconds}
     if options["keep"] is not None:
-        result = result.drop_vars([name for name in result.data_vars if name not in (*options["keep"], *ALWAYS_KEPT)])
+        result = result.drop_vars(
+            [name for name in result.data_vars if name not in (*options["keep"], *ALWAYS_KEPT)]
+        )
     if options["cycles"]:
         result = result.merge(load_cycles(case.bearing_loads))
     return result, values
@@ -221,22 +242,40 @@ def estimate_study(study: Study) -> StudyEstimate:
         try:
             case, cut = study.case_of(run)
             case = replace(case, loads=read_loads(study.loads.source, study.place(run.load), cut))
-            problems += [f"{case.loads.source}: doubtful: {one}" for one in doubtful_loads(case.loads, case.bearing)]
+            problems += [
+                f"{case.loads.source}: doubtful: {one}"
+                for one in doubtful_loads(case.loads, case.bearing)
+            ]
             if not found:
                 _measured(case, 1.0)  # compiles
             first, last = float(case.loads.time[0]), float(case.loads.time[-1])
             length = last - first if case.window.end is None else case.window.end - first
             stretch = min(_STRETCH, length)
-            (short_time, short_size), (seconds, size) = _measured(case, 0.5 * stretch), _measured(case, stretch)
+            (short_time, short_size), (seconds, size) = (
+                _measured(case, 0.5 * stretch),
+                _measured(case, stretch),
+            )
         except InputError as problem:
             problems.append(str(problem))
             continue
         more = (length - stretch) / (0.5 * stretch)
-        found.append((length, seconds + more * max(seconds - short_time, 0.0), size + more * max(size - short_size, 0)))
+        found.append(
+            (
+                length,
+                seconds + more * max(seconds - short_time, 0.0),
+                size + more * max(size - short_size, 0),
+            )
+        )
     count, runs = len(found), len(study)
-    mean = [sum(column) / count for column in zip(*found, strict=True)] if found else [float("nan")] * 3
+    mean = (
+        [sum(column) / count for column in zip(*found, strict=True)]
+        if found
+        else [float("nan")] * 3
+    )
     others = _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
-    return StudyEstimate(runs, count, mean[0], runs * mean[1], runs * (mean[2] + others), tuple(problems))
+    return StudyEstimate(
+        runs, count, mean[0], runs * mean[1], runs * (mean[2] + others), tuple(problems)
+    )
 
 
 def _measured(case: Case, length: float) -> tuple[float, int]:

@@ -15,7 +15,14 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    CancelledError,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from multiprocessing import resource_tracker
@@ -73,7 +80,9 @@ class ThisProcess:
     def submit(self, tasks: list[Task]) -> None:
         """Begin runs."""
         for task in tasks:
-            future = self._pool.submit(work_several, [task], self._go_on) if self._pool else Future()
+            future = (
+                self._pool.submit(work_several, [task], self._go_on) if self._pool else Future()
+            )
             self._under_way[future] = task
 
     def wait(self) -> Done:
@@ -153,7 +162,9 @@ class Processes:
 
     def _another(self, seat: _Seat) -> _Seat:
         # Without a main guard a process ends by itself as it starts; whoever kills one leaves a signal instead.
-        started = seat.ready.done() and not seat.ready.cancelled() and seat.ready.exception() is None
+        started = (
+            seat.ready.done() and not seat.ready.cancelled() and seat.ready.exception() is None
+        )
         if not started and seat.has_ended_itself():
             raise MacroslipError(_NO_GUARD) from None
         self._note("a worker process has died; another takes over")
@@ -165,7 +176,9 @@ class _Seat:
     def __init__(self) -> None:
         before = set(multiprocessing.active_children())
         with _safe_start():
-            self.pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), _end_with_parent)
+            self.pool = ProcessPoolExecutor(
+                1, multiprocessing.get_context("spawn"), _end_with_parent
+            )
             self.ready = self.pool.submit(os.getpid)  # starts the process
         self._process = next(iter(set(multiprocessing.active_children()) - before), None)
 
@@ -173,7 +186,9 @@ class _Seat:
         """Whether the process, which has died, is known to have left by a failure of its own and not by a signal."""
         end = time.monotonic() + _PATIENCE
         # The pool's own thread waits for the process too; until it has noted the exit code, there is none here.
-        while self._process is not None and self._process.exitcode is None and time.monotonic() < end:
+        while (
+            self._process is not None and self._process.exitcode is None and time.monotonic() < end
+        ):
             time.sleep(0.01)
         return self._process is not None and (self._process.exitcode or 0) > 0
 
@@ -232,7 +247,9 @@ def look_for(scheduler: str) -> None:
 
     async def knock() -> None:
         async with asyncio.timeout(_ANSWER):
-            comm = await connect(scheduler, timeout=_ANSWER, **Security().get_connection_args("client"))
+            comm = await connect(
+                scheduler, timeout=_ANSWER, **Security().get_connection_args("client")
+            )
             await comm.close()
 
     # In a thread of its own: in a notebook this one has a running loop already.
@@ -241,7 +258,9 @@ def look_for(scheduler: str) -> None:
             thread.submit(asyncio.run, knock()).result()
         except (OSError, ValueError, TypeError) as error:  # the last without what TLS needs
             what = f"no scheduler answers at '{scheduler}' ({str(error) or f'nothing is heard for {_ANSWER:g} s'})"
-            raise InputError(what, remedy="Start one with `dask scheduler`, and look at its address.") from None
+            raise InputError(
+                what, remedy="Start one with `dask scheduler`, and look at its address."
+            ) from None
 
 
 @contextmanager
@@ -265,7 +284,9 @@ class Dask:
 
     def __init__(self, client: Any, note: Callable[[str], None]):
         self._client, self._note = client, note
-        self._pool = client.get_executor(pure=False)  # not pure: Dask must not take two runs for one
+        self._pool = client.get_executor(
+            pure=False
+        )  # not pure: Dask must not take two runs for one
         self._under_way: dict[Future, list[Task]] = {}
         self._looked, self._threads = -math.inf, 0
         self._names: set[str] = set()
@@ -300,12 +321,16 @@ class Dask:
                     if len(tasks) == 1:
                         found.append((tasks[0], _killed(tasks[0])))
                     else:  # one of them is the cause
-                        self._under_way |= {self._pool.submit(work_several, [task]): [task] for task in tasks}
+                        self._under_way |= {
+                            self._pool.submit(work_several, [task]): [task] for task in tasks
+                        }
                 except Exception as error:
                     what = f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?"
                     raise MacroslipError(what) from None
                 else:
-                    found += zip(tasks, results, strict=False)  # fewer only where the study has to stop
+                    found += zip(
+                        tasks, results, strict=False
+                    )  # fewer only where the study has to stop
         return found
 
     def _look(self) -> int:
@@ -318,7 +343,11 @@ class Dask:
                     self._note(f"worker {name} has joined")
                 for name in sorted(self._names - names):
                     self._note(f"worker {name} is gone; others take over what it had")
-            self._names, self._threads, self._looked = names, sum(threads.values()), time.monotonic()
+            self._names, self._threads, self._looked = (
+                names,
+                sum(threads.values()),
+                time.monotonic(),
+            )
         return self._threads
 
     def _bundle(self) -> int:

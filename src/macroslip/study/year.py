@@ -19,7 +19,11 @@ LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_li
 EXPONENTS = (4, 10)
 #: Sums over a year: by name the rate in the summary [1/s of the unit], unit and meaning.
 SUMS = {
-    "entries": ("entry_rate", "1", "entries beyond the slip of a smearing rig, all rollers of the row, at least"),
+    "entries": (
+        "entry_rate",
+        "1",
+        "entries beyond the slip of a smearing rig, all rollers of the row, at least",
+    ),
     "wear": ("wear_rate", "m", "depth of wear at k = 1e-17 m2/N, at most"),
     "pressure_slip": ("pressure_slip_rate", "J/m2", "pressure times slip per area, largest place"),
     "mixed_time": ("mixed_film_time", "s", "time of a roller under load with Lambda below 1"),
@@ -27,7 +31,12 @@ SUMS = {
 
 
 def year(
-    study: xr.Dataset, weights: Weights | None, *, field: str = "wind_speed", width: float = 2.0, by: Sequence[str] = ()
+    study: xr.Dataset,
+    weights: Weights | None,
+    *,
+    field: str = "wind_speed",
+    width: float = 2.0,
+    by: Sequence[str] = (),
 ) -> xr.Dataset:
     """What a year does to each design of a study; without weights all cases count alike, in one bin.
 
@@ -76,8 +85,12 @@ def year(
     several = np.asarray(runs > 1)[:, :, None]
     with np.errstate(invalid="ignore", divide="ignore"):
         # Variance of a mean of n runs: s²/n, with s² = n/(n − 1) (<P²> − <P>²).
-        variance = np.where(several, np.maximum(square - mean**2, 0.0) / (runs - 1.0)[:, :, None], 0.0)
-        scatter = np.sqrt((np.where(several, YEAR * weight, 0.0) ** 2 * variance).sum(axis=1)) / energy.sum(axis=1)
+        variance = np.where(
+            several, np.maximum(square - mean**2, 0.0) / (runs - 1.0)[:, :, None], 0.0
+        )
+        scatter = np.sqrt(
+            (np.where(several, YEAR * weight, 0.0) ** 2 * variance).sum(axis=1)
+        ) / energy.sum(axis=1)
     scatter[~np.any(several & (weight > 0.0), axis=1)[:, 0]] = np.nan
     dims = ("group", "bin", "row")
     data: dict[str, Any] = {
@@ -85,28 +98,55 @@ def year(
         "runs": (dims[:2], runs, described("1", "runs of the means")),
         "left_out": (dims[:2], left_out, described("1", "runs without a result for all rollers")),
         "energy": (dims, energy, described("J", "energy of a mean roller in a year")),
-        "per_hour": (dims, 3600.0 * mean, described("J", "energy of a mean roller in an hour of it")),
-        "total": (("group", "row"), energy.sum(axis=1), described("J", "energy of a mean roller in a year")),
-        "scatter": (("group", "row"), scatter, described("1", "standard error of it by the scatter of runs in a bin")),
+        "per_hour": (
+            dims,
+            3600.0 * mean,
+            described("J", "energy of a mean roller in an hour of it"),
+        ),
+        "total": (
+            ("group", "row"),
+            energy.sum(axis=1),
+            described("J", "energy of a mean roller in a year"),
+        ),
+        "scatter": (
+            ("group", "row"),
+            scatter,
+            described("1", "standard error of it by the scatter of runs in a bin"),
+        ),
         "covered": ((), share.sum(), described("1", "share of the year in the cases")),
     }
     for name, variable, units, about in (
         ("peak", "peak_power_max", "W", "largest frictional power of any run"),
-        ("entry_slip", "largest_entry_slip", "1", "largest slide-roll ratio at an entry of any run"),
+        (
+            "entry_slip",
+            "largest_entry_slip",
+            "1",
+            "largest slide-roll ratio at an entry of any run",
+        ),
     ):
         if variable in study:
             largest = np.full(mean.shape, np.nan)
-            for cell, value in zip(zip(bins.group, bins.bin, strict=True), by_row(variable), strict=True):
+            for cell, value in zip(
+                zip(bins.group, bins.bin, strict=True), by_row(variable), strict=True
+            ):
                 largest[cell] = np.fmax(largest[cell], value)
             data[name] = (dims, largest, described(units, about))
     for name, (rate, units, about) in SUMS.items():
         if rate in study:
-            data[name] = (dims, in_a_year(bins.means(by_row(rate))[0]), described(units, f"{about}: in a year"))
+            data[name] = (
+                dims,
+                in_a_year(bins.means(by_row(rate))[0]),
+                described(units, f"{about}: in a year"),
+            )
     known = share / share.sum()
     for name in (one for one in LIVES if one in study):
         with np.errstate(divide="ignore"):
             damage = weighted(bins.means(1.0 / study[name].values)[0], known)
-            data[name] = ("group", 1.0 / damage, described("h", f"{name.replace('_', ' ')}, by Palmgren and Miner"))
+            data[name] = (
+                "group",
+                1.0 / damage,
+                described("h", f"{name.replace('_', ' ')}, by Palmgren and Miner"),
+            )
     for exponent in EXPONENTS:
         if (name := f"damage_equivalent_load_{exponent}") in study:
             raised = weighted(bins.means(study[name].values ** exponent)[0], known)
@@ -153,7 +193,9 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
             unknown = values.isnull().all("row").all("group") & (found.hours > 0.0)
             if bool(unknown.any()):
                 hours = float(found.hours.where(unknown).sum())
-                told.append(f"Entries leave out {hours:.3g} h a year in which no orbit is complete.")
+                told.append(
+                    f"Entries leave out {hours:.3g} h a year in which no orbit is complete."
+                )
                 values = values.where(~unknown, 0.0)
         whole = values.sum("bin", skipna=False)
         drawn = whole.sum("row", skipna=False) if how == "sum" else whole.max("row", skipna=False)
@@ -184,14 +226,18 @@ def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str
         units = one.attrs.get("units", "1")
         unit = "" if units in ("", "1") else f" {units}"
         values = one.values.ravel().tolist()
-        texts = [f"{value:.{digits}g}" if isinstance(value, float) else str(value) for value in values]
+        texts = [
+            f"{value:.{digits}g}" if isinstance(value, float) else str(value) for value in values
+        ]
         if name in ("bearing", "lubricant"):
             texts = file_names(texts)
         if one.dims == ("group",) and len(set(texts)) > 1:
             # A parameter that only other models set has no value.
             head = "" if name in CHOICES else f"{str(name).rpartition('.')[2].replace('_', ' ')} "
             parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
-    return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [""] * found.sizes["group"]
+    return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [
+        ""
+    ] * found.sizes["group"]
 
 
 def file_names(paths: list[str]) -> list[str]:
@@ -216,7 +262,9 @@ def coverage(found: xr.Dataset) -> str:
     """
     hours = found.hours.values
     if not found.attrs.get("weighted", 1):
-        return "The study has no weights: all its cases count alike, as if a year consisted of them."
+        return (
+            "The study has no weights: all its cases count alike, as if a year consisted of them."
+        )
     if "event" not in found.coords:
         return f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year, {hours.sum():.0f} h of wind speeds."
     event = found.event.values.astype(str)

@@ -42,14 +42,20 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     """
     if "power" not in result or "time" not in result.power.dims or not result.sizes["time"]:
         what = "the result has no traces"
-        raise InputError(what, where="friction torque", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
+        raise InputError(
+            what,
+            where="friction torque",
+            remedy="Give the case traces, such as traces: {step: 0.05 s}.",
+        )
     given = run_input(result)
     bearing, models = given.bearing, given.models
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
         what = f"{missing} rollers of each row are missing" if missing else "a row is missing"
         allowed = "a result of all rollers of both rows"
-        raise InputError(what, where="friction torque", allowed=allowed, remedy="Simulate with rollers: all.")
+        raise InputError(
+            what, where="friction torque", allowed=allowed, remedy="Simulate with rollers: all."
+        )
     model = next(iter(models.values()))
     # Every roller has the same speed in pure rolling; a failed roller has NaN.
     spin = np.nan_to_num(result.spin_pure.values.reshape(-1, result.sizes["time"]))
@@ -61,12 +67,22 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     contacts = _per_speed(result.power, per_power)
     rolling = _per_speed(result.rolling_power, per_power)
     drag_force = model.drag * orbital**2
-    drag = bearing.rows * bearing.rollers_per_row * drag_force * bearing.pitch_radius * np.abs(orbital) * per_power
+    drag = (
+        bearing.rows
+        * bearing.rollers_per_row
+        * drag_force
+        * bearing.pitch_radius
+        * np.abs(orbital)
+        * per_power
+    )
 
     contacts.attrs = {"units": "N m", "long_name": "torque of the friction at the interface"}
     rolling.attrs = {"units": "N m", "long_name": "torque of rolling resistance at the interface"}
     rings = _ring_torques(result, bearing, model)
-    rings.attrs = {"units": "N m", "long_name": "torque of the contacts on the ring, positive along the orbit"}
+    rings.attrs = {
+        "units": "N m",
+        "long_name": "torque of the contacts on the ring, positive along the orbit",
+    }
     total = sum(one.sum(("row", "interface"), skipna=False) for one in (contacts, rolling)) + drag
 
     def over_time(values: object, units: str, long_name: str) -> tuple:
@@ -76,7 +92,9 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(
         {
             "shaft_speed": over_time(shaft, "rad/s", "speed of the inner ring"),
-            "torque": over_time(total, "N m", "friction torque of the bearing, against the rotation"),
+            "torque": over_time(
+                total, "N m", "friction torque of the bearing, against the rotation"
+            ),
             "contact_torque": contacts,
             "rolling_torque": rolling,
             "ring_torque": rings,

@@ -38,7 +38,9 @@ of ISO 15312, remembered apart from them, which are those at a load of 0.05 C0."
 SLOW = 2000.0
 """Product ν n [mm²/s · r/min] below which Palmgren's viscous part is taken not to depend on speed. Tag R."""
 
-SKF_SERIES: dict[str, tuple[tuple[float, float, float, float], tuple[float, float, float, float]]] = {
+SKF_SERIES: dict[
+    str, tuple[tuple[float, float, float, float], tuple[float, float, float, float]]
+] = {
     "213 E": ((1.6e-6, 5.84, 2.81e-6, 5.8), (3.62e-3, 508, 8.8e-3, 117)),
     "222 E": ((1.6e-6, 5.84, 2.81e-6, 5.8), (3.62e-3, 508, 8.8e-3, 117)),
     "222": ((2.0e-6, 5.54, 2.92e-6, 5.5), (5.10e-3, 414, 9.7e-3, 100)),
@@ -94,7 +96,11 @@ class _Operation(NamedTuple):
 
 
 def _operation(
-    bearing: Bearing, lubricant: Lubricant, radial_load: ArrayLike, axial_load: ArrayLike, shaft_speed: ArrayLike
+    bearing: Bearing,
+    lubricant: Lubricant,
+    radial_load: ArrayLike,
+    axial_load: ArrayLike,
+    shaft_speed: ArrayLike,
 ) -> _Operation:
     bore, outside, width = _need(bearing, "bore_diameter", "outside_diameter", "width")
     given = {"radial_load": radial_load, "axial_load": axial_load, "shaft_speed": shaft_speed}
@@ -104,14 +110,20 @@ def _operation(
             raise InputError(what, where=_WHERE, allowed="finite numbers")
     radial, axial, speed = (np.abs(np.asarray(value, dtype=float)) for value in given.values())
     viscosity = lubricant.viscosity / lubricant.density * 1e6
-    return _Operation(bore * 1e3, outside * 1e3, width * 1e3, speed * 30.0 / math.pi, viscosity, radial, axial)
+    return _Operation(
+        bore * 1e3, outside * 1e3, width * 1e3, speed * 30.0 / math.pi, viscosity, radial, axial
+    )
 
 
 def _need(bearing: Bearing, *keys: str) -> list[Any]:
     missing = [key for key in keys if getattr(bearing, key) is None]
     if missing:
-        remedy = "Add what is missing to the bearing's file: handbook estimates rest on catalogue data."
-        raise InputError(f"{bearing.name} has no {', no '.join(missing)}", where=_WHERE, remedy=remedy)
+        remedy = (
+            "Add what is missing to the bearing's file: handbook estimates rest on catalogue data."
+        )
+        raise InputError(
+            f"{bearing.name} has no {', no '.join(missing)}", where=_WHERE, remedy=remedy
+        )
     return [getattr(bearing, key) for key in keys]
 
 
@@ -187,14 +199,24 @@ def palmgren_torque(
     137.4 + 160.4 = 297.8 N m
     """
     viscous_factor, scale, exponent = _constants(series, PALMGREN_SERIES)
-    rating, factor_e, factor_y0 = _need(bearing, "static_load_rating", "axial_factor_e", "axial_factor_y0")
+    rating, factor_e, factor_y0 = _need(
+        bearing, "static_load_rating", "axial_factor_e", "axial_factor_y0"
+    )
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     flow = case.viscosity * case.speed
-    viscous = viscous_factor * case.mean_diameter**3 * np.where(flow < SLOW, 160e-7, 1e-7 * np.cbrt(flow) ** 2)
+    viscous = (
+        viscous_factor
+        * case.mean_diameter**3
+        * np.where(flow < SLOW, 160e-7, 1e-7 * np.cbrt(flow) ** 2)
+    )
     radial, thrust = case.radial_load, case.axial_load / factor_e
     # Where thrust > radial this quotient is not used; without load it is 0/0.
-    share = np.divide(thrust, radial, out=np.zeros(np.broadcast(thrust, radial).shape), where=radial > 0)
-    driving = np.where(thrust > radial, 1.6 * thrust, radial * (1 + 0.6 * np.minimum(share, 1.0) ** 3))
+    share = np.divide(
+        thrust, radial, out=np.zeros(np.broadcast(thrust, radial).shape), where=radial > 0
+    )
+    driving = np.where(
+        thrust > radial, 1.6 * thrust, radial * (1 + 0.6 * np.minimum(share, 1.0) ** 3)
+    )
     static = radial + factor_y0 * case.axial_load
     load = scale * (static / rating) ** exponent * driving * case.mean_diameter
     viscous, load = np.broadcast_arrays(viscous * _NEWTON_METRE, load * _NEWTON_METRE)
@@ -216,7 +238,10 @@ class OilBath:
     drag_variable: float
 
     def __post_init__(self) -> None:
-        ranges = {"level": (math.inf, "not negative, in metres"), "drag_variable": (0.01, "0 to 0.01")}
+        ranges = {
+            "level": (math.inf, "not negative, in metres"),
+            "drag_variable": (0.01, "0 to 0.01"),
+        }
         for name, (most, allowed) in ranges.items():
             value = getattr(self, name)
             if not (math.isfinite(value) and 0.0 <= value <= most):
@@ -227,7 +252,9 @@ class OilBath:
 class SkfTorque:
     """Friction torque [N m] of an open bearing by the SKF model, against the rotation; floats or arrays as input."""
 
-    rolling: _Torque  #: φ_ish φ_rs M_rr: resistance of the oil that the contacts squeeze at their inlets
+    rolling: (
+        _Torque  #: φ_ish φ_rs M_rr: resistance of the oil that the contacts squeeze at their inlets
+    )
     sliding: _Torque  #: M_sl: sliding within the contacts
     drag: _Torque  #: M_drag: the rollers' way through an oil bath
     out_of_range: tuple[str, ...]  #: Values outside the range for which the model is stated
@@ -297,26 +324,43 @@ def skf_torque(
     """
     rolling_constants, sliding_constants = _constants(series, SKF_SERIES)
     if oil not in FILM_FRICTION:
-        raise InputError(f"there is no oil {oil!r}", where="friction torque", allowed=", ".join(FILM_FRICTION))
+        raise InputError(
+            f"there is no oil {oil!r}", where="friction torque", allowed=", ".join(FILM_FRICTION)
+        )
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     if bath is None:
         starvation, drag = STARVATION["grease"], np.zeros_like(case.speed)
     else:
         covered = bath.level >= bearing.roller_diameter / 2
-        starvation, drag = 0.0 if covered else STARVATION["low oil bath"], _oil_bath_drag(case, bath)
+        starvation, drag = (
+            0.0 if covered else STARVATION["low oil bath"],
+            _oil_bath_drag(case, bath),
+        )
     rolling = _skf_rolling(case, rolling_constants, starvation)
     sliding = _skf_sliding(case, sliding_constants, FILM_FRICTION[oil])
-    parts = np.broadcast_arrays(rolling * _NEWTON_METRE, sliding * _NEWTON_METRE, drag * _NEWTON_METRE)
+    parts = np.broadcast_arrays(
+        rolling * _NEWTON_METRE, sliding * _NEWTON_METRE, drag * _NEWTON_METRE
+    )
     low, high = VISCOSITY_RANGE
     note = f"viscosity is {case.viscosity:.4g} mm2/s; the model is stated for {low:g} to {high:g} mm2/s"
-    return SkfTorque(*(part[()] for part in parts), out_of_range=() if low <= case.viscosity <= high else (note,))
+    return SkfTorque(
+        *(part[()] for part in parts), out_of_range=() if low <= case.viscosity <= high else (note,)
+    )
 
 
 def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> NDArray[np.float64]:
     """φ_ish φ_rs M_rr [N mm]; G_rr is the smaller of the catalogue's G_rr.e and G_rr.l."""
     r1, r2, r3, r4 = constants
-    d_m, radial, axial, flow = case.mean_diameter, case.radial_load, case.axial_load, case.viscosity * case.speed
-    least = np.minimum(r1 * d_m**1.85 * (radial + r2 * axial) ** 0.54, r3 * d_m**2.3 * (radial + r4 * axial) ** 0.31)
+    d_m, radial, axial, flow = (
+        case.mean_diameter,
+        case.radial_load,
+        case.axial_load,
+        case.viscosity * case.speed,
+    )
+    least = np.minimum(
+        r1 * d_m**1.85 * (radial + r2 * axial) ** 0.54,
+        r3 * d_m**2.3 * (radial + r4 * axial) ** 0.31,
+    )
     heating = 1 / (1 + 1.84e-9 * (case.speed * d_m) ** 1.28 * case.viscosity**0.64)
     filled = replenishment(
         case.viscosity * 1e-6, case.speed * math.pi / 30.0, case.bore * 1e-3, case.outside * 1e-3,
@@ -328,7 +372,12 @@ def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> NDArr
 def _skf_sliding(case: _Operation, constants: tuple, film: float) -> NDArray[np.float64]:
     """M_sl [N mm]; G_sl is the smaller of the catalogue's G_sl.e and G_sl.l."""
     s1, s2, s3, s4 = constants
-    d_m, radial, axial, flow = case.mean_diameter, case.radial_load, case.axial_load, case.speed * case.viscosity
+    d_m, radial, axial, flow = (
+        case.mean_diameter,
+        case.radial_load,
+        case.axial_load,
+        case.speed * case.viscosity,
+    )
     elliptic = s1 * d_m**0.25 * np.cbrt(radial**4 + s2 * axial**4)
     least = np.minimum(elliptic, s3 * d_m**0.94 * np.cbrt(radial**3 + s4 * axial**3))
     boundary = np.exp(-2.6e-8 * flow**1.4 * d_m)
@@ -389,12 +438,25 @@ def torque_histories(
     >>> [f"{name}: {history.torque[0]:.0f} N m" for name, history in found.items()]
     ['SKF, sliding: 83 N m', 'SKF, all: 353 N m', 'Palmgren, all: 298 N m']
     """
-    found = {f"model {name}": TorqueHistory(one.time.values, one.torque.values) for name, one in computed.items()}
+    found = {
+        f"model {name}": TorqueHistory(one.time.values, one.torque.values)
+        for name, one in computed.items()
+    }
     start = max((float(one.time[0]) for one in computed.values()), default=float(loads.time[0]))
     end = min((float(one.time[-1]) for one in computed.values()), default=float(loads.time[-1]))
     here = (loads.time >= start) & (loads.time <= end)
     force, time = loads.force[here], loads.time[here]
-    given = bearing, lubricant, np.hypot(force[:, 0], force[:, 1]), force[:, 2], loads.shaft_speed[here]
+    given = (
+        bearing,
+        lubricant,
+        np.hypot(force[:, 0], force[:, 1]),
+        force[:, 2],
+        loads.shaft_speed[here],
+    )
     skf = skf_torque(*given)
-    by_handbook = {"SKF, sliding": skf.sliding, "SKF, all": skf.total, "Palmgren, all": palmgren_torque(*given).total}
+    by_handbook = {
+        "SKF, sliding": skf.sliding,
+        "SKF, all": skf.total,
+        "Palmgren, all": palmgren_torque(*given).total,
+    }
     return found | {name: TorqueHistory(time, torque) for name, torque in by_handbook.items()}

@@ -71,7 +71,9 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
         flows[7] -= span * bearing.cage_weight * cage[3]
         flows[10] += span * (drag * turning + sheared * (turning - ring))
         if bearing.translates:
-            push, n_x, n_y, _, _ = guide_force(bearing.radial_play, cage[4], cage[5], cage[2], cage[3])
+            push, n_x, n_y, _, _ = guide_force(
+                bearing.radial_play, cage[4], cage[5], cage[2], cage[3]
+            )
             flows[12] += span * push * (n_x * cage[2] + n_y * cage[3])
 
 
@@ -111,7 +113,9 @@ class Books:
     def momentum_residual(self) -> np.ndarray:
         """Change of angular momentum since the first time less the impulses of all torques [N m s], shape (m,)."""
         held = self.stocks[:, STOCKS.index("momentum")]
-        impulse = self.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("_impulse")]].sum(axis=1)
+        impulse = self.flows[
+            :, [k for k, name in enumerate(FLOWS) if name.endswith("_impulse")]
+        ].sum(axis=1)
         return (held - held[0]) - (impulse - impulse[0])
 
     def energy_residual(self) -> np.ndarray:
@@ -120,13 +124,17 @@ class Books:
         Work into pockets and supports holds what they store and what they dissipate.
         """
         kinetic = self.stocks[:, STOCKS.index("kinetic_energy")]
-        flow = self.flows[:, [FLOWS.index(name) for name in _ENERGY_SIGNS]] @ np.array(list(_ENERGY_SIGNS.values()))
+        flow = self.flows[:, [FLOWS.index(name) for name in _ENERGY_SIGNS]] @ np.array(
+            list(_ENERGY_SIGNS.values())
+        )
         return (kinetic - kinetic[0]) - (flow - flow[0])
 
     def pocket_loss(self) -> np.ndarray:
         """Energy dissipated by impacts and squeeze films, and by the cage's radial stop, since the first time [J]."""
         stored = self.stocks[:, STOCKS.index("elastic_energy")]
-        work = self.flows[:, FLOWS.index("pocket_work")] + self.flows[:, FLOWS.index("support_work")]
+        work = (
+            self.flows[:, FLOWS.index("pocket_work")] + self.flows[:, FLOWS.index("support_work")]
+        )
         return (work - work[0]) - (stored - stored[0])
 
 
@@ -144,8 +152,12 @@ def _stocks(bearing: WholeBearing, part: Part, rows: np.ndarray) -> np.ndarray:
     pitch, mass = bearing.pitch_radius, bearing.roller_mass
     momentum = mass * pitch * (orbital + 0.5 * bearing.lever * spinning).sum(axis=1)
     kinetic = 0.5 * mass * (orbital**2 + 0.5 * spinning**2).sum(axis=1)
-    kinetic += 0.5 * bearing.cage_mass * (turning**2 + cages[..., 2] ** 2 + cages[..., 3] ** 2).sum(axis=1)
+    kinetic += (
+        0.5 * bearing.cage_mass * (turning**2 + cages[..., 2] ** 2 + cages[..., 3] ** 2).sum(axis=1)
+    )
     elastic = elastic_energy(bearing.pocket, part.offset[rows]).sum(axis=1)
     if bearing.translates:
         elastic += guide_energy(bearing.radial_play, cages[..., 4], cages[..., 5]).sum(axis=1)
-    return np.stack([momentum + bearing.cage_mass * pitch * turning.sum(axis=1), kinetic, elastic], axis=-1)
+    return np.stack(
+        [momentum + bearing.cage_mass * pitch * turning.sum(axis=1), kinetic, elastic], axis=-1
+    )

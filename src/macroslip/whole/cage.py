@@ -20,16 +20,24 @@ ARRANGEMENTS = ("one", "per-row")
 #: Whether a cage is free to move off the bearing's axis.
 AXES = ("free", "pinned")
 #: What holds rollers against skew, and whether a spar that presses straightens them.
-GUIDANCES, ALIGNMENTS = ("conforming-pocket", "straight-bars", "guide-ring", "none"), ("spar", "none")
+GUIDANCES, ALIGNMENTS = (
+    ("conforming-pocket", "straight-bars", "guide-ring", "none"),
+    ("spar", "none"),
+)
 #: Keys that go with skew alone.
 SKEW_KEYS = ("guidance", "skew_play", "alignment")
 #: What guides the cage, and keys of a ring's land that does.
-GUIDED_BY, _LAND = ("rollers", "inner-ring", "outer-ring"), ("land_diameter", "land_width", "land_clearance")
+GUIDED_BY, _LAND = (
+    ("rollers", "inner-ring", "outer-ring"),
+    ("land_diameter", "land_width", "land_clearance"),
+)
 #: Where rollers are in their pockets at the start.
 OFFSETS = ("centred", "random")
 
 
-@input_section("cage", "the cage, with dynamics: whole-bearing, and its guidance of rollers that skew")
+@input_section(
+    "cage", "the cage, with dynamics: whole-bearing, and its guidance of rollers that skew"
+)
 class Cage:
     """The cage of a coupled simulation. Defaults are engineering estimates for the base bearing.
 
@@ -84,14 +92,26 @@ class Cage:
     'squeeze-film'
     """
 
-    gap: Annotated[float, Quantity("play of a roller between the two spars of its pocket", LENGTH, 0.0, 0.1)] = 0.5e-3
+    gap: Annotated[
+        float, Quantity("play of a roller between the two spars of its pocket", LENGTH, 0.0, 0.1)
+    ] = 0.5e-3
     impact: Annotated[str, Choice("how a roller meets a spar", lambda: IMPACTS)] = "squeeze-film"
-    damping: Annotated[float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)] = 50.0
+    damping: Annotated[
+        float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)
+    ] = 50.0
     film_fullness: Annotated[
         float | None,
-        Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 0.0, 1.0, above=True),
+        Quantity(
+            "key of files before version 0.2, whose place oil_supply takes",
+            NUMBER,
+            0.0,
+            1.0,
+            above=True,
+        ),
     ] = None
-    arrangement: Annotated[str, Choice("one cage for both rows, or one a row", lambda: ARRANGEMENTS)] = "one"
+    arrangement: Annotated[
+        str, Choice("one cage for both rows, or one a row", lambda: ARRANGEMENTS)
+    ] = "one"
     mass: Annotated[
         float,
         Quantity(
@@ -101,21 +121,38 @@ class Cage:
     ] = 50.0  # fmt: skip
     weight: Annotated[bool, Flag("weight of the cage")] = True
     axis: Annotated[str | None, Choice("whether the cage's axis moves", lambda: AXES)] = None
-    guide_friction: Annotated[float, Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6)] = 0.0
-    guided_by: Annotated[str, Choice("what holds the cage in the middle", lambda: GUIDED_BY)] = "rollers"
-    land_diameter: Annotated[float | None, Quantity("diameter of the land that guides", LENGTH, 1e-3, 10.0)] = None
-    land_width: Annotated[float | None, Quantity("width of both lands together", LENGTH, 1e-4, 1.0)] = None
+    guide_friction: Annotated[
+        float, Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6)
+    ] = 0.0
+    guided_by: Annotated[str, Choice("what holds the cage in the middle", lambda: GUIDED_BY)] = (
+        "rollers"
+    )
+    land_diameter: Annotated[
+        float | None, Quantity("diameter of the land that guides", LENGTH, 1e-3, 10.0)
+    ] = None
+    land_width: Annotated[
+        float | None, Quantity("width of both lands together", LENGTH, 1e-4, 1.0)
+    ] = None
     land_clearance: Annotated[
         float | None, Quantity("diametral clearance between land and cage", LENGTH, 1e-6, 0.1)
     ] = None
-    offsets: Annotated[str, Choice("where rollers start in their pockets", lambda: OFFSETS)] = "centred"
-    diameter_scatter: Annotated[float, Quantity("standard deviation of the roller diameters", LENGTH, 0.0, 1e-4)] = 0.0
+    offsets: Annotated[str, Choice("where rollers start in their pockets", lambda: OFFSETS)] = (
+        "centred"
+    )
+    diameter_scatter: Annotated[
+        float, Quantity("standard deviation of the roller diameters", LENGTH, 0.0, 1e-4)
+    ] = 0.0
     seed: Annotated[int, Whole("seed of the random offsets and diameters")] = 1
-    guidance: Annotated[str, Choice("what stops the skew of rollers", lambda: GUIDANCES)] = "conforming-pocket"
+    guidance: Annotated[str, Choice("what stops the skew of rollers", lambda: GUIDANCES)] = (
+        "conforming-pocket"
+    )
     skew_play: Annotated[
-        float | None, Quantity("largest skew; without it, from gap, length and contour", ANGLE, 0.0, 0.06)
+        float | None,
+        Quantity("largest skew; without it, from gap, length and contour", ANGLE, 0.0, 0.06),
     ] = None
-    alignment: Annotated[str, Choice("whether a pressing spar straightens its roller", lambda: ALIGNMENTS)] = "spar"
+    alignment: Annotated[
+        str, Choice("whether a pressing spar straightens its roller", lambda: ALIGNMENTS)
+    ] = "spar"
 
     def __post_init__(self) -> None:
         if self.guidance == "guide-ring" and self.skew_play is None:
@@ -158,7 +195,14 @@ class Cage:
         if self.land_diameter is None or self.land_width is None or self.land_clearance is None:
             return 0.0
         radius = 0.5 * self.land_diameter
-        return 4.0 * math.pi * viscosity * radius**3 * self.land_width / (self.land_clearance * pitch_radius**2)
+        return (
+            4.0
+            * math.pi
+            * viscosity
+            * radius**3
+            * self.land_width
+            / (self.land_clearance * pitch_radius**2)
+        )
 
     def check_fit(self, bearing: Bearing) -> None:
         """Refuse pockets that do not fit between the rollers.
@@ -189,7 +233,9 @@ class Cage:
         """Deviations of the roller diameters from the mean of their row [m], shape (rows, count)."""
         if self.diameter_scatter == 0.0:
             return np.zeros((rows, count))
-        drawn = np.random.default_rng([self.seed, 1]).normal(0.0, self.diameter_scatter, (rows, count))
+        drawn = np.random.default_rng([self.seed, 1]).normal(
+            0.0, self.diameter_scatter, (rows, count)
+        )
         return drawn - drawn.mean(axis=1, keepdims=True)
 
 

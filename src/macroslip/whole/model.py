@@ -24,11 +24,25 @@ _NUMBERS = (
     "cage_weight", "radial_play", "guide_friction", "land_drag", "land_turns",
 )  # fmt: skip
 #: The numbers of a `WholeBearing`.
-BEARING = np.dtype([*((name, "f8") for name in _NUMBERS), ("cages", "i8"), ("translates", "i8"), ("pocket", POCKET)])
+BEARING = np.dtype(
+    [
+        *((name, "f8") for name in _NUMBERS),
+        ("cages", "i8"),
+        ("translates", "i8"),
+        ("pocket", POCKET),
+    ]
+)
 #: Numbers that differ between rollers: index of row and cage; angle of the pocket at the first sample [rad] with cosine and
 #: sine; effective r~_in [m], see `macroslip.whole.cage.inner_radii`.
 PLACE = np.dtype(
-    [("row", "i8"), ("cage", "i8"), ("angle", "f8"), ("cosine", "f8"), ("sine", "f8"), ("inner_radius", "f8")]
+    [
+        ("row", "i8"),
+        ("cage", "i8"),
+        ("angle", "f8"),
+        ("cosine", "f8"),
+        ("sine", "f8"),
+        ("inner_radius", "f8"),
+    ]
 )
 
 
@@ -51,7 +65,9 @@ class WholeBearing:
     cage_mass: float  #: Of one cage [kg]
     cage_weight: float  #: Weight of one cage in the bearing plane, along −Y0 [N]
     translates: bool  #: Whether the cages can leave the bearing's axis, see `macroslip.whole.cage`
-    radial_play: float  #: Distance by which a cage can leave the axis before rollers hold it radially [m]
+    radial_play: (
+        float  #: Distance by which a cage can leave the axis before rollers hold it radially [m]
+    )
     guide_friction: float  #: Brakes each cage at the pitch radius [N]
     land_drag: float  #: Of a ring's land on each cage at the pitch radius [N s/m], see `macroslip.whole.cage.Cage`
     land_turns: float  #: 1 where that ring is the inner one, which turns; otherwise 0
@@ -83,7 +99,9 @@ def whole_bearing(
     cage.check_fit(bearing)
     count, names = bearing.rollers_per_row, row_names(bearing)
     models = {
-        row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, gravity=gravity, drag=drag, laws=laws)
+        row: roller_model(
+            bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, gravity=gravity, drag=drag, laws=laws
+        )
         for row in names
     }
     model = models[names[0]]
@@ -94,7 +112,9 @@ def whole_bearing(
     places["cage"] = places["row"] if cages > 1 else 0
     places["angle"] = np.concatenate([initial_angles(row, count) for row in names])
     places["cosine"], places["sine"] = np.cos(places["angle"]), np.sin(places["angle"])
-    places["inner_radius"] = inner_radii(bearing, cage.diameter_deviations(len(names), count).ravel())
+    places["inner_radius"] = inner_radii(
+        bearing, cage.diameter_deviations(len(names), count).ravel()
+    )
     return WholeBearing(
         models=models,
         places=places,
@@ -127,7 +147,9 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
     # twice as fast, where oil brakes them too.
     fall = math.sqrt(2.0 * GRAVITY * bearing.radial_play)
     box = box._replace(slowest=max(box.slowest - 2.0 * fall, 0.0), fastest=box.fastest + fall)
-    rollers, report = rollers_with_tables(bearing.models, box, max(pocket.half_gap, pocket.least_film))
+    rollers, report = rollers_with_tables(
+        bearing.models, box, max(pocket.half_gap, pocket.least_film)
+    )
     numbers = np.zeros(1, BEARING)
     for name in (*_NUMBERS, "cages", "translates"):
         numbers[name] = getattr(bearing, name)

@@ -45,7 +45,9 @@ class Pocket(NamedTuple):
     damping: float  #: D [s/m]; zero with a squeeze film
     film: float  #: 3√2 π η l R^1.5 [N s √m]; zero without film
     least_film: float  #: h_m [m]
-    oil_gap: float = math.inf  #: h_e, gap from which on pockets hold no oil [m]; infinite where flooded
+    oil_gap: float = (
+        math.inf
+    )  #: h_e, gap from which on pockets hold no oil [m]; infinite where flooded
 
 
 #: A pocket as compiled functions take it.
@@ -66,7 +68,9 @@ def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float
 def prepare_pocket(cage: Cage, bearing: Bearing, lubricant: Lubricant, stiffness: float) -> Pocket:
     """The spars of a cage; `stiffness` is that of the cage's Hertz contact [N/m^1.5]."""
     dry = cage.impact == "dry"
-    film = squeeze_coefficient(lubricant.viscosity, bearing.roller_length, geometry.roller_radius(bearing))
+    film = squeeze_coefficient(
+        lubricant.viscosity, bearing.roller_length, geometry.roller_radius(bearing)
+    )
     return Pocket(
         half_gap=0.5 * cage.gap,
         stiffness=stiffness,

@@ -25,7 +25,14 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.errors import InputError
-from macroslip.imposed.status import COMPLETED, NOT_FINITE, OUTSIDE_TABLES, STEP_TOO_SMALL, TOO_MANY_STEPS, UNDER_WAY
+from macroslip.imposed.status import (
+    COMPLETED,
+    NOT_FINITE,
+    OUTSIDE_TABLES,
+    STEP_TOO_SMALL,
+    TOO_MANY_STEPS,
+    UNDER_WAY,
+)
 from macroslip.ring.orbit import Motion, instant, interval_of
 from macroslip.roller.step import STEP
 from macroslip.whole import tuning
@@ -45,7 +52,14 @@ from macroslip.whole.stage import (
     solve,
     solve_stage,
 )
-from macroslip.whole.tractions import cage_shear_from, evaluate_marked, locate, raceway_from, raceway_powers, shear_from
+from macroslip.whole.tractions import (
+    cage_shear_from,
+    evaluate_marked,
+    locate,
+    raceway_from,
+    raceway_powers,
+    shear_from,
+)
 
 #: Node of the first stage.
 GAMMA = 1.0 - math.sqrt(0.5)
@@ -116,7 +130,9 @@ class Start(NamedTuple):
     #: Shape (n,). [m/s].
     slip_inner: np.ndarray
     slip_outer: np.ndarray
-    cage_lead: np.ndarray  #: Shape (c,). w, speed of a cage at the pitch radius beyond that of pure rolling [m/s].
+    cage_lead: (
+        np.ndarray
+    )  #: Shape (c,). w, speed of a cage at the pitch radius beyond that of pure rolling [m/s].
 
 
 class Part(NamedTuple):
@@ -127,7 +143,9 @@ class Part(NamedTuple):
     #: weight.
     steps: np.ndarray
     bearing: np.ndarray  #: shape (m,)
-    offset: np.ndarray  #: Shape (m, n). Rollers' ways ahead of the middle of their pockets at the end [m].
+    offset: (
+        np.ndarray
+    )  #: Shape (m, n). Rollers' ways ahead of the middle of their pockets at the end [m].
     memory: np.void  #: Record of `MEMORY`. Time, counts and unbalanced force so far.
 
 
@@ -177,15 +195,25 @@ def steps_of(
             raise InputError("it is not finite", where=f"start, {name}", allowed="finite numbers")
     stops = np.ascontiguousarray(stops, dtype=float)
     memory = np.zeros(1, MEMORY)
-    memory["time"], memory["shaft_speed"], memory["step"] = motion.time[0], motion.shaft_speed[0], tuning.FIRST_STEP
+    memory["time"], memory["shaft_speed"], memory["step"] = (
+        motion.time[0],
+        motion.shaft_speed[0],
+        tuning.FIRST_STEP,
+    )
     space = new_space(assembly, memory)
-    space.rollers["y"][:, STATE] = np.column_stack([start.slip_inner, start.slip_outer, start.offset])
+    space.rollers["y"][:, STATE] = np.column_stack(
+        [start.slip_inner, start.slip_outer, start.offset]
+    )
     space.cages["y"][:, STATE, 0] = start.cage_lead
     limits = _limits(assembly, motion, float(stops[-1]), tolerance)
     limits["max_steps"], limits["rests"] = max_steps, rests
     count = assembly.places.size
     rows = max(_BUFFER // (STEP.itemsize * count), 16)
-    steps, whole, offset = np.zeros((rows, count), STEP), np.zeros(rows, BEARING_STEP), np.zeros((rows, count))
+    steps, whole, offset = (
+        np.zeros((rows, count), STEP),
+        np.zeros(rows, BEARING_STEP),
+        np.zeros((rows, count)),
+    )
     status = UNDER_WAY
     while status == UNDER_WAY:
         status, done = integrate(assembly, motion, stops, limits, space, steps, whole, offset)
@@ -196,18 +224,27 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     """Bounds for a relative tolerance and the largest raceway speed of the history."""
     bearing, body = assembly.bearing[0], assembly.bodies[0]
     fastest = np.abs(motion.shaft_speed).max()
-    scale = max(float(fastest * bearing["orbit_ratio"] * bearing["outer_radius"]), tuning.LEAST_SPEED)
+    scale = max(
+        float(fastest * bearing["orbit_ratio"] * bearing["outer_radius"]), tuning.LEAST_SPEED
+    )
     dry = bearing["pocket"]["film"] == 0.0
     if not body["microslip"]:
         tolerance *= tuning.GRIPPED_DRY if dry else tuning.GRIPPED
     limits = np.zeros(1, LIMITS)
-    limits["allowed_speed"] = tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
-    limits["power"], limits["force"] = tuning.POWER_SHARE * tolerance, tuning.FORCE_SHARE * tolerance
+    limits["allowed_speed"] = (
+        tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
+    )
+    limits["power"], limits["force"] = (
+        tuning.POWER_SHARE * tolerance,
+        tuning.FORCE_SHARE * tolerance,
+    )
     limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
     limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
     limits["longest_rest"] = tuning.LONGEST_REST
     limits["cage_reach"] = min(tuning.CAGE_REACH, tuning.CAGE_REACH * math.sqrt(tolerance / 2e-4))
-    limits["slowest"] = max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 4
+    limits["slowest"] = (
+        max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 4
+    )
     return limits
 
 
@@ -236,19 +273,38 @@ def _guess(y, k, step, span, lost):
 @jit_inline
 def _write_stage(assembly, k, time, weight, space, row):
     """Write the solved stage `k` of a step at `time` into the rollers' records, with its weight [s]."""
-    bearing, moments, sheets, rollers = assembly.bearing[0], space.moments[k], space.sheets[0], space.rollers
-    inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
+    bearing, moments, sheets, rollers = (
+        assembly.bearing[0],
+        space.moments[k],
+        space.sheets[0],
+        space.rollers,
+    )
+    inner_ratio, outer_ratio = (
+        bearing.pitch_radius / bearing.inner_radius,
+        bearing.pitch_radius / bearing.outer_radius,
+    )
     for j in range(row.size):
         step, at, sheet, own = row[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
-        at_inner, at_outer = (at.inner_load, at.inner_speed, own[0]), (at.outer_load, at.outer_speed, own[1])
+        at_inner, at_outer = (
+            (at.inner_load, at.inner_speed, own[0]),
+            (at.outer_load, at.outer_speed, own[1]),
+        )
         shear_in, shear_out = shear_from(sheet.inner, *at_inner), shear_from(sheet.outer, *at_outer)
         shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
-        inner = raceway_powers(sheet.inner, inner_ratio, at.spin_inner, at.pull_inner, shear_in, *at_inner)
-        outer = raceway_powers(sheet.outer, outer_ratio, at.spin_outer, at.pull_outer, shear_out, *at_outer)
+        inner = raceway_powers(
+            sheet.inner, inner_ratio, at.spin_inner, at.pull_inner, shear_in, *at_inner
+        )
+        outer = raceway_powers(
+            sheet.outer, outer_ratio, at.spin_outer, at.pull_outer, shear_out, *at_outer
+        )
         step.time[k], step.weight[k] = time, weight
         step.inner_load[k], step.inner_speed[k], step.inner_slip[k] = at_inner
         step.outer_load[k], step.outer_speed[k], step.outer_slip[k] = at_outer
-        step.elastic_load[k], step.cage_load[k], step.cage_speed[k] = at.elastic_load, at.push, -at.sliding
+        step.elastic_load[k], step.cage_load[k], step.cage_speed[k] = (
+            at.elastic_load,
+            at.push,
+            -at.sliding,
+        )
         force, power, rolling, rough = step.force[k], step.power[k], step.rolling[k], step.rough[k]
         # Without rolling resistance, as on an imposed orbit.
         force[0], force[1] = at.spin_inner - shear_in, at.spin_outer - shear_out
@@ -257,7 +313,9 @@ def _write_stage(assembly, k, time, weight, space, row):
         power[2] = force[2] * at.sliding
         rolling[0], rolling[1], rolling[2] = inner[3], outer[3], shear_cage * at.sliding
         rough[0], rough[1] = inner[4], outer[4]
-        rough[2] = sheet.cage.rough * abs(at.push) / sheet.cage.load if sheet.cage.load > 0.0 else 0.0
+        rough[2] = (
+            sheet.cage.rough * abs(at.push) / sheet.cage.load if sheet.cage.load > 0.0 else 0.0
+        )
         step.lag_power[k, 0], step.lag_power[k, 1] = inner[1], outer[1]
         step.skew_power[k, 0], step.skew_power[k, 1] = inner[2], outer[2]
 
@@ -303,9 +361,21 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
             for j in range(rests.size):
                 _guess(space.rollers[j].y, k, step, span, assembly.places[j].inner_radius * change)
             for c in range(space.cages.size):
-                _guess(space.cages[c].y, k, step, span, 0.5 * assembly.bearing[0].inner_radius * change)
-            locate(assembly, now, FIRST + k, space.rollers, space.cages, space.moments[k], whole.turn[k])
-            rest = solve_stage(assembly, Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach), k, space)
+                _guess(
+                    space.cages[c].y, k, step, span, 0.5 * assembly.bearing[0].inner_radius * change
+                )
+            locate(
+                assembly,
+                now,
+                FIRST + k,
+                space.rollers,
+                space.cages,
+                space.moments[k],
+                whole.turn[k],
+            )
+            rest = solve_stage(
+                assembly, Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach), k, space
+            )
             solved = rest <= tolerance
             worst = max(worst, rest) if solved else rest
             if solved:
@@ -365,7 +435,9 @@ def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_sca
         wrong += predicted[k] - found[k]
         power += abs(found[k])
     change = abs(load - known.load) / (tuning.LOAD_CHANGE * max(load, known.load) + 1e-9)
-    worst = max(drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12))
+    worst = max(
+        drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12)
+    )
     return max(worst, change * change)
 
 
@@ -383,18 +455,39 @@ def _refresh(assembly, limits, time, space, power_scale):
         one.due = one.fresh or time - known[j].when >= one.rest
         one.marked = one.due and (not one.fresh or sheets[j].when != time)
     # The last stage as a sum, as stages are numbered elsewhere: for a constant all of it would be compiled once more.
-    space.memory[0].evaluations += evaluate_marked(assembly, time, moments, space.rollers, FIRST + 1, rests, sheets)
-    inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
+    space.memory[0].evaluations += evaluate_marked(
+        assembly, time, moments, space.rollers, FIRST + 1, rests, sheets
+    )
+    inner_ratio, outer_ratio = (
+        bearing.pitch_radius / bearing.inner_radius,
+        bearing.pitch_radius / bearing.outer_radius,
+    )
     good = True
     for j in range(rests.size):
         one, at, new, old = rests[j], moments[j], sheets[j], known[j]
         if one.due:
             span, mass = time - old.when, bearing.roller_mass
             inner = _contact_off(
-                old.inner, new.inner, inner_ratio, mass, limits, at.inner_load, at.inner_speed, span, power_scale
+                old.inner,
+                new.inner,
+                inner_ratio,
+                mass,
+                limits,
+                at.inner_load,
+                at.inner_speed,
+                span,
+                power_scale,
             )
             outer = _contact_off(
-                old.outer, new.outer, outer_ratio, mass, limits, at.outer_load, at.outer_speed, span, power_scale
+                old.outer,
+                new.outer,
+                outer_ratio,
+                mass,
+                limits,
+                at.outer_load,
+                at.outer_speed,
+                span,
+                power_scale,
             )
             one.ratio = max(inner, outer)
             if not one.fresh and one.ratio > tuning.FAR_OFF and span > 0.0:
@@ -405,7 +498,11 @@ def _refresh(assembly, limits, time, space, power_scale):
         one = rests[j]
         if good and one.due:
             factor = tuning.REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
-            factor = max(tuning.REST_PART, min(factor, tuning.REST_GROWTH)) if one.ratio <= tuning.FAR_OFF else 0.0
+            factor = (
+                max(tuning.REST_PART, min(factor, tuning.REST_GROWTH))
+                if one.ratio <= tuning.FAR_OFF
+                else 0.0
+            )
             one.rest = min(limits.longest_rest, (time - known[j].when) * factor)
     return good
 
@@ -469,7 +566,10 @@ def _leaves_tables(assembly, limits, space):
             return True
         inner = math.sqrt(at.inner_speed * at.inner_speed + 0.25 * own[0] * own[0])
         outer = math.sqrt(at.outer_speed * at.outer_speed + 0.25 * own[1] * own[1])
-        if max(inner, outer) > body.highest_speed + 2.0 * REST_SPEED or min(inner, outer) < limits.slowest:
+        if (
+            max(inner, outer) > body.highest_speed + 2.0 * REST_SPEED
+            or min(inner, outer) < limits.slowest
+        ):
             return True
     return False
 
@@ -493,7 +593,12 @@ def _write_end(assembly, start, end, space, row, whole, offset):
             whole.cages[c, i] = cages[c].y[FIRST + last, i]
     for j in range(row.size):
         step, at, own = row[j], moments[j], rollers[j]
-        step.start, step.end, step.stages, step.pure_speed = start.time, end.time, last + 1, pure_speed
+        step.start, step.end, step.stages, step.pure_speed = (
+            start.time,
+            end.time,
+            last + 1,
+            pure_speed,
+        )
         # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
         step.stretch, step.sampled = memory.steps, 1 if begins else 0
         for i in range(3):
@@ -501,8 +606,12 @@ def _write_end(assembly, start, end, space, row, whole, offset):
             own.power[i] = step.power[last, i]
         offset[j] = own.y[FIRST + last, 2]
         cage = cages[places[j].cage].y[FIRST + last]
-        step.ahead = (offset[j] + cage[1] - cage[4] * at.sine + cage[5] * at.cosine) / bearing.pitch_radius
-        whole.torque[places[j].cage] -= bearing.pitch_radius * (at.push + bearing.lever * at.friction)
+        step.ahead = (
+            offset[j] + cage[1] - cage[4] * at.sine + cage[5] * at.cosine
+        ) / bearing.pitch_radius
+        whole.torque[places[j].cage] -= bearing.pitch_radius * (
+            at.push + bearing.lever * at.friction
+        )
 
 
 @jit_inline
@@ -515,7 +624,13 @@ def _take_over(y):
 @jit_inline
 def _advance(end, space, row):
     """Take over state, slopes and evaluations of an accepted step."""
-    memory, rollers, cages, rests, numbers = space.memory[0], space.rollers, space.cages, space.rests, space.numbers
+    memory, rollers, cages, rests, numbers = (
+        space.memory[0],
+        space.rollers,
+        space.cages,
+        space.rests,
+        space.numbers,
+    )
     memory.steps += 1
     for j in range(row.size):
         for k in range(2):

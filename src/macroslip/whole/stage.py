@@ -42,7 +42,15 @@ CAGE = np.dtype([("y", "f8", (7, 6))])
 #: allowed; whether it is evaluated in every iteration, needs no further evaluation in this stage, is evaluated now, has new
 #: values to keep after the step.
 REST = np.dtype(
-    [("rest", "f8"), ("ratio", "f8"), ("fresh", "?"), ("settled", "?"), ("marked", "?"), ("due", "?"), ("unused", "i4")]
+    [
+        ("rest", "f8"),
+        ("ratio", "f8"),
+        ("fresh", "?"),
+        ("settled", "?"),
+        ("marked", "?"),
+        ("due", "?"),
+        ("unused", "i4"),
+    ]
 )
 #: A roller's part of the matrix.
 #:
@@ -90,7 +98,9 @@ class Stage(NamedTuple):
     time: float  #: [s]
     shaft_speed: float  #: [rad/s]
     tolerance: float  #: Largest force that may be left unbalanced [N]
-    cage_reach: float  #: Relative change of load or slip within which the slopes of a cage's contact serve
+    cage_reach: (
+        float  #: Relative change of load or slip within which the slopes of a cage's contact serve
+    )
 
 
 class Meeting(NamedTuple):
@@ -99,7 +109,9 @@ class Meeting(NamedTuple):
     #: N and F_c [N].
     push: float
     friction: float
-    give: float  #: Derivative of N by x', with the offset that follows from it in this stage [N s/m]
+    give: (
+        float  #: Derivative of N by x', with the offset that follows from it in this stage [N s/m]
+    )
     #: Derivatives of F_c by the slip against the cage [N s/m] and by N [-].
     by_sliding: float
     by_push: float
@@ -117,17 +129,27 @@ def meet(bearing, contact, stage, at, own, star, cage, sheet):
     v_in, v_out = own[0], own[1]
     cage_turn = (cage[0] + 0.5 * shaft_speed * bearing.inner_radius) / bearing.pitch_radius
     off_axis = cage[4] * at.cosine + cage[5] * at.sine
-    speed = 0.5 * (v_in - v_out) - cage[0] + cage[2] * at.sine - cage[3] * at.cosine + cage_turn * off_axis
+    speed = (
+        0.5 * (v_in - v_out)
+        - cage[0]
+        + cage[2] * at.sine
+        - cage[3] * at.cosine
+        + cage_turn * off_axis
+    )
     speed += 0.5 * (at.ring - shaft_speed * bearing.inner_radius)
     own[2] = star[2] + stage.step * speed
     push, by_offset, by_speed = pocket_force(bearing.pocket, own[2], speed)
     # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
     sliding = 0.5 * (v_in + v_out + at.ring) + bearing.lever * bearing.pitch_radius * cage_turn
     body, tables = contact
-    friction, by_sliding, by_push = cage_from(body, tables, sheet.cage, push, sliding, stage.cage_reach)
+    friction, by_sliding, by_push = cage_from(
+        body, tables, sheet.cage, push, sliding, stage.cage_reach
+    )
     at.friction, at.push, at.sliding, at.pocket_speed = friction, push, sliding, speed
     give = by_speed + stage.step * by_offset
-    return Meeting(push, friction, give, by_sliding, by_push, 1.0 - off_axis / bearing.pitch_radius, cage_turn)
+    return Meeting(
+        push, friction, give, by_sliding, by_push, 1.0 - off_axis / bearing.pitch_radius, cage_turn
+    )
 
 
 @jit_inline
@@ -147,7 +169,12 @@ def _write_block(inertia, at, sheet, met, block):
     j22 = inertia + pull_out + 2.0 * spin_out + shared - tilted - 0.5 * met.give
     part = 1.0 / (j11 * j22 - j12 * j21)
     inverse = block.inverse
-    inverse[0], inverse[1], inverse[2], inverse[3] = j22 * part, -j12 * part, -j21 * part, j11 * part
+    inverse[0], inverse[1], inverse[2], inverse[3] = (
+        j22 * part,
+        -j12 * part,
+        -j21 * part,
+        j11 * part,
+    )
 
 
 @jit_inline
@@ -170,8 +197,14 @@ def _add_to_border(bearing, stage, at, met, block, border):
         by_q = met.give * (-cosine + stage.step * met.cage_turn * sine)
         row[0, 1], row[1, 1] = -sine * half_push, sine * half_push
         row[0, 2], row[1, 2] = cosine * half_push, -cosine * half_push
-        column[0, 1], column[1, 1] = (2.0 * met.by_push - 1.0) * by_p, (2.0 * met.by_push + 1.0) * by_p
-        column[0, 2], column[1, 2] = (2.0 * met.by_push - 1.0) * by_q, (2.0 * met.by_push + 1.0) * by_q
+        column[0, 1], column[1, 1] = (
+            (2.0 * met.by_push - 1.0) * by_p,
+            (2.0 * met.by_push + 1.0) * by_p,
+        )
+        column[0, 2], column[1, 2] = (
+            (2.0 * met.by_push - 1.0) * by_q,
+            (2.0 * met.by_push + 1.0) * by_q,
+        )
         by_turn = met.arm + lever * met.by_push
         matrix[0, 1] += by_turn * by_p
         matrix[0, 2] += by_turn * by_q
@@ -246,16 +279,22 @@ def _begin_cage(bearing, stage, cage, star, border):
     turning = cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius
     drive = math.tanh(turning / GUIDE_SPEED)
     past = turning - bearing.land_turns * stage.shaft_speed * bearing.pitch_radius
-    rest[0] = inertia * (cage[0] - star[0]) + bearing.guide_friction * drive + bearing.land_drag * past
+    rest[0] = (
+        inertia * (cage[0] - star[0]) + bearing.guide_friction * drive + bearing.land_drag * past
+    )
     matrix[0, 0] += bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED + bearing.land_drag
     rest[1] = inertia * (cage[2] - star[2])
     rest[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
     if bearing.translates:
-        push, n_x, n_y, by_place, by_speed = guide_force(bearing.radial_play, cage[4], cage[5], cage[2], cage[3])
+        push, n_x, n_y, by_place, by_speed = guide_force(
+            bearing.radial_play, cage[4], cage[5], cage[2], cage[3]
+        )
         rest[1] += push * n_x
         rest[2] += push * n_y
         radial = by_speed + stage.step * by_place
-        turning_push = stage.step * push / math.sqrt(cage[4] ** 2 + cage[5] ** 2) if push > 0.0 else 0.0
+        turning_push = (
+            stage.step * push / math.sqrt(cage[4] ** 2 + cage[5] ** 2) if push > 0.0 else 0.0
+        )
         matrix[1, 1] += radial * n_x * n_x + turning_push * n_y * n_y
         matrix[1, 2] += (radial - turning_push) * n_x * n_y
         matrix[2, 1] += (radial - turning_push) * n_x * n_y
@@ -267,8 +306,12 @@ def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
     """Raceway forces at the present state of stage `k`, evaluated where slopes do not serve. Returns the evaluations."""
     for j in range(moments.size):
         rest, at, sheet, own = rests[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
-        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, own[0])
-        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, own[1])
+        at.spin_inner, at.pull_inner = raceway_from(
+            sheet.inner, at.inner_load, at.inner_speed, own[0]
+        )
+        at.spin_outer, at.pull_outer = raceway_from(
+            sheet.outer, at.outer_load, at.outer_speed, own[1]
+        )
         if not rest.fresh and is_out_of_reach(sheet, at, own):
             rest.fresh = True
         rest.marked = rest.fresh and not rest.settled
@@ -280,7 +323,12 @@ def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
             off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
             # Slopes that predicted the force well enough serve until the stage is solved.
             rests[j].settled = off <= tuning.PREDICTED * stage.tolerance
-            at.spin_inner, at.pull_inner, at.spin_outer, at.pull_outer = inner.spin, inner.pull, outer.spin, outer.pull
+            at.spin_inner, at.pull_inner, at.spin_outer, at.pull_outer = (
+                inner.spin,
+                inner.pull,
+                outer.spin,
+                outer.pull,
+            )
     return evaluations
 
 
@@ -348,8 +396,18 @@ def _update(k, size, space):
 @jit_inline
 def _follow(assembly, stage, k, space):
     """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
-    bearing, places, rollers, cages = assembly.bearing[0], assembly.places, space.rollers, space.cages
-    moments, sheets, blocks, borders = space.moments[k], space.sheets[0], space.blocks, space.borders
+    bearing, places, rollers, cages = (
+        assembly.bearing[0],
+        assembly.places,
+        space.rollers,
+        space.cages,
+    )
+    moments, sheets, blocks, borders = (
+        space.moments[k],
+        space.sheets[0],
+        space.blocks,
+        space.borders,
+    )
     for j in range(blocks.size):
         c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
         cage, border = cages[c].y[FIRST + k], borders[c].rest
@@ -362,8 +420,14 @@ def _follow(assembly, stage, k, space):
             at.pull_outer += sheet.outer.pull_by_slip * v_out
         speed = 0.5 * (v_in - v_out) + border[0]
         if bearing.translates:
-            turn = stage.step * (cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius) / bearing.pitch_radius
-            speed -= (at.sine + turn * at.cosine) * border[1] + (turn * at.sine - at.cosine) * border[2]
+            turn = (
+                stage.step
+                * (cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius)
+                / bearing.pitch_radius
+            )
+            speed -= (at.sine + turn * at.cosine) * border[1] + (
+                turn * at.sine - at.cosine
+            ) * border[2]
         sliding = 0.5 * (v_in + v_out) - bearing.lever * border[0]
         push = block.give * speed
         at.push += push

@@ -13,7 +13,13 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import log_load, log_speed
-from macroslip.roller.forces import cage_contact, film_load, interference, raceway_oil, raceway_traction
+from macroslip.roller.forces import (
+    cage_contact,
+    film_load,
+    interference,
+    raceway_oil,
+    raceway_traction,
+)
 from macroslip.whole import tuning
 
 #: Tractions of a raceway contact at the load [N], ring speed and slip [m/s] of their evaluation: forces that turn (`spin`) and
@@ -85,7 +91,12 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
     A pocket is at θ = θ_0 + nominal orbit + ∫w dt/r~, and its roller at φ = θ + (x − a sin θ + b cos θ)/r~. The
     difference is at most some milliradians, and enters the roller's load and weight to first order.
     """
-    bearing, bodies, places, tables = assembly.bearing[0], assembly.bodies, assembly.places, address(assembly)
+    bearing, bodies, places, tables = (
+        assembly.bearing[0],
+        assembly.bodies,
+        assembly.places,
+        address(assembly),
+    )
     pitch = bearing.pitch_radius
     for c in range(bearing.cages):
         cage = cages[c].y[which]
@@ -107,10 +118,14 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
             load = body.stiffness * approach * math.sqrt(approach) if approach > 0.0 else 0.0
             ring = now.shaft_speed * place.inner_radius
             orbit = 0.5 * (own[0] - own[1] + ring) / pitch
-            outward = (body.centrifugal * orbit * orbit - body.weight_in_plane * y) * body.cos_contact_angle
+            outward = (
+                body.centrifugal * orbit * orbit - body.weight_in_plane * y
+            ) * body.cos_contact_angle
             outward += body.weight_along_axis * body.sin_contact_angle
             outer_speed = -orbit * bearing.outer_radius
-            at.film_load = film_load(body, tables, load, approach, outward, outer_speed, at.film_load)
+            at.film_load = film_load(
+                body, tables, load, approach, outward, outer_speed, at.film_load
+            )
             pressed = load + at.film_load
             at.ring, at.elastic_load = ring, load
             at.inner_load = pressed - min(outward, 0.0)
@@ -125,18 +140,27 @@ def _evaluate(body, law, tables, load, speed, slip, sheet):
     """Evaluate a raceway contact at its load [N], ring speed and slip [m/s] into its sheet."""
     sheet.slip, sheet.load, sheet.speed = slip, load, speed
     if load <= 0.0:
-        sheet.spin = sheet.pull = sheet.spin_by_slip = sheet.pull_by_slip = sheet.spin_by_load = sheet.pull_by_load = (
-            0.0
-        )
+        sheet.spin = sheet.pull = sheet.spin_by_slip = sheet.pull_by_slip = sheet.spin_by_load = (
+            sheet.pull_by_load
+        ) = 0.0
         sheet.spin_by_speed = sheet.pull_by_speed = sheet.skew = sheet.rough = 0.0
         sheet.shear = sheet.shear_by_slip = sheet.shear_by_load = sheet.shear_by_speed = 0.0
         return
     ln_load = log_load(load)
     found = raceway_traction(law, tables, body.closed_form, load, ln_load, speed, slip)
     sheet.spin, sheet.pull = found.pull - found.lag, found.pull
-    sheet.spin_by_slip, sheet.pull_by_slip = found.pull_by_slip - found.lag_by_slip, found.pull_by_slip
-    sheet.spin_by_load, sheet.pull_by_load = found.pull_by_load - found.lag_by_load, found.pull_by_load
-    sheet.spin_by_speed, sheet.pull_by_speed = found.pull_by_speed - found.lag_by_speed, found.pull_by_speed
+    sheet.spin_by_slip, sheet.pull_by_slip = (
+        found.pull_by_slip - found.lag_by_slip,
+        found.pull_by_slip,
+    )
+    sheet.spin_by_load, sheet.pull_by_load = (
+        found.pull_by_load - found.lag_by_load,
+        found.pull_by_load,
+    )
+    sheet.spin_by_speed, sheet.pull_by_speed = (
+        found.pull_by_speed - found.lag_by_speed,
+        found.pull_by_speed,
+    )
     sheet.skew, sheet.rough = -speed * law.spin * found.skew, found.asperity_power
     if not body.oily:
         return
@@ -189,7 +213,11 @@ def shear_from(sheet, load, speed, slip):
     if load <= 0.0:
         return 0.0
     shear = sheet.shear + sheet.shear_by_slip * (slip - sheet.slip)
-    return shear + sheet.shear_by_load * (load - sheet.load) + sheet.shear_by_speed * (speed - sheet.speed)
+    return (
+        shear
+        + sheet.shear_by_load * (load - sheet.load)
+        + sheet.shear_by_speed * (speed - sheet.speed)
+    )
 
 
 @jit_inline
@@ -198,7 +226,10 @@ def _reaches(sheet, load, speed, slip):
     if sheet.slip == 0.0 and sheet.speed == 0.0 and (slip != 0.0 or speed != 0.0):
         return False
     change = sheet.pull_by_slip * (slip - sheet.slip)
-    return abs(load - sheet.load) <= tuning.LOAD_REACH * sheet.load and abs(change) <= tuning.SLIP_REACH * load
+    return (
+        abs(load - sheet.load) <= tuning.LOAD_REACH * sheet.load
+        and abs(change) <= tuning.SLIP_REACH * load
+    )
 
 
 @jit_inline
@@ -252,11 +283,17 @@ def cage_from(body, tables, sheet, push, sliding, part):
         sheet.shear, sheet.shear_by_slip = found.resistance, found.resistance_by_slip
         sheet.shear_by_load, sheet.rough = found.resistance_by_load, found.asperity_power
         sheet.slip, sheet.load = sliding, load
-    force = sheet.force + sheet.by_slip * (sliding - sheet.slip) + sheet.by_load * (load - sheet.load)
+    force = (
+        sheet.force + sheet.by_slip * (sliding - sheet.slip) + sheet.by_load * (load - sheet.load)
+    )
     return force, sheet.by_slip, sheet.by_load if push > 0.0 else -sheet.by_load
 
 
 @jit_inline
 def cage_shear_from(sheet, push, sliding):
     """Rolling resistance [N] in the cage's friction, from the sheet's slopes."""
-    return sheet.shear + sheet.shear_by_slip * (sliding - sheet.slip) + sheet.shear_by_load * (abs(push) - sheet.load)
+    return (
+        sheet.shear
+        + sheet.shear_by_slip * (sliding - sheet.slip)
+        + sheet.shear_by_load * (abs(push) - sheet.load)
+    )
