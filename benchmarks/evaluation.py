@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -134,7 +135,7 @@ def evaluation_times(histories: list[History], tolerance: float) -> dict[str, fl
         place = (*roller, history.motion, history.start_angle, times, states.stations.copy())
         stations.append(_nanoseconds(_stations_again, *place, count=times.size))
         runs = [
-            timed(lambda: own.integrate(history, tolerance, np.empty(0))) for _ in range(_REPEATS)
+            timed(partial(own.integrate, history, tolerance, np.empty(0))) for _ in range(_REPEATS)
         ]
         total.append(min(seconds for _, seconds in runs))
         weights.append(float(runs[0][0][0].evaluations))
