@@ -27,6 +27,7 @@ from macroslip import (
     main_bearing_load,
     simulate,
 )
+from macroslip.report.style import new_figure, program_style
 from macroslip.torque import palmgren_torque, skf_torque
 
 BEARING = Bearing.read("skf-240-600-bc")
@@ -125,13 +126,9 @@ def curves(output: str | None) -> None:
         _draw(found, output)
 
 
+@program_style()
 def _draw(found: dict[str, list[Torque]], output: str) -> None:
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(1, 4, figsize=(13, 3.6), sharey=True, layout="constrained")
+    figure, axes = new_figure(13.0, 3.6, 1, 4, sharey=True)
     for axis, (key, (name, values, unit, factor)) in zip(axes, SWEEPS.items(), strict=True):
         place = values - 273.15 if unit == "degC" else values * factor
         lines = (

@@ -144,14 +144,16 @@ def _draw(
     titles: dict[str, str],
 ) -> None:
     from benchmarks.work_precision import plot_work_precision
-    from macroslip.report.style import new_figure, save
+    from macroslip.report.style import new_figure, program_style, save
 
-    figure, axes = new_figure(10.5, 5.2, 1, 2)
-    for one, quantity in zip(axes, ("energy_error", "spin_error"), strict=True):
-        plot_work_precision(one, results, histories, quantity, titles)
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=9)
-    save(figure, folder, "work_precision")
+    with program_style():
+        figure, axes = new_figure(10.5, 5.2, 1, 2)
+        for one, quantity in zip(axes, ("energy_error", "spin_error"), strict=True):
+            plot_work_precision(one, results, histories, quantity, titles)
+        handles, labels = axes[0].get_legend_handles_labels()
+        legend = {"loc": "outside lower center", "ncols": 3, "frameon": False, "fontsize": 9}
+        figure.legend(handles, labels, **legend)
+        save(figure, folder, "work_precision")
 
 
 def finite(value: Any) -> Any:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
 from macroslip import MacroslipError
 from macroslip.cli.progress import command_progress
-from paper.reproduce import REPORT, reproduce
 
 
 def main() -> int:
     """Exit code 0; 2 for bad input; 3 if an integration failed."""
+    os.environ["MPLBACKEND"] = "agg"  # figures become files, and need no window
+    from paper.reproduce import REPORT, reproduce
+
     parser = argparse.ArgumentParser(prog="python -m paper", description=__doc__)
     parser.add_argument(
         "-o", "--output", type=Path, default=Path("results"), help="folder to write to"

@@ -17,7 +17,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import macroslip
-from macroslip.report.style import save
+from macroslip.report.style import program_style, save
 from macroslip.result.stored import to_netcdf
 from macroslip.study.reader import stored_results
 from macroslip.study.study_file import study_of
@@ -310,7 +310,8 @@ def reproduce(
         torques = bearing_torques(runs)
         jobs = all_figures(runs, made, torques)
         for done, (name, figure) in enumerate(jobs.items(), start=1):
-            save(figure(), folder, name)
+            with program_style():
+                save(figure(), folder, name)
             report("figures", done, len(jobs))
         summary["seconds"] = dict(seconds)
         (folder / REPORT).write_text(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 from importlib import import_module
 from pathlib import Path
 
+from macroslip.report.style import program_style
 from validation.comparison import table
 
 #: Comparisons by name; each is a module with `compare`, which gives its lines of the table, and `draw`.
@@ -14,6 +16,7 @@ NAMES = ("thrust_friction", "skf_parts", "regime", "wear_lines", "heat", "cage_s
 
 def main() -> None:
     """Print the lines of every comparison, and draw it."""
+    os.environ["MPLBACKEND"] = "agg"  # figures become files, and need no window
     parser = argparse.ArgumentParser(prog="python -m validation", description=__doc__)
     parser.add_argument("name", nargs="?", choices=NAMES, help="one comparison; all if not given")
     parser.add_argument(
@@ -25,7 +28,8 @@ def main() -> None:
     for name in [given.name] if given.name else NAMES:
         module = import_module(f"validation.{name}")
         rows += module.compare()
-        module.draw(given.output / f"measured_{name}.png")
+        with program_style():
+            module.draw(given.output / f"measured_{name}.png")
     print(table(rows), f"\nfigures: {given.output}", sep="\n")
 
 

@@ -35,6 +35,9 @@ def main() -> None:
                             raw, stream.encoding, "backslashreplace", line_buffering=line
                         ),
                     )
+        # Pictures become files. A notebook hands the name of its own backend to the processes it
+        # starts, and Matplotlib does not start where that one is not installed.
+        os.environ["MPLBACKEND"] = "agg"
         from macroslip.machine import safe_path
 
         # Processes that are started here and get their path from this one do not get the current folder either.

@@ -45,11 +45,20 @@ def missing_packages(need: Need) -> list[str]:
 
 
 def require(*needs: Need) -> None:
-    """Refuse a use of the program whose packages are not all installed.
+    """Refuse a use of the program whose packages are not all installed, or whose figures cannot be drawn.
 
-    Raises MacroslipError with the packages and the line that installs them.
+    Raises MacroslipError with the packages and the line that installs them, or with what keeps Matplotlib from starting.
     """
     for need in needs:
         if lacking := ", ".join(missing_packages(need)):
             remedy = f"Install with: pip install 'macroslip[{need.extra}]'"
             raise MacroslipError(f"not installed, but needed for {need.use}: {lacking}. {remedy}")
+    if any("matplotlib" in need.packages for need in needs):
+        try:
+            importlib.import_module("matplotlib")
+        except (OSError, ValueError) as error:
+            raise MacroslipError(
+                f"Matplotlib, which draws the pictures, does not start: {error}. It reads a file "
+                "'matplotlibrc' of the current folder or of your home; move that file away, or "
+                "write it as UTF-8 text."
+            ) from None

@@ -6,7 +6,7 @@ Pictures need matplotlib, which is imported when the first one is drawn.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,7 @@ from macroslip.overview import html_overview
 from macroslip.report import bearing_figures as draw
 from macroslip.report.page import number
 from macroslip.report.result_numbers import row_numbers
-from macroslip.report.style import SMALL
+from macroslip.report.style import SMALL, program_style
 from macroslip.result.run_input import run_input
 from macroslip.result.stored import REMEDY, check_result
 
@@ -163,7 +163,10 @@ class Macroslip:
 
 
 class Plot:
-    """Pictures of a result. Each takes the axes to draw on, and makes a figure of its own without; it returns the axes."""
+    """Pictures of a result. Each takes axes to draw on, and makes a figure of its own without; it returns the axes.
+
+    A figure of its own has the program's style; on axes of yours the picture has yours.
+    """
 
     def __init__(self, result: xr.Dataset):
         self._result = result
@@ -178,12 +181,31 @@ class Plot:
             raise MacroslipError(
                 "a picture needs matplotlib: pip install 'macroslip[figures]'"
             ) from None
+        from macroslip.report.styled_figure import StyledFigure
+
         options |= {"layout": "constrained", "subplot_kw": {"projection": projection}}
-        figure, axes = pyplot.subplots(rows, columns, **options)
+        figure, axes = pyplot.subplots(rows, columns, FigureClass=StyledFigure, **options)
         if "oil" in self._result.attrs:
             figure.suptitle(
                 f"model {self._result.attrs['model']}, {self._result.attrs['oil']}", fontsize=SMALL
             )
+        return axes
+
+    def _drawn(
+        self,
+        axes: Any,
+        plot: Callable[..., Any],
+        *data: Any,
+        projection: str | None = None,
+        legend: Mapping[str, Any] | None = None,
+    ) -> Any:
+        """The plot of the data on the axes given, or on new ones in the program's style."""
+        if axes is None:
+            with program_style():
+                return self._drawn(self._new_axes(projection), plot, *data, legend=legend)
+        plot(axes, *data)
+        if legend is not None:
+            axes.legend(frameon=False, fontsize=SMALL, **legend)
         return axes
 
     def _row(self, row: str | None, first: str = "downwind") -> str:
@@ -191,34 +213,29 @@ class Plot:
 
     def energy(self, *, axes: Axes | None = None) -> Axes:
         """Energy of a mean roller of each row, by interface."""
-        return _legend(draw.plot_energy_by_interface(axes or self._new_axes(), self._result.energy))
+        return self._drawn(axes, draw.plot_energy_by_interface, self._result.energy, legend={})
 
     def rollers(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Energy of every roller of a row (the downwind one by default), over the mean of the row."""
-        return draw.plot_roller_spread(
-            axes or self._new_axes(), self._result.energy, self._row(row)
-        )
+        return self._drawn(axes, draw.plot_roller_spread, self._result.energy, self._row(row))
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
         """Share of orbits whose largest power exceeds a value, for both rows."""
-        return _legend(draw.plot_peak_exceedance(axes or self._new_axes(), self._result))
+        return self._drawn(axes, draw.plot_peak_exceedance, self._result, legend={})
 
     def spin(
         self, row: str | None = None, roller: int | None = None, *, axes: Axes | None = None
     ) -> Axes:
         """Spin of a roller over time, with its spin in pure rolling; by default the upwind row's first. Needs traces."""
         number = int(self._result.roller[0]) if roller is None else roller
-        return draw.plot_spin_over_time(
-            axes or self._new_axes(), self._result, self._row(row, "upwind"), number
-        )
+        row = self._row(row, "upwind")
+        return self._drawn(axes, draw.plot_spin_over_time, self._result, row, number)
 
     def load_zone(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Roller load over angle and time. Needs traces that begin with the loads."""
         from macroslip.result.orbit import load_zone
 
-        return draw.plot_load_zone(
-            axes or self._new_axes(), load_zone(self._result), self._row(row)
-        )
+        return self._drawn(axes, draw.plot_load_zone, load_zone(self._result), self._row(row))
 
     def orbit(self, row: str | None = None, *, axes: PolarAxes | None = None) -> PolarAxes:
         """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
@@ -227,31 +244,30 @@ class Plot:
         """
         from macroslip.result.orbit import energy_over_orbit
 
-        drawn = draw.plot_energy_over_orbit(
-            axes or self._new_axes("polar"), energy_over_orbit(self._result), self._row(row)
+        return self._drawn(
+            axes,
+            draw.plot_energy_over_orbit,
+            energy_over_orbit(self._result),
+            self._row(row),
+            projection="polar",
+            legend={"loc": "upper center", "bbox_to_anchor": (0.5, -0.06)},
         )
-        drawn.legend(frameon=False, fontsize=SMALL, loc="upper center", bbox_to_anchor=(0.5, -0.06))
-        return drawn
 
     def bearing(self, *, axes: Axes | None = None) -> Axes:
         """All rows to scale, coloured by slip, at the moment of the largest power. Needs traces as `load_zone`."""
         from macroslip.result.orbit import still
 
-        return draw.plot_bearing(
-            axes or self._new_axes(), still(self._result), run_input(self._result).bearing
-        )
+        bearing = run_input(self._result).bearing
+        return self._drawn(axes, draw.plot_bearing, still(self._result), bearing)
 
     def damage(self, *, axes: Axes | None = None) -> Axes:
         """Criteria of damage side by side, each over what it is compared with. Needs details of the contacts."""
-        return draw.plot_criteria(axes or self._new_axes(), self._result.macroslip.damage)
+        return self._drawn(axes, draw.plot_criteria, self._result.macroslip.damage)
 
     def wear(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Worn profile of the inner raceway, the outer raceway and the rollers of a row over the years."""
-        return _legend(
-            draw.plot_worn_profile(
-                axes or self._new_axes(), self._result.macroslip.damage, self._row(row)
-            )
-        )
+        criteria = self._result.macroslip.damage
+        return self._drawn(axes, draw.plot_worn_profile, criteria, self._row(row), legend={})
 
     def maps(self, quantity: str = "energy", *, axes: Sequence[Axes] | None = None) -> list[Axes]:
         """Where the raceways suffer: energy, or with "power" the largest power, per area on each of the four.
@@ -268,13 +284,8 @@ class Plot:
         units = "J/mm²"
         if quantity == "power":
             density, units = self._result.surface_power_density, "W/mm²"
-        shown = draw.raceways(density)
-        if axes is None:
-            axes = self._new_axes(rows=len(shown) // 2, columns=2, figsize=(9.0, 6.0)).ravel()
-        return [
-            draw.plot_map(one, values, units, title)
-            for one, (title, values) in zip(axes, shown.items(), strict=True)
-        ]
+        panels = [(values, units, title) for title, values in draw.raceways(density).items()]
+        return self._panels(axes, draw.plot_map, panels, (9.0, 6.0))
 
     def film_and_slip(
         self, row: str | None = None, quantity: str = "time", *, axes: Sequence[Axes] | None = None
@@ -286,24 +297,30 @@ class Plot:
         if quantity not in draw.FILM_AND_SLIP:
             raise InputError(f"the quantity is {quantity!r}", allowed="'time' or 'passes'")
         if "film_slip_time" not in self._result:
-            remedy = "Write laws: {model: physical} and contact_details: true in the case."
             raise InputError(
                 "the result has no time by film and slip",
                 allowed="details of contacts",
-                remedy=remedy,
+                remedy="Write laws: {model: physical} and contact_details: true in the case.",
             )
         row = self._row(row)
         amounts = self._result[f"film_slip_{quantity}"].sel(row=row)
-        if axes is None:
-            axes = self._new_axes(columns=2, figsize=(10.0, 3.8)).ravel()
-        return [
-            draw.plot_film_and_slip(
-                one, amounts.sel(raceway=name), draw.FILM_AND_SLIP[quantity], f"{row} row, {name}"
-            )
-            for one, name in zip(axes, amounts.raceway.values.tolist(), strict=True)
+        units = draw.FILM_AND_SLIP[quantity]
+        panels = [
+            (amounts.sel(raceway=name), units, f"{row} row, {name}")
+            for name in amounts.raceway.values.tolist()
         ]
+        return self._panels(axes, draw.plot_film_and_slip, panels, (10.0, 3.8))
 
-
-def _legend(axes: Axes) -> Axes:
-    axes.legend(frameon=False, fontsize=SMALL)
-    return axes
+    def _panels(
+        self,
+        axes: Sequence[Axes] | None,
+        plot: Callable[..., Axes],
+        panels: Sequence[tuple[Any, ...]],
+        size: tuple[float, float],
+    ) -> list[Axes]:
+        """The plot of each panel's data on the axes given, or on a new figure of a size [inches], two a line."""
+        if axes is None:
+            with program_style():
+                new = self._new_axes(rows=len(panels) // 2, columns=2, figsize=size)
+                return self._panels(new.ravel(), plot, panels, size)
+        return [plot(panel, *data) for panel, data in zip(axes, panels, strict=True)]

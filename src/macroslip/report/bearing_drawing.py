@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing import geometry
+from macroslip.report.style import program_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,14 +21,15 @@ STEEL, ROLLER, LINE, SPHERE = "#e6e6e6", "#bcd3ea", "#1f5a96", "#b3261e"
 _MILLI = 1e3
 
 
+@program_style()
 def draw_bearing(bearing: Bearing) -> Figure:
     """Draw the section of a bearing above its axis, all lengths in proportion, without the flanges of the inner ring.
 
     Rings are drawn where bore, outside diameter and width are given.
     """
-    from matplotlib.figure import Figure
+    from macroslip.report.styled_figure import StyledFigure
 
-    figure = Figure(figsize=(9.6, 6.2))
+    figure = StyledFigure(figsize=(9.6, 6.2))
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_aspect("equal")
     axes.axis("off")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.style import BLACK, BLUE, GREEN, ORANGE, finish, new_figure
+from macroslip.report.style import BLACK, BLUE, GREEN, ORANGE, finish, new_figure, program_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -93,6 +93,7 @@ def plot_empty_row(axes: Axes, time: NDArray, carried: NDArray, share: float) ->
     )
 
 
+@program_style()
 def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
     """All of it on one page; with times [s] and the load that the upwind row's rollers carry together then [N]."""
     figure, axes = new_figure(9.6, 9.6, 3, 2)

@@ -6,7 +6,8 @@ import base64
 import io
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -92,14 +93,44 @@ def scaled(largest: float, units: str) -> tuple[float, str]:
     return 1.0, units
 
 
+@contextmanager
+def program_style() -> Iterator[None]:
+    """Context, or decorator, in which figures have the program's style, whatever the user's settings are.
+
+    Matplotlib reads a file `matplotlibrc` of the current folder or the home: fonts, widths, and TeX that may be missing.
+    """
+    import matplotlib.style
+
+    # Names inside an SVG file follow from its content: the same numbers give the same page.
+    with matplotlib.style.context(["default", {"svg.hashsalt": "macroslip"}]):
+        yield
+
+
+@program_style()
 def new_figure(
     width: float, height: float, rows: int = 1, columns: int = 1, **options: Any
 ) -> tuple[Figure, list]:
-    """A figure of the given size [inches] with a grid of axes, row by row, without any global plotting state."""
-    from matplotlib.figure import Figure
+    """A figure of the program's style with a grid of axes, row by row, without any global plotting state.
+
+    Parameters
+    ----------
+    width, height : float
+        Size [inches].
+    rows, columns : int, optional
+        Size of the grid of axes.
+    **options
+        As `matplotlib.figure.Figure.subplots` takes them.
+
+    Returns
+    -------
+    tuple of matplotlib.figure.Figure and list of matplotlib.axes.Axes
+        What is plotted on the axes has the program's style inside `program_style` only.
+    """
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-    figure = Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(wspace=0.06))
+    from macroslip.report.styled_figure import StyledFigure
+
+    figure = StyledFigure(figsize=(width, height), layout=ConstrainedLayoutEngine(wspace=0.06))
     grid = figure.subplots(rows, columns, squeeze=False, **options)
     return figure, list(grid.ravel())
 
@@ -143,6 +174,7 @@ def decade_ticks(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+@program_style()
 def save(figure: Figure, folder: Path, name: str) -> list[str]:
     """Write the figure as PNG (200 dpi) and SVG into a folder; returns the file names."""
     files = [f"{name}.png", f"{name}.svg"]
@@ -179,6 +211,7 @@ def picture(plot: Callable[..., object], about: str, *data: Any, **options: Any)
     return compared(plot, {about: data}, **options)[0]
 
 
+@program_style()
 def compared(
     plot: Callable[..., object],
     panels: Mapping[str, Sequence[Any]],
@@ -220,8 +253,6 @@ def _share_scales(panels: Sequence[Axes]) -> None:
 
 
 def _svg(figure: Figure, axes: Axes, legend: str) -> str:
-    import matplotlib
-
     handles, labels = axes.get_legend_handles_labels()
     if legend == "above":
         # Long names do not fit beside each other, and four are two by two.
@@ -233,9 +264,7 @@ def _svg(figure: Figure, axes: Axes, legend: str) -> str:
     elif legend:
         figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=SMALL)
     content = io.BytesIO()
-    # Names inside the file follow from its content: the same numbers give the same page.
-    with matplotlib.rc_context({"svg.hashsalt": "macroslip"}):
-        figure.savefig(content, format="svg", metadata={"Date": None}, dpi=160)
+    figure.savefig(content, format="svg", metadata={"Date": None}, dpi=160)
     # Without comments and metadata, which a page does not show, and outlines to a hundredth of a point.
     svg = re.sub(rb"<!--.*?-->|<metadata>.*?</metadata>", b"", content.getvalue(), flags=re.DOTALL)
     svg = re.sub(rb' d="[^"]*"', lambda outline: re.sub(rb"(\.\d\d)\d+", rb"\1", outline[0]), svg)
