@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Case, HubLoads, InputError, Laws, Traces, simulate
+from macroslip import BearingLoads, Case, HubLoads, InputError, Laws, Traces, Window, simulate
 from macroslip.bearing import geometry
 from macroslip.result.orbit import (
     energy_over_orbit,
@@ -58,6 +58,19 @@ def test_energy_over_the_orbit_adds_up_to_the_integrators_own(varying):
     np.testing.assert_allclose(per_orbit, own, rtol=1e-2)
     assert energy.attrs["orbits"] == pytest.approx(duration / 6.5, rel=0.05)
     assert (energy >= 0.0).all()
+
+
+@pytest.mark.parametrize("orbits", [1.05, 1.5, 3.05])
+def test_energy_over_the_orbit_is_even_under_thrust_alone(orbits):
+    """A sector that is passed once more than another has no more energy of an orbit."""
+    bearing = Case(loads=HubLoads.bundled("14B")).bearing
+    period = 2.0 * np.pi / (SPEED * geometry.orbit_ratio(bearing))
+    loads = BearingLoads.constant([0.0, 0.0, 400e3], SPEED, orbits * period)
+    laws = Laws.physical().but(rolling="none")
+    options = {"rollers": [0], "gravity": False, "drag": False, "window": Window(start=0.0)}
+    case = Case(loads=loads, laws=laws, traces=Traces(step=0.01), **options)
+    outer = energy_over_orbit(simulate(case)).sel(row="downwind", interface="outer")
+    np.testing.assert_allclose(outer, outer.mean(), rtol=2e-2)
 
 
 def test_a_gripped_roller_spends_energy_where_its_weight_presses_on_the_cage():

@@ -106,7 +106,7 @@ _MAPS = np.dtype(
     [
         ("station_energy", "f8", (2, STATIONS)), ("surface_energy", "f8", (*_PLACES, len(SLIP_SIGNS), len(FILM_REGIMES))),
         ("surface_density", "f8", _PLACES), ("surface_asperities", "f8", _PLACES), ("surface_work", "f8", _PLACES),
-        ("working_load", "f8", (2, 2)), ("film_slip", "f8", (2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1, 2)),
+        ("surface_passes", "f8", (2, SECTORS)), ("working_load", "f8", (2, 2)), ("film_slip", "f8", (2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1, 2)),
         ("along", _ALONG, (4,)), ("last", "i8", (2,)),
     ]
 )  # fmt: skip
@@ -148,6 +148,7 @@ class Details(NamedTuple):
     surface_asperities: np.ndarray  #: Energy of asperities [J], as `surface_density`
     #: ∫∫ p |v| dA dt [J], as `surface_density`: the energy under a coefficient of friction of 1
     surface_work: np.ndarray
+    surface_passes: np.ndarray  #: Passes over each sector by raceway [-], parts of a pass included
     working_load: np.ndarray  #: By raceway: ∫∫ p |v| dA dt times load [J N], and itself [J]
     #: By raceway, class of Λ and of slip: time under the rings' load times the part of the length [s]; passes
     film_slip: np.ndarray
@@ -347,6 +348,7 @@ def _spread(maps, interface, way, mean_time, spent, before, after):
             maps.surface_asperities[interface, sector],
         )
         work = maps.surface_work[interface, sector]
+        maps.surface_passes[interface, sector] += even * abs(way[1] - way[0])
         for k in range(STATIONS):
             old, new = before.power[k], after.power[k]
             energy[k, 1 if old > 0.0 else 0, before.regime] += share * spent[0] * abs(old)

@@ -36,6 +36,10 @@ _NO_WEAR = (
     "or film-ratio, and a boundary_friction above 0 of the lubricant."
 )
 _NO_THIN_FILMS = "No film under load was thinner than Λ = 3, so nothing is said of the sign of slip in thin films."
+_FEW_ROLLERS = (
+    "Of {all} rollers a row {some} were simulated, {why}: values at the outer raceway may be off by several times, because "
+    "what lasts a short time falls on the few places where these rollers are. Leave rollers away to compute all."
+)
 _NO_ENTRIES = "No roller entered a load zone in a complete orbit of the window, so nothing is said of smearing."
 
 
@@ -159,6 +163,8 @@ def damage(
         missing.append(
             f"{failed} rollers failed: their rows have no maps, and their entries are left out."
         )
+    if few := _few_rollers(result, given):
+        missing.append(few)
     if math.isnan(values["slower_time"]):
         missing.append(_NO_THIN_FILMS)
     data |= _answer(values, own)
@@ -247,19 +253,27 @@ class _Rates:
         )
 
     def profile(self, name: str) -> np.ndarray:
-        """Per area [W/m²] over row, place and station.
+        """Power per area [W/m²] over row, place and station.
 
-        The inner ring turns, so its mean over the angles counts; of the outer one the angle at which it is largest anywhere.
+        The inner ring turns, so that of its sectors the mean counts. Of the outer ring it is the sector with the largest
+        value per pass, times the mean number of passes of all sectors: a few rollers, or orbits that are no whole number,
+        pass some sectors more often than others.
         """
-        powers = self.powers(name)
-        density = powers / self.area[:, :, None]
-        found = np.empty((density.shape[0], len(PLACES), STATIONS))
-        found[:, 0] = density[:, 0].mean(axis=1)
-        for r, row in enumerate(density):
-            worst = int(np.argmax(np.nan_to_num(row[1]).max(axis=-1)))
-            found[r, 1] = row[1, worst]
-        found[:, 2] = self.roller_share(name).sum(axis=1)
-        return found
+        density = self.powers(name) / self.area[:, :, None]
+        profile = np.empty((density.shape[0], len(PLACES), STATIONS))
+        profile[:, 0] = density[:, 0].mean(axis=1)
+        even = density[:, 1] * self.evenness()[..., None]
+        for row, sectors in enumerate(even):
+            worst = int(np.argmax(np.nan_to_num(sectors).max(axis=-1)))
+            profile[row, 1] = sectors[worst]
+        profile[:, 2] = self.roller_share(name).sum(axis=1)
+        return profile
+
+    def evenness(self) -> np.ndarray:
+        """Mean passes of all sectors of the outer raceway over those of each sector, over row and angle; 0 without passes."""
+        passes = self.result.surface_passes.sel(raceway="outer").transpose("row", "angle").values
+        mean = passes.mean(axis=1, keepdims=True)
+        return np.divide(mean, passes, out=np.zeros_like(passes), where=passes > 0.0)
 
     def roller_share(self, name: str) -> np.ndarray:
         """Per area of a roller [W/m²] over row, raceway and station."""
@@ -274,6 +288,20 @@ class _Rates:
         count = self.bearing.rollers_per_row
         ring = count * outer / geometry.inner_contact_radius(self.bearing)
         return rate * np.array([ring, count, 2.0 * outer / geometry.roller_radius(self.bearing)])
+
+
+def _few_rollers(result: xr.Dataset, given: RunInput) -> str:
+    """A sentence where the simulated rollers do not stand for all at the outer raceway; empty otherwise."""
+    simulated = result.sizes["roller"]
+    if simulated == given.bearing.rollers_per_row:
+        return ""
+    if given.settings["loads"].get("event"):
+        reason = "in an event"
+    elif bool((result.surface_passes.sel(raceway="outer") == 0.0).any()):
+        reason = "and these did not pass the whole raceway"
+    else:
+        return ""
+    return _FEW_ROLLERS.format(all=given.bearing.rollers_per_row, some=simulated, why=reason)
 
 
 def _films(result: xr.Dataset) -> dict[str, Any]:
@@ -412,7 +440,10 @@ def _working_skew(row: xr.Dataset) -> float:
     """Root of the mean square of skew [rad], weighted by pressure times slip at the outer raceway, whose angle is the orbit's."""
     if "skew_by_position" not in row:
         return 0.0
-    weight = row.surface_work.sel(raceway="outer").sum("station").values
+    outer = row.sel(raceway="outer")
+    work = outer.surface_work.sum("station").values
+    passes = outer.surface_passes.values
+    weight = np.divide(work, passes, out=np.zeros_like(work), where=passes > 0.0)
     return math.sqrt(
         (np.nan_to_num(row.skew_by_position.values) ** 2 * weight).sum() / max(weight.sum(), 1e-300)
     )

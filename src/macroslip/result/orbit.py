@@ -78,8 +78,9 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
     """Frictional energy per orbit of a roller and per degree [J/degree], mean over the row's rollers that completed.
 
     Over (row, interface, angle), the angle being the middle of the sector. The sum over the sectors times their width
-    is the energy per orbit, within what the traces' samples resolve; the attribute `energy_ratio` holds energy from the
-    traces over the integrator's own, both rows and all interfaces, `orbits` how many were made.
+    is the energy per orbit, within what the traces' samples resolve; sectors that are passed more often than others,
+    because orbits are no whole number, count as if all were passed equally often. The attribute `energy_ratio` holds
+    energy from the traces over the integrator's own, both rows and all interfaces, `orbits` how many were made.
     """
     angle = position(result)
     window = in_window(result)
@@ -88,18 +89,22 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
             "the traces hold less than two samples of the window", remedy="Give them a later end."
         )
     power = window.power.transpose(*_ORDER, "interface").values
-    seconds = np.gradient(window.time.values)
-    seconds[[0, -1]] *= 0.5  # trapezoids
+    angles = travelled(result)[np.isin(result.time.values, window.time.values)]
+    orbits = np.ptp(angles) / (2.0 * np.pi)
+    seconds, way = np.gradient(window.time.values), np.abs(np.gradient(angles))
+    for weights in (seconds, way):
+        weights[[0, -1]] *= 0.5  # trapezoids
     good, sector = (result.status == 0).values, _sectors(angle.sel(time=window.time), sectors)
-    orbits = np.ptp(travelled(result)[np.isin(result.time.values, window.time.values)]) / (
-        2.0 * np.pi
-    )
     values = np.full((result.sizes["row"], result.sizes["interface"], sectors), np.nan)
     for r in np.flatnonzero(good.any(axis=1) & (orbits > 0.0)):
+        rollers = int(good[r].sum())
         here = sector[r, good[r]].ravel()
+        passed = np.bincount(here, np.tile(way, rollers), sectors)
         for i in range(result.sizes["interface"]):
             total = np.bincount(here, (power[r, good[r], :, i] * seconds).ravel(), sectors)
-            values[r, i] = total / (good[r].sum() * orbits * 360.0 / sectors)
+            per_way = np.divide(total, passed, out=np.zeros(sectors), where=passed > 0.0)
+            shape = per_way / max(per_way.sum(), np.finfo(float).tiny)
+            values[r, i] = shape * total.sum() / (rollers * orbits * 360.0 / sectors)
     traced, integrated = (power[good] * seconds[:, None]).sum(), result.energy.values[good].sum()
     about = {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit"}
     about |= {

@@ -3,7 +3,7 @@
 The maps belong to the bearing, not to a roller: what all simulated rollers of a row leave at a place of the raceway. The
 outer raceway is at rest, so its angle is φ; the inner one turns, and its angle is counted on the ring, from where +X0
 was at the first sample. Energies are stored, in J, so that sums over a map are the energies of `simulate`; over
-`cell_area` they are energies per area.
+`cell_area` they are energies per area. How often each sector was passed is stored beside them (`surface_passes`).
 """
 
 from __future__ import annotations
@@ -50,6 +50,11 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         _PLACES, "J", "pressure times slip over time and area at each place of a raceway, of all simulated rollers: the "
         "energy in the window that a coefficient of friction of 1 would dissipate",
     ),
+    "surface_passes": (
+        ("row", "raceway", "angle"),
+        "1",
+        "passes of all simulated rollers over each sector of a raceway in the window, parts of a pass included",
+    ),
     "working_load": (("row", "raceway"), "N", "mean load of the contacts, weighted by pressure times slip"),
     "film_slip_time": (
         _CLASSES, "s", "time under load by Lambda and by slide-roll ratio, times the part of the roller's length that has "
@@ -65,18 +70,24 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
     density = np.array(
         [np.max([record.surface_density for record in line], axis=0) for line in records]
     )
-    asperities, work, load, classes = (
+    asperities, work, passes, load, classes = (
         np.array([sum(getattr(record, name) for record in line) for line in records])
-        for name in ("surface_asperities", "surface_work", "working_load", "film_slip")
+        for name in (
+            "surface_asperities",
+            "surface_work",
+            "surface_passes",
+            "working_load",
+            "film_slip",
+        )
     )
     with np.errstate(invalid="ignore", divide="ignore"):
         load = load[..., 0] / load[..., 1]
     for number in np.flatnonzero(failed.any(axis=1)):
-        for one in (energy, density, asperities, work, load, classes):
+        for one in (energy, density, asperities, work, passes, load, classes):
             one[number] = np.nan
     return {
         "surface_energy": energy, "surface_power_density": density, "surface_asperity_energy": asperities,
-        "surface_work": work, "working_load": load, "film_slip_time": classes[..., 0], "film_slip_passes": classes[..., 1],
+        "surface_work": work, "surface_passes": passes, "working_load": load, "film_slip_time": classes[..., 0], "film_slip_passes": classes[..., 1],
     }  # fmt: skip
 
 
@@ -118,14 +129,44 @@ def _classes(edges: tuple[float, ...]) -> list[str]:
     ]
 
 
+def even_energy(result: xr.Dataset) -> xr.DataArray:
+    """Frictional energy of the maps as if all sectors of a raceway had been passed equally often [J].
+
+    A few rollers, or a window of no whole number of orbits, pass some sectors of a raceway more often than others. The
+    energy per pass of a sector keeps its place; the sum over each raceway keeps its value. A sector without passes has
+    none.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        With `surface_energy` and `surface_passes`; without the latter the energy is returned as it is.
+
+    Returns
+    -------
+    xarray.DataArray
+        Over row, raceway, angle, station, slip_sign and film_regime.
+    """
+    energy = result.surface_energy
+    if "surface_passes" not in result:
+        return energy
+    passes = result.surface_passes
+    per_pass = xr.where(passes > 0.0, energy / passes, 0.0 * energy)
+    places = ("angle", "station", "slip_sign", "film_regime")
+    total = per_pass.sum(places, skipna=False)
+    scale = energy.sum(places, skipna=False) / total.where(total != 0.0, 1.0)
+    return (per_pass * scale).transpose(*energy.dims)
+
+
 def energy_density(result: xr.Dataset) -> xr.DataArray:
     """Frictional energy per area of the raceways, e = ∫|τ v| dt [J/m²], over row, raceway, angle and station.
 
-    Of a result with maps, InputError without, or from `macroslip.study.lifetime.weighted_maps`.
+    Of a result with maps, InputError without, or from `macroslip.study.lifetime.weighted_maps`; all sectors count as
+    passed equally often (`even_energy`).
     """
     _require_maps(result)
-    found = result.surface_energy.sum(("slip_sign", "film_regime"), skipna=False) / result.cell_area
-    return found.assign_attrs(units="J/m2", long_name="frictional energy per area of the raceway")
+    energy = even_energy(result).sum(("slip_sign", "film_regime"), skipna=False)
+    density = energy / result.cell_area
+    return density.assign_attrs(units="J/m2", long_name="frictional energy per area of the raceway")
 
 
 def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
+from macroslip.result.surface_maps import even_energy
 from macroslip.result.variables import described
 from macroslip.study.weights import YEAR, Weights, binned, weighted
 from macroslip.study.year import year
@@ -151,19 +152,21 @@ def weighted_maps(
 ) -> xr.Dataset:  # fmt: skip
     """Frictional energy at the places of the raceways over a lifetime, and the largest power per area of all cases.
 
-    As `lifetime_energy`, at every place and for every sign of slip and film regime. Raises InputError if a label, a
-    probability or the lifetime is wrong, or the study has no maps.
+    As `lifetime_energy`, at every place and for every sign of slip and film regime, as if all sectors of a raceway had
+    been passed equally often. Raises InputError if a label, a probability or the lifetime is wrong, or the study has no
+    maps.
 
     `surface_energy` [J] and `surface_power_density` [W/m²] are over group and their dimensions in a result, beside
     `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete run. In which place the inner ring is
     when a case begins is by chance, so its map is spread evenly over the angle.
     """
-    if "surface_energy" not in study:
+    kept = ("surface_energy", "surface_passes", "surface_power_density")
+    if not all(name in study for name in kept):
         raise InputError(
             "the study has no maps of the raceways",
-            allowed="cases with microslip or asperities that keep surface_energy and surface_power_density",
-            remedy="Write laws: {model: physical} and contact_details: true in the case, and leave keep out or add both "
-            "to it.",
+            allowed=f"cases with microslip or asperities that keep {', '.join(kept)}",
+            remedy="Write laws: {model: physical} and contact_details: true in the case, and leave keep out or add all "
+            "three to it.",
         )
     _check_years(years)
     bins = binned(study, field, width, by)
@@ -173,7 +176,7 @@ def weighted_maps(
     def rates() -> Any:
         for case, group in enumerate(bins.group):
             one = study.isel(case=case)
-            energy = one.surface_energy.transpose(*dims).values
+            energy = even_energy(one).transpose(*dims).values
             if np.isfinite(energy).all():
                 density = one.surface_power_density.transpose(*_PLACES).values
                 largest[group] = np.maximum(largest[group], density)
