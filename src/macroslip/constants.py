@@ -12,3 +12,5 @@ MECHANISMS = "mechanisms"
 
 #: Gap where inlets begin to be full [m] from which on they count as flooded.
 FLOODED_GAP = 1.0
+#: Part of the largest time of a history by which two of its times may differ and be the same one: some roundings [-].
+TIME_ROUNDING = 1e-14

@@ -22,6 +22,7 @@ from macroslip.case.parts import (
     Traces,
     Window,
 )
+from macroslip.constants import TIME_ROUNDING
 from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Form, Given, Quantity, Text
@@ -448,13 +449,15 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
         allowed = f"all, or a list of different numbers from 0 to {count - 1}"
         yield InputError(f"rollers is {shown(list(numbers))}", where="rollers", allowed=allowed)
     first, last = float(case.loads.time[0]), float(case.loads.time[-1])
+    rounding = TIME_ROUNDING * max(abs(first), abs(last))
     for name, part, allowed in (
         ("window", case.window, "start before end, both within the loads'"),
         ("traces", case.traces, "times within the loads'"),
     ):
         start = first if part is None or part.start is None else part.start
         end = last if part is None or part.end is None else part.end
-        if not first <= start <= end <= last or (name == "window" and start == end):
+        within = first - rounding <= start <= end <= last + rounding
+        if not within or (name == "window" and end - start <= rounding):
             what, allowed = (
                 f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s",
                 allowed,

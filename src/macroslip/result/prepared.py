@@ -21,7 +21,7 @@ from macroslip.loads import RollerLoads
 from macroslip.result.plausibility import doubtful_loads
 from macroslip.result.skew import thrust_on_ring
 from macroslip.ring.motion import elastic_loads, own_motions, ring_motion
-from macroslip.ring.orbit import Motion, orbit_times
+from macroslip.ring.orbit import Motion, merged_times, orbit_times
 from macroslip.roller.model import RollerModel, TableReport, body_force, ring_geometry, roller_model
 
 #: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
@@ -127,7 +127,10 @@ def prepare(case: Case) -> Prepared:
         more = thrust_on_ring(case, model, ring, motion, box)
         motion, largest = ring_motion(loads, case.bearing, ring, limit, more)
     heaviest = largest + body
-    end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
+    end = float(motion.time[-1])
+    if case.window.end is not None:
+        end = float(merged_times(np.array([case.window.end]), motion.time)[0])
+    edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     return Prepared(
         case=case,
         models=models,
@@ -136,32 +139,33 @@ def prepare(case: Case) -> Prepared:
         largest=largest,
         heaviest=heaviest,
         highest_speed=fastest,
-        edges=_orbit_edges(case, motion, model.orbit_ratio, end),
+        edges=edges,
         end=end,
-        trace_time=_trace_times(case, motion, end),
+        trace_time=_trace_times(case, motion, edges, end),
         box=table_box(ring_speeds, heaviest, float(tolerance), falling),
     )
 
 
 def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> np.ndarray:
-    times = orbit_times(motion.time, motion.shaft_speed, orbit_ratio)
-    if case.window.start is None:
-        if case.loads.event:  # what happens in the first orbit belongs to it
-            return np.concatenate([motion.time[:1], times[times <= end]])
-        start = times[0] if times.size and times[0] < end else motion.time[0]
-        return np.concatenate([[start], times[(times > start) & (times <= end)]])
-    start = float(case.window.start)
-    # Orbits are counted from the start of the window, not of the history.
-    late = motion.time > start
-    time = np.concatenate([[start], motion.time[late]])
-    speed = np.concatenate(
-        [[np.interp(start, motion.time, motion.shaft_speed)], motion.shaft_speed[late]]
-    )
-    times = orbit_times(time, speed, orbit_ratio)
-    return np.concatenate([[start], times[times <= end]])
+    """Start of the window and ends of the orbits completed in it [s]."""
+    time, speed = motion.time, motion.shaft_speed
+    # A time that is known exactly stays as it is, and the end of an orbit there takes it over.
+    known = np.union1d(time, [end])
+    if case.window.start is not None:
+        # Orbits are counted from the start of the window, not of the history.
+        start = float(merged_times(np.array([case.window.start]), known)[0])
+        late = time > start
+        speed = np.concatenate([[np.interp(start, time, speed)], speed[late]])
+        time = np.concatenate([[start], time[late]])
+    completed = merged_times(orbit_times(time, speed, orbit_ratio), known)
+    completed = completed[completed <= end]
+    # The first orbit belongs to the rollers' start; of an event, what happens in it belongs to the event.
+    opens_late = case.window.start is None and not case.loads.event
+    start = completed[0] if opens_late and completed.size and completed[0] < end else time[0]
+    return np.concatenate([[start], completed[completed > start]])
 
 
-def _trace_times(case: Case, motion: Motion, window_end: float) -> np.ndarray:
+def _trace_times(case: Case, motion: Motion, edges: np.ndarray, window_end: float) -> np.ndarray:
     """Times at which traces are kept [s], never past the end of the simulation."""
     if case.traces is None:
         return np.empty(0)
@@ -174,4 +178,6 @@ def _trace_times(case: Case, motion: Motion, window_end: float) -> np.ndarray:
         remedy = "Take a longer step, or traces of a shorter time."
         raise InputError(what, where="traces", allowed=allowed, remedy=remedy)
     count = int(np.floor(samples)) + 1
-    return np.minimum(start + case.traces.step * np.arange(max(count, 0)), end)
+    times = start + case.traces.step * np.arange(max(count, 0))
+    known = np.unique(np.concatenate([motion.time, edges, [window_end]]))
+    return np.minimum(merged_times(times, known), end)

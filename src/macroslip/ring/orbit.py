@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
+from macroslip.constants import TIME_ROUNDING
 
 
 class Motion(NamedTuple):
@@ -95,6 +96,36 @@ def instant(motion, interval, time):
         near[1] + (far[1] - near[1]) * share,
         near[2] + (far[2] - near[2]) * share,
     )
+
+
+def merged_times(times: np.ndarray, anchors: np.ndarray) -> np.ndarray:
+    """Times [s], of which those that differ from an anchor by rounding alone are the anchor.
+
+    Times that are the same in exact arithmetic, such as the end of the last orbit and that of the loads, are then the
+    same number, and no step of an integration lies between them.
+
+    Parameters
+    ----------
+    times : ndarray
+        Times [s], in any order.
+    anchors : ndarray
+        Rising times [s] that stay as they are, one at least.
+
+    Returns
+    -------
+    ndarray
+        As `times`, each within `TIME_ROUNDING` of the largest time replaced by the nearest anchor.
+
+    Examples
+    --------
+    >>> merged_times(np.array([0.1 + 0.2, 0.5]), np.array([0.0, 0.3, 0.6])).tolist()
+    [0.3, 0.5]
+    """
+    after = np.clip(np.searchsorted(anchors, times), 1, max(anchors.size - 1, 1))
+    below, above = anchors[after - 1], anchors[np.minimum(after, anchors.size - 1)]
+    nearest = np.where(times - below <= above - times, below, above)
+    rounding = TIME_ROUNDING * max(abs(anchors[0]), abs(anchors[-1]))
+    return np.where(np.abs(times - nearest) <= rounding, nearest, times)
 
 
 def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
