@@ -98,7 +98,6 @@ def _renamed(old, new):
             HUB | {"shaft_speed_rpm": HUB["fx_N"]},
             ["columns rotor_speed_rpm and shaft_speed_rpm both give shaft_speed"],
         ),
-        (HUB | {"fz_N": ["a", "b", "c"]}, ["column fz_N holds string, not numbers"]),
         (HUB | {"fz_N": [1.0, None, 2.0]}, ["t = 0.1 s: fz is nan"]),
         (HUB | {"time_s": [0.0, 0.1, 0.1]}, ["time does not increase"]),
         (BEARING, ["BearingLoads.read"]),
@@ -107,6 +106,17 @@ def _renamed(old, new):
 @pytest.mark.parametrize("extension", [".csv", ".parquet"])
 def test_bad_columns(tmp_path, columns, words, extension):
     _message(_write(tmp_path / f"a{extension}", columns), *words)
+
+
+@pytest.mark.parametrize(
+    ("extension", "words"),
+    [
+        (".csv", ["column fz_N holds 'a', not a number, in row 1 of the data"]),
+        (".parquet", ["column fz_N holds string, not numbers"]),
+    ],
+)
+def test_text_in_place_of_numbers(tmp_path, extension, words):
+    _message(_write(tmp_path / f"a{extension}", HUB | {"fz_N": ["a", "b", "c"]}), *words)
 
 
 def test_hub_table_read_as_bearing_loads(tmp_path):
@@ -132,10 +142,18 @@ def test_a_column_that_stands_twice(tmp_path):
     [
         (
             ";".join(HUB) + "\n" + "0,5;1.5;3;4;5;6;7;8\n" * 2,
-            ["holds string, not numbers", "the same decimal mark"],
+            ["column rotor_speed_rpm holds '1.5' with a point", "time_s holds '0,5' with a comma"],
         ),
-        ("time_s,fx_N\n0,1\n0.1\n", ["not readable as a CSV table", "Expected 2 columns, got 1"]),
-        ("time_s,fx_N\n0,1\n0.1,2,3\n", ["Expected 2 columns, got 3"]),
+        (
+            "time_s,fx_N\n0,1\n0.1\n",
+            [
+                "not readable as a CSV table: row 2 of the data has 1 values, '0.1', and the header 2"
+            ],
+        ),
+        (
+            "time_s,fx_N\n0,1\n0.1,2,3\n",
+            ["row 2 of the data has 3 values, '0.1,2,3', and the header 2 names"],
+        ),
         ("\n\n", ["not readable as a CSV table"]),
         (",".join(HUB) + "\n", ["time has shape (0,)", "at least 2 samples"]),
     ],
@@ -146,12 +164,12 @@ def test_bad_csv(tmp_path, text, words):
     _message(path, *words)
 
 
-def test_names_of_columns_that_are_no_utf8(tmp_path):
+def test_a_mark_of_utf_16_before_other_text(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes(
         b"\xff\xfe" + (",".join(HUB) + "\n" + "0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,7\n").encode()
     )
-    _message(path, "not readable as a CSV table", "text as UTF-8")
+    _message(path, "no column for time_s")
 
 
 def test_csv_as_people_write_it(tmp_path):
@@ -215,3 +233,145 @@ def test_an_axis_that_is_not_uniform_is_left_alone():
     time = (np.arange(100) / 50).astype(np.float32).astype(float)
     time[50:] += 0.001
     assert _rebuild_uniform(time) is time
+
+
+# ---- CSV as other programs write it --------------------------------------------------------------
+
+#: Rows of hub loads in kN and kN m; force and moment in N and N m are a thousandfold.
+_NAMES = "time_s;rotor_speed_rpm;fx_kN;fy_kN;fz_kN;mx_kNm;my_kNm;mz_kNm"
+_ROWS = ["0;12,5;420;15;-1080;3900;650;280", "0,5;12,5;421,75;14,9;-995;3904;740,7;276,9"]
+_FORCE = [[420e3, 15e3, -1080e3], [421.75e3, 14.9e3, -995e3]]
+
+
+def _comma(text):
+    """The same table with commas between columns and decimal points."""
+    return text.replace(",", ".").replace(";", ",")
+
+
+def _read_text(path, text, encoding="utf-8", **options):
+    path.write_bytes(text.encode(encoding))
+    return HubLoads.read(path, **options)
+
+
+@pytest.mark.parametrize(
+    ("text", "encoding"),
+    [
+        ("\n".join(["sep=;", _NAMES, *_ROWS]), "utf-8"),
+        ("\r\n".join(["sep=;", _NAMES, *_ROWS]), "utf-8-sig"),
+        ("\n".join(["# exported, 12 m/s", "", _NAMES, *_ROWS, "# end"]), "utf-8"),
+        ("\n".join([f"# {_comma(_NAMES)}", *map(_comma, _ROWS)]), "utf-8"),
+        ("\n".join([_comma(_NAMES), "s,rpm,kN,kN,kN,kNm,kNm,kNm", *map(_comma, _ROWS)]), "utf-8"),
+        ("\n".join([_NAMES, *_ROWS, ";" * 7, ";" * 7, ""]), "utf-8"),
+        ("\n".join(f"{line};" for line in (_NAMES, *_ROWS)), "utf-8"),
+        ("\n".join([_NAMES, *(f"{line};;" for line in _ROWS)]), "utf-8"),
+        ("\n".join(f"{line};" for line in (_NAMES, _ROWS[0])) + f"\n{_ROWS[1]};", "utf-8"),
+        ("\n".join([_NAMES, *_ROWS]).replace(";", "\t"), "utf-16"),
+        ("\n".join([f"{_NAMES};wind_°", *(f"{row};****" for row in _ROWS)]), "latin-1"),
+        (
+            "\n".join(
+                [
+                    _comma(_NAMES),
+                    *(",".join(f'"{cell}"' for cell in row.split(";")) for row in _ROWS),
+                ]
+            ),
+            "utf-8",
+        ),
+        (
+            "\n".join(
+                [
+                    "Time_[s],RotSpeed_[rpm],LSShftFxa_[kN],LSShftFys_[kN],LSShftFzs_[kN],"
+                    "LSShftMxa_[kN-m],LSSTipMys_[kN-m],LSSTipMzs_[kN-m]",
+                    *map(_comma, _ROWS),
+                ]
+            ),
+            "utf-8",
+        ),
+        (
+            "\n".join(
+                [
+                    "time,rotor_speed,fx,fy,fz,mx,my,mz",
+                    "[s],[rpm],[kN],[kN],[kN],[kN m],[kN m],[kN m]",
+                    *map(_comma, _ROWS),
+                ]
+            ),
+            "utf-8",
+        ),
+    ],
+)
+def test_csv_of_other_programs(tmp_path, text, encoding):
+    hub = _read_text(tmp_path / "a.csv", text, encoding)
+    assert hub.force == pytest.approx(np.array(_FORCE), rel=1e-12)
+    assert hub.moment[1] == pytest.approx([3904e3, 740.7e3, 276.9e3], rel=1e-12)
+    assert hub.time.tolist() == [0.0, 0.5]
+    assert hub.shaft_speed == pytest.approx(np.full(2, 12.5 * np.pi / 30.0))
+
+
+def test_names_with_units_in_a_parquet_file(tmp_path):
+    other_names = {"fx_N": "LSShftFxa_[N]", "mx_Nm": "LSShftMxa (kN-m)", "fz_N": "fz [N]"}
+    columns = {other_names.get(name, name): values for name, values in HUB.items()}
+    read = HubLoads.read(_write(tmp_path / "a.parquet", columns))
+    assert read.force[0].tolist() == [1e5, 1.0, -1e5]
+    assert read.moment[0].tolist() == [7e8, 1e5, 0.0]
+
+
+_THOUSANDS = "\n".join([_NAMES, "0;12;420;6;-1.020;900;650;-240", "1;12;423;6;-975;900;650;-240"])
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (_THOUSANDS, ["column fz_kN holds '-1.020' beside '-975'", "-1020", "-1.020"]),
+        (_THOUSANDS.replace("-1.020", "-1,020"), ["'-1,020' beside '-975'", "the comma may"]),
+        (_THOUSANDS.replace("-1.020;900", "1;2.888.888"), ["'2.888.888'", "its point twice"]),
+        (_THOUSANDS.replace(";12;", ";12,5;"), ["'-1.020' with a point", "'12,5' with a comma"]),
+        (_THOUSANDS.replace("-1.020", "0xA0"), ["column fz_kN holds '0xA0', not a number"]),
+        (_THOUSANDS.replace("-1.020", "-********"), ["'-********'", "did not fit into its field"]),
+        (_THOUSANDS.replace("-1.020", "\u22121020"), ["minus sign U+2212"]),
+        (
+            _THOUSANDS.replace("-1.020", "-99").replace("\n0;", "\n2025-02-01T08:00:00;"),
+            ["column time_s", "is a date"],
+        ),
+        (_NAMES.replace(";", ",") + "\n0,1,12,1,420,5,15,0,-1080,0,3900,0,650,0,280,0", ["16 val"]),
+        (_THOUSANDS.replace("time_s", "").replace("_kN", ""), ["column fx has no known unit"]),
+    ],
+)
+def test_refused_with_its_cause(tmp_path, text, words):
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8")
+    _message(tmp_path / "a.csv", *words)
+
+
+@pytest.mark.parametrize(
+    ("options", "fz"),
+    [({"thousands": "."}, -1020e3), ({"decimal": "."}, -1.02e3), ({"decimal": ","}, None)],
+)
+def test_marks_that_are_given(tmp_path, options, fz):
+    path = tmp_path / "a.csv"
+    if fz is None:
+        with pytest.raises(InputError, match="column fz_kN holds '-1.020', not a number"):
+            _read_text(path, _THOUSANDS, **options)
+    else:
+        assert _read_text(path, _THOUSANDS, **options).force[0, 2] == pytest.approx(fz)
+
+
+def test_every_mark_of_thousands(tmp_path):
+    for mark in (".", ",", "'", " ", "\u00a0", "\u202f"):
+        decimal = "," if mark == "." else "."
+        text = _THOUSANDS.replace("-1.020", f"-1{mark}020{decimal}5")
+        given = "thousands", " " if mark in "\u00a0\u202f" else mark
+        hub = _read_text(tmp_path / "a.csv", text, decimal=decimal, **dict([given]))
+        assert hub.force[:, 2].tolist() == [-1020.5e3, -975e3]
+
+
+def test_a_number_with_a_zero_before_its_point_excludes_thousands(tmp_path):
+    text = _THOUSANDS + "\n2;12;423;6;0.975;900;650;-240"
+    assert _read_text(tmp_path / "a.csv", text).force[0, 2] == pytest.approx(-1.02e3)
+
+
+def test_marks_for_a_file_without_text(tmp_path):
+    path = _write(tmp_path / "a.parquet", HUB)
+    with pytest.raises(InputError, match="for a file that is no CSV table"):
+        HubLoads.read(path, decimal=",")
+    with pytest.raises(InputError, match="decimal is ';'. Allowed"):
+        HubLoads.read(_write(tmp_path / "a.csv", HUB), decimal=";")
+    with pytest.raises(InputError, match="both"):
+        HubLoads.read(tmp_path / "a.csv", decimal=",", thousands=",")

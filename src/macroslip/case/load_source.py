@@ -11,8 +11,11 @@ from macroslip.input.fields import Choice, Quantity, Text, Vector
 from macroslip.input.section import input_section
 from macroslip.input.units import FORCE, MOMENT, SPEED, TIME
 from macroslip.loads import BearingLoads, HubLoads, RollerLoads, bundled_cases
+from macroslip.loads.csv_text import DECIMAL_MARKS, THOUSANDS_MARKS
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "roller_loads", "hub", "main_bearing")
+#: Keys that say how loads are read from a file.
+CUT_KEYS = ("start", "end", "shaft_speed", "decimal", "thousands")
 
 # Advice for programs, in the words of a case file.
 _ADVICE = {
@@ -71,6 +74,13 @@ class LoadSource:
         float | None,
         Quantity("constant shaft speed in place of the one in the file", SPEED, -100.0, 100.0),
     ] = None
+    decimal: Annotated[
+        str | None, Choice("mark before the decimals of a CSV table", lambda: DECIMAL_MARKS)
+    ] = None
+    thousands: Annotated[
+        str | None,
+        Choice("mark between groups of three digits in a CSV table", lambda: THOUSANDS_MARKS),
+    ] = None
 
     @property
     def key(self) -> str:
@@ -78,13 +88,9 @@ class LoadSource:
         return next(key for key in LOAD_SOURCES if getattr(self, key) is not None)
 
     @property
-    def cut(self) -> dict[str, float]:
-        """Part of the series to read [s], and the speed of files that have none [rad/s], as far as they are given."""
-        return {
-            key: getattr(self, key)
-            for key in ("start", "end", "shaft_speed")
-            if getattr(self, key) is not None
-        }
+    def cut(self) -> dict[str, Any]:
+        """Keys that say how a file is read, as far as they are given [s], [rad/s]."""
+        return {key: getattr(self, key) for key in CUT_KEYS if getattr(self, key) is not None}
 
     def series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
         """Read or make the loads; relative paths start at `folder`."""
@@ -114,6 +120,11 @@ class LoadSource:
                 )
             return (HubLoads if key == "hub" else BearingLoads).constant(**asdict(value))
         if key == "bundled":
+            if marks := cut.keys() & {"decimal", "thousands"}:
+                raise InputError(
+                    f"{' and '.join(sorted(marks))} would say how numbers are written in a file",
+                    remedy="Remove them; a bundled case is no CSV table.",
+                )
             return HubLoads.bundled(value).window(cut.get("start"), cut.get("end"))
         if not (folder / value).exists():
             remedy = f"Relative paths start at {folder.resolve()}."

@@ -67,6 +67,10 @@ def inspect(
     shaft_speed: Annotated[
         str | None, typer.Option(help="Constant shaft speed, in place of the file's: '20 rpm'.")
     ] = None,
+    decimal: Annotated[str, typer.Option(help="Mark before the decimals of a CSV table.")] = "",
+    thousands: Annotated[
+        str, typer.Option(help="Mark between groups of three digits in a CSV table.")
+    ] = "",
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="A picture of the loads to write: .png, .svg or .pdf."),
@@ -102,7 +106,8 @@ def inspect(
     # The case file's drivetrain, or the default one, with single values replaced.
     own = {name: value for name, value in own.items() if value is not None}
     drivetrain = replace(base.drivetrain if base else Drivetrain(), **own)
-    found, loads, bearing = _read(file, speed, drivetrain, bearings[1:])
+    marks = {"decimal": decimal, "thousands": thousands}
+    found, loads, bearing = _read(file, speed, marks, drivetrain, bearings[1:])
     doubts = doubtful_loads(loads, base.bearing if base else None)
     if as_json:
         print_json(found | {"doubtful": doubts})
@@ -122,7 +127,11 @@ command(loads, inspect)
 
 
 def _read(
-    file: Path, speed: float | None, drivetrain: Drivetrain, others: Sequence[str]
+    file: Path,
+    speed: float | None,
+    marks: dict[str, str],
+    drivetrain: Drivetrain,
+    others: Sequence[str],
 ) -> tuple[dict[str, Any], HubLoads | BearingLoads, BearingLoads]:
     """Texts on a file, its loads, and its load on the main bearing; of `others` texts alone."""
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
@@ -134,9 +143,9 @@ def _read(
                 where=str(file),
                 remedy="Write the speed into the table's column.",
             )
-        bearing = BearingLoads.read(file)
+        bearing = BearingLoads.read(file, **marks)
         return _described(bearing, "load on the main bearing"), bearing, bearing
-    hub = HubLoads.read(file, shaft_speed=speed)
+    hub = HubLoads.read(file, shaft_speed=speed, **marks)
     bearing = main_bearing_load(hub, drivetrain)
     found = _described(hub, "hub loads in non-rotating shaft axes")
     found["reading"] = list(hub.reading)
@@ -163,7 +172,7 @@ def _holds_bearing_loads(file: Path) -> bool:
     ):  # a pipe would wait for ever
         return False
     try:
-        return any(name.strip().startswith("F_X0") for name in open_table(file).column_names)
+        return any(name.startswith("F_X0") for name in open_table(file).names)
     except InputError:
         return False
 

@@ -6,6 +6,7 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import partial
 from numbers import Real
 from typing import Any, ClassVar, Self
 
@@ -17,6 +18,7 @@ from macroslip.files import reading
 from macroslip.input.units import is_finite_number
 from macroslip.loads.bladed import read_bladed
 from macroslip.loads.bundled import bundled_case
+from macroslip.loads.csv_text import csv_number_format
 from macroslip.loads.hawc2 import read_hawc2
 from macroslip.loads.openfast import read_openfast
 from macroslip.loads.source_file import DAMAGED, RPM, source_file
@@ -216,6 +218,8 @@ class HubLoads(History):
         start: float | None = None,
         end: float | None = None,
         shaft_speed: float | None = None,
+        decimal: str = "",
+        thousands: str = "",
     ) -> HubLoads:
         """Read output of OpenFAST, Bladed or HAWC2, or a table with units in its column names (Parquet, CSV).
 
@@ -232,11 +236,18 @@ class HubLoads(History):
             Keep only this part of the file [s], on the file's own time axis. What lies outside is not validated.
         shaft_speed : float, optional
             Constant shaft speed [rad/s] in place of the file's; needed where the file has none.
+        decimal, thousands : str, optional
+            Marks in the numbers of a CSV table, found out by default: before the decimals "." or
+            ",", between groups of three digits ".", ",", "'" or a space.
         """
         path, extension = source_file(path, _HUB_FILES)
+        number_format = csv_number_format(path, decimal, thousands)
+        reader = _READERS.get(extension, read_bladed)
+        if number_format is not None:
+            reader = partial(read_hub_table, number_format=number_format)
         # Numbers that are not finite are reported with their channel and time, without NumPy's warnings before.
         with reading(path, DAMAGED), np.errstate(all="ignore"):
-            columns = _READERS.get(extension, read_bladed)(path, speed_needed=shaft_speed is None)
+            columns = reader(path, speed_needed=shaft_speed is None)
         taken = columns.pop("reading")
         if shaft_speed is not None:
             columns["shaft_speed"] = np.full(columns["time"].shape, shaft_speed)
@@ -307,16 +318,24 @@ class BearingLoads(History):
 
     @classmethod
     def read(
-        cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        start: float | None = None,
+        end: float | None = None,
+        decimal: str = "",
+        thousands: str = "",
     ) -> BearingLoads:
-        """Read a table of main-bearing loads (``.parquet``, ``.csv``) with units in its column names.
+        """Read a table of main-bearing loads with units in its column names (Parquet, CSV).
 
-        `macroslip.loads.table` says which columns are needed. `start` and `end` [s], and errors: as `HubLoads.read`.
+        `macroslip.loads.table` says which columns are needed. Parameters and errors are those of
+        `HubLoads.read`.
         """
         remedy = "Hub loads from OpenFAST become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())."
         path, _ = source_file(path, _TABLES, remedy)
+        number_format = csv_number_format(path, decimal, thousands)
         with reading(path, DAMAGED), np.errstate(all="ignore"):
-            columns = read_bearing_table(path)
+            columns = read_bearing_table(path, number_format)
         return cls(**cut(columns, start, end, str(path)), source=str(path))
 
 

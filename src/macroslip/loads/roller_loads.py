@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from macroslip.errors import InputError
 from macroslip.files import reading
+from macroslip.loads.csv_text import csv_number_format
 from macroslip.loads.history import BearingLoads, History, cut
 from macroslip.loads.source_file import DAMAGED, RPM, source_file
 from macroslip.loads.table import open_table
@@ -82,53 +83,61 @@ class RollerLoads(History):
 
     @classmethod
     def read(
-        cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        start: float | None = None,
+        end: float | None = None,
+        decimal: str = "",
+        thousands: str = "",
     ) -> RollerLoads:
         """Read a table (``.csv``, ``.parquet``) with the columns time_s, shaft_speed_rpm, row, angle_deg and load_N.
 
-        One line for each time, row and place, in any order; row is downwind or upwind. `start` and `end` [s]: as
-        `HubLoads.read`. Raises InputError if the file cannot be read, lacks a column, or has not as many places in each
+        One line for each time, row and place, in any order; row is downwind or upwind. The other
+        parameters are those of `HubLoads.read`. Raises InputError if the file cannot be read, lacks a column, or has not as many places in each
         row at each time.
         """
         path, _ = source_file(
             path, {".csv": "table", ".parquet": "table"}, "Columns: " + ", ".join(COLUMNS)
         )
+        number_format = csv_number_format(path, decimal, thousands)
         with reading(path, DAMAGED):
-            table = open_table(path).to_pandas().rename(columns=str.strip)
-        missing = [name for name in COLUMNS if name not in table]
+            table = open_table(path, number_format)
+        missing = [name for name in COLUMNS if name not in table.names]
         if missing:
-            what = f"no column {', '.join(missing)}. The columns are: {', '.join(map(str, table.columns))}"
+            what = f"no column {', '.join(missing)}. The columns are: {', '.join(table.names)}"
             raise InputError(
                 what,
                 where=str(path),
                 allowed=", ".join(COLUMNS),
                 remedy="Add or rename the columns.",
             )
-        strange = sorted({str(name) for name in table.row} - set(ROW_NAMES))
+        rows = table.texts(table.names.index("row"))
+        strange = sorted({str(row) for row in rows} - set(ROW_NAMES))
         if strange:
             raise InputError(
                 f"row is {strange[0]}", where=str(path), allowed=" or ".join(ROW_NAMES)
             )
-        table = table.assign(row=table.row.map(ROW_NAMES.index)).sort_values(
-            ["time_s", "row", "angle_deg"]
-        )
-        counts = table.groupby(["time_s", "row"]).size()
-        if counts.size != 2 * table.time_s.nunique() or counts.nunique() != 1:
+        names = [name for name in COLUMNS if name != "row"]
+        with reading(path, DAMAGED):
+            numbers = table.numbers([table.names.index(name) for name in names])
+        import pandas as pd
+
+        places = pd.DataFrame(dict(zip(names, numbers, strict=True)))
+        places["row"] = [ROW_NAMES.index(str(row)) for row in rows]
+        places = places.sort_values(["time_s", "row", "angle_deg"])
+        counts = places.groupby(["time_s", "row"]).size()
+        times = places.time_s.nunique()
+        if counts.size != 2 * times or counts.nunique() != 1:
             raise InputError(
-                f"rows have {counts.min()} to {counts.max()} places, {counts.size} rows at {table.time_s.nunique()} times",
+                f"rows have {counts.min()} to {counts.max()} places, "
+                f"{counts.size} rows at {times} times",
                 where=str(path),
                 allowed="as many places in both rows at every time",
                 remedy="Give places without load as well, with 0 N.",
             )
-        try:
-            numbers = table[["time_s", "shaft_speed_rpm", "angle_deg", "load_N"]].to_numpy(float)
-        except ValueError as error:
-            raise InputError(
-                f"a value is no number ({error})", where=str(path), allowed="numbers"
-            ) from None
-        time, speed, angle, load = numbers.reshape(
-            -1, len(ROW_NAMES), int(counts.iloc[0]), 4
-        ).transpose(3, 0, 1, 2)
+        shape = (-1, len(ROW_NAMES), int(counts.iloc[0]))
+        time, speed, angle, load = (places[name].to_numpy().reshape(shape) for name in names)
         if np.ptp(speed, axis=(1, 2)).any():
             raise InputError(
                 "the shaft has two speeds at one time",

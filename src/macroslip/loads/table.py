@@ -1,99 +1,189 @@
-"""Load histories from a table, Parquet or CSV, whose column names carry the unit: quantity, underscore, unit.
+"""Load histories from a table, Parquet or CSV, whose columns carry quantity and unit in their names.
 
-Of each quantity one column, spelled exactly so; other columns are ignored.
+A name is quantity, underscore, unit. Of each quantity there is one column; others are ignored.
 
-====================================================  =========================================================
-time                                                  ``time_s``
-shaft speed (``shaft_speed`` or ``rotor_speed``)      ``…_rpm``, ``…_rad_s``, ``…_radps``
-hub force ``fx``, ``fy``, ``fz``                      ``…_N``, ``…_kN``
-hub moment ``mx``, ``my``, ``mz``                     ``…_Nm``, ``…_kNm``
-main-bearing force ``F_X0``, ``F_Y0``, ``F_Z0``       ``…_N``, ``…_kN``
-====================================================  =========================================================
+=============================================  =====================================
+time                                           ``time_s``
+shaft speed (``shaft_speed``/``rotor_speed``)  ``…_rpm``, ``…_rad_s``, ``…_radps``
+hub force ``fx``, ``fy``, ``fz``               ``…_N``, ``…_kN``
+hub moment ``mx``, ``my``, ``mz``              ``…_Nm``, ``…_kNm``
+main-bearing force ``F_X0``, ``F_Y0``, ``F_Z0``  ``…_N``, ``…_kN``
+=============================================  =====================================
 
-A hub-load table holds time, speed and the six hub loads; a bearing-load table holds time, speed and the three
-main-bearing forces. CSV: one header line; commas between columns and decimal points, or semicolons or tabs between columns and
-either decimal mark.
+A table of hub loads holds time, speed and the six hub loads; a table of bearing loads holds time,
+speed and the three main-bearing forces. A unit may stand in brackets, ``fx [kN]``, and channels of
+OpenFAST in fixed axes may have their own names, ``LSShftFxa_[kN]``, as tools export them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
+from macroslip.loads.csv_text import NumberFormat, read_csv
 from macroslip.loads.source_file import FORCE, MOMENT, RPM
 
-#: Names of a quantity, and the factors of its units.
-_Choice = tuple[tuple[str, ...], Mapping[str, float]]
-_BASE: dict[str, _Choice] = {
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+#: Names of the quantities in time, and the factors of their units.
+_BASE = {
     "time": (("time",), {"s": 1.0}),
     "shaft_speed": (("shaft_speed", "rotor_speed"), {"rpm": RPM, "rad_s": 1.0, "radps": 1.0}),
 }
+_UNITS = {"force": FORCE, "moment": MOMENT}
 _HUB_VECTORS = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}
 _BEARING_VECTORS = {"force": ("F_X0", "F_Y0", "F_Z0")}
+#: Channels of OpenFAST in the fixed axes of the shaft, in lower case, and their quantities.
+_OPENFAST = {
+    "time": "time",
+    "rotspeed": "rotor_speed",
+    "lsshftfxa": "fx",
+    "lsshftfxs": "fx",
+    "rotthrust": "fx",
+    "lsshftfys": "fy",
+    "lssgagfys": "fy",
+    "lsshftfzs": "fz",
+    "lssgagfzs": "fz",
+    "lsshftmxa": "mx",
+    "lsshftmxs": "mx",
+    "rottorq": "mx",
+    "lsstipmys": "my",
+    "lsstipmzs": "mz",
+}
+_IN_BRACKETS = re.compile(r"(?P<name>.*?)[ _]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
-def read_hub_table(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the hub.
+class Table(Protocol):
+    """Table of a file: names of its columns, and their content by index."""
 
-    Without a column for it, `shaft_speed` is left out unless it is needed; `reading` names the columns.
+    @property
+    def names(self) -> list[str]:
+        """Names of the columns."""
+        ...
+
+    def texts(self, index: int) -> list[str | None]:
+        """Cells of a column as text."""
+        ...
+
+    def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
+        """Values of columns; NaN where a cell is empty."""
+        ...
+
+
+def read_hub_table(
+    path: Path, *, speed_needed: bool = True, number_format: NumberFormat | None = None
+) -> dict:
+    """Read a table of hub loads.
+
+    Parameters
+    ----------
+    path : Path
+        Parquet or CSV file.
+    speed_needed : bool
+        True if a table without a column of the shaft speed is refused.
+    number_format : NumberFormat, optional
+        Marks in the numbers of a CSV file.
+
+    Returns
+    -------
+    dict
+        time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the hub,
+        and `reading`, the names of their columns.
+
+    Raises
+    ------
+    InputError
+        If a column is missing, is there twice, has no known unit, or holds no numbers.
     """
     remedy = "This table holds main-bearing loads: read it with BearingLoads.read."
-    return _read(path, _HUB_VECTORS, "F_X0", remedy, () if speed_needed else ("shaft_speed",))
+    optional = () if speed_needed else ("shaft_speed",)
+    return _read(open_table(path, number_format), path, _HUB_VECTORS, ("F_X0", remedy), optional)
 
 
-def read_bearing_table(path: Path) -> dict[str, NDArray[np.float64]]:
+def read_bearing_table(
+    path: Path, number_format: NumberFormat | None = None
+) -> dict[str, NDArray[np.float64]]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s] and force (n, 3) [N] on the inner ring."""
     remedy = "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
-    columns = _read(path, _BEARING_VECTORS, "fx", remedy)
+    columns = _read(open_table(path, number_format), path, _BEARING_VECTORS, ("fx", remedy))
     del columns["reading"]
     return columns
 
 
 def _read(
+    table: Table,
     path: Path,
     vectors: Mapping[str, tuple[str, ...]],
-    other_kind: str,
-    other_remedy: str,
+    other_kind: tuple[str, str],
     optional: tuple[str, ...] = (),
 ) -> dict:
-    """Arrays in SI units, and `reading`: the names of the columns they are from."""
-    table = open_table(path)
-    names = [name.strip() for name in table.column_names]
-    units = {"force": FORCE, "moment": MOMENT}
+    """Arrays in SI units, and `reading`: the names of the columns they are from.
+
+    `other_kind`: a quantity of the other kind of table, and the advice for such a table.
+    """
+    names = [_spelled(name) for name in table.names]
     quantities = dict(_BASE)
     for field, components in vectors.items():
-        quantities |= {name: ((name,), units[field]) for name in components}
-    found = {
-        quantity: _find(names, quantity, *choice, str(path))
+        quantities |= {name: ((name,), _UNITS[field]) for name in components}
+    columns = {
+        quantity: _find(names, table.names, quantity, _spellings(*choice), str(path))
         for quantity, choice in quantities.items()
     }
     missing = [
         " or ".join(_spellings(*quantities[quantity]))
-        for quantity, place in found.items()
-        if place is None and quantity not in optional
+        for quantity, column in columns.items()
+        if column is None and quantity not in optional
     ]
     if missing:
-        other = any(name.startswith(f"{other_kind}_") for name in names)
+        other_name, other_remedy = other_kind
+        other = any(name.startswith(f"{other_name}_") for name in names)
         raise InputError(
-            f"no column for {'; '.join(missing)}. The columns are: {', '.join(names) or 'none'}",
+            f"no column for {'; '.join(missing)}. "
+            f"The columns are: {', '.join(table.names) or 'none'}",
             where=str(path),
             remedy=other_remedy
             if other
-            else "Add or rename the columns; the unit is part of the name.",
+            else "Add or rename the columns; the unit is part of the name, as in time_s and fx_kN.",
         )
-    chosen = {quantity: place for quantity, place in found.items() if place is not None}
-    columns = {
-        name: _values(table, *place, name == "time", str(path)) for name, place in chosen.items()
-    }
-    result: dict = {name: columns[name] for name in _BASE if name in columns}
-    result |= {
-        field: np.column_stack([columns[name] for name in vectors[field]]) for field in vectors
-    }
-    return result | {"reading": tuple(names[i] for i, _ in chosen.values())}
+    chosen = {quantity: column for quantity, column in columns.items() if column is not None}
+    numbers = table.numbers([index for index, _ in chosen.values()])
+    factors = [factor for _, factor in chosen.values()]
+    values = np.column_stack(numbers) * factors
+    values = values[: _filled_rows(values)]
+    series = dict(zip(chosen, values.T, strict=True))
+    result: dict = {name: series[name] for name in _BASE if name in series}
+    for field, components in vectors.items():
+        result[field] = np.column_stack([series[name] for name in components])
+    return result | {"reading": tuple(table.names[index] for index, _ in chosen.values())}
+
+
+def _filled_rows(values: NDArray[np.float64]) -> int:
+    """Number of rows before the empty ones at the end, which spreadsheets leave."""
+    filled = np.flatnonzero(~np.isnan(values).all(axis=1))
+    return int(filled[-1]) + 1 if filled.size else 0
+
+
+def _spelled(name: str) -> str:
+    """Name of a column as quantity, underscore, unit.
+
+    Examples
+    --------
+    >>> _spelled("LSShftMxa_[kN-m]"), _spelled("fx (kN)"), _spelled("fx_kN")
+    ('mx_kNm', 'fx_kN', 'fx_kN')
+    """
+    brackets = _IN_BRACKETS.fullmatch(name.strip())
+    if brackets is None:
+        return name.strip()
+    quantity = _OPENFAST.get(brackets["name"].lower(), brackets["name"])
+    return f"{quantity}_{re.sub('[-·* ]', '', brackets['unit']).replace('/', '_')}"
 
 
 def _spellings(prefixes: tuple[str, ...], factors: Mapping[str, float]) -> dict[str, float]:
@@ -102,104 +192,109 @@ def _spellings(prefixes: tuple[str, ...], factors: Mapping[str, float]) -> dict[
 
 def _find(
     names: list[str],
+    original_names: list[str],
     quantity: str,
-    prefixes: tuple[str, ...],
-    factors: Mapping[str, float],
+    spellings: Mapping[str, float],
     where: str,
 ) -> tuple[int, float] | None:
     """Column of a quantity and the factor that makes it SI; None if there is none."""
-    spellings = _spellings(prefixes, factors)
-    found = [i for i, name in enumerate(names) if name in spellings]
-    if len(found) > 1:
+    matches = [index for index, name in enumerate(names) if name in spellings]
+    if len(matches) > 1:
         raise InputError(
-            f"columns {' and '.join(names[i] for i in found)} both give {quantity}",
+            f"columns {' and '.join(original_names[index] for index in matches)} "
+            f"both give {quantity}",
             where=where,
             allowed=f"one of {', '.join(spellings)}",
             remedy="Remove or rename all but one of them.",
         )
-    if found:
-        return found[0], spellings[names[found[0]]]
-    near = [
-        name
-        for name in names
-        if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes)
-    ]
-    if near:
-        raise InputError(
-            f"column {near[0]} has no known unit",
-            where=where,
-            allowed=", ".join(spellings),
-            remedy="Convert the values and rename the column.",
-        )
+    if matches:
+        return matches[0], spellings[names[matches[0]]]
+    prefixes = {spelling.removesuffix(f"_{spelling.rpartition('_')[2]}") for spelling in spellings}
+    for name, original in zip(names, original_names, strict=True):
+        if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes):
+            raise InputError(
+                f"column {original} has no known unit",
+                where=where,
+                allowed=", ".join(spellings),
+                remedy="Convert the values and rename the column.",
+            )
     return None
 
 
-def _values(table, index: int, factor: float, is_time: bool, where: str) -> NDArray[np.float64]:
+@dataclass(frozen=True)
+class _ParquetTable:
+    """Table of a Parquet file."""
+
+    columns: pa.Table
+    where: str
+
+    @property
+    def names(self) -> list[str]:
+        return [name.strip() for name in self.columns.column_names]
+
+    def texts(self, index: int) -> list[str | None]:
+        return [None if cell is None else str(cell) for cell in self.columns[index].to_pylist()]
+
+    def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
+        return [self._values(index) for index in indices]
+
+    def _values(self, index: int) -> NDArray[np.float64]:
+        import pyarrow as pa
+
+        column = self.columns.column(index)
+        kind = column.type
+        if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
+            raise InputError(
+                f"column {self.names[index]} holds {kind}, not numbers",
+                where=self.where,
+                allowed="numbers",
+                remedy="Convert the column: times to seconds, text to numbers.",
+            )
+        # Empty cells become NaN here and are reported with their time.
+        values = column.cast(pa.float64()).to_numpy()
+        is_time = _spelled(self.names[index]) == "time_s"
+        return _rebuild_uniform(values) if is_time and kind == pa.float32() else values
+
+
+def open_table(path: Path, number_format: NumberFormat | None = None) -> Table:
+    """Table of a Parquet or CSV file; InputError if it is none.
+
+    `number_format` are the marks in the numbers of a CSV file, which by default are found out.
+    """
     import pyarrow as pa
+    import pyarrow.parquet as pq
 
-    column = table.column(index)
-    kind = column.type
-    if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
-        raise InputError(
-            f"column {table.column_names[index].strip()} holds {kind}, not numbers",
-            where=where,
-            allowed="numbers, all with the same decimal mark",
-            remedy="Look for text among the values, such as a second header line or a unit line.",
-        )
-    # Empty cells become NaN here and are reported with their time.
-    values = column.cast(pa.float64()).to_numpy() * factor
-    return _rebuild_uniform(values) if is_time and kind == pa.float32() else values
-
-
-def open_table(path: Path):
-    """The table of a Parquet or CSV file, of pyarrow; refuses what is none."""
-    import pyarrow as pa
-
+    is_csv = path.suffix.lower() == ".csv"
     try:
-        if path.suffix.lower() == ".csv":
-            table = _csv(path)
-        else:
-            import pyarrow.parquet as pq
-
-            with pq.ParquetFile(path) as file:
-                table = file.read()
-        table.column_names  # noqa: B018  # names that are no UTF-8 fail here
+        if is_csv:
+            return read_csv(path, number_format)
+        with pq.ParquetFile(path) as file:
+            table = _ParquetTable(file.read(), str(path))
+        table.names  # noqa: B018  # names that are no UTF-8 fail here
         return table
+    except InputError:
+        raise
     except (pa.ArrowException, OSError, ValueError) as error:
-        kind = "CSV" if path.suffix.lower() == ".csv" else "Parquet"
-        what = f"not readable as a {kind} table ({error})"
-        remedy = "Write or copy the file again, if it was cut off, and text as UTF-8."
-        raise InputError(what, where=str(path), remedy=remedy) from error
-
-
-def _csv(path: Path):
-    """A table of text. The header tells what separates columns; where that is no comma, decimals may have one."""
-    import pyarrow as pa
-    from pyarrow import csv
-
-    with path.open("rb") as file:
-        header = file.readline(100_000)
-    separator = max(",;\t", key=lambda one: header.count(one.encode()))
-    table, *others = (
-        csv.read_csv(
-            path, parse_options=csv.ParseOptions(delimiter=separator),
-            convert_options=csv.ConvertOptions(decimal_point=mark),
-        )
-        for mark in (".," if separator != "," else ".")
-    )  # fmt: skip
-    return min((table, *others), key=lambda one: sum(map(pa.types.is_string, one.schema.types)))
+        kind = "CSV" if is_csv else "Parquet"
+        raise InputError(
+            f"not readable as a {kind} table ({error})",
+            where=str(path),
+            remedy="Write or copy the file again, if it was cut off, and text as UTF-8.",
+        ) from error
 
 
 def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The uniform axis that a float32 time column was rounded from, or the column itself if it is not uniform.
+    """Uniform axis that a float32 time column was rounded from; a column that is not uniform as it is.
 
-    At 600 s neighbouring float32 numbers are 6e-5 s apart, which would give a 50 Hz record steps that vary by 0.3 %.
+    At 600 s neighbouring float32 numbers are 6e-5 s apart, which would give a record of 50 Hz steps
+    that vary by 0.3 %.
 
     Examples
     --------
     >>> exact = np.arange(30000) / 50
     >>> rounded = exact.astype(np.float32).astype(float)
-    >>> print(f"{abs(np.diff(rounded) - 0.02).max():.0e} {abs(_rebuild_uniform(rounded) - exact).max():.0e}")
+    >>> rebuilt = _rebuild_uniform(rounded)
+    >>> print(f"{abs(np.diff(rounded) - 0.02).max():.0e} {abs(rebuilt - exact).max():.0e}")
     4e-05 0e+00
     """
     if time.size < 3 or not np.isfinite(time).all():
@@ -207,8 +302,9 @@ def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:
     step = (time[-1] - time[0]) / (time.size - 1)
     if step <= 0:
         return time
-    # First stamp, rate and step are round numbers as a rule: prefer those, where the stamps allow it.
-    first = float(str(np.float32(time[0])))  # the shortest decimal that rounds to the stored number
+    # First stamp, rate and step are round numbers as a rule: prefer those, where stamps allow it.
+    # The shortest decimal that rounds to the stored number:
+    first = float(str(np.float32(time[0])))
     rate = max(1, round(1.0 / step))
     index = np.arange(time.size, dtype=float)
     tolerance = float(np.spacing(np.float32(np.abs(time).max())))

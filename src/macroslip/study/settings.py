@@ -43,8 +43,6 @@ _TOGETHER = {"lubricant.at": "inlet_temperature"}
 #: Keys of a case that have a key of their own in a study.
 _ELSEWHERE = {"loads": "loads", "bearing": "bearings", "lubricant": "lubricants"}
 _QUANTITY = re.compile(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,])\s*(?P<unit>\S.*?)\s*")
-#: Keys of the base case's loads: what to read of each file, and the speed of files that have none.
-CUT_KEYS = ("start", "end", "shaft_speed")
 #: Used in place of the loads until they are read: so long that any window lies within it.
 _ANY_LOADS = BearingLoads(np.array([-1e10, 1e10]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
 METHODS = ("latin-hypercube", "sobol")
@@ -206,14 +204,14 @@ def template(
     keep: Sequence[str] | None = None,
     source: Source | None = None,
     folder: Path | None = None,
-) -> tuple[Case, dict[str, float]]:
+) -> tuple[Case, dict[str, Any]]:
     """A case with everything but its loads, and how to read them.
 
-    The base case is the mapping of a case file, of `loads` only start, end and shaft_speed; settings and records stand in place
-    of its values. Details of contacts are recorded only where variables to keep are among them. Source and folder are where
+    The base case is the mapping of a case file, of `loads` only `CUT_KEYS`; settings and records stand
+    in place of its values. Details of contacts are recorded only where variables to keep are among them. Source and folder are where
     the mapping was written and where relative paths start. Raises InputError if anything but the loads is wrong.
     """
-    cut: dict[str, float] = {}
+    cut: dict[str, Any] = {}
 
     def unread(given: LoadSource) -> BearingLoads:
         cut.update(given.cut)
@@ -229,10 +227,11 @@ def template(
     return replace(case, **changed, contact_details=details), cut
 
 
-def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | BearingLoads:
+def read_loads(source: str, path: str, cut: Mapping[str, Any]) -> HubLoads | BearingLoads:
     """Read the loads of a run: a `file`, `bearing_file`, or `bundled` case.
 
-    The cut has `start` and `end` [s], if the loads are to be cut, and `shaft_speed` [rad/s] of files without one. Raises
+    The cut has `start` and `end` [s], if the loads are to be cut, `shaft_speed` [rad/s] of files
+    without one, and `decimal` and `thousands` of CSV tables. Raises
     InputError if they cannot be used, or a file cannot be read.
     """
     try:

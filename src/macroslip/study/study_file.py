@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from macroslip.case.case import BALANCE, Case
+from macroslip.case.load_source import CUT_KEYS
 from macroslip.case.parts import Heat
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Form, Text, Texts
@@ -23,7 +24,7 @@ from macroslip.input.section import MappingOf, input_section, read_all, read_fie
 from macroslip.result.heat_balance import at_balance
 from macroslip.result.variables import VARIABLES
 from macroslip.study.loads_list import Load, LoadList, load_list
-from macroslip.study.settings import CUT_KEYS, RECORDS, Sample, Setting, template
+from macroslip.study.settings import RECORDS, Sample, Setting, template
 from macroslip.study.weights import Weighting
 
 LOAD_SOURCES = ("files", "table", "bundled")
@@ -83,7 +84,7 @@ class Study:
     title: str
     #: Where relative paths of load files start.
     folder: Path
-    #: Base case: keys of a case file, of `loads` only start, end and shaft_speed.
+    #: Base case: keys of a case file, of `loads` only `CUT_KEYS`.
     case: Mapping[str, Any]
     loads: LoadList
     #: By the names the study has for them.

@@ -1,0 +1,313 @@
+"""Tables of text (CSV) as different programs write them: encoding, header, separator, number format.
+
+Encoding: UTF-8, UTF-16 with its mark, or else Latin-1. Above the header may stand comment lines
+(``#`` or ``%``), blank lines and the line ``sep=;``; below it a line of units. Columns are separated
+by commas, semicolons or tabs. The columns that are asked for have to be numbers, others need not.
+"""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from macroslip.errors import InputError
+from macroslip.input.messages import shown
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+DECIMAL_MARKS = (".", ",")
+THOUSANDS_MARKS = (".", ",", "'", " ")
+_MARK_NAMES = {".": "point", ",": "comma", "'": "apostrophe", " ": "space"}
+_SEPARATORS = ",;\t"
+_COMMENT = re.compile(r"^[ \t]*[#%].*\n?", re.MULTILINE)
+_SEPARATOR_LINE = re.compile(r'"?sep=(.)"?', re.IGNORECASE)
+_EXPONENT = r"([eEdD][+-]?\d+)?"
+_DATE = re.compile(r"\d{4}-\d\d-\d\d|\d\d?[./]\d\d?[./]\d\d|\d\d?:\d\d")
+
+
+@dataclass(frozen=True)
+class NumberFormat:
+    """Marks in the numbers of a table of text; an empty one is found out from the numbers."""
+
+    decimal: str = ""  #: Mark before the decimals, one of `DECIMAL_MARKS`
+    thousands: str = ""  #: Mark between groups of three digits, one of `THOUSANDS_MARKS`
+
+    def __post_init__(self) -> None:
+        allowed = {"decimal": DECIMAL_MARKS, "thousands": THOUSANDS_MARKS}
+        for key, marks in allowed.items():
+            mark = getattr(self, key)
+            if mark and mark not in marks:
+                raise InputError(
+                    f"{key} is {shown(mark)}",
+                    allowed=" or ".join(f'"{one}"' for one in marks),
+                )
+        if self.thousands and self.thousands == self.decimal:
+            raise InputError(
+                f'decimal and thousands are both "{self.decimal}"',
+                allowed="two different marks",
+                remedy="Correct one of them, or leave one out.",
+            )
+
+
+def csv_number_format(path: Path, decimal: str, thousands: str) -> NumberFormat | None:
+    """Number format of a CSV file, None if no mark is given; other files have no such marks."""
+    if not (decimal or thousands):
+        return None
+    if path.suffix.lower() != ".csv":
+        raise InputError(
+            "decimal or thousands is given for a file that is no CSV table",
+            where=str(path),
+            remedy="Leave it out.",
+        )
+    return NumberFormat(decimal, thousands)
+
+
+@dataclass(frozen=True)
+class CsvTable:
+    """Table of a CSV file; its cells stay text until their column is asked for."""
+
+    names: list[str]  #: Names of the columns; a unit from the line of units stands behind the name.
+    cells: pa.Table  #: Text without surrounding blanks, null where a cell is empty.
+    separator: str
+    where: str  #: Path of the file, for errors.
+    number_format: NumberFormat = field(default_factory=NumberFormat)
+
+    def texts(self, index: int) -> list[str | None]:
+        """Cells of a column."""
+        return self.cells.column(index).to_pylist()
+
+    def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
+        """Values of columns; NaN where a cell is empty."""
+        columns = {index: self.cells.column(index) for index in indices}
+        decimal = self._decimal_mark(columns)
+        return [self._parsed(self.names[index], columns[index], decimal) for index in indices]
+
+    def _decimal_mark(self, columns: dict[int, pa.ChunkedArray]) -> str:
+        """Decimal mark of all columns, as given or as they have it; refuses what is ambiguous."""
+        known = self.number_format
+        if known.decimal:
+            return known.decimal
+        if known.thousands:
+            return "," if known.thousands == "." else "."
+        examples = {
+            mark: (self.names[index], cell)
+            for index, column in columns.items()
+            for mark in DECIMAL_MARKS
+            if (cell := _first(column, f"{re.escape(mark)}.*")) is not None
+        }
+        if len(examples) == 2:
+            (name, cell), (other_name, other_cell) = examples["."], examples[","]
+            raise self._ambiguous(
+                f"column {name} holds '{cell}' with a point and "
+                f"column {other_name} holds '{other_cell}' with a comma",
+                "Say which separates decimals and which thousands, "
+                'such as loads: {decimal: ",", thousands: "."}',
+            )
+        mark = next(iter(examples), ".")
+        for index, column in columns.items():
+            self._refuse_thousands(self.names[index], column, mark)
+        return mark
+
+    def _refuse_thousands(self, name: str, column: pa.ChunkedArray, mark: str) -> None:
+        """Refuse a column whose mark may separate thousands: -1.080 beside -995."""
+        m = re.escape(mark)
+        grouped = rf"[+-]?[1-9]\d{{0,2}}({m}\d{{3}})+"
+        several = _first(column, rf"[+-]?\d+({m}\d*){{2,}}")
+        marked = _first(column, grouped)
+        if several is None and marked is None:
+            return
+        whole = _first(column, r"[+-]?\d{1,3}")
+        other = _first(column, rf"[+-]?\d{{1,3}}|{grouped}", matches=False)
+        if several is not None:
+            problem = f"column {name} holds '{several}', which has its {_MARK_NAMES[mark]} twice"
+        elif other is not None or (whole is None and mark != self.separator):
+            return
+        else:
+            beside = f" beside '{whole}'" if whole else ""
+            problem = (
+                f"column {name} holds '{marked}'{beside}, "
+                f"where the {_MARK_NAMES[mark]} may separate decimals or thousands"
+            )
+        cell = several or marked or ""
+        remedy = f'Write loads: {{thousands: "{mark}"}} if it means {cell.replace(mark, "")}'
+        if several is None:
+            remedy += f', and loads: {{decimal: "{mark}"}} if it means {cell.replace(mark, ".")}'
+        raise self._ambiguous(problem, remedy)
+
+    def _ambiguous(self, problem: str, remedy: str) -> InputError:
+        return InputError(
+            problem,
+            where=self.where,
+            allowed="one mark for decimals, and none or another one for thousands",
+            remedy=f"{remedy}; in Python decimal=, thousands=; on the command line --decimal, "
+            "--thousands.",
+        )
+
+    def _parsed(self, name: str, column: pa.ChunkedArray, decimal: str) -> NDArray[np.float64]:
+        import pyarrow as pa
+        import pyarrow.compute as pc
+
+        d = re.escape(decimal)
+        if self.number_format.thousands == " ":
+            column = pc.replace_substring_regex(column, "[\u00a0\u2009\u202f]", " ")
+        integer = r"\d+"
+        if thousands := self.number_format.thousands:
+            integer = rf"(\d+|\d{{1,3}}({re.escape(thousands)}\d{{3}})+)"
+        number = rf"[+-]?({integer}({d}\d*)?|{d}\d+){_EXPONENT}"
+        wrong = _first(column, number, matches=False)
+        if wrong is not None:
+            row = pc.index(column, wrong).as_py() + 1
+            raise InputError(
+                f"column {name} holds {shown(wrong)}, not a number, in row {row} of the data",
+                where=self.where,
+                allowed=f"decimal numbers, all with a {_MARK_NAMES[decimal]} before the decimals",
+                remedy=_remedy(wrong),
+            )
+        if thousands:
+            column = pc.replace_substring(column, thousands, "")
+        if decimal != ".":
+            column = pc.replace_substring(column, decimal, ".")
+        column = pc.replace_substring_regex(column, "[dD]", "e")
+        return column.cast(pa.float64()).to_numpy()
+
+
+def _remedy(wrong: str) -> str:
+    if _DATE.match(wrong):
+        return "This is a date or a time of day; write seconds from the start of the record."
+    if "\u2212" in wrong:
+        return "It has the minus sign U+2212; write a hyphen, -, in its place."
+    if "*" in wrong:
+        return "The number did not fit into its field; write it with a wider format."
+    return "Look for text among the values, such as a second header line, and for decimal marks."
+
+
+def _first(column: pa.ChunkedArray, pattern: str, *, matches: bool = True) -> str | None:
+    """First cell with a part that the pattern finds or, with `matches=False`, that it is not all of."""
+    import pyarrow.compute as pc
+
+    whole = pattern if pattern.endswith(".*") else f"^(?:{pattern})$"
+    hits = pc.match_substring_regex(column, whole)
+    found = column.filter(hits if matches else pc.invert(hits))
+    return found[0].as_py() if len(found) else None
+
+
+def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
+    """Read a CSV file as text; InputError if it has no header, or rows of another length."""
+    text = _decoded(path.read_bytes()).replace("\r\n", "\n").replace("\r", "\n")
+    comments = _COMMENT.findall(text)
+    body = _COMMENT.sub("", text).lstrip("\n")
+    first_line, _, below = body.partition("\n")
+    separator_line = _SEPARATOR_LINE.fullmatch(first_line.strip())
+    if separator_line:
+        body = below.lstrip("\n")
+    header, _, rows = body.partition("\n")
+    separator = separator_line[1] if separator_line else max(_SEPARATORS, key=header.count)
+    names = _cells(header, separator)
+    if comments and any(map(_is_number, names)):  # the names stand in a comment, as NumPy has it
+        names = _cells(comments[-1].strip().lstrip("#% "), separator)
+        rows = body
+    if not any(names):
+        raise InputError(
+            "not readable as a CSV table: it has no line with names of columns",
+            where=str(path),
+            remedy="Write the names of the columns into the first line.",
+        )
+    first_row, _, below_units = rows.lstrip("\n").partition("\n")
+    cells = _cells(first_row, separator)
+    if any(cells) and not any(map(_is_number, cells)) and below_units.strip():
+        second_row = _cells(below_units.lstrip("\n").partition("\n")[0], separator)
+        if len(cells) <= len(names) and any(map(_is_number, second_row)):
+            names = [*map(_with_unit, names, cells), *names[len(cells) :]]
+            rows, cells = below_units, second_row
+    if cells:
+        names = _fitted(names, cells)
+    return CsvTable(
+        names,
+        _text_columns(rows, len(names), separator, path),
+        separator,
+        str(path),
+        number_format or NumberFormat(),
+    )
+
+
+def _decoded(content: bytes) -> str:
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return content.decode("utf-16")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("latin-1")
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    row = next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+    return [cell.strip() for cell in row]
+
+
+def _is_number(cell: str) -> bool:
+    return re.fullmatch(rf"[+-]?[\d.,']*\d[\d.,']*{_EXPONENT}", cell) is not None
+
+
+def _with_unit(name: str, unit: str) -> str:
+    """Name of a column with the unit below it, unless the name has this unit already."""
+    unit = unit.strip("[]() ")
+    plain_name, plain_unit = (re.sub(r"[\W_]", "", text) for text in (name, unit))
+    return name if plain_name.endswith(plain_unit) else f"{name} [{unit}]"
+
+
+def _fitted(names: list[str], row: list[str]) -> list[str]:
+    """Names for the cells of a row, where one of the two lines ends with separators."""
+    while len(names) > len(row) and not names[-1]:
+        names = names[:-1]
+    surplus = row[len(names) :]
+    return names if any(surplus) else [*names, *surplus]
+
+
+def _text_columns(rows: str, width: int, separator: str, path: Path) -> pa.Table:
+    import pyarrow as pa
+    import pyarrow.compute as pc
+    from pyarrow import csv as arrow_csv
+
+    names = [str(index) for index in range(width)]
+    if not rows.strip():
+        return pa.table({name: pa.array([], pa.string()) for name in names})
+    refused: list[arrow_csv.InvalidRow] = []
+
+    def refuse(row: arrow_csv.InvalidRow) -> str:
+        refused.append(row)
+        return "error"
+
+    try:
+        table = arrow_csv.read_csv(
+            io.BytesIO(rows.encode()),
+            read_options=arrow_csv.ReadOptions(column_names=names, use_threads=False),
+            parse_options=arrow_csv.ParseOptions(delimiter=separator, invalid_row_handler=refuse),
+            convert_options=arrow_csv.ConvertOptions(
+                column_types=dict.fromkeys(names, pa.string()), strings_can_be_null=True
+            ),
+        )
+    except pa.ArrowInvalid:
+        if not refused:
+            raise
+        row = refused[0]
+        raise InputError(
+            f"not readable as a CSV table: row {row.number} of the data has {row.actual_columns} "
+            f"values, {shown(row.text)}, and the header {width} names",
+            where=str(path),
+            allowed="as many values in every row as the header has names",
+            remedy="Write the file again if it was cut off, delete text above the header, and "
+            "separate columns by semicolons where numbers have decimal commas.",
+        ) from None
+    columns = [pc.utf8_trim_whitespace(column) for column in table.columns]
+    filled = [pc.if_else(pc.equal(column, ""), None, column) for column in columns]
+    return pa.table(filled, names=names)
