@@ -123,6 +123,19 @@ def test_three_results_are_ranked():
     assert ranking.index("result 1 100 % more") < ranking.index("result 3 200 % more")
 
 
+def test_a_bearing_at_standstill_is_compared_without_a_difference_in_per_cent():
+    still = result(0.0)
+    for pair in ((still, result(osculation=0.98)), (result(osculation=0.98), still)):
+        found = compare(*pair)
+        least = 1 + (pair[1] is still)
+        assert found.attrs["ranking"].startswith(
+            f"result {least} dissipates least, 0 J/h ({ENERGY}); result {3 - least} 7200 J/h."
+        )
+    # From nothing to something there is no per cent, from something to nothing it is all of it.
+    assert np.isnan(energies(compare(still, result()))["difference [%]"][1])
+    assert energies(compare(result(), still))["difference [%]"][1] == -100.0
+
+
 def test_a_failed_roller_leaves_its_result_out_of_the_ranking():
     failed = result(1.1, osculation=0.98)
     failed["energy"][0, 0] = np.nan

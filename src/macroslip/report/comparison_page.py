@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from macroslip.report import bearing_figures as draw
 from macroslip.report.page import Opening, Table, number, render, sections, words
+from macroslip.report.ranking import ranking_sentences
 from macroslip.report.style import (
     OPENING,
     Picture,
@@ -36,64 +38,94 @@ def comparison_page(
     found: pd.DataFrame, results: Mapping[str, xr.Dataset] | None = None, *, title: str = ""
 ) -> str:
     """A page on what `macroslip.compare` gives, with curves of the results by name; HTML in one piece."""
-    pictures = []
-    for name, label in (
-        ("orbit_energy", "energy of an orbit [J]"),
-        ("peak_power", "largest power of an orbit [W]"),
-    ):
-        curves = {}
-        for design, one in (results or {}).items():
-            if name in one and one.sizes["orbit"]:
-                every = (
-                    one[name].sum("interface")
-                    if name == "orbit_energy"
-                    else one[name].max("interface")
-                )
-                curves[design] = np.sort(every.values.ravel())[::-1]
-        if curves:
-            about = f"Share of orbits whose {label.partition(' [')[0]} exceeds a value, every result on one scale"
-            pictures.append(picture(_plot_exceeded, about, curves, label, **OPENING))
-    numbers, inputs = comparison_tables(found)
+    results = results or {}
     text = words(_TEMPLATE)
-    opening = Opening(text.answer(found.attrs["ranking"], found.attrs["notes"]), pictures)
-    bodies = {"side": text.shown(numbers)} | ({"inputs": text.shown(inputs)} if inputs.rows else {})
-    if maps := _maps(results or {}):
-        bodies["maps"] = text.maps(maps, any(" − " in one.words for one in maps))
-    title = title or f"Comparison of {', '.join(found['design'].unique()[:_MOST_NAMED])}"
-    return render(title, f"{found.attrs['about']}.", opening, sections(_TEMPLATE, bodies))
+    numbers, inputs = comparison_tables(found)
+    bodies = {"side": text.shown(numbers)}
+    if inputs.rows:
+        bodies["inputs"] = text.shown(inputs)
+    maps, have_differences = _maps(results)
+    if maps:
+        bodies["maps"] = text.maps(maps, have_differences)
+    return render(
+        title or f"Comparison of {', '.join(found['design'].unique()[:_MOST_NAMED])}",
+        f"{found.attrs['about']}.",
+        Opening(text.answer(ranking_sentences(found), found.attrs["notes"]), _exceedances(results)),
+        sections(_TEMPLATE, bodies),
+    )
 
 
-def _maps(results: Mapping[str, xr.Dataset]) -> list[Picture]:
-    """Of every raceway its map in each result, on one scale, and what each has more than the first, on another."""
+def _exceedances(results: Mapping[str, xr.Dataset]) -> list[Picture]:
+    """How many orbits exceed an energy, and a power, with a curve of every result that has orbits."""
+    values = {
+        "energy of an orbit [J]": {
+            name: result.orbit_energy.sum("interface")
+            for name, result in results.items()
+            if "orbit_energy" in result and result.sizes["orbit"]
+        },
+        "largest power of an orbit [W]": {
+            name: result.peak_power.max("interface")
+            for name, result in results.items()
+            if "peak_power" in result and result.sizes["orbit"]
+        },
+    }
+    return [
+        picture(
+            _plot_exceeded,
+            f"Share of orbits beyond a value: {label}, every result on one scale",
+            {name: np.sort(one.values.ravel())[::-1] for name, one in of_results.items()},
+            label,
+            **OPENING,
+        )
+        for label, of_results in values.items()
+        if of_results
+    ]
+
+
+def _maps(results: Mapping[str, xr.Dataset]) -> tuple[list[Picture], bool]:
+    """Of every raceway its map in each result, on one scale, and what each has more than the first, on another.
+
+    With them, whether there are such differences.
+    """
     from macroslip.result.surface_maps import energy_density
 
     rates = {}
-    for name, one in results.items():
-        if "surface_energy" in one:
-            hours = (one.attrs["window_end"] - one.attrs["window_start"]) / 3600.0
-            rates[name] = draw.raceways(energy_density(one) / (hours * one.sizes["roller"]))
+    for name, result in results.items():
+        if "surface_energy" in result:
+            hours = (result.attrs["window_end"] - result.attrs["window_start"]) / 3600.0
+            density = energy_density(result) / (hours * result.sizes["roller"])
+            rates[name] = draw.raceways(density)
     if len(rates) < 2:
-        return []
+        return [], False
+    values = {}
+    differences = {}
     first = next(iter(rates))
-    values, differences = {}, {}
     for raceway, start in rates[first].items():
-        for name, one in rates.items():
-            values[raceway, name] = one[raceway]
-            # Rollers of another length have other places.
-            if name != first and np.allclose(start.station, one[raceway].station):
-                differences[raceway, f"{name} − {first}"] = one[raceway] - start.values
-    drawn = {}
-    for panels, difference in ((values, False), (differences, True)):
-        named = {f"Map of the {raceway}: {name}": (one, "J/mm² in an hour", f"{raceway}\n{name}")
-                 for (raceway, name), one in panels.items()}  # fmt: skip
-        pictures = compared(
-            functools.partial(draw.plot_map, difference=difference), named, width=3.2, height=2.6
-        )
-        drawn |= dict(zip(panels, pictures, strict=True))
-    return [drawn[one] for raceway in rates[first] for one in drawn if one[0] == raceway]
+        for name, maps in rates.items():
+            values[raceway, name] = maps[raceway]
+            # Rollers of another length have other stations.
+            if name != first and np.allclose(start.station, maps[raceway].station):
+                # Angles of different maps may differ in the last bit.
+                differences[raceway, f"{name} − {first}"] = maps[raceway] - start.values
+    drawn = _drawn_maps(values) | _drawn_maps(differences, difference=True)
+    pictures = [drawn[place] for raceway in rates[first] for place in drawn if place[0] == raceway]
+    return pictures, bool(differences)
+
+
+def _drawn_maps(
+    maps: Mapping[tuple[str, str], xr.DataArray], *, difference: bool = False
+) -> dict[tuple[str, str], Picture]:
+    """Maps of raceways on one scale, by raceway and name."""
+    panels = {
+        f"Map of the {raceway}: {name}": (values, "J/mm² in an hour", f"{raceway}\n{name}")
+        for (raceway, name), values in maps.items()
+    }
+    plot = functools.partial(draw.plot_map, difference=difference)
+    return dict(zip(maps, compared(plot, panels, width=3.2, height=2.6), strict=True))
 
 
 def _plot_exceeded(axes: Axes, curves: Mapping[str, np.ndarray], label: str) -> Axes:
+    """Share of orbits whose value exceeds that of the axis, a curve a result; takes falling values."""
     for k, (name, values) in enumerate(curves.items()):
         share = 100.0 * (np.arange(values.size) + 1.0) / values.size
         axes.plot(
@@ -106,43 +138,36 @@ def _plot_exceeded(axes: Axes, curves: Mapping[str, np.ndarray], label: str) -> 
 def comparison_tables(found: pd.DataFrame) -> list[Table]:
     """Headline numbers side by side, and inputs that differ."""
     names = list(dict.fromkeys(found["design"]))
-    rows = []
-    lines = [list(line) for line in found.itertuples(index=False)]
-    # The designs of a quantity follow each other.
-    for start in range(0, len(lines), len(names)):
-        quantity, units, _, first, *_ = lines[start]
-        here = lines[start : start + len(names)]
-        factor, shown = scaled(max(abs(one[3]) for one in here), units)
-        # Lives have their unit beside them: beyond 500 years they are written as such.
-        write = (
-            years
-            if quantity.endswith("life")
-            else lambda value, factor=factor: number(factor * value)
-        )
-        cells = [write(first)]
-        for _, _, _, value, change, low, high in here[1:]:
-            between = f" ({low:.3g} to {high:.3g})" if np.isfinite(low) else ""
-            cells += [
-                write(value),
-                f"{round(change, 9):+.3g}{between}" if np.isfinite(change) else "–",
-            ]
-        rows.append((quantity if write is years else f"{quantity} [{shown}]", *cells))
+    rows = [_line(quantity, designs) for quantity, designs in found.groupby("quantity", sort=False)]
+    has_ranges = bool(np.isfinite(found["low [%]"]).any())
     headings = ["", names[0]]
     for name in names[1:]:
         headings += [name, "difference [%]"]
-    inputs = list(found.attrs["inputs"].items())
+    inputs = found.attrs["inputs"]
     shown = [
-        (key, *(_short(values[name]) for name in names)) for key, values in inputs[:_MOST_INPUTS]
+        (key, *(_short(values[name]) for name in names))
+        for key, values in itertools.islice(inputs.items(), _MOST_INPUTS)
     ]
     more = f"; the first {_MOST_INPUTS} of {len(inputs)}" if len(inputs) > _MOST_INPUTS else ""
     return [
-        Table(
-            headings,
-            rows,
-            _RANGE if any("(" in cell for row in rows for cell in row[1:]) else "Headline numbers",
-        ),
+        Table(headings, rows, _RANGE if has_ranges else "Headline numbers"),
         Table(("input", *names), shown, f"Inputs that differ{more}"),
     ]
+
+
+def _line(quantity: str, designs: pd.DataFrame) -> tuple[str, ...]:
+    """A quantity of every design, and its difference from the first."""
+    factor, units = scaled(designs["value"].abs().max(), designs["units"].iloc[0])
+    cells = []
+    for value, change, low, high in designs[
+        ["value", "difference [%]", "low [%]", "high [%]"]
+    ].itertuples(index=False):
+        cells.append(years(value) if quantity.endswith("life") else number(factor * value))
+        interval = f" ({low:.3g} to {high:.3g})" if np.isfinite(low) else ""
+        cells.append(f"{round(change, 9):+.3g}{interval}" if np.isfinite(change) else "–")
+    # The first design has no difference; lives have their unit beside them.
+    heading = quantity if quantity.endswith("life") else f"{quantity} [{units}]"
+    return (heading, cells[0], *cells[2:])
 
 
 def _short(value: object) -> str:

@@ -1,8 +1,10 @@
-"""The page on a study of many cases: its designs ranked, a year, effects, lifetime energy, exceedance, worst cases, failures."""
+"""The page on a study of many cases: designs ranked, a year, effects, lifetime, exceedance, worst cases, failures."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,11 +13,13 @@ import xarray as xr
 from macroslip.constants import HOURS_A_YEAR
 from macroslip.errors import InputError
 from macroslip.loads.source_file import without_folders
-from macroslip.report.comparison import SEVERAL, compare_designs, study_about
+from macroslip.report.comparison import compare_designs
 from macroslip.report.page import Opening, Table, number, render, sections, words
 from macroslip.report.provenance import provenance_section
+from macroslip.report.ranking import ranking_sentences
 from macroslip.report.result_numbers import rating_summary
 from macroslip.report.results_page import map_pictures
+from macroslip.report.run_names import INTERNAL, case_names, run_names, situation, study_about
 from macroslip.report.study_figures import (
     EXCEEDED,
     drawable,
@@ -39,7 +43,6 @@ from macroslip.study.weights import (
     Weights,
     Year,
     binned,
-    is_parameter,
     weights_in_use,
 )
 from macroslip.study.year import CRITERIA, coverage, design_names, designs, year
@@ -55,8 +58,8 @@ CLASS_ONE = IEC_CLASSES["IEC I"]
 _WORST, _WORST_COUNT = ("energy_mean", "orbit_energy_max", "peak_power_max"), 5
 #: Lines of a table, of the opening's, and runs that a figure can name.
 _MOST_LINES, _MOST_DESIGNS, _MOST_NAMES = 40, 8, 16
-#: Labels of a run that a reader does not need.
-_LEFT_OUT = ("case", "run", "outcome", "reason", "key")
+#: Pictures of the opening.
+_MOST_PICTURES = 4
 #: Variables of the summary in the opening, and the labels of their figures.
 _EXTREMES = {
     "energy_mean": "energy of a mean roller [J]",
@@ -83,87 +86,137 @@ def study_page(
 ) -> str:
     """A page on a study: HTML in one piece, every name and text in it escaped.
 
-    `weights` says how likely each wind speed is, the study file by default. Without any, designs are ranked over all
-    cases alike, and lifetime and exceedance are those of `CLASS_ONE`. `years` is the lifetime.
+    Without any weights, designs are ranked over all cases alike, and lifetime and exceedance are those of `CLASS_ONE`.
+
+    Parameters
+    ----------
+    study : xarray.Dataset
+        From `macroslip.open_study`.
+    title : str
+        Heading of the page.
+    weights : Weibull or Given, optional
+        How likely each wind speed is; that of the study file if not given.
+    years : float, optional
+        The lifetime [years].
+
+    Returns
+    -------
+    str
+        The page.
     """
     text = words(_TEMPLATE)
-    chosen, field, width = weights_in_use(study, weights)
-    used, bins = chosen or CLASS_ONE, {"field": field, "width": width}
-    wind = chosen.wind if isinstance(chosen, Year) else chosen
-    named = wind if wind is None or isinstance(wind, Weibull) else False
     # Points of a sample are no designs: they are pooled here, and told apart by their effects.
-    base = study.drop_vars(sampled_parameters(study))
-    unused = ""
+    pooled = study.drop_vars(sampled_parameters(study))
+    chosen, field, width = weights_in_use(study, weights)
+    bins = {"field": field, "width": width}
     try:
-        whole = year(base, chosen, **bins)
+        found = year(pooled, chosen, **bins)
+        note = coverage(found)
     except InputError as problem:
-        chosen, whole, unused = None, year(base, None), f"The weights cannot be used: {problem}"
-    table, told = designs(whole)
-    told = [unused or coverage(whole), *told]
-    order = table.index.tolist()
-    names = design_names(whole)
-    pictures: list[Picture] = []
+        chosen = None
+        found = year(pooled, None)
+        note = f"The weights cannot be used: {problem}"
+    table, unknown = designs(found)
+    names = design_names(found)
     ranking = _ranking(study, weights)
-    bodies = {"designs": text.designs(_designs(table, names, _MOST_LINES), ranking, told)}
-    if chosen is not None:
-        bodies["year"] = text.year(coverage(whole), _year(whole, names))
-    bodies["effects"], driver, drawn = _effects(study, chosen, bins)
-    try:
-        life = lifetime_energy(base, used, years=years, **bins)
-        shown = drawable(life.bin_energy, order)
-        energies = _table(as_table(life, ["lifetime_energy"]), "Lifetime energy")
-        pictures = (
-            [picture(plot_lifetime, "Lifetime energy by wind speed", life, shown, **OPENING)]
-            if shown
-            else []
-        )
-        bodies["lifetime"] = text.lifetime(
-            years, named, 100.0 * float(life.covered), energies, pictures
-        )
-    except InputError as problem:
-        bodies["lifetime"] = text.no_lifetime(str(problem))
-    try:
-        curves = exceedance(base, used, **bins)
-        shown = drawable(curves.power_orbits, order)
-        exceeding = [
-            picture(
-                plot_exceedance,
-                f"Orbits a year of a roller over the {label}",
-                curves,
-                name,
-                shown,
-                **OPENING,
-            )
-            for name, label in (EXCEEDED.items() if shown else ())
-        ]
-        bodies["exceedance"] = text.exceedance(named, exceeding)
-        pictures = [*pictures, *exceeding]
-    except InputError as problem:
-        bodies["exceedance"] = text.no_exceedance(str(problem))
-    bodies["surface"] = _surface(base, used, years, bins)
-    if rating := rating_summary(study):
-        bodies["rating"] = text.rating(
-            int(study.static_safety.notnull().sum()), study.sizes["case"], rating
-        )
-    bodies |= {"worst": text.worst(_worst(study)), "failures": text.failures(_failures(study))}
-    found = sections(_TEMPLATE, bodies)
+    weighted = _Weighted(pooled, chosen or CLASS_ONE, bins, _wind(chosen), years)
+    driver, effects_body, effect_pictures = _effects(study, chosen, bins)
+    lifetime, lifetime_pictures = _lifetime(weighted, table.index.tolist())
+    exceeding, exceedance_pictures = _exceedance(weighted, table.index.tolist())
+    bodies = {
+        "designs": text.designs(_designs(table, names, _MOST_LINES), ranking, [note, *unknown]),
+        "year": text.year(note, _year(found, names)) if chosen is not None else "",
+        "effects": effects_body,
+        "lifetime": lifetime,
+        "exceedance": exceeding,
+        "surface": _surface(weighted),
+        "rating": _rating(study),
+        "worst": text.worst(_worst(study)),
+        "failures": text.failures(_failures(study)),
+    }
+    parts = sections(_TEMPLATE, bodies)
     if "status" in study:
-        found.append(provenance_section({study.attrs["title"] or "study": study}))
-    found += sections(_TEMPLATE, {"study": text.file(_without_folders(study.attrs["study"]))})
-    extremes = _extremes(study)
-    pictures = [*drawn[:1], *pictures]
-    for name, label in _EXTREMES.items():
-        if len(pictures) < 4 and name in extremes:
-            pictures.append(
-                picture(_plot_extremes, f"By run: {label}", base, order, name, label, **OPENING)
-            )
-    counts = {one.name: int((study.outcome.values == str(one)).sum()) for one in Outcome}
-    judged = study[[name for name in JUDGED if name in study]].median("case")
+        parts.append(provenance_section({study.attrs["title"] or "study": study}))
+    parts += sections(_TEMPLATE, {"study": text.file(_without_folders(study.attrs["study"]))})
     answer = text.answer(
-        counts, ranking, told, list(extremes.values()), driver, doubtful_result(judged)
+        {one.name: int((study.outcome.values == str(one)).sum()) for one in Outcome},
+        ranking,
+        [note, *unknown],
+        _extremes(study),
+        driver,
+        doubtful_result(study[[name for name in JUDGED if name in study]].median("case")),
     )
+    pictures = [*effect_pictures[:1], *lifetime_pictures, *exceedance_pictures]
+    most = _MOST_PICTURES - len(pictures)
+    pictures += _extreme_pictures(study, pooled, table.index.tolist(), most)
     opening = Opening(answer, pictures, table=_designs(table, names, _MOST_DESIGNS))
-    return render(title, _subtitle(study, title), opening, found)
+    return render(title, _subtitle(study, title), opening, parts)
+
+
+@dataclass(frozen=True, slots=True)
+class _Weighted:
+    """The runs of a study and how much each counts."""
+
+    study: xr.Dataset
+    weights: Weights
+    bins: Mapping[str, Any]  #: Label of the loads that is sorted into bins, and their width
+    wind: Weibull | bool | None  #: None where it is that of `CLASS_ONE`, False where it is a list
+    years: float  #: Lifetime [years]
+
+
+def _wind(weights: Weights | None) -> Weibull | bool | None:
+    """The distribution of the wind speed that a page names."""
+    wind = weights.wind if isinstance(weights, Year) else weights
+    return wind if wind is None or isinstance(wind, Weibull) else False
+
+
+def _lifetime(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
+    """The section on lifetime energy, and its picture; groups in their order."""
+    text = words(_TEMPLATE)
+    try:
+        life = lifetime_energy(
+            weighted.study, weighted.weights, years=weighted.years, **weighted.bins
+        )
+    except InputError as problem:
+        return text.no_lifetime(str(problem)), []
+    pictures = []
+    if shown := drawable(life.bin_energy, order):
+        about = "Lifetime energy by wind speed"
+        pictures = [picture(plot_lifetime, about, life, shown, **OPENING)]
+    energies = _table(as_table(life, ["lifetime_energy"]), "Lifetime energy")
+    covered = 100.0 * float(life.covered)
+    return text.lifetime(weighted.years, weighted.wind, covered, energies, pictures), pictures
+
+
+def _exceedance(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
+    """The section on orbits a year above an energy and a power, and its pictures; groups in their order."""
+    text = words(_TEMPLATE)
+    try:
+        curves = exceedance(weighted.study, weighted.weights, **weighted.bins)
+    except InputError as problem:
+        return text.no_exceedance(str(problem)), []
+    shown = drawable(curves.power_orbits, order)
+    pictures = [
+        picture(
+            plot_exceedance,
+            f"Orbits a year of a roller over the {label}",
+            curves,
+            name,
+            shown,
+            **OPENING,
+        )
+        for name, label in EXCEEDED.items()
+        if shown
+    ]
+    return text.exceedance(weighted.wind, pictures), pictures
+
+
+def _rating(study: xr.Dataset) -> Markup | str:
+    rating = rating_summary(study)
+    if rating is None:
+        return ""
+    rated = int(study.static_safety.notnull().sum())
+    return words(_TEMPLATE).rating(rated, study.sizes["case"], rating)
 
 
 def _without_folders(study: str) -> str:
@@ -188,11 +241,12 @@ def _subtitle(study: xr.Dataset, title: str) -> str:
     return f"{own}{study_about(study)}."
 
 
-def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> str:
+def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> list[str]:
+    """Sentences on the designs; none where there is one only."""
     try:
-        return compare_designs(study, None, wind).attrs["ranking"]
+        return ranking_sentences(compare_designs(study, None, wind))
     except InputError:
-        return ""
+        return []
 
 
 def _shown(name: str, value: float) -> str:
@@ -201,192 +255,179 @@ def _shown(name: str, value: float) -> str:
 
 
 def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
+    """The first designs of `macroslip.study.year.designs`, which have the least energy."""
     columns = [name for name in _SHOWN if name in table]
-    rows = [
-        (
-            f"{k} {names[int(group)]}" if names[int(group)] else "the study",
-            *(_shown(name, float(line[name])) for name in columns),
-        )
-        for k, (group, line) in enumerate(table.head(most).to_dict("index").items(), start=1)
-    ]
+    shown = table.head(most)
+    rows = []
+    for rank, (group, values) in enumerate(shown[columns].to_dict("index").items(), start=1):
+        name = names[int(group)]
+        cells = (_shown(column, float(value)) for column, value in values.items())
+        rows.append((f"{rank} {name}" if name else "the study", *cells))
     more = f"; the first {most} of {len(table)}" if len(table) > most else ""
-    about = "Designs by energy, the least first; wear, mixed film, friction energy, slip and power of the worse row"
+    about = (
+        "Designs by energy, the least first; "
+        "wear, mixed film, friction energy, slip and power of the worse row"
+    )
     return Table(("design", *(_SHOWN[name][1] for name in columns)), rows, f"{about}{more}")
 
 
 def _effects(
-    study: xr.Dataset, weights: Weights | None, bins: dict[str, Any]
+    study: xr.Dataset, weights: Weights | None, bins: Mapping[str, Any]
 ) -> tuple[Markup | str, Markup | str, list[Picture]]:
-    """The section on the sample, the parameter that moves the energy most in a sentence, and pictures; empty without one."""
+    """Of a sample the parameter that moves the energy most in a sentence, the section, and its pictures."""
+    text = words(_TEMPLATE)
     if not sampled_parameters(study):
         return "", "", []
     found = effects(study, weights, **bins)
     if not found.sizes["quantity"]:
-        return words(_TEMPLATE).no_effects(), "", []
-    rows = []
-    for name in found.quantity.values.tolist():
-        one = found.sel(quantity=name)
-        scale, heading = _SHOWN.get(name, (1.0, f"{name.replace('_', ' ')} [{one.units.item()}]"))
-        cells = [
-            f"{100.0 * float(each.main_effect):+.3g} ± {100.0 * float(each.main_effect_error):.2g} % (ρ {float(each.rank_correlation):.2f})"
-            if np.isfinite(each.rank_correlation)
-            else "–"
-            for each in (one.sel(parameter=key) for key in found.parameter.values)
-        ]
-        rows.append(
-            (heading, " … ".join(number(scale * value, 3) for value in one["range"].values), *cells)
-        )
+        return "", text.no_effects(), []
     table = Table(
         ("", "5, 50 and 95 %", *map(str, found.parameter.values)),
-        rows,
+        [_effect_line(found.sel(quantity=name)) for name in found.quantity.values],
         f"{int(found.points)} points",
     )
-    shown = [
-        picture(
-            plot_effects,
-            f"Main effects on the {CRITERIA[name][2]}",
-            found,
-            name,
-            **{**OPENING, "legend": ""},
-        )
+    pictures = [
+        picture(plot_effects, f"Main effects on the {CRITERIA[name][2]}", found, name, **OPENING)
         for name in ("energy", "wear")
         if name in found.quantity
     ]
-    driver = ""
-    if "energy" in found.quantity and bool(
-        found.rank_correlation.sel(quantity="energy").notnull().any()
-    ):
-        energy = found.sel(quantity="energy")
-        first = energy.isel(parameter=int(np.nanargmax(np.abs(energy.rank_correlation.values))))
-        numbers = 100.0 * float(first.main_effect), float(first.rank_correlation)
-        driver = words(_TEMPLATE).driver(first.parameter.item(), *numbers)
-    return words(_TEMPLATE).effects(table, shown), driver, shown
+    return _driver(found), text.effects(table, pictures), pictures
 
 
-def situation(found: xr.Dataset, place: int) -> str:
-    """Name of a bin: its wind speed, or its event."""
-    event = str(found.event.values[place]) if "event" in found.coords else ""
-    return event or f"{float(found.bin[place]):g} {found.bin.attrs['units']}"
+def _effect_line(found: xr.Dataset) -> tuple[str, ...]:
+    """A quantity with its range and the effect of every parameter."""
+    name = found.quantity.item()
+    other = (1.0, f"{name.replace('_', ' ')} [{found.units.item()}]")
+    scale, heading = _SHOWN.get(name, other)
+    cells = []
+    for parameter in found.parameter.values:
+        one = found.sel(parameter=parameter)
+        effect = 100.0 * one.main_effect.item()
+        error = 100.0 * one.main_effect_error.item()
+        rank = one.rank_correlation.item()
+        known = np.isfinite(rank)
+        cells.append(f"{effect:+.3g} ± {error:.2g} % (ρ {rank:.2f})" if known else "–")
+    return (heading, " … ".join(number(scale * end, 3) for end in found["range"].values), *cells)
+
+
+def _driver(found: xr.Dataset) -> Markup | str:
+    """The parameter that moves the energy most, in a sentence; empty where none is known to."""
+    if "energy" not in found.quantity:
+        return ""
+    energy = found.sel(quantity="energy").dropna("parameter", subset=["rank_correlation"])
+    if not energy.sizes["parameter"]:
+        return ""
+    first = energy.isel(parameter=int(abs(energy.rank_correlation).argmax()))
+    return words(_TEMPLATE).driver(
+        first.parameter.item(), 100.0 * first.main_effect.item(), first.rank_correlation.item()
+    )
+
+
+#: Sums of a year that a table of situations shows: by name, heading and factor to its unit.
+_SUMS = {
+    "entries": ("entries under slip", 1.0),
+    "wear": ("wear [µm]", 1e6),
+    "mixed_time": ("Λ < 1 [h]", 1.0 / 3600.0),
+}
 
 
 def _year(found: xr.Dataset, names: list[str]) -> Table:
+    """Hours, energies and sums of every design and situation of a year."""
+    sums = {name: told for name, told in _SUMS.items() if name in found}
     rows = []
-    more = {
-        "entries": ("entries under slip", 1.0),
-        "wear": ("wear [µm]", 1e6),
-        "mixed_time": ("Λ < 1 [h]", 1.0 / 3600.0),
-    }
-    for group in range(found.sizes["group"]):
-        for place in range(found.sizes["bin"]):
-            here = found.isel(group=group, bin=place)
-            share = (
-                100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
+    for group, bin_number in np.ndindex(found.sizes["group"], found.sizes["bin"]):
+        here = found.isel(group=group, bin=bin_number)
+        share = 100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
+        values = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
+        for name, (_, factor) in sums.items():
+            both = (
+                here[name].sum(skipna=False) if name == "entries" else here[name].max(skipna=False)
             )
-            cells = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
-            if "entries" in here:
-                cells.append(here.entries.sum(skipna=False))
-            cells += [
-                more[name][1] * here[name].max(skipna=False)
-                for name in ("wear", "mixed_time")
-                if name in here
-            ]
-            rows.append(
-                (names[group], situation(found, place), *(number(float(value)) for value in cells))
-            )
+            values.append(factor * both)
+        cells = (number(float(value)) for value in values)
+        rows.append((names[group], situation(found, bin_number), *cells))
     sides = found.row.values.tolist()
-    headings = ("design", "situation", "hours a year", *(f"energy {row} [MJ]" for row in sides), "share of it [%]",
-                *(f"in an hour {row} [J]" for row in sides), "largest power [W]",
-                *(heading for name, (heading, _) in more.items() if name in found))  # fmt: skip
-    return Table(
-        headings,
-        rows[:_MOST_LINES],
-        "A year: energies of a mean roller; wear and Λ < 1 of the worse row",
+    headings = (
+        "design",
+        "situation",
+        "hours a year",
+        *(f"energy {row} [MJ]" for row in sides),
+        "share of it [%]",
+        *(f"in an hour {row} [J]" for row in sides),
+        "largest power [W]",
+        *(heading for heading, _ in sums.values()),
     )
+    about = "A year: energies of a mean roller; wear and Λ < 1 of the worse row"
+    return Table(headings, rows[:_MOST_LINES], about)
 
 
-def case_names(study: xr.Dataset) -> list[str]:
-    """Name of the case of every run: the fields of its loads, `14 m/s, seed 2`, or its loads where these do not tell cases apart."""
-    labels = [
-        str(name)
-        for name in study.coords
-        if study[name].dims == ("case",) and not is_parameter(study, str(name))
-    ]
-    fields = [name for name in labels if name not in (*_LEFT_OUT, *SEVERAL, "temperature")]
-    loads = study.loads.values.astype(str)
-    if fields and any("." in one for one in loads):  # names of files
-        part = xr.Dataset(
-            coords={name: ("group", study[name].values, study[name].attrs) for name in fields}
-        )
-        told = [one.replace("wind speed ", "") for one in design_names(part)]
-        if len(set(told)) == len(set(loads)):
-            return told
-    return [one.rpartition("/")[2] for one in loads]
-
-
-def run_names(study: xr.Dataset) -> list[str]:
-    """Name of every run: its case, and its design where there are several."""
-    labels = [
-        name
-        for name in study.coords
-        if name in (*SEVERAL, "temperature") or is_parameter(study, str(name))
-    ]
-    coords = {
-        name: ("group", study[name].values, study[name].attrs) for name in labels if name != "loads"
-    }
-    designed = design_names(xr.Dataset(coords=coords), 3)
-    return [", ".join(filter(None, one)) for one in zip(case_names(study), designed, strict=True)]
-
-
-def _extremes(study: xr.Dataset) -> dict[str, dict[str, Any]]:
-    names, found = run_names(study), {}
-    for name in _EXTREMES:
-        values = -study[name] if name == "lowest_spin_ratio" else study[name]
+def _extremes(study: xr.Dataset) -> list[dict[str, Any]]:
+    """The run and row with the most extreme value of each quantity of `_EXTREMES` that is known."""
+    names = run_names(study)
+    found = []
+    for quantity in _EXTREMES:
+        values = study[quantity]
         if bool(values.notnull().any()):
-            place = values.argmax(["case", "row"])
-            row, run = study.row[place["row"]].item(), names[int(place["case"])]
-            found[name] = {
-                "quantity": name,
-                "value": float(study[name].isel(place)),
-                "row": row,
-                "run": run,
-            }
+            sign = -1.0 if quantity == "lowest_spin_ratio" else 1.0
+            indices = (sign * values).argmax(["case", "row"])
+            extreme = values.isel(indices)
+            run = names[int(indices["case"])]
+            found.append(
+                {
+                    "quantity": quantity,
+                    "value": float(extreme),
+                    "row": extreme.row.item(),
+                    "run": run,
+                }
+            )
     return found
 
 
-def _plot_extremes(axes: Axes, study: xr.Dataset, order: list[int], name: str, label: str) -> Axes:
-    values = study[name].transpose("case", "row").values
-    extreme = (
-        -study[name].min("row") if name == "lowest_spin_ratio" else study[name].max("row")
-    ).values
-    shown = np.sort(np.argsort(-np.nan_to_num(extreme, nan=-np.inf), kind="stable")[:_MOST_NAMES])
+def _extreme_pictures(
+    study: xr.Dataset, pooled: xr.Dataset, order: Sequence[int], most: int
+) -> list[Picture]:
+    """At most so many pictures of `_EXTREMES` by run, with the number of its design where there are several."""
     names = case_names(study)
     if len(order) > 1:
-        group = binned(study, None).group
-        names = [f"{one} #{order.index(int(k)) + 1}" for one, k in zip(names, group, strict=True)]
-    plot_by_result(
-        axes, [names[case] for case in shown], study.row.values.tolist(), values[shown], label
-    )
-    if shown.size < study.sizes["case"]:
-        axes.set_title(
-            f"the {shown.size} most extreme of {study.sizes['case']} runs", fontsize=10, loc="left"
-        )
+        groups = binned(pooled, None).group
+        names = [
+            f"{name} #{order.index(int(group)) + 1}"
+            for name, group in zip(names, groups, strict=True)
+        ]
+    return [
+        picture(_plot_extremes, f"By run: {_EXTREMES[name]}", study[name], names, **OPENING)
+        for name in [name for name in _EXTREMES if bool(study[name].notnull().any())][:most]
+    ]
+
+
+def _plot_extremes(axes: Axes, values: xr.DataArray, names: Sequence[str]) -> Axes:
+    """A value of the most extreme runs, over the names of the runs."""
+    extreme = -values.min("row") if values.name == "lowest_spin_ratio" else values.max("row")
+    ordered = np.argsort(-np.nan_to_num(extreme.values, nan=-np.inf), kind="stable")
+    shown = np.sort(ordered[:_MOST_NAMES])
+    by_row = values.transpose("case", "row").values[shown]
+    label = _EXTREMES[str(values.name)]
+    plot_by_result(axes, [names[case] for case in shown], values.row.values.tolist(), by_row, label)
+    if shown.size < values.sizes["case"]:
+        title = f"the {shown.size} most extreme of {values.sizes['case']} runs"
+        axes.set_title(title, fontsize=10, loc="left")
     return axes
 
 
-def _surface(
-    study: xr.Dataset, weights: Weights, years: float, bins: dict[str, Any]
-) -> Markup | str:
-    if "surface_energy" not in study:
+def _surface(weighted: _Weighted) -> Markup | str:
+    if "surface_energy" not in weighted.study:
         return ""
     text = words(_TEMPLATE)
     try:
-        maps = weighted_maps(study, weights, years=years, **bins).isel(group=0)
+        maps = weighted_maps(
+            weighted.study, weighted.weights, years=weighted.years, **weighted.bins
+        ).isel(group=0)
     except InputError as problem:
         return text.no_maps(str(problem))
     labels = ", ".join(
         str(maps[name].item()) for name in ("bearing", "lubricant", "model") if name in maps.coords
     )
-    of = f"in {years:g} years, of the simulated rollers, {labels}"
+    of = f"in {weighted.years:g} years, of the simulated rollers, {labels}"
     return text.turned() + words("result.html").surface(
         *map_pictures(energy_density(maps), maps.surface_power_density), of
     )
@@ -396,7 +437,7 @@ def _worst(study: xr.Dataset) -> list[Table]:
     tables = []
     for name in _WORST:
         found = as_table(worst(study, name, count=_WORST_COUNT), [name])
-        found = found.drop(columns=[one for one in _LEFT_OUT if one in found])
+        found = found.drop(columns=[one for one in INTERNAL if one in found])
         tables.append(_table(found, f"By {study[name].attrs['long_name']}"))
     return tables
 
@@ -407,7 +448,7 @@ def _failures(study: xr.Dataset) -> Table | None:
         return None
     labels = [name for name, one in failed.coords.items() if one.dims == ("case",)]
     frame = failed[labels].reset_coords().to_dataframe().reset_index()
-    columns = [name for name in frame if name not in _LEFT_OUT]
+    columns = [name for name in frame if name not in INTERNAL]
     return _table(
         frame[[*columns, "outcome", "reason"]], "Runs without a result, or with rollers that failed"
     )

@@ -254,14 +254,11 @@ def _share_scales(panels: Sequence[Axes]) -> None:
 
 def _svg(figure: Figure, axes: Axes, legend: str) -> str:
     handles, labels = axes.get_legend_handles_labels()
-    if legend == "above":
+    if labels and legend == "above":
         # Long names do not fit beside each other, and four are two by two.
-        legend_above(
-            figure,
-            axes,
-            ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 and len(labels) != 4 else 2),
-        )
-    elif legend:
+        beside = 3 if sum(map(len, labels)) < 36 and len(labels) != 4 else 2
+        legend_above(figure, axes, ncols=min(len(labels), beside))
+    elif labels and legend:
         figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=SMALL)
     content = io.BytesIO()
     figure.savefig(content, format="svg", metadata={"Date": None}, dpi=160)

@@ -1,0 +1,87 @@
+"""Which design dissipates least, by how much, and which designs are not told apart."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from macroslip.report.style import scaled
+from macroslip.study.year import CRITERIA
+
+#: Quantity by which designs are ranked.
+ENERGY = CRITERIA["energy"][2]
+#: Designs that the first sentence names beside the best.
+_MOST_NAMED = 4
+
+
+def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
+    """Sentences on the energies of a comparison: which is least, what the others have more, and how sure that is.
+
+    Takes the table of `macroslip.compare`; the first sentence names the best.
+    """
+    energies = comparison[comparison["quantity"] == ENERGY].rename(
+        columns={"difference [%]": "change", "low [%]": "low", "high [%]": "high"}
+    )
+    is_known = np.isfinite(energies["value"])
+    unknown = ", ".join(energies["design"][~is_known])
+    known = energies[is_known].sort_values("value", kind="stable")
+    if len(known) < 2:
+        return [f"The designs cannot be ranked: the energy of {unknown} is not known."]
+    if known["value"].iloc[0] == known["value"].iloc[-1]:
+        return ["All dissipate the same energy."]
+    if len(known) > _MOST_NAMED + 1:
+        shown = pd.concat([known[:_MOST_NAMED], known[-1:]])
+        between = f"; {len(known) - len(shown)} others between them"
+    else:
+        shown = known
+        between = ""
+    sentences = [f"{_order(shown)}{between}."]
+    if unknown:
+        sentences.append(f"The energy of {unknown} is not known.")
+    first = energies["design"].iloc[0]
+    return sentences + _differences(first, shown[shown["design"] != first])
+
+
+def _order(ranked: pd.DataFrame) -> str:
+    """The best design with its energy, and what the others have more."""
+    best = ranked.iloc[0]
+    factor, units = scaled(best["value"], best["units"])
+    parts = [f"{best['design']} dissipates least, {factor * best['value']:.4g} {units} ({ENERGY})"]
+    for design, value in zip(ranked["design"][1:], ranked["value"][1:], strict=True):
+        if best["value"] > 0.0:
+            parts.append(f"{design} {100.0 * (value / best['value'] - 1.0):.3g} % more")
+        else:
+            factor, units = scaled(value, best["units"])
+            parts.append(f"{design} {factor * value:.4g} {units}")
+    return "; ".join(parts)
+
+
+def _differences(first: str, others: pd.DataFrame) -> list[str]:
+    """Sentences on the differences from the first design: those that are sure, within their scatter, or unknown."""
+    sentences = []
+    within_scatter = []
+    unsure = []
+    for other in others.itertuples():
+        if not np.isfinite(other.low):
+            unsure.append(other.design)
+        elif other.low <= 0.0 <= other.high:
+            half = 0.5 * (other.high - other.low)
+            within_scatter.append(
+                f"{other.design}, {other.change:.3g} %, is smaller than its scatter of {half:.2g} %"
+            )
+        else:
+            sentences.append(
+                f"From {first} to {other.design} it changes by {other.change:.3g} % "
+                f"({other.low:.3g} to {other.high:.3g} %)."
+            )
+    if within_scatter:
+        sentences.append(
+            f"The difference between {first} and {'; and '.join(within_scatter)}: "
+            "they are not told apart."
+        )
+    if unsure:
+        sentences.append(
+            f"How sure the difference between {first} and {', '.join(unsure)} is "
+            "cannot be told from these results."
+        )
+    return sentences
