@@ -101,7 +101,7 @@ def test_semicolons_and_decimal_commas_in_a_table_of_bearing_loads(folder, macro
         ("absent.outb", None, "absent.outb: no such file. Check the path; the current folder is FOLDER."),
         ("notes.txt", b"x", "notes.txt: the extension '.txt' is not known. Allowed: .outb (OpenFAST binary output), "
                             ".out (OpenFAST text output), .%nn (Bladed output, any file of the run), .$nn (the same), "
-                            ".sel (HAWC2 output), .dat (HAWC2 output, with its .sel beside it), .hdf5 (HAWC2 output in the format gtsdf), .parquet (table), "
+                            ".sel (HAWC2 output), .dat (HAWC2 output, with its .sel beside it), .hdf5 (HAWC2 output in the format gtsdf), .h5 (the same), .parquet (table), "
                             ".csv (table)."),
         ("empty.csv", b"", "empty.csv: the file is empty. Write or copy the file again."),
         ("cut.outb", b"\x02\x00\x01", "cut.outb: the file is cut off within its header. Copy the file again, or run "
@@ -178,6 +178,18 @@ def test_a_shaft_speed_of_ones_own(macroslip):
         {"mean": 12, "std": 0, "min": 12, "max": 12}
     )
     assert found["reading"][-1].startswith("shaft speed: given, ")
+
+
+def test_a_point_of_output_of_ones_own(macroslip):
+    """From 2 m behind the hub, my is less by 2 m times fz."""
+    path = DATA / "sample14B.outb"
+    plain, moved = inspected(macroslip, path), inspected(macroslip, path, "--hub-to-output", "2 m")
+    fz, before, after = (
+        read["statistics"][name]["mean"]
+        for read, name in ((plain, "fz [kN]"), (plain, "my [kN m]"), (moved, "my [kN m]"))
+    )
+    assert after == pytest.approx(before - 2.0 * fz, rel=1e-9)
+    assert moved["reading"][-1] == "moments moved to the hub from 2 m behind it"
 
 
 def test_an_option_without_a_unit_is_refused(macroslip):

@@ -118,13 +118,28 @@ def test_a_case_and_a_study_may_give_the_speed(tmp_path, truth):
 
 
 @pytest.mark.parametrize("source", ["bundled: 14B", "bearing_file: x.csv"])
-def test_only_hub_loads_from_a_file_take_a_speed(tmp_path, source):
+@pytest.mark.parametrize(("key", "value"), [("shaft_speed", "20 rpm"), ("hub_to_output", "2 m")])
+def test_only_hub_loads_from_a_file_take_a_speed_and_a_point(tmp_path, source, key, value):
     case = tmp_path / "case.yaml"
-    case.write_text(f"loads: {{{source}, shaft_speed: 20 rpm}}\n")
+    case.write_text(f"loads: {{{source}, {key}: {value}}}\n")
     with pytest.raises(
-        InputError, match=r"shaft_speed is given, but .* has its own\. Remove loads\.shaft_speed"
+        InputError, match=rf"{key} is given, but .* has its own\. Remove loads\.{key}"
     ):
         read_case(case)
+
+
+def test_a_case_and_a_study_may_give_the_point_of_the_loads(tmp_path, truth):
+    """From a point d behind the hub the moments are moved by (−d fz, d fy)."""
+    header = _run(tmp_path, truth)
+    case = tmp_path / "case.yaml"
+    case.write_text(f"loads: {{file: {header.name}, hub_to_output: 2000 mm}}\n")
+    moved = read_case(case).loads
+    arm = np.column_stack([0.0 * truth.time, -2.0 * truth.force[:, 2], 2.0 * truth.force[:, 1]])
+    np.testing.assert_allclose(moved.moment, truth.moment + arm, rtol=1e-6, atol=1.0)
+    study = tmp_path / "study.yaml"
+    study.write_text(f"case: {{loads: {{hub_to_output: 2 m}}}}\nloads: {{files: {header.name}}}\n")
+    _, cut = template(read_study(study).case, [], {})
+    np.testing.assert_array_equal(read_loads("file", str(header), cut).moment, moved.moment)
 
 
 @pytest.mark.parametrize(
@@ -196,3 +211,67 @@ def test_groups_with_different_steps(tmp_path, truth):
     drive = tmp_path / "demo.%05"
     drive.write_text(drive.read_text().replace("STEP\t5.0000000E-02", "STEP\t4.0000000E-02"))
     _message(header, "different time steps")
+
+
+def _second_speed(folder, truth, number, step, name="Rotor speed"):
+    """Another group with a rotor's speed, half of the true one, in steps [s]."""
+    count = round(60.0 / step) + 1
+    columns = np.column_stack([np.full(count, 1.0), np.zeros(count)])
+    names, units = [name, "Electrical power"], ["A/T", "P"]
+    return _group(folder, "demo", number, "Summary", names, units, columns, "U", step=step)
+
+
+def test_of_two_speeds_that_at_the_steps_of_the_loads_is_taken(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    _second_speed(tmp_path, truth, "04", step=1.0)
+    read = HubLoads.read(header)
+    np.testing.assert_allclose(read.shaft_speed, truth.shaft_speed, rtol=1e-6)
+    assert read.reading[-1] == "shaft speed: Rotor speed of demo.%05"
+
+
+def test_a_speed_at_other_steps_does_not_matter_where_it_is_given(tmp_path, truth):
+    header = _run(tmp_path, truth, with_speed=False)
+    _second_speed(tmp_path, truth, "04", step=1.0)
+    _message(header, "demo.%04, have different time steps", "loads.shaft_speed")
+    assert (HubLoads.read(header, shaft_speed=2.1).shaft_speed == 2.1).all()
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("FORMAT\tR*4", "FORMAT\tI*4"),
+        ("'Electrical power'", "'Electrical power"),
+        ("\t2\t", "\tx\t"),
+    ],
+)
+def test_a_group_that_nobody_needs_may_be_of_another_kind(tmp_path, truth, old, new):
+    header = _run(tmp_path, truth)
+    other = _second_speed(tmp_path, truth, "04", step=1.0, name="Pitch rate")
+    other.write_text(other.read_text().replace(old, new))
+    np.testing.assert_allclose(HubLoads.read(header).force, truth.force, rtol=1e-6, atol=0.1)
+
+
+def test_keys_of_other_versions_and_a_label_with_a_line_break_of_its_encoding(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    text = header.read_text(encoding="latin-1")
+    text = text.replace("ACCESS\tD", "ACCESS\tD\nVERSION\t4.8 ")
+    text = text.replace("fixed frame GL", "fixed frame\x85 GL")
+    header.write_bytes(text.replace("NDIMENS\t2", "NDIMENS\t2\nPRECISION\t4").encode("latin-1"))
+    np.testing.assert_allclose(HubLoads.read(header).force, truth.force, rtol=1e-6, atol=0.1)
+
+
+def test_asterisks_in_text(tmp_path, truth):
+    """They matter in channels that are taken: Stationary hub Myz is none of them, My is one."""
+    header = _run(tmp_path, truth, form="F")
+    data = tmp_path / "demo.$23"
+    lines = data.read_text().splitlines()
+
+    def write(column):
+        words = lines[7].split()
+        words[column] = "*" * 13
+        data.write_text("\n".join([*lines[:7], " ".join(words), *lines[8:]]))
+
+    write(3)
+    np.testing.assert_allclose(HubLoads.read(header).moment, truth.moment, rtol=1e-6, atol=0.1)
+    write(1)
+    _message(header, "channel Stationary hub My holds '*************' (sample 8)")

@@ -17,7 +17,7 @@ def truth(sample_outb):
     return HubLoads.read(sample_outb)
 
 
-def _channels(truth, sign=1.0, direction=1.0, start=0.7):
+def _channels(truth, sign=1.0, direction=1.0, start=0.7, node="   5", label="hub end"):
     """Names, units, descriptions and values as HAWC2 gives them: main body shaft, axes that turn with the rotor."""
     time = truth.time - truth.time[0]
     angle = start + np.concatenate([[0.0], np.cumsum(truth.shaft_speed[:-1] * np.diff(time))])
@@ -31,7 +31,7 @@ def _channels(truth, sign=1.0, direction=1.0, start=0.7):
         # Left, up and downwind become x', −y' and −z', in axes that have turned by the angle about the downwind axis.
         left, up = y * cos + z * sin, -y * sin + z * cos
         for axis, values in zip("xyz", (left, -up, -x), strict=True):
-            text = f"{kind}{letter}{axis} Mbdy:shaft nodenr:   5 coo: shaft  hub end"
+            text = f"{kind}{letter}{axis} Mbdy:shaft nodenr:{node} coo: shaft  {label}"
             columns[f"{letter}{axis} coo: shaft"] = (unit, text, values)
     columns["bea1 angle"] = ("deg", "shaft_rot angle", direction * np.degrees(angle))
     columns["bea1 angle_speed"] = ("rpm", "shaft_rot angle speed", truth.shaft_speed * 30 / np.pi)
@@ -105,6 +105,14 @@ def _message(path, *words):
         HubLoads.read(path)
     assert [word for word in words if word not in str(caught.value)] == []
     return str(caught.value)
+
+
+def _with_others(truth, *others):
+    """Channels with others before them: name, unit and description; they hold 0.1 sin t."""
+    columns = _channels(truth)
+    time = {"Time": columns.pop("Time")}
+    others = {name: (unit, text, 0.1 * np.sin(time["Time"][2])) for name, unit, text in others}
+    return time | others | columns
 
 
 def _check(read, truth, tolerance):
@@ -287,3 +295,124 @@ def test_numbers_that_are_not_in_the_file(tmp_path, truth, put, words):
     with h5py.File(path, "r+") as file:
         put(file, tmp_path)
     _message(path, words)
+
+
+@pytest.mark.parametrize(
+    "others",
+    [
+        [
+            ("bea2 angle", "deg", "pitch1 angle"),
+            ("bea2 angle_speed", "deg/s", "pitch1 angle speed"),
+        ],
+        [("bea2 angle", "rad", "yaw_rot angle"), ("bea3 angle", "deg", "teeter angle")],
+        [("DLL inp 7", "-", "dtu_we_controller inpvec 7  Filtered rotor speed [rad/s]")],
+        [("DLL inp 1", "rad/s", "dtu_we_controller inpvec 1  Rotor speed")],
+        [("State_rot omega", "rad/s", "State_rot omega tx Mbdy:tower E-nr:   1 coo: tower  omega")],
+        [("Omega", "rad/s", "Rotor speed")],
+        [("bea1 angle2", "-", "shaft_rot angle normalised")],
+        [("bea2 angle", "deg", "p1 angle")],
+    ],
+)
+@pytest.mark.parametrize("gtsdf", [False, True])
+def test_other_channels_before_those_of_the_shaft(tmp_path, truth, others, gtsdf):
+    columns = _with_others(truth, *others)
+    path = _write_gtsdf(tmp_path, columns, False) if gtsdf else _write_sel(tmp_path, columns, False)
+    _check(HubLoads.read(path), truth, 1e-5)
+
+
+def test_the_rotors_speed_serves_where_the_bearing_has_none(tmp_path, truth):
+    columns = _channels(truth)
+    _, _, speed = columns.pop("bea1 angle_speed")
+    filtered = ("-", "dtu_we_controller inpvec 7  Filtered rotor speed [rad/s]", 0.5 * speed)
+    rotor = ("rad/s", "Rotor speed", speed * np.pi / 30)
+    columns = {"Time": columns.pop("Time"), "DLL inp 7": filtered, **columns, "Omega": rotor}
+    _check(HubLoads.read(_write_sel(tmp_path, columns, False)), truth, 1e-5)
+
+
+@pytest.mark.parametrize("bearing", ["rotor_bearing", "bearing1"])
+def test_a_bearing_with_another_name(tmp_path, truth, bearing):
+    columns = _with_others(truth, ("bea2 angle", "deg", "p1 angle"))
+    for name in ("bea1 angle", "bea1 angle_speed"):
+        unit, text, values = columns[name]
+        columns[name] = (unit, text.replace("shaft_rot", bearing), values)
+    _check(HubLoads.read(_write_sel(tmp_path, columns, False)), truth, 1e-5)
+
+
+def test_two_bearings_that_may_be_the_shafts_are_refused(tmp_path, truth):
+    columns = _with_others(truth, ("bea3 angle", "deg", "first angle"))
+    unit, _, values = columns["bea1 angle"]
+    columns["bea1 angle"] = (unit, "second angle", values)
+    path = _write_sel(tmp_path, columns, False)
+    _message(path, "2 channels may be the angle", "(first angle)", "(second angle)", "shaft_rot")
+
+
+def test_without_the_shafts_bearing_the_others_are_named(tmp_path, truth):
+    columns = _with_others(truth, ("bea2 angle", "deg", "pitch1 angle"))
+    del columns["bea1 angle"]
+    path = _write_sel(tmp_path, columns, False)
+    _message(path, "no angle of the shaft's bearing; there is bea2 angle (pitch1 angle) in deg")
+
+
+@pytest.mark.parametrize(("node", "label"), [("   1", ""), ("   1", "main bearing"), (4, "MB 2")])
+def test_loads_that_are_not_those_at_the_hub(tmp_path, truth, node, label):
+    """At a node d = 2.5 m behind the hub the moments are my + d fz and mz − d fy."""
+    arm = np.column_stack([0.0 * truth.time, 2.5 * truth.force[:, 2], -2.5 * truth.force[:, 1]])
+    there = HubLoads(truth.time, truth.shaft_speed, truth.force, truth.moment + arm, "node 1")
+    columns = _channels(there, node=node, label=label)
+    path = _write_sel(tmp_path, columns, binary=False)
+    _message(path, f"node {int(node)}", label, "is not the hub", "loads.hub_to_output")
+    read = HubLoads.read(path, hub_to_output=2.5)
+    _check(read, truth, 1e-5)
+    assert read.reading[-1] == "moments moved to the hub from 2.5 m behind it"
+    assert f"node {int(node)}" in read.reading[0]
+
+
+def test_of_several_nodes_the_one_at_the_hub_is_taken(tmp_path, truth):
+    """Channels of one name differ by their description."""
+    columns = _channels(truth, label="")
+    for node, label in ((1, "main bearing"), (9, "hub end")):
+        for name, (unit, text, values) in _channels(truth, node=node, label=label).items():
+            if "coo: shaft" in name:
+                factor = 1.0 if label == "hub end" else 2.0
+                columns[f"{name} {node}"] = (unit, text, factor * values)
+    path = _write_sel(tmp_path, columns, binary=False)
+    read = HubLoads.read(path)
+    _check(read, truth, 1e-5)
+    assert "node 9 (hub end)" in read.reading[0]
+    with pytest.raises(InputError, match=r"node 9 \(hub end\), and a distance .* is given"):
+        HubLoads.read(path, hub_to_output=2.5)
+
+
+def test_a_label_with_a_byte_that_ends_lines_in_text(tmp_path, truth):
+    path = _write_sel(tmp_path, _channels(truth, label="hub end, see page"), binary=False)
+    path.write_bytes(path.read_bytes().replace(b", see", b"\x85 "))
+    _check(HubLoads.read(path), truth, 1e-5)
+
+
+def test_asterisks_in_text(tmp_path, truth):
+    columns = _with_others(truth, ("Ae power", "kW", "Aerodynamic power"))
+    path = _write_sel(tmp_path, columns, binary=False)
+    data = tmp_path / "run.dat"
+    lines = data.read_text().splitlines()
+
+    def write(column):
+        words = lines[2].split()
+        words[column] = "*" * 12
+        data.write_text("\n".join([*lines[:2], " ".join(words), *lines[3:]]))
+
+    write(list(columns).index("Ae power"))
+    _check(HubLoads.read(path), truth, 1e-5)
+    write(list(columns).index("Fx coo: shaft"))
+    _message(path, "channel Fx coo: shaft holds '************' (sample 3)")
+
+
+def test_a_list_of_channels_of_another_program(tmp_path):
+    path = tmp_path / "run.sel"
+    path.write_text(
+        "Channel reference file (sel):\n+===+\n"
+        "  Scans    Channels    Time [sec]      Coordinate convention: Siemens\n"
+        "     21        3        002.000\n\n   1  Time         t         [s]\n"
+    )
+    _message(path, "it is BHawC's", "columns fx_N … mz_Nm")
+    path.write_text("  Scans    Channels    Time [sec]      Format\n     21        3    2.0\n")
+    _message(path, "has 3 words", "the format ASCII or BINARY")

@@ -129,11 +129,19 @@ def test_window_sides_can_be_left_open():
 
 
 @pytest.mark.parametrize(
-    ("start", "end"), [(0.0, 60.5), (60.1, 61.0), (60.5, 60.1), (60.4, 60.4), (np.nan, 60.5)]
+    ("start", "end"),
+    [(0.0, 60.5), (60.1, 61.01), (59.94, 60.5), (60.5, 60.1), (60.4, 60.4), (np.nan, 60.5)],
 )
 def test_window_outside_the_record(start, end):
     with pytest.raises(InputError, match=r"run 7: the window .* 60 s to 60\.95 s"):
         HubLoads(**_record()).window(start, end)
+
+
+@pytest.mark.parametrize(("start", "end"), [(None, 61.0), (59.95, None), (59.96, 60.96)])
+def test_a_window_may_end_one_step_outside_the_record(start, end):
+    """600 s at 20 Hz end at 599.95 s."""
+    loads = HubLoads(**_record())
+    assert np.array_equal(loads.window(start, end).time, loads.time)
 
 
 @pytest.mark.parametrize("start", ["60 s", True])

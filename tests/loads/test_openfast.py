@@ -330,11 +330,9 @@ def test_all_four_binary_formats(tmp_path, sample_out, file_format, name_length)
     ("cut", "words"),
     [
         (-200, ["line 1209 has", "values for 35 channels", "incomplete last line"]),
-        (-3, ["line 1209 holds '8.143E+'", "instead of a number"]),
-        (
-            -5,
-            ["the last line is cut off"],
-        ),  # what is left, 8.143, is a number: the exponent is lost without a sign
+        (-3, ["the last line is cut off"]),
+        # What is left, 8.143, is a number: the exponent is lost without a sign.
+        (-5, ["the last line is cut off"]),
         (-2, ["the last line is cut off"]),
     ],
 )
@@ -350,12 +348,75 @@ def test_text_without_the_final_line_end_is_complete(tmp_path, sample_out):
     assert HubLoads.read(path).time[-1] == 120.0
 
 
-def test_text_with_overflowed_numbers_names_the_line(tmp_path, sample_out):
+@pytest.mark.parametrize("word", ["**********", "-", "1.0E+", "1,5"])
+def test_what_is_no_number_matters_in_channels_that_are_taken(tmp_path, sample_out, word):
     head, names, units, rows = _selection(sample_out, lambda name: True, rows=20)
-    rows[4][5] = "**********"
-    assert "line 13 holds '**********'" in _message(
-        _write_text(tmp_path / "a.out", head, names, units, rows)
-    )
+    plain = HubLoads.read(_write_text(tmp_path / "a.out", head, names, units, rows))
+    rows[4][names.index("Wind1VelX")] = word
+    other = HubLoads.read(_write_text(tmp_path / "a.out", head, names, units, rows))
+    assert np.array_equal(other.force, plain.force)
+    rows[4][names.index("LSSTipMys")] = word
+    path = _write_text(tmp_path / "a.out", head, names, units, rows)
+    _message(path, f"channel LSSTipMys holds '{word}' (line 13)", "wider format")
+
+
+@pytest.mark.parametrize(
+    ("word", "value"), [("1.250-101", 1.25e-101), ("-1.25D+02", -125.0), ("1.25+002", 125.0)]
+)
+def test_numbers_as_fortran_writes_them(tmp_path, sample_out, word, value):
+    head, names, units, rows = _selection(sample_out, lambda name: True, rows=20)
+    rows[4][names.index("LSShftFxa")] = word
+    read = HubLoads.read(_write_text(tmp_path / "a.out", head, names, units, rows))
+    assert read.force[4, 0] == pytest.approx(1e3 * value, rel=1e-12, abs=0.0)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda content: content + b"\n\n  \n",
+        lambda content: content.replace(b"\n", b"\r\n") + b"\r\n\r\n",
+        lambda content: content.removeprefix(b"\n"),
+        lambda content: b"a second line of description\n" + content,
+        lambda content: content.replace(b"WindPACT", b"WindPACT\x85 \xa0\x0b\x1c"),
+        lambda content: content.replace(b"WindPACT", "风机".encode("gbk")),
+        lambda content: "\N{BYTE ORDER MARK}".encode() + content,
+    ],
+)
+def test_text_that_other_programs_saved(tmp_path, sample_out, change):
+    """Blank lines at the end, line ends, a lost or added line, and encodings of the description."""
+    path = tmp_path / "a.out"
+    path.write_bytes(change(sample_out.read_bytes()))
+    read, plain = HubLoads.read(path), HubLoads.read(sample_out)
+    for name in ("time", "shaft_speed", "force", "moment"):
+        assert np.array_equal(getattr(read, name), getattr(plain, name))
+
+
+@pytest.mark.parametrize("prefix", ["-", "_", "m", "M"])
+def test_channels_of_which_the_negative_was_asked_for(tmp_path, sample_out, prefix):
+    needed = ("LSShftFzs", "LSSTipMys")
+    head, names, units, rows = _selection(sample_out, lambda name: True, rows=50)
+    for row in rows:
+        for i in map(names.index, needed):
+            row[i] = row[i][1:] if row[i].startswith("-") else f"-{row[i]}"
+    names = [prefix + name if name in needed else name for name in names]
+    read = HubLoads.read(_write_text(tmp_path / "a.out", head, names, units, rows))
+    plain = HubLoads.read(sample_out).window(60, 62.45)
+    assert np.array_equal(read.force, plain.force) and np.array_equal(read.moment, plain.moment)
+    assert f"{prefix}LSShftFzs (kN), its sign turned back" in read.reading
+
+
+def test_moments_at_the_strain_gauge_are_moved_to_the_hub(tmp_path, sample_out):
+    """At the gauge, d = 2 m behind the hub, the moments are my + d fz and mz − d fy."""
+    head, names, units, rows = _selection(sample_out, lambda name: name[:6] != "LSSTip", rows=50)
+    plain = HubLoads.read(sample_out).window(60, 62.45)
+    for row, force, moment in zip(rows, plain.force, plain.moment, strict=True):
+        row[names.index("LSSGagMys")] = f"{(moment[1] + 2.0 * force[2]) / 1e3:.9E}"
+        row[names.index("LSSGagMzs")] = f"{(moment[2] - 2.0 * force[1]) / 1e3:.9E}"
+    path = _write_text(tmp_path / "a.out", head, names, units, rows)
+    _message(path, "LSSTipMys, LSSTipMzs are not in the file", "loads.hub_to_output")
+    read = HubLoads.read(path, hub_to_output=2.0)
+    assert read.moment == pytest.approx(plain.moment, abs=1.0)
+    assert read.reading[-1] == "moments moved to the hub from 2 m behind it"
 
 
 @pytest.mark.parametrize("lines", [1, 7, 8, 9])

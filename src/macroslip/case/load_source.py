@@ -9,13 +9,15 @@ from typing import Annotated, Any
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Quantity, Text, Vector
 from macroslip.input.section import input_section
-from macroslip.input.units import FORCE, MOMENT, SPEED, TIME
+from macroslip.input.units import FORCE, LENGTH, MOMENT, SPEED, TIME
 from macroslip.loads import BearingLoads, HubLoads, RollerLoads, bundled_cases
 from macroslip.loads.csv_text import DECIMAL_MARKS, THOUSANDS_MARKS
 
+#: Keys for what files with hub loads may lack: speed [rad/s] and point of output [m].
+FOR_HUB_FILES = ("shaft_speed", "hub_to_output")
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "roller_loads", "hub", "main_bearing")
 #: Keys that say how loads are read from a file.
-CUT_KEYS = ("start", "end", "shaft_speed", "decimal", "thousands")
+CUT_KEYS = ("start", "end", *FOR_HUB_FILES, "decimal", "thousands")
 
 # Advice for programs, in the words of a case file.
 _ADVICE = {
@@ -81,6 +83,10 @@ class LoadSource:
         str | None,
         Choice("mark between groups of three digits in a CSV table", lambda: THOUSANDS_MARKS),
     ] = None
+    hub_to_output: Annotated[
+        float | None,
+        Quantity("distance behind the hub at which the file has its loads", LENGTH, 0.0, 20.0),
+    ] = None
 
     @property
     def key(self) -> str:
@@ -89,7 +95,7 @@ class LoadSource:
 
     @property
     def cut(self) -> dict[str, Any]:
-        """Keys that say how a file is read, as far as they are given [s], [rad/s]."""
+        """Keys that say how a file is read, as far as they are given [s], [rad/s], [m]."""
         return {key: getattr(self, key) for key in CUT_KEYS if getattr(self, key) is not None}
 
     def series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
@@ -107,11 +113,12 @@ class LoadSource:
     def _series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
         key, cut = self.key, self.cut
         value: Any = getattr(self, key)
-        if "shaft_speed" in cut and key != "file":
-            raise InputError(
-                f"shaft_speed is given, but {key} has its own",
-                remedy="Remove loads.shaft_speed; it serves hub loads from a file only.",
-            )
+        for name in FOR_HUB_FILES:
+            if name in cut and key != "file":
+                raise InputError(
+                    f"{name} is given, but {key} has its own",
+                    remedy=f"Remove loads.{name}; it serves hub loads from a file only.",
+                )
         if key in ("hub", "main_bearing"):
             if cut:
                 raise InputError(

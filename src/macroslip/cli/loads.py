@@ -71,6 +71,12 @@ def inspect(
     thousands: Annotated[
         str, typer.Option(help="Mark between groups of three digits in a CSV table.")
     ] = "",
+    hub_to_output: Annotated[
+        str | None,
+        typer.Option(
+            help="From the hub back to where the file has its loads, if elsewhere: '2 m'."
+        ),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="A picture of the loads to write: .png, .svg or .pdf."),
@@ -93,7 +99,10 @@ def inspect(
             )
         require(PICTURE)
         check_new_file(output, force=force, inputs=[file, *([case] if case else [])])
-    speed = si("--shaft-speed", shaft_speed, SPEED)
+    options = {
+        "shaft_speed": si("--shaft-speed", shaft_speed, SPEED),
+        "hub_to_output": si("--hub-to-output", hub_to_output, LENGTH),
+    }
     own = {
         "hub_to_bearing": si("--hub-to-bearing", hub_to_bearing, LENGTH),
         "bearing_to_gearbox": si("--bearing-to-gearbox", bearing_to_gearbox, LENGTH),
@@ -107,7 +116,7 @@ def inspect(
     own = {name: value for name, value in own.items() if value is not None}
     drivetrain = replace(base.drivetrain if base else Drivetrain(), **own)
     marks = {"decimal": decimal, "thousands": thousands}
-    found, loads, bearing = _read(file, speed, marks, drivetrain, bearings[1:])
+    found, loads, bearing = _read(file, options, marks, drivetrain, bearings[1:])
     doubts = doubtful_loads(loads, base.bearing if base else None)
     if as_json:
         print_json(found | {"doubtful": doubts})
@@ -128,7 +137,7 @@ command(loads, inspect)
 
 def _read(
     file: Path,
-    speed: float | None,
+    options: dict[str, float | None],
     marks: dict[str, str],
     drivetrain: Drivetrain,
     others: Sequence[str],
@@ -137,15 +146,15 @@ def _read(
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
 
     if _holds_bearing_loads(file):
-        if speed is not None:
+        if any(value is not None for value in options.values()):
             raise InputError(
-                "--shaft-speed is for hub loads",
+                "--shaft-speed and --hub-to-output are for hub loads",
                 where=str(file),
                 remedy="Write the speed into the table's column.",
             )
         bearing = BearingLoads.read(file, **marks)
         return _described(bearing, "load on the main bearing"), bearing, bearing
-    hub = HubLoads.read(file, shaft_speed=speed, **marks)
+    hub = HubLoads.read(file, **options, **marks)
     bearing = main_bearing_load(hub, drivetrain)
     found = _described(hub, "hub loads in non-rotating shaft axes")
     found["reading"] = list(hub.reading)

@@ -1,25 +1,32 @@
-"""Hub loads from the output of HAWC2: ``.sel`` with ``.dat`` (text or binary), or the HDF5 format gtsdf.
+"""Hub loads from HAWC2 output: ``.sel`` with ``.dat`` (text or binary), or the HDF5 format gtsdf.
 
-HAWC2 writes the channels that the user's input file lists. Needed are force and moment at the hub's end of the shaft in the shaft's
-own axes, and the bearing's angle and speed:
+HAWC2 writes the channels that the user's input file lists. Needed are force and moment at the hub's
+end of the shaft in the shaft's own axes, and the bearing's angle and speed:
 
     mbdy forcevec shaft 4 2 shaft ;
     mbdy momentvec shaft 4 2 shaft ;
     constraint bearing1 shaft_rot 2 ;
 
-with the number of the shaft's last element in place of 4. The speed of the rotor (``aero omega``) serves instead,
-or may be given. Of several nodes that with the highest number is taken, the hub's end.
+with the number of the shaft's last element in place of 4. The speed of the rotor (``aero omega``)
+serves instead, or may be given.
 
-The axes of the main body ``shaft`` turn with the rotor. At angle zero x' points to the left (looking downwind), y' down
-and z' upwind along the shaft, as in the usual models, so that in the axes of `HubLoads` (x, y, z) = (−z', x', −y'), and
-the angle of the bearing turns y and z back. An internal force has either sign, depending on the side of the cut. The
-weight of the rotor decides: it has to give a mean fz below zero.
+A channel is taken by what its name and description say. The bearing is that called shaft_rot, or
+else the only one that is not one of pitch or yaw. Of several nodes of the shaft one that is
+labelled hub is taken, or else that with the highest number, the hub's end. A node 1, or a label of
+something else, such as a main bearing, is not the hub: such loads are read if the distance from the
+hub is given, and the moments are moved there.
+
+The axes of the main body ``shaft`` turn with the rotor. At angle zero x' points to the left
+(looking downwind), y' down and z' upwind along the shaft, as in the usual models, so that in the
+axes of `HubLoads` (x, y, z) = (−z', x', −y'), and the angle of the bearing turns y and z back. An
+internal force has either sign, depending on the side of the cut. The weight of the rotor decides:
+it has to give a mean fz below zero.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -33,194 +40,364 @@ from macroslip.loads.source_file import (
     MOMENT,
     MOST_VALUES,
     SPEED,
-    announced,
+    Samples,
+    announced_binary,
+    announced_text,
     in_si,
+    text_lines,
     turn_to_fixed,
 )
 
 _REMEDY = (
-    "Add to the output section of the .htc file\n  mbdy forcevec shaft N 2 shaft ;\n  mbdy momentvec shaft N 2 shaft ;\n"
-    "  constraint bearing1 shaft_rot 2 ;\nwith the number of the shaft's last element for N, and run HAWC2 again."
+    "Add to the output section of the .htc file\n  mbdy forcevec shaft N 2 shaft ;\n"
+    "  mbdy momentvec shaft N 2 shaft ;\n  constraint bearing1 shaft_rot 2 ;\n"
+    "with the number of the shaft's last element for N, and run HAWC2 again."
 )
 _AGAIN = "Copy the file again, or run HAWC2 again."
-#: Part of the mean force in the bearing's plane that has to point down for the weight to decide sign and angle.
+#: Part of the mean force in the bearing's plane that has to point down for the weight to decide
+#: sign and angle.
 _DOWN = 0.9
+#: Channels that are no motion of the shaft, though a word of theirs may say so: controllers,
+#: states of bodies, and bearings of blades and nacelle.
+_NOT_THE_SHAFT = r"^dll|mbdy|pitch|yaw|blade|teeter|filter|reference|error"
+#: How the shaft's bearing is recognised, best first; bearing2 has an angle that is prescribed, as
+#: pitch and yaw have.
+_SHAFT_BEARING = ("shaft_rot", "shaft|rotor|drive", r"^bea(ring)?[13]\b", "")
+#: Labels of a node of the shaft that is not its hub's end.
+_NOT_THE_HUB = r"bearing|gear|generator|tower|yaw|nacelle|rear|\bmb\d?\b"
+
+
+class _Channel(NamedTuple):
+    """A channel of an output file."""
+
+    index: int
+    name: str
+    unit: str
+    description: str
+
+    @property
+    def text(self) -> str:
+        """Name and description."""
+        return f"{self.name} ({self.description})"
+
+    def says(self, pattern: str) -> bool:
+        """True if name or description have a pattern, in upper or lower case."""
+        return any(
+            re.search(pattern, text, re.IGNORECASE) for text in (self.name, self.description)
+        )
 
 
 class _Output(NamedTuple):
-    """Channels of an output file and their values (n, channels)."""
+    """Channels of an output file and their values."""
 
-    names: list[str]
-    units: list[str]
-    descriptions: list[str]
-    values: NDArray
+    channels: list[_Channel]
+    samples: Samples
     time: NDArray
     where: str
 
-    def in_si(self, index: int, factors: Mapping[str, float]) -> NDArray[np.float64]:
+    def in_si(self, channel: _Channel, factors: Mapping[str, float]) -> NDArray[np.float64]:
         """Values (n,) of a channel in SI units."""
-        name, unit = self.names[index].strip(), self.units[index].strip()
-        return in_si(self.values[:, index], unit, factors, channel=name, where=self.where)
+        values = self.samples.channel(channel.index, channel.name, self.where)
+        return in_si(values, channel.unit, factors, channel=channel.name, where=self.where)
 
 
-def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
+class _Section(NamedTuple):
+    """Section of the shaft at which its internal force and moment are written."""
 
-    Without a channel for it, `shaft_speed` is left out unless it is needed. Raises InputError if the file is cut off or
-    damaged, lacks a channel, or its forces do not show the rotor's weight.
+    node: int
+    label: str
+    components: dict[str, _Channel]  #: By Fx … Mz, in the shaft's axes.
+
+    def vector(self, output: _Output, kind: str) -> NDArray[np.float64]:
+        """Force F [N] or moment M [N m] (n, 3) in the shaft's axes."""
+        factors = FORCE if kind == "F" else MOMENT
+        components = [output.in_si(self.components[kind + axis], factors) for axis in "xyz"]
+        return np.column_stack(components)
+
+    @property
+    def text(self) -> str:
+        """Node and label."""
+        return f"node {self.node}" + (f" ({self.label})" if self.label else "")
+
+
+def read_hawc2(path: Path, *, speed_needed: bool = True, at_hub: bool = True) -> dict:
+    """Loads on the shaft from HAWC2 output.
+
+    Parameters
+    ----------
+    path : Path
+        File ``.sel``, ``.dat`` or ``.hdf5``.
+    speed_needed : bool
+        Whether a file without a channel for the shaft's speed is refused.
+    at_hub : bool
+        Whether the loads must be those at the hub; otherwise any node of the shaft will do.
+
+    Returns
+    -------
+    dict
+        `time` (n,) [s], `shaft_speed` (n,) [rad/s] if there is one, `force` (n, 3) [N], `moment`
+        (n, 3) [N m] and `reading`, the channels they are from.
+
+    Raises
+    ------
+    InputError
+        If the file is cut off or damaged, a channel is missing or cannot be told from others, the
+        loads are not those at the hub, or the forces do not show the rotor's weight.
     """
     if path.suffix.lower() == ".dat":
-        path = _beside(
-            path, ".sel", "A .dat file is read as HAWC2 output: copy the list of channels too."
-        )
+        remedy = "A .dat file is read as HAWC2 output: copy the list of channels too."
+        path = _beside(path, ".sel", remedy)
     output = _read_gtsdf(path) if path.suffix.lower() in (".hdf5", ".h5") else _read_sel(path)
-    force, node = _vector(output, "force", FORCE)
-    moment, _ = _vector(output, "moment", MOMENT, node)
-    angle = _channel(output, r"angle(?!\s*_?speed)", ANGLE, prefix="bea|bearing|shaft_rot")
-    if angle is None:
-        raise InputError(
-            "there is no angle of the shaft's bearing", where=output.where, remedy=_REMEDY
-        )
-    force, moment, turned = _to_fixed(force, moment, angle[0], output.where)
-    how = f"turned back by {turned[0]} {angle[1]}, sign {turned[1]} by the rotor's weight"
-    reading = [f"force and moment: main body shaft, node {node}, {how}"]
+    section = _section(output, at_hub)
+    angle = _shaft_angle(output)
+    force, moment, turned = _to_fixed(
+        section.vector(output, "F"),
+        section.vector(output, "M"),
+        output.in_si(angle, ANGLE),
+        output.where,
+    )
+    reading = [
+        f"force and moment: main body shaft, {section.text}, turned back by {turned[0]} "
+        f"{angle.text}, sign {turned[1]} by the rotor's weight"
+    ]
     result = {"time": output.time, "force": force, "moment": moment}
-    speed = _channel(output, r"omega|rotor speed|angle_?\s*speed", SPEED)
+    speed = _shaft_speed(output, angle)
     if speed is None and speed_needed:
-        allowed = "constraint bearing1 of the shaft, or aero omega"
-        remedy = "Add one of them to the output section, or give the speed: loads.shaft_speed."
         raise InputError(
-            "there is no speed of the shaft", where=output.where, allowed=allowed, remedy=remedy
+            "there is no speed of the shaft",
+            where=output.where,
+            allowed="constraint bearing1 of the shaft, or aero omega",
+            remedy="Add one of them to the output section, or give the speed: loads.shaft_speed.",
         )
     if speed is not None:
-        result["shaft_speed"] = np.abs(speed[0]) if np.all(speed[0] <= 0.0) else speed[0]
-        reading.append(f"shaft speed: {speed[1]}")
+        values = output.in_si(speed, SPEED)
+        result["shaft_speed"] = np.abs(values) if np.all(values <= 0.0) else values
+        reading.append(f"shaft speed: {speed.text}")
     return result | {"reading": tuple(reading)}
 
 
-def _vector(
-    output: _Output, kind: str, factors: Mapping[str, float], node: int | None = None
-) -> tuple[NDArray[np.float64], int]:
-    """Components x', y', z' of the shaft's force or moment (n, 3) at a node, or at the last one there is."""
-    letter = kind[0].upper()
-    found: dict[int, dict[str, int]] = {}
-    for i, (name, text) in enumerate(zip(output.names, output.descriptions, strict=True)):
-        axis = re.match(rf"{letter}([xyz])\s+coo:\s*shaft\b", name.strip(), re.IGNORECASE)
-        body = re.search(r"mbdy:\s*shaft\s+nodenr:\s*(\d+)", text, re.IGNORECASE)
-        if axis and body:
-            found.setdefault(int(body[1]), {})[axis[1].lower()] = i
-    whole = [number for number, axes in found.items() if len(axes) == 3]
-    if not whole or (node is not None and node not in whole):
-        at = f" at node {node}, where the force is given" if node is not None and whole else ""
-        what = f"there is no {kind} of the main body shaft in its own axes{at} ({len(output.names)} channels)"
-        allowed = f"{letter}x, {letter}y and {letter}z with 'coo: shaft' and 'Mbdy:shaft' in the description"
-        raise InputError(what, where=output.where, allowed=allowed, remedy=_REMEDY)
-    node = max(whole) if node is None else node
-    return np.column_stack([output.in_si(found[node][axis], factors) for axis in "xyz"]), node
+def _section(output: _Output, at_hub: bool) -> _Section:
+    """The section at the hub's end of the shaft or, if not `at_hub`, the one nearest to it."""
+    sections: dict[int, _Section] = {}
+    for channel in output.channels:
+        component = re.match(r"([FM][xyz])\s+coo:\s*shaft\b", channel.name, re.IGNORECASE)
+        body = re.search(
+            r"mbdy:\s*shaft\s+nodenr:\s*(\d+)(?:\s*coo:\s*\S+)?(.*)",
+            channel.description,
+            re.IGNORECASE,
+        )
+        if component and body:
+            node = int(body[1])
+            section = sections.setdefault(node, _Section(node, body[2].strip(), {}))
+            section.components[component[1].capitalize()] = channel
+    known = list(sections.values())
+    for kind, letter in (("force", "F"), ("moment", "M")):
+        at_nodes = f" at {_listed([each.text for each in known])}" if known else ""
+        known = [each for each in known if all(letter + axis in each.components for axis in "xyz")]
+        if not known:
+            raise InputError(
+                f"there is no {kind} of the main body shaft in its own axes{at_nodes} "
+                f"({len(output.channels)} channels)",
+                where=output.where,
+                allowed=f"{letter}x, {letter}y and {letter}z with 'coo: shaft' and 'Mbdy:shaft' "
+                "in the description",
+                remedy=_REMEDY,
+            )
+    hubs = [each for each in known if re.search("hub", each.label, re.IGNORECASE)]
+    if hubs and not at_hub:
+        raise InputError(
+            f"the file has loads at the hub, {hubs[0].text}, and a distance from hub to output is "
+            "given",
+            where=output.where,
+            remedy="Remove loads.hub_to_output.",
+        )
+    section = max(hubs or known, key=lambda each: each.node)
+    elsewhere = re.search(_NOT_THE_HUB, section.label, re.IGNORECASE) or section.node == 1
+    if at_hub and elsewhere and not hubs:
+        raise InputError(
+            f"the loads of the main body shaft are those at {section.text}, which is not the hub; "
+            f"the file has them at {_listed([each.text for each in known])}",
+            where=output.where,
+            allowed="the shaft's last node, at the hub, without a label or with one that says hub",
+            remedy=f"{_REMEDY} Or give the distance from the hub to that node, downwind: "
+            "loads.hub_to_output.",
+        )
+    return section
 
 
-def _channel(
-    output: _Output, pattern: str, factors: Mapping[str, float], prefix: str = ""
-) -> tuple[NDArray[np.float64], str] | None:
-    for i, (name, text) in enumerate(zip(output.names, output.descriptions, strict=True)):
-        both = f"{name} {text}"
-        if re.search(pattern, both, re.IGNORECASE) and re.search(prefix, both, re.IGNORECASE):
-            return output.in_si(i, factors), f"{name.strip()} ({text.strip()})"
+def _shaft_angle(output: _Output) -> _Channel:
+    """The angle of the bearing on the shaft."""
+    angles = [
+        channel
+        for channel in output.channels
+        if channel.says("bea|shaft_rot") and channel.says("angle") and not channel.says("speed")
+    ]
+    possible = [channel for channel in angles if channel.unit in ANGLE]
+    angle = _recognised(output, possible, _SHAFT_BEARING, "angle of the shaft's bearing")
+    if angle is None:
+        others = _listed([f"{channel.text} in {channel.unit}" for channel in angles])
+        raise InputError(
+            f"there is no angle of the shaft's bearing{'; there is ' if others else ''}{others}",
+            where=output.where,
+            allowed=f"one in {' or '.join(ANGLE)} of a bearing that is none of pitch or yaw",
+            remedy=_REMEDY,
+        )
+    return angle
+
+
+def _shaft_speed(output: _Output, angle: _Channel) -> _Channel | None:
+    """The speed of the bearing with this angle, or else of the rotor; None without either."""
+    speeds = [
+        channel
+        for channel in output.channels
+        if channel.unit in SPEED and channel.says(r"omega|rotor speed|angle_?\s*speed")
+    ]
+    bearing = (angle.description or angle.name).split()[0]
+    patterns = (rf"^{re.escape(bearing)}\b", "shaft_rot", "^omega$", "^rotor speed", "")
+    return _recognised(output, speeds, patterns, "speed of the shaft")
+
+
+def _recognised(
+    output: _Output, candidates: Sequence[_Channel], patterns: Sequence[str], quantity: str
+) -> _Channel | None:
+    """The only candidate with the first pattern that any has; None if none moves with the shaft."""
+    candidates = [channel for channel in candidates if not channel.says(_NOT_THE_SHAFT)]
+    for pattern in patterns:
+        matching = {each.text: each for each in reversed(candidates) if each.says(pattern)}
+        if len(matching) > 1:
+            raise InputError(
+                f"{len(matching)} channels may be the {quantity}: "
+                f"{_listed(list(reversed(matching)))}",
+                where=output.where,
+                allowed="one, or one that is called shaft_rot",
+                remedy="Call the bearing on the shaft shaft_rot, or leave the others out of the "
+                "output section.",
+            )
+        if matching:
+            return next(iter(matching.values()))
     return None
+
+
+def _listed(texts: Sequence[str]) -> str:
+    """Up to eight texts in one line."""
+    more = f" and {len(texts) - 8} more" if len(texts) > 8 else ""
+    return ", ".join(texts[:8]) + more
 
 
 def _to_fixed(
     force: NDArray, moment: NDArray, angle: NDArray, where: str
 ) -> tuple[NDArray, NDArray, tuple[str, str]]:
-    """Force and moment in axes that do not turn, with the direction of the angle and the sign that the weight gives."""
-    best = None
-    for direction in (1.0, -1.0):
-        turned = [_turned(vector, direction * angle) for vector in (force, moment)]
-        mean_y, mean_z = turned[0][:, 1].mean(), turned[0][:, 2].mean()
-        size = np.hypot(mean_y, mean_z)
-        if best is None or size > best[0]:
-            best = size, mean_z, direction, turned
-    size, mean_z, direction, turned = best
+    """Force and moment in axes that do not turn, and the signs of angle and loads.
+
+    Of both directions of the angle that is taken in which the weight of the rotor rests the most.
+    """
+    directions = {"+": _turned(force, angle), "−": _turned(force, -angle)}
+    sizes = {
+        direction: np.hypot(*vector[:, 1:].mean(axis=0)) for direction, vector in directions.items()
+    }
+    direction = max(sizes, key=lambda each: sizes[each])
+    size, mean_z = sizes[direction], directions[direction][:, 2].mean()
     if not np.isfinite(size) or size == 0.0 or abs(mean_z) < _DOWN * size:
         raise InputError(
-            f"the weight of the rotor cannot be seen: the force across the shaft has a mean of {size:.4g} N, of which "
-            f"{mean_z:.4g} N along the vertical",
+            f"the weight of the rotor cannot be seen: the force across the shaft has a mean of "
+            f"{size:.4g} N, of which {mean_z:.4g} N along the vertical",
             where=where,
             allowed="a main body shaft with y' down and z' upwind at angle zero, and gravity",
-            remedy="If your model has other axes, write the loads as a table with columns fx_N … mz_Nm instead.",
+            remedy="If your model has other axes, write the loads as a table with columns fx_N … "
+            "mz_Nm instead.",
         )
     sign = -1.0 if mean_z > 0.0 else 1.0
-    words = "+" if direction > 0.0 else "−", "+" if sign > 0.0 else "−"
-    return sign * turned[0], sign * turned[1], words
+    turned_moment = _turned(moment, angle if direction == "+" else -angle)
+    signs = (direction, "+" if sign > 0.0 else "−")
+    return sign * directions[direction], sign * turned_moment, signs
 
 
 def _turned(vector: NDArray, angle: NDArray) -> NDArray:
+    """Vector (n, 3) in the axes of `HubLoads` from that in the shaft's, at an angle (n,) [rad]."""
     y, z = turn_to_fixed(vector[:, 0], -vector[:, 1], angle)
     return np.column_stack([-vector[:, 2], y, z])
 
 
 def _read_sel(path: Path) -> _Output:
+    """Output whose channels are listed in a .sel file."""
     if path.stat().st_size > 50_000_000:
         raise InputError(
             "the list of channels is larger than 50 MB",
             where=str(path),
             remedy="Check that it is one.",
         )
-    lines = path.read_text(encoding="latin-1").splitlines()
     try:
-        start = next(i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"])
-        scans, channels, duration, kind = lines[start + 1].split()
-        scans, channels, duration = int(scans), int(channels), float(duration)
-        if not (0 < scans * channels <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in (
-            "ASCII",
-            "BINARY",
-        ):
-            raise ValueError(f"{scans} scans of {channels} channels in {duration} s, format {kind}")
-        rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:channels]
-        # Name, unit and description of a channel are in fixed columns.
-        columns = [
-            (line[12:43].strip(), line[43:54].strip(), line[54:].strip())
-            for line in map(str.expandtabs, rows)
-        ]
-        names, units, texts = zip(*columns, strict=True)
-        if len(rows) != channels:
-            raise ValueError(f"{len(rows)} channels are listed, {channels} are announced")
-        numbers = [
-            line.split()[0] for line in lines if re.fullmatch(r"\s*[-+]?\d\.\d+E[-+]\d+\s*", line)
-        ]
-        if kind == "BINARY" and len(numbers) < channels:
-            raise ValueError(f"{len(numbers)} scale factors for {channels} channels")
-        scale = np.array(numbers[-channels:], dtype=np.float64) if kind == "BINARY" else None
+        shape, duration, channels, scale = _channel_list(text_lines(path.read_bytes()))
     except (StopIteration, ValueError, IndexError) as error:
-        what = f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})"
-        raise InputError(what, where=str(path), remedy=_AGAIN) from error
+        cause = error or "no line with Scans and Channels"
+        raise InputError(
+            f"not readable as a list of channels of HAWC2 ({cause})",
+            where=str(path),
+            allowed="a list of channels as HAWC2 writes it, in the format ASCII or BINARY",
+            remedy=f"{_AGAIN} Loads of another program: write a table with columns fx_N … mz_Nm.",
+        ) from error
     data = _beside(path, ".dat", "Copy the data file too.")
-    count, header = scans * channels, "the list of channels"
-    values = announced(data, None if scale is None else "<i2", count, header, _AGAIN)
-    values = (
-        values.reshape(scans, channels)
-        if scale is None
-        else values.reshape(channels, scans).T * scale
-    )
-    if names[0].strip().lower() == "time":
-        time = _announced_time(
-            values[:, 0], duration, 0.0 if scale is None else abs(float(scale[0])), data
-        )
+    header = "the list of channels"
+    if scale is None:
+        samples = announced_text(data, shape, header, _AGAIN)
     else:
-        time = np.arange(scans) * duration / scans
-    return _Output(list(names), list(units), list(texts), values, time, str(path))
+        packed = announced_binary(data, "<i2", shape[::-1], header, _AGAIN)
+        samples = Samples(packed.T * scale)
+    if channels[0].name.lower() == "time":
+        resolution = 0.0 if scale is None else abs(float(scale[0]))
+        stamps = samples.channel(0, channels[0].name, str(data))
+        time = _announced_time(stamps, duration, resolution, data)
+    else:
+        time = np.arange(shape[0]) * duration / shape[0]
+    return _Output(channels, samples, time, str(path))
+
+
+def _channel_list(
+    lines: Sequence[str],
+) -> tuple[tuple[int, int], float, list[_Channel], NDArray | None]:
+    """Shape (scans, channels), duration [s], channels and scale factors (channels,) of a .sel file.
+
+    Scale factors are None for text. ValueError or StopIteration if it is none.
+    """
+    start = next(i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"])
+    if "coordinate convention" in lines[start].lower():
+        raise ValueError("it is BHawC's: its heading has a Coordinate convention and no Format")
+    announcement = lines[start + 1].split()
+    if len(announcement) != 4:
+        raise ValueError(
+            f"the line below Scans, Channels, Time and Format has {len(announcement)} words"
+        )
+    scans, count, duration = int(announcement[0]), int(announcement[1]), float(announcement[2])
+    kind = announcement[3]
+    if not (0 < scans * count <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in (
+        "ASCII",
+        "BINARY",
+    ):
+        raise ValueError(f"{scans} scans of {count} channels in {duration} s, format {kind}")
+    rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:count]
+    if len(rows) != count:
+        raise ValueError(f"{len(rows)} channels are listed, {count} are announced")
+    # Name, unit and description of a channel are in fixed columns.
+    channels = [
+        _Channel(index, line[12:43].strip(), line[43:54].strip(), line[54:].strip())
+        for index, line in enumerate(map(str.expandtabs, rows))
+    ]
+    if kind == "ASCII":
+        return (scans, count), duration, channels, None
+    factors = [
+        line.split()[0] for line in lines if re.fullmatch(r"\s*[-+]?\d\.\d+E[-+]\d+\s*", line)
+    ]
+    if len(factors) < count:
+        raise ValueError(f"{len(factors)} scale factors for {count} channels")
+    return (scans, count), duration, channels, np.array(factors[-count:], dtype=np.float64)
 
 
 def _beside(path: Path, extension: str, remedy: str) -> Path:
     """The file of the same output with another extension, in whatever case it is written."""
-    found = (
-        one
-        for one in path.parent.iterdir()
-        if one.stem == path.stem and one.suffix.lower() == extension
-    )
-    for one in found:
-        if one.is_file():
-            return one
+    for neighbour in path.parent.iterdir():
+        same_output = neighbour.stem == path.stem and neighbour.suffix.lower() == extension
+        if same_output and neighbour.is_file():
+            return neighbour
     raise InputError(
         f"there is no {path.stem}{extension} beside it", where=str(path), remedy=remedy
     )
@@ -231,12 +408,16 @@ def _announced_time(
 ) -> NDArray[np.float64]:
     """Times of the samples, which have to last as long as the list of channels announces.
 
-    16 bits resolve the time of a long run to more than a step, so that binary times are taken as equal steps.
+    16 bits resolve the time of a long run to more than a step, so that binary times are taken as
+    equal steps.
     """
     # Some programs announce the time from first to last sample, others one step more.
     near = 2.5 * duration / stamps.size + resolution + 1e-3
     if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
-        what = f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels announces {duration:g} s"
+        what = (
+            f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels "
+            f"announces {duration:g} s"
+        )
         raise InputError(what, where=str(data), remedy=_AGAIN)
     if not resolution:
         return stamps
@@ -249,6 +430,7 @@ def _announced_time(
 
 
 def _read_gtsdf(path: Path) -> _Output:
+    """Output in the format gtsdf, whose time is no channel."""
     import h5py
 
     from macroslip.hdf5_file import check_hdf5
@@ -258,10 +440,13 @@ def _read_gtsdf(path: Path) -> _Output:
         with h5py.File(path, "r") as file:
             if str(_plain(file.attrs.get("type", ""))).lower() != "general time series data format":
                 raise ValueError("its type is not 'General time series data format'")
-            names, units, texts = (
-                [str(_plain(one)) for one in np.asarray(file[f"attribute_{kind}"])]
+            columns = [
+                [str(_plain(text)).strip() for text in np.asarray(file[f"attribute_{kind}"])]
                 for kind in ("names", "units", "descriptions")
-            )
+            ]
+            channels = [
+                _Channel(index, *texts) for index, texts in enumerate(zip(*columns, strict=True))
+            ]
             blocks = [file[f"block{i:04d}"] for i in range(int(file.attrs["no_blocks"]))]
             values = np.concatenate([_block_values(block) for block in blocks])
             time = np.concatenate([_block_time(block) for block in blocks])
@@ -271,17 +456,19 @@ def _read_gtsdf(path: Path) -> _Output:
             where=str(path),
             remedy=_AGAIN,
         ) from error
-    if values.shape != (time.size, len(names)):
-        what = f"data of shape {values.shape} for {time.size} times and {len(names)} channels"
+    if values.shape != (time.size, len(channels)):
+        what = f"data of shape {values.shape} for {time.size} times and {len(channels)} channels"
         raise InputError(what, where=str(path), remedy=_AGAIN)
-    return _Output(names, units, texts, values, time, str(path))
+    return _Output(channels, Samples(values), time, str(path))
 
 
 def _plain(value: object) -> object:
+    """Text of bytes."""
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else value
 
 
 def _block_values(block) -> NDArray[np.float64]:
+    """Values (n, channels) of a block, unpacked."""
     data = block["data"]
     values = data[:].astype(np.float64)
     if "gains" not in block:
@@ -293,14 +480,8 @@ def _block_values(block) -> NDArray[np.float64]:
 
 
 def _block_time(block) -> NDArray[np.float64]:
-    start, step = (
-        float(block.attrs.get("time_start", 0.0)),
-        float(block.attrs.get("time_step", 1.0)),
-    )
-    if "time" in block:
-        return (
-            block["time"][:] * step + start
-            if "time_step" in block.attrs
-            else block["time"][:] + start
-        )
-    return start + step * np.arange(block["data"].shape[0])
+    """Times (n,) [s] of a block: in steps, counted in steps, or as such."""
+    start = float(block.attrs.get("time_start", 0.0))
+    step = float(block.attrs.get("time_step", 1.0))
+    count = block["time"][:] if "time" in block else np.arange(block["data"].shape[0])
+    return start + step * count

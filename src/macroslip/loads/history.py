@@ -1,12 +1,11 @@
-"""Histories of loads at the hub and on the main bearing, checked once, where they enter the program."""
+"""Histories of loads at the hub and on the main bearing, checked where they enter the program."""
 
 from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import partial
 from numbers import Real
 from typing import Any, ClassVar, Self
 
@@ -21,7 +20,7 @@ from macroslip.loads.bundled import bundled_case
 from macroslip.loads.csv_text import csv_number_format
 from macroslip.loads.hawc2 import read_hawc2
 from macroslip.loads.openfast import read_openfast
-from macroslip.loads.source_file import DAMAGED, RPM, source_file
+from macroslip.loads.source_file import DAMAGED, RPM, moment_at_hub, source_file
 from macroslip.loads.table import read_bearing_table, read_hub_table
 from macroslip.overview import html_overview
 
@@ -34,8 +33,9 @@ LATEST_TIME = 1e10
 MAGNITUDE_LIMITS = {"force": (1e8, "N"), "moment": (1e9, "N m")}
 """Magnitudes beyond which the unit must be a mistake.
 
-Rotors on a main bearing stay below 10 rad/s, generators behind a gearbox turn faster than 100. 1e8 N is about ten times
-the weight of the heaviest rotor, 1e9 N m about ten times the extreme bending moment of a 20 MW rotor.
+Rotors on a main bearing stay below 10 rad/s, generators behind a gearbox turn faster than 100. 1e8
+N is about ten times the weight of the heaviest rotor, 1e9 N m about ten times the extreme bending
+moment of a 20 MW rotor.
 """
 
 #: Samples of a constant load beyond which the duration must be a mistake.
@@ -50,16 +50,15 @@ _HUB_FILES = {
     ".sel": "HAWC2 output",
     ".dat": "HAWC2 output, with its .sel beside it",
     ".hdf5": "HAWC2 output in the format gtsdf",
+    ".h5": "the same",
 } | _TABLES
 #: Readers by extension; all others are Bladed's.
-_READERS = {
-    ".out": read_openfast,
-    ".outb": read_openfast,
-    ".sel": read_hawc2,
-    ".dat": read_hawc2,
-    ".hdf5": read_hawc2,
-}
+_READERS: dict[str, Callable[..., dict[str, Any]]]
+_READERS = dict.fromkeys((".out", ".outb"), read_openfast)
+_READERS |= dict.fromkeys((".sel", ".dat", ".hdf5", ".h5"), read_hawc2)
 _READERS |= dict.fromkeys(_TABLES, read_hub_table)
+#: Readers of files that may also hold loads at another point of the shaft than the hub.
+_READERS_OF_OTHER_POINTS = (read_openfast, read_hawc2)
 
 
 class History:
@@ -113,9 +112,12 @@ class History:
         return float(self.time[-1] - self.time[0])
 
     def window(self, start: float | None, end: float | None) -> Self:
-        """The samples with ``start <= time <= end`` [s]; None keeps that end. Outside the record: InputError."""
+        """The samples with ``start <= time <= end`` [s]; None keeps that end of the record.
+
+        InputError if the window is not within the record, as `cut` has it.
+        """
         record: Any = self
-        columns = {one.name: getattr(self, one.name) for one in fields(record)}
+        columns = {field.name: getattr(self, field.name) for field in fields(record)}
         columns = {
             name: values for name, values in columns.items() if isinstance(values, np.ndarray)
         }
@@ -126,7 +128,8 @@ class History:
             f"{name} {values.mean() / 1e3:.4g} kN" for name, values in self._forces().items()
         )
         rpm = self.shaft_speed.mean() / RPM
-        return f"<{type(self).__name__} from {self.source}: {self._span()}; means: {means}, shaft {rpm:.4g} rpm>"
+        kind = type(self).__name__
+        return f"<{kind} from {self.source}: {self._span()}; means: {means}, shaft {rpm:.4g} rpm>"
 
     def _repr_html_(self) -> str:
         channels = {"shaft speed [rpm]": self.shaft_speed / RPM}
@@ -153,30 +156,36 @@ class History:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class HubLoads(History):
-    """Force and moment of the rotor **on** the shaft at the hub centre, in the non-rotating shaft axes.
+    """Force and moment of the rotor **on** the shaft at the hub centre, in non-rotating shaft axes.
 
-    Axes, right-handed and turning with neither the rotor nor the shaft: x along the shaft, from the hub towards the
-    gearbox (downwind); z up, perpendicular to the shaft; y = z × x, horizontal, to the left looking downwind. They
-    are OpenFAST's ``s`` axes. The rotor's weight is part of these loads, the shaft's is not. The arrays are stored as
-    read-only, C-contiguous float64 copies. Raises InputError for a wrong shape, fewer than 2 samples, values that are
-    not finite, time that does not increase, a gap, or a magnitude that only a wrong unit explains.
+    Axes, right-handed and turning with neither the rotor nor the shaft: x along the shaft, from the
+    hub towards the gearbox (downwind); z up, perpendicular to the shaft; y = z × x, horizontal, to
+    the left looking downwind. They are OpenFAST's ``s`` axes. The rotor is upwind of the tower. Its
+    weight is part of these loads, the shaft's is not. The arrays are stored as read-only,
+    C-contiguous float64 copies. Raises InputError for a wrong shape, fewer than 2 samples, values
+    that are not finite, time that does not increase, a gap, or a magnitude that only a wrong unit
+    explains.
 
     Parameters
     ----------
     time : (n,) array [s]
-        Strictly increasing, without gaps (no step above 1.5 times the median step). It need not begin at zero.
+        Strictly increasing, without gaps (no step above 1.5 times the median step). It need not
+        begin at zero.
     shaft_speed : (n,) array [rad/s]
-        Positive about +x, clockwise looking downwind. Zero and negative speeds are legal. At most 100 rad/s.
+        Positive about +x, clockwise looking downwind. Zero and negative speeds are legal. At most
+        100 rad/s.
     force : (n, 3) array [N]
         fx, fy, fz; at most 1e8 N each.
     moment : (n, 3) array [N m]
-        mx (> 0 drives the rotation), my (> 0: more thrust on the upper half of the rotor), mz; at most 1e9 N m each.
+        mx (> 0 drives the rotation), my (> 0: more thrust on the upper half of the rotor), mz; at
+        most 1e9 N m each.
     source : str
         Where the loads come from, for errors and reports.
     reading : tuple of str
         Which channels of a file they were read from, and how; empty for loads that were not read.
     event : bool
-        Whether they are of a start, a stop, idling or the like: the window then opens at the first sample.
+        Whether they are of a start, a stop, idling or the like: the window then opens at the first
+        sample.
     """
 
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {
@@ -201,7 +210,16 @@ class HubLoads(History):
         *,
         step: float = 0.05,
     ) -> HubLoads:
-        """The same force (3,) [N], moment (3,) [N m] and shaft speed [rad/s] over `duration`, in equal steps up to `step` [s].
+        """Loads that do not change, from t = 0 on.
+
+        Parameters
+        ----------
+        force, moment : (3,) array [N], [N m]
+            At the hub.
+        shaft_speed : float [rad/s]
+            Positive about +x.
+        duration, step : float [s]
+            Time that they last, in equal steps of at most `step`.
 
         Examples
         --------
@@ -220,35 +238,55 @@ class HubLoads(History):
         shaft_speed: float | None = None,
         decimal: str = "",
         thousands: str = "",
+        hub_to_output: float | None = None,
     ) -> HubLoads:
-        """Read output of OpenFAST, Bladed or HAWC2, or a table with units in its column names (Parquet, CSV).
-
-        Raises InputError if the file is absent, empty, damaged or cut off, lacks a channel, or holds values that
-        `HubLoads` refuses.
+        """Read output of OpenFAST, Bladed or HAWC2, or a table with units in its column names.
 
         Parameters
         ----------
         path : path
-            ``.outb`` and ``.out``: see `macroslip.loads.openfast` for the channels; ``.%nn`` or ``.$nn``, any file of a
-            run: `macroslip.loads.bladed`; ``.sel``, ``.dat`` or ``.hdf5``: `macroslip.loads.hawc2`; ``.parquet`` and ``.csv``:
-            `macroslip.loads.table` for the columns.
+            ``.outb`` and ``.out``: see `macroslip.loads.openfast` for the channels; ``.%nn`` or
+            ``.$nn``, any file of a run: `macroslip.loads.bladed`; ``.sel``, ``.dat``, ``.hdf5`` or
+            ``.h5``: `macroslip.loads.hawc2`; ``.parquet`` and ``.csv``: `macroslip.loads.table` for
+            the columns.
         start, end : float, optional
-            Keep only this part of the file [s], on the file's own time axis. What lies outside is not validated.
+            Keep only this part of the file [s], on the file's own time axis, as `cut` does. What
+            lies outside is not validated.
         shaft_speed : float, optional
             Constant shaft speed [rad/s] in place of the file's; needed where the file has none.
         decimal, thousands : str, optional
             Marks in the numbers of a CSV table, found out by default: before the decimals "." or
             ",", between groups of three digits ".", ",", "'" or a space.
+        hub_to_output : float, optional
+            Distance [m] of the point that the file's loads are given at behind the hub centre,
+            where it is not the hub: a node of HAWC2's shaft, or OpenFAST's strain gauge. The
+            moments are moved to the hub; the shaft between has no weight.
+
+        Raises
+        ------
+        InputError
+            If the file is absent, empty, damaged or cut off, lacks a channel, or holds values that
+            `HubLoads` refuses.
         """
         path, extension = source_file(path, _HUB_FILES)
-        number_format = csv_number_format(path, decimal, thousands)
         reader = _READERS.get(extension, read_bladed)
+        options: dict[str, Any] = {"speed_needed": shaft_speed is None}
+        number_format = csv_number_format(path, decimal, thousands)
         if number_format is not None:
-            reader = partial(read_hub_table, number_format=number_format)
-        # Numbers that are not finite are reported with their channel and time, without NumPy's warnings before.
+            options["number_format"] = number_format
+        if hub_to_output is not None and reader in _READERS_OF_OTHER_POINTS:
+            options["at_hub"] = False
+        # Numbers that are not finite are reported with their channel and time, without NumPy's
+        # warnings before.
         with reading(path, DAMAGED), np.errstate(all="ignore"):
-            columns = reader(path, speed_needed=shaft_speed is None)
+            columns = reader(path, **options)
+            if hub_to_output is not None:
+                columns["moment"] = moment_at_hub(
+                    columns["force"], columns["moment"], hub_to_output
+                )
         taken = columns.pop("reading")
+        if hub_to_output is not None:
+            taken = (*taken, f"moments moved to the hub from {hub_to_output:g} m behind it")
         if shaft_speed is not None:
             columns["shaft_speed"] = np.full(columns["time"].shape, shaft_speed)
             taken = (*taken, f"shaft speed: given, {shaft_speed:g} rad/s")
@@ -256,9 +294,10 @@ class HubLoads(History):
 
     @classmethod
     def bundled(cls, case: str) -> HubLoads:
-        """One of the load cases that come with the package, at 20 Hz, most of them 600 s; `bundled_cases` lists them.
+        """One of the load cases that come with the package; `bundled_cases` lists them.
 
-        Simulated with OpenFAST for the WindPACT 1.5 MW turbine; ``cases/README.md`` beside this module describes how.
+        They have 20 Hz and most of them 600 s, and were simulated with OpenFAST for the WindPACT
+        1.5 MW turbine; ``cases/README.md`` beside this module describes how.
 
         Examples
         --------
@@ -276,18 +315,18 @@ class HubLoads(History):
 class BearingLoads(History):
     """Force on the inner ring of the main bearing, in the bearing frame.
 
-    Bearing frame, right-handed and not rotating: Z0 along the shaft, downwind; Y0 up, in the plane of the shaft tilt;
-    X0 = Y0 × Z0, horizontal, to the left looking downwind. In OpenFAST's shaft axes (X0, Y0, Z0) = (y, z, x).
-    A spherical bearing carries no moment. The arrays are stored as read-only, C-contiguous float64 copies. Raises
-    InputError as `HubLoads`.
+    Bearing frame, right-handed and not rotating: Z0 along the shaft, downwind; Y0 up, in the plane
+    of the shaft tilt; X0 = Y0 × Z0, horizontal, to the left looking downwind. In OpenFAST's shaft
+    axes (X0, Y0, Z0) = (y, z, x). A spherical bearing carries no moment. The arrays are stored as
+    read-only, C-contiguous float64 copies. Raises InputError as `HubLoads`.
 
     Parameters
     ----------
     time, shaft_speed : (n,) array [s], [rad/s]
         As in `HubLoads`; speed of the inner ring, positive about +Z0.
     force : (n, 3) array [N]
-        F_X0, F_Y0, F_Z0, the load of the shaft **on** the inner ring: a hanging weight has F_Y0 < 0, thrust on an
-        upwind rotor has F_Z0 > 0. At most 1e8 N each.
+        F_X0, F_Y0, F_Z0, the load of the shaft **on** the inner ring: a hanging weight has
+        F_Y0 < 0, thrust on an upwind rotor has F_Z0 > 0. At most 1e8 N each.
     source : str
         Where the loads come from, for errors and reports.
     event : bool
@@ -307,7 +346,16 @@ class BearingLoads(History):
     def constant(
         cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05
     ) -> BearingLoads:
-        """The same force (3,) [N] and shaft speed [rad/s] from t = 0 to `duration` [s], in steps of at most `step` [s].
+        """A load that does not change, from t = 0 on.
+
+        Parameters
+        ----------
+        force : (3,) array [N]
+            Load of the shaft on the inner ring.
+        shaft_speed : float [rad/s]
+            Positive about +Z0.
+        duration, step : float [s]
+            Time that it lasts, in equal steps of at most `step`.
 
         Examples
         --------
@@ -331,7 +379,10 @@ class BearingLoads(History):
         `macroslip.loads.table` says which columns are needed. Parameters and errors are those of
         `HubLoads.read`.
         """
-        remedy = "Hub loads from OpenFAST become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())."
+        remedy = (
+            "Hub loads from OpenFAST become bearing loads by "
+            "main_bearing_load(HubLoads.read(path), Drivetrain())."
+        )
         path, _ = source_file(path, _TABLES, remedy)
         number_format = csv_number_format(path, decimal, thousands)
         with reading(path, DAMAGED), np.errstate(all="ignore"):
@@ -342,9 +393,25 @@ class BearingLoads(History):
 def cut(
     columns: Mapping[str, NDArray], start: float | None, end: float | None, source: str
 ) -> dict[str, Any]:
-    """Keep the samples with ``start <= time <= end`` [s]; None is the end of the record on that side.
+    """Keep the samples with ``start <= time <= end``.
 
-    Works on arrays that are not validated yet, so that a bad stretch of a file can be cut away on reading.
+    Works on arrays that are not validated yet, so that a bad stretch of a file can be cut away on
+    reading.
+
+    Parameters
+    ----------
+    columns : mapping
+        Arrays whose first axis is time, among them `time` (n,) [s].
+    start, end : float or None
+        Window [s]; None is the end of the record on that side. Either may be up to one step outside
+        of the record: 600 s of samples end at 599.95 s.
+    source : str
+        Where they come from, for errors.
+
+    Raises
+    ------
+    InputError
+        If the window is not within the record or holds fewer than two samples.
     """
     columns = {name: np.asarray(values) for name, values in columns.items()}
     for name, value in (("start", start), ("end", end)):
@@ -357,13 +424,14 @@ def cut(
     stamps = columns["time"][np.isfinite(columns["time"])]
     if stamps.size < 2:  # nothing to cut; validation reports the fault
         return columns
-    first, last = float(stamps.min()), float(stamps.max())
-    slack = (
-        1e-6 * (last - first) / (stamps.size - 1)
-    )  # a stamp such as 0.30000000000000004 s must not lose its sample
-    low, high = first if start is None else start, last if end is None else end
+    first = float(stamps.min())
+    last = float(stamps.max())
+    step = (last - first) / (stamps.size - 1)
+    slack = 1e-6 * step  # a stamp such as 0.30000000000000004 s must not lose its sample
+    low = first if start is None else start
+    high = last if end is None else end
     window = f"the window from {low:.10g} s to {high:.10g} s"
-    if not (first - slack <= low < high <= last + slack):
+    if not (first - step - slack <= low < high <= last + step + slack):
         raise InputError(
             f"{window} cannot be cut out",
             where=source,
@@ -396,7 +464,8 @@ def _constant(
         raise InputError(
             f"the duration of a constant load is {duration:g} s, {duration / step:.3g} samples",
             allowed=f"up to {_MOST_SAMPLES * step:g} s at a step of {step:g} s",
-            remedy="A load that does not change needs no longer time: its energy per orbit stays the same.",
+            remedy="A load that does not change needs no longer time: its energy per orbit stays "
+            "the same.",
         )
     source = "constant load"
     if not is_finite_number(shaft_speed):
@@ -421,10 +490,10 @@ def _constant(
 def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
     """A read-only copy; text that looks like a number is not one."""
     try:
-        given = np.asarray(values)
-        if given.dtype.kind not in "iuf":
-            raise TypeError(f"it holds {given.dtype}")
-        array = np.array(given, dtype=np.float64, order="C")
+        original = np.asarray(values)
+        if original.dtype.kind not in "iuf":
+            raise TypeError(f"it holds {original.dtype}")
+        array = np.array(original, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
         what = f"{name} does not convert to an array of numbers ({error})"
         raise InputError(what, where=source, allowed="real numbers") from error
@@ -433,6 +502,7 @@ def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
 
 
 def _check_time(time: NDArray, source: str) -> None:
+    """InputError if times (n,) [s] do not increase, have a gap, or are no seconds."""
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
         what = f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)"
@@ -448,7 +518,8 @@ def _check_time(time: NDArray, source: str) -> None:
             f"sample {i + 1} at {time[i + 1]:.10g} s",
             where=source,
             allowed="strictly increasing time",
-            remedy="Remove repeated samples; a restart leaves them, or a time written with too few digits.",
+            remedy="Remove repeated samples; a restart leaves them, or a time written with too few "
+            "digits.",
         )
     typical = float(np.median(steps))
     latest = float(np.abs(time).max())
@@ -456,8 +527,10 @@ def _check_time(time: NDArray, source: str) -> None:
         raise InputError(
             f"time reaches {latest:.6g} s, with steps of {typical:.6g} s",
             where=source,
-            allowed=f"magnitudes up to {LATEST_TIME:g} s, and steps that numbers of this size resolve",
-            remedy="Time is in seconds. Convert stamps of an epoch, such as microseconds, and count from the start.",
+            allowed=f"magnitudes up to {LATEST_TIME:g} s, and steps that numbers of this size "
+            "resolve",
+            remedy="Time is in seconds. Convert stamps of an epoch, such as microseconds, and "
+            "count from the start.",
         )
     bad = np.flatnonzero(steps > GAP_FACTOR * typical)
     if bad.size:
@@ -473,6 +546,7 @@ def _check_time(time: NDArray, source: str) -> None:
 def _check_values(
     name: str, values: NDArray, limit: float, unit: str, time: NDArray, source: str
 ) -> None:
+    """InputError if values (n,) of a channel are not finite or beyond a limit [unit]."""
     bad = np.flatnonzero(~np.isfinite(values))
     if bad.size:
         raise InputError(
@@ -483,13 +557,14 @@ def _check_values(
         )
     worst = int(np.abs(values).argmax())
     if abs(values[worst]) > limit:
-        rpm, kilo = (
-            "Is it in rpm, or the speed of the generator?",
-            "Is a value already in newtons declared as kN?",
+        question = (
+            "Is it in rpm, or the speed of the generator?"
+            if unit == "rad/s"
+            else "Is a value already in newtons declared as kN?"
         )
         raise InputError(
             f"{name} is {values[worst]:.6g} {unit}, beyond any wind turbine",
             where=f"{source}, t = {time[worst]:.10g} s",
             allowed=f"magnitudes up to {limit:g} {unit}",
-            remedy=f"Check the unit. {rpm if unit == 'rad/s' else kilo}",
+            remedy=f"Check the unit. {question}",
         )

@@ -1,18 +1,24 @@
 """Hub loads from an OpenFAST output file, binary (``.outb``) or text (``.out``).
 
-Channels, by the names of ElastoDyn's output list (upper and lower case are the same; documented aliases are accepted):
+Channels, by the names of ElastoDyn's output list (upper and lower case are the same; documented
+aliases are accepted):
 
-=========================  ================================================================================
+=========================  =======================================
 shaft speed                RotSpeed
 force (x, y, z)            LSShftFxa, LSShftFys, LSShftFzs
 moment at the hub centre   LSShftMxa, LSSTipMys, LSSTipMzs
-=========================  ================================================================================
+=========================  =======================================
 
-Where a pair in the non-rotating axes is absent, the pair in the rotating axes (LSShftFya, LSShftFza; LSSTipMya,
-LSSTipMza) is turned by the channel Azimuth. This supposes ``AzimB1Up = 0`` in the ElastoDyn file: the rotating axes
-coincide with the non-rotating ones when blade 1 is up, and the azimuth written to the file is then AzimB1Up.
-Turned forces whose mean does not point down are refused. The units written in the file are used. Text output holds
-four significant digits as a rule; prefer the binary one.
+Where a pair in the non-rotating axes is absent, the pair in the rotating axes (LSShftFya,
+LSShftFza; LSSTipMya, LSSTipMza) is turned by the channel Azimuth. This supposes ``AzimB1Up = 0`` in
+the ElastoDyn file: the rotating axes coincide with the non-rotating ones when blade 1 is up, and
+the azimuth written to the file is then AzimB1Up. Turned forces whose mean does not point down are
+refused.
+
+OpenFAST turns the sign of a channel that is asked for with -, _ or m before its name; the sign is
+turned back. If the distance from the hub to the strain gauge is known, the moments there
+(LSSGagMys, LSSGagMzs) serve in place of those at the hub. The units written in the file are used. Text
+output holds four significant digits as a rule; prefer the binary one.
 
 The official reader, openfast_io, reads a binary file once it is sure that the file is whole.
 """
@@ -28,7 +34,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
-from macroslip.loads.source_file import ANGLE, FORCE, SPEED, in_si, turn_to_fixed
+from macroslip.loads.source_file import (
+    ANGLE,
+    FORCE,
+    SPEED,
+    Samples,
+    in_si,
+    numbers,
+    text_lines,
+    turn_to_fixed,
+)
 
 
 def _in_brackets(factors: Mapping[str, float]) -> dict[str, float]:
@@ -42,11 +57,16 @@ _THRUST = ("LSShftFxa", "LSShftFxs", "LSSGagFxa", "LSSGagFxs", "RotThrust")
 _TORQUE = ("LSShftMxa", "LSShftMxs", "LSSGagMxa", "LSSGagMxs", "RotTorq", "LSShftTq")
 _SPEED = ("RotSpeed", "LSSTipVxa", "LSSTipVxs", "LSSTipV")
 _AZIMUTH = ("Azimuth", "LSSTipPxa", "LSSTipPxs", "LSSTipP")
-# The shear force is constant along the shaft, so the strain gauge's is the hub's. Its bending moment is not.
+# The shear force is constant along the shaft, so the strain gauge's is the hub's. Its bending
+# moment is not.
 _SHEAR = (("LSShftFys", "LSSGagFys"), ("LSShftFzs", "LSSGagFzs"))
 _ROTATING_SHEAR = (("LSShftFya", "LSSGagFya"), ("LSShftFza", "LSSGagFza"))
 _BENDING = (("LSSTipMys",), ("LSSTipMzs",))
 _ROTATING_BENDING = (("LSSTipMya",), ("LSSTipMza",))
+_GAUGE_BENDING = (("LSSGagMys",), ("LSSGagMzs",))
+_ROTATING_GAUGE_BENDING = (("LSSGagMya",), ("LSSGagMza",))
+#: Letters before a name by which OpenFAST is asked for the negative of a channel.
+_MINUS = ("-", "_", "m")
 
 _MEANING = {
     "RotSpeed": "(rpm); rotor speed",
@@ -58,63 +78,110 @@ _MEANING = {
     "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating",
 }
 _AGAIN = "Copy the file again, or run OpenFAST again."
-_INVALID = "OpenFAST writes INVALID for a channel that it cannot compute with this model; check that ElastoDyn is in use."
+#: Lines of a text file among which that of the names is searched.
+_LONGEST_HEAD = 100
+_INVALID = (
+    "OpenFAST writes INVALID for a channel that it cannot compute with this model; "
+    "check that ElastoDyn is in use."
+)
 
 
-def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
+def read_openfast(path: Path, *, speed_needed: bool = True, at_hub: bool = True) -> dict:
+    """Hub loads of an OpenFAST output file.
 
-    Without a channel for it, `shaft_speed` is left out unless it is needed. Raises InputError if the file is cut off or
-    damaged, lacks a channel (the error gives the lines to add to the output list), or declares a unit that is not
-    known.
+    Parameters
+    ----------
+    path : Path
+        File ``.outb`` or ``.out``.
+    speed_needed : bool
+        Whether a file without a channel for the shaft's speed is refused.
+    at_hub : bool
+        Whether moments must be those at the hub; otherwise those at the strain gauge will do.
+
+    Returns
+    -------
+    dict
+        `time` (n,) [s], `shaft_speed` (n,) [rad/s] if there is one, `force` (n, 3) [N], `moment`
+        (n, 3) [N m] and `reading`, the channels they are from.
+
+    Raises
+    ------
+    InputError
+        If the file is cut off or damaged, lacks a channel (the error gives the lines to add to the
+        output list), declares a unit that is not known, or a channel holds what is no number.
     """
-    channels = _Channels(
-        *(_read_binary if path.suffix.lower() == ".outb" else _read_text)(path), str(path)
-    )
-    found = {"time": channels.column(("Time",), _TIMES)}
+    read = _read_binary if path.suffix.lower() == ".outb" else _read_text
+    return loads_from_channels(read(path), speed_needed=speed_needed, at_hub=at_hub)
+
+
+def loads_from_channels(channels: Channels, *, speed_needed: bool, at_hub: bool = True) -> dict:
+    """Hub loads from channels with OpenFAST's names, as `read_openfast` returns them."""
+    loads = {"time": channels.column(("Time",), _TIMES)}
     if speed_needed or channels.has_all((_SPEED,)):
-        found["shaft_speed"] = channels.column(_SPEED, _SPEEDS)
+        loads["shaft_speed"] = channels.column(_SPEED, _SPEEDS)
     thrust = channels.column(_THRUST, _FORCES)
     shear = channels.across(_SHEAR, _ROTATING_SHEAR, _FORCES)
     torque = channels.column(_TORQUE, _MOMENTS)
-    bending = channels.across(_BENDING, _ROTATING_BENDING, _MOMENTS)
+    bending_pairs = (_BENDING, _ROTATING_BENDING)
+    if not at_hub and not any(map(channels.has_all, bending_pairs)):
+        bending_pairs = (_GAUGE_BENDING, _ROTATING_GAUGE_BENDING)
+    bending = channels.across(*bending_pairs, _MOMENTS)
     channels.raise_if_missing()
     if not channels.has_all(_SHEAR):
-        _check_weight(*shear, str(path))
-    return found | {
+        _check_weight(*shear, channels.where)
+    return loads | {
         "force": np.column_stack([thrust, *shear]),
         "moment": np.column_stack([torque, *bending]),
         "reading": tuple(channels.taken),
     }
 
 
-class _Channels:
-    """Columns by name and unit; remembers missing channels, so that one error names them all."""
+class Channels:
+    """Columns by name and unit; remembers missing channels, so that one error names them all.
 
-    def __init__(self, names: list[str], units: list[str], data: NDArray, where: str):
-        self.names, self.units, self.data, self.where = names, units, data, where
-        self.index = {name.lower(): i for i, name in reversed(list(enumerate(names)))}
-        #: Channels that were not found, and the names they were looked for by.
+    Parameters
+    ----------
+    names, units : list of str
+        Of all channels, the time among them; units without brackets.
+    samples : Samples
+        Their values.
+    where : str
+        The file, for errors.
+    """
+
+    def __init__(self, names: list[str], units: list[str], samples: Samples, where: str):
+        self.names, self.units, self.samples, self.where = names, units, samples, where
+        #: Index and sign of a channel by its name in lower case; of two, the first.
+        self.index: dict[str, tuple[int, float]] = {}
+        for i, name in enumerate(map(str.lower, names)):
+            self.index.setdefault(name, (i, 1.0))
+        for i, name in enumerate(map(str.lower, names)):
+            if name.startswith(_MINUS):
+                self.index.setdefault(name[1:], (i, -1.0))
+        #: Channels that are missing, and the names they were looked for by.
         self.missing: dict[str, str] = {}
         self.taken: list[str] = []
 
     def has_all(self, quantities: tuple[tuple[str, ...], ...]) -> bool:
+        """True if each quantity has a channel under one of its names."""
         return all(any(alias.lower() in self.index for alias in aliases) for aliases in quantities)
 
     def column(self, aliases: tuple[str, ...], factors: Mapping[str, float]) -> NDArray[np.float64]:
-        found = next((alias for alias in aliases if alias.lower() in self.index), None)
-        if found is None:
+        """Values (n,) of a channel in SI units; zeros, and an entry in `missing`, without it."""
+        alias = next((alias for alias in aliases if alias.lower() in self.index), None)
+        if alias is None:
             self.missing[aliases[0]] = " or ".join(aliases)
-            return np.zeros(len(self.data))
-        i = self.index[found.lower()]
+            return np.zeros(len(self.samples.values))
+        i, sign = self.index[alias.lower()]
         name, unit = self.names[i], self.units[i]
-        self.taken.append(f"{name} ({unit})")
+        self.taken.append(f"{name} ({unit})" + (", its sign turned back" if sign < 0.0 else ""))
         remedy = "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel."
         # OpenFAST writes INVALID without the brackets that its reader takes away.
         if unit.upper() in ("INVALID", "NVALI"):
             unit, remedy = "INVALID", _INVALID
         unit = f"({unit.replace('·', '-').replace('*', '-').replace(' ', '-')})"
-        return in_si(self.data[:, i], unit, factors, channel=name, where=self.where, remedy=remedy)
+        values = sign * self.samples.channel(i, name, self.where)
+        return in_si(values, unit, factors, channel=name, where=self.where, remedy=remedy)
 
     def across(
         self,
@@ -122,7 +189,7 @@ class _Channels:
         rotating: tuple[tuple[str, ...], ...],
         factors: Mapping[str, float],
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The components along y and z, from the non-rotating pair or else from the rotating pair."""
+        """Components along y and z, from the non-rotating pair or else from the rotating pair."""
         if self.has_all(fixed):
             return self.column(fixed[0], factors), self.column(fixed[1], factors)
         if self.has_all((*rotating, _AZIMUTH)):
@@ -134,55 +201,60 @@ class _Channels:
             if not self.has_all((aliases,)):
                 turned = f"{rotating[0][0]}, {rotating[1][0]} and {_AZIMUTH[0]}"
                 self.missing[aliases[0]] = f"{' or '.join(aliases)} (or {turned})"
-        return np.zeros(len(self.data)), np.zeros(len(self.data))
+        nothing = np.zeros(len(self.samples.values))
+        return nothing, nothing
 
     def raise_if_missing(self) -> None:
+        """InputError that names all missing channels, with the lines for OpenFAST's output list."""
         if not self.missing:
             return
         if "time" not in self.index:
             remedy = "This is not an OpenFAST time series."
             raise InputError("there is no channel Time", where=self.where, remedy=remedy)
-        lines = "\n".join(
-            f'"{name}"{" " * (14 - len(name))}- {_MEANING[name]}' for name in self.missing
-        )
-        gauge = [
-            name
-            for name in self.names
-            if name.lower() in ("lssgagmys", "lssgagmzs", "lssgagmya", "lssgagmza")
-        ]
-        note = (
-            f" The file's {' and '.join(gauge)} cannot stand in: they belong to the strain gauge, not to the hub."
-            if gauge and any(name.startswith("LSSTip") for name in self.missing)
-            else ""
-        )
+        lines = "\n".join(f'"{name}"'.ljust(16) + f"- {_MEANING[name]}" for name in self.missing)
+        gauge = [name for name in self.names if name.lower().startswith("lssgagm")]
+        gauge = [name for name in gauge if name.lower()[7] in "yz"]
+        note = ""
+        if gauge and any(name.startswith("LSSTip") for name in self.missing):
+            note = (
+                f" The file's {' and '.join(gauge)} cannot stand in: they belong to the strain "
+                "gauge, not to the hub. They serve if its distance behind the hub, ShftGagL, is "
+                "given: loads.hub_to_output."
+            )
+        are = "are" if len(self.missing) > 1 else "is"
         raise InputError(
-            f"of the channels needed, {', '.join(self.missing)} {'are' if len(self.missing) > 1 else 'is'} not in the "
-            f"file ({len(self.names)} channels)",
+            f"of the channels needed, {', '.join(self.missing)} {are} not in the file "
+            f"({len(self.names)} channels)",
             where=self.where,
             allowed=f"{'; '.join(self.missing.values())}, in upper or lower case.{note}",
-            remedy=f"Add to the OutList of the ElastoDyn input file\n{lines}\nand run OpenFAST again.",
+            remedy=f"Add to the OutList of the ElastoDyn input file\n{lines}\n"
+            "and run OpenFAST again.",
         )
 
 
 def _check_weight(fy: NDArray, fz: NDArray, where: str) -> None:
-    # The file does not contain AzimB1Up. A value other than zero turns the rotor's weight away from -z.
+    """InputError if forces that were turned back do not point down on average."""
+    # The file does not contain AzimB1Up. Other than zero, it turns the rotor's weight away from -z.
     mean_y, mean_z = float(fy.mean()), float(fz.mean())
     if np.isfinite(mean_y + mean_z) and mean_z >= -abs(mean_y):
         raise InputError(
-            f"LSShftFya and LSShftFza turned by Azimuth do not point down: mean fy {mean_y:.4g} N, "
-            f"mean fz {mean_z:.4g} N, where the weight of the rotor should give a negative fz",
+            "LSShftFya and LSShftFza turned by Azimuth do not point down: mean fy "
+            f"{mean_y:.4g} N, mean fz {mean_z:.4g} N, where the weight of the rotor should give a "
+            "negative fz",
             where=where,
             allowed="AzimB1Up = 0 in the ElastoDyn input file, and gravity",
-            remedy="Add LSShftFys, LSShftFzs, LSSTipMys and LSSTipMzs to the OutList and run OpenFAST again.",
+            remedy="Add LSShftFys, LSShftFzs, LSSTipMys and LSSTipMzs to the OutList and run "
+            "OpenFAST again.",
         )
 
 
-def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
-    """Names, units and columns of all channels, the time among them."""
+def _read_binary(path: Path) -> Channels:
+    """All channels of a binary file, the time among them."""
     from openfast_io.FAST_output_reader import load_binary_output
 
     actual, expected = path.stat().st_size, _binary_size(path)
-    # Some versions of OpenFAST write more bytes than their header announces; the official reader leaves them.
+    # Some versions of OpenFAST write more bytes than their header announces; the official reader
+    # leaves them.
     if actual < expected:
         what = f"the file is cut off: its header announces {expected} bytes, it has {actual}"
         raise InputError(what, where=str(path), remedy=_AGAIN)
@@ -191,16 +263,17 @@ def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
     except Exception as error:  # the reader raises any error of its parsing
         what = f"not readable as OpenFAST binary output ({error})"
         raise InputError(what, where=str(path), remedy=_AGAIN) from error
-    return info["attribute_names"], info["attribute_units"], data
+    return Channels(info["attribute_names"], info["attribute_units"], Samples(data), str(path))
 
 
 def _binary_size(path: Path) -> int:
-    """Size [bytes] the file must have by its own header: the official reader trusts the counts in it."""
+    """Size [bytes] the file must have by its header, whose counts the official reader trusts."""
     damaged = InputError(
         "the header is not that of an OpenFAST binary file",
         where=str(path),
         allowed="file formats 1 to 4 of OpenFAST",
-        remedy="Text output must be named .out; otherwise copy the file again or run OpenFAST again.",
+        remedy="Text output must be named .out; otherwise copy the file again or run OpenFAST "
+        "again.",
     )
     with path.open("rb") as file:
 
@@ -228,41 +301,59 @@ def _binary_size(path: Path) -> int:
         return header + samples * ((4 if file_format == 1 else 0) + channels * (2 if packed else 8))
 
 
-def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
+def _read_text(path: Path) -> Channels:
+    """All channels of a text file, the time among them."""
     content = path.read_bytes()
     if b"\0" in content[:1024]:
         raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
-    try:
-        text = content.decode("utf-8")
-    except UnicodeDecodeError:
-        text = content.decode("latin-1")  # older versions write units such as kN·m so
-    lines = text.splitlines()
-    names, units = (line.split() for line in [*lines, *[""] * 8][6:8])
-    data = np.empty((max(0, len(lines) - 8), len(names)))
-    if not names or len(units) != len(names) or not len(data):
-        raise InputError(
-            f"not an OpenFAST text output: {len(names)} channel names, {len(units)} units, {len(data)} lines of data",
-            where=str(path),
-            allowed="6 lines of description, a line of names, a line of units, then the data",
-            remedy=_AGAIN,
-        )
-    for number, line in enumerate(lines[8:]):
-        values, fault = line.split(), ""
-        if len(values) != len(names):
-            fault = f"has {len(values)} values for {len(names)} channels"
-        else:
-            try:
-                data[number] = values
-            except ValueError as error:
-                fault = f"holds {str(error).rpartition(': ')[2]} instead of a number"
-        if fault:
-            what = f"not readable as OpenFAST text output (line {number + 9} {fault})"
-            remedy = "If the run was stopped or the copy cut off, delete the incomplete last line"
+    lines = text_lines(content)
+    while lines and not lines[-1].strip():
+        lines.pop()
+    head = _head(lines, path)
+    names, units = lines[head].split(), lines[head + 1].split()
+    rows = [number for number in range(head + 2, len(lines)) if lines[number].strip()]
+    values = np.empty((len(rows), len(names)))
+    unreadable: dict[int, str] = {}
+    for row, number in enumerate(rows):
+        words = lines[number].split()
+        if len(words) != len(names):
             raise InputError(
-                what, where=str(path), remedy=f"{remedy}; otherwise run OpenFAST again."
+                f"not readable as OpenFAST text output (line {number + 1} has {len(words)} values "
+                f"for {len(names)} channels)",
+                where=str(path),
+                remedy="If the run was stopped or the copy cut off, delete the incomplete last "
+                "line; otherwise choose a wider OutFmt and run OpenFAST again.",
             )
-    # A line cut within its last number still parses. OpenFAST ends every line, and all data lines are equally long.
+        values[row], strange = numbers(words)
+        for channel, word in strange.items():
+            unreadable.setdefault(channel, f"{word} (line {number + 1})")
+    # A line cut within its last number still parses. OpenFAST ends every line, and all data lines
+    # are equally long.
     if not content.endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip()):
         remedy = "Copy the file again, run OpenFAST again, or delete that line."
         raise InputError("the last line is cut off", where=str(path), remedy=remedy)
-    return names, [unit[1:-1] for unit in units], data
+    units = [unit[1:-1] for unit in units]
+    return Channels(names, units, Samples(values, unreadable), str(path))
+
+
+def _head(lines: list[str], path: Path) -> int:
+    """Index of the line of names, which begins with Time, with a line of units and data below.
+
+    OpenFAST writes six lines before it, the first one empty, which editors and archives lose.
+    """
+    for index, line in enumerate(lines[:_LONGEST_HEAD]):
+        names, units = line.split(), lines[index + 1].split() if index + 1 < len(lines) else []
+        if names and names[0].lower() == "time" and units and units[0].startswith("("):
+            if len(units) == len(names) and index + 2 < len(lines):
+                return index
+            what = f"{len(names)} channel names, {len(units)} units, "
+            what += f"{len(lines) - index - 2} lines of data"
+            break
+    else:
+        what = "there is no channel Time that begins a line of names above a line of units"
+    raise InputError(
+        f"not an OpenFAST text output: {what}",
+        where=str(path),
+        allowed="some lines of description, a line of names, a line of units, then the data",
+        remedy=_AGAIN,
+    )

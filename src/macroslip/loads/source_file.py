@@ -1,17 +1,22 @@
-"""The files that loads are read from: path, units, and the numbers that a header announces; shared by all readers."""
+"""The files that loads are read from: path, units, and the numbers that a header announces.
+
+Shared by all readers.
+"""
 
 from __future__ import annotations
 
+import codecs
 import math
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from macroslip.errors import InputError
+from macroslip.errors import InputError, legible
 from macroslip.files import check_regular
 
 #: Advice for a file that no reader understands.
@@ -30,7 +35,7 @@ ANGLE = {"deg": math.pi / 180.0, "rad": 1.0}
 def source_file(
     path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = ""
 ) -> tuple[Path, str]:
-    """Return the path and its lower-case extension, which has to be among `kinds`; they name the content of a file.
+    """Path and lower-case extension of a file, which has to be among the `kinds` of content.
 
     `remedy` is what to do about another extension.
     """
@@ -60,7 +65,7 @@ def source_file(
 
 
 def without_folders(source: str) -> str:
-    r"""Where loads come from, for what leaves this computer: of an absolute path the file's name only.
+    r"""Source of loads for what leaves this computer: of an absolute path the file's name only.
 
     Examples
     --------
@@ -88,33 +93,112 @@ def in_si(
     return np.asarray(values, dtype=np.float64) * factors[unit]
 
 
-def announced(path: Path, number: DTypeLike | None, count: int, header: str, again: str) -> NDArray:
-    """`count` numbers, binary or (None) text, which must fill the file; `header` names where they are announced."""
-    if number is not None:
-        size, full = path.stat().st_size, count * np.dtype(number).itemsize
-        if size == full:
-            return np.fromfile(path, number)
-        state = "cut off" if size < full else "damaged"
-        what = f"the file is {state}: {header} announces {full} bytes, it has {size}"
-        raise InputError(what, where=str(path), remedy=again)
+class Samples(NamedTuple):
+    """Samples of all channels of a file, of which only those that are needed have to be numbers."""
+
+    values: NDArray  #: Shape (samples, channels); NaN where the text is no number.
+    #: First text of a channel that is no number, and where it is, by the channel's index.
+    unreadable: Mapping[int, str] = {}
+
+    def channel(self, index: int, name: str, where: str) -> NDArray[np.float64]:
+        """Values (samples,) of a channel; InputError naming it if one of them is no number."""
+        if index in self.unreadable:
+            raise InputError(
+                f"channel {name} holds {self.unreadable[index]}, which is no number",
+                where=where,
+                allowed="numbers in all channels that the loads are read from",
+                remedy="Fortran writes asterisks where a number has more digits than its format; "
+                "choose a wider format for the output and run the simulation again.",
+            )
+        return np.asarray(self.values[:, index], dtype=np.float64)
+
+
+def text_lines(content: bytes) -> list[str]:
+    r"""Lines of a text file in UTF-8, UTF-16 with its mark, or else Latin-1.
+
+    Lines end with LF, CR or both, as in bytes. In text, Python ends them at ten further characters,
+    which a label or a description in another encoding may hold, such as byte 0x85.
+
+    Examples
+    --------
+    >>> text_lines(b"one \x85 line\r\nnext")
+    ['one \x85 line', 'next']
+    """
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        content = content.decode("utf-16", "replace").encode()
     try:
-        values = np.array(path.read_text(encoding="ascii").split(), dtype=np.float64)
-    except ValueError as error:
-        raise InputError(
-            f"not readable as numbers ({error})", where=str(path), remedy=again
-        ) from error
-    if values.size != count:
-        what = f"the file holds {values.size} numbers, {header} announces {count}"
+        content.decode("utf-8")
+        encoding = "utf-8"
+    except UnicodeDecodeError:
+        encoding = "latin-1"
+    lines = content.removeprefix(codecs.BOM_UTF8).splitlines()
+    return [line.decode(encoding) for line in lines]
+
+
+def fortran_number(text: str) -> float:
+    """Value of a number as Fortran writes it; ValueError if it is none.
+
+    An exponent of three digits drives out its letter: 1.5-101 is 1.5e-101. D is an E.
+
+    Examples
+    --------
+    >>> fortran_number("1.5-101"), fortran_number("-2.5D+02"), fortran_number("-.5E1")
+    (1.5e-101, -250.0, -5.0)
+    """
+    without_letter = re.fullmatch(r"([-+]?\d*\.\d*)([-+]\d{3})", text)
+    if without_letter:
+        return float("E".join(without_letter.groups()))
+    return float(re.sub("[dD]", "E", text))
+
+
+def numbers(words: Sequence[str]) -> tuple[NDArray[np.float64], dict[int, str]]:
+    """Values of words, NaN for each that is no number, and those words by their index."""
+    try:
+        return np.array(words, dtype=np.float64), {}
+    except ValueError:
+        values = np.full(len(words), np.nan)
+        unreadable = {}
+        for index, word in enumerate(words):
+            try:
+                values[index] = fortran_number(word)
+            except ValueError:
+                unreadable[index] = repr(legible(word, 40))
+        return values, unreadable
+
+
+def announced_binary(
+    path: Path, number: DTypeLike, shape: tuple[int, int], header: str, again: str
+) -> NDArray:
+    """Binary numbers of a shape, which must fill the file; `header` names where it is announced."""
+    size = path.stat().st_size
+    full = math.prod(shape) * np.dtype(number).itemsize
+    if size == full:
+        return np.fromfile(path, number).reshape(shape)
+    state = "cut off" if size < full else "damaged"
+    what = f"the file is {state}: {header} announces {full} bytes, it has {size}"
+    raise InputError(what, where=str(path), remedy=again)
+
+
+def announced_text(path: Path, shape: tuple[int, int], header: str, again: str) -> Samples:
+    """Samples of a shape (samples, channels) as text, which must fill the file, as in binary."""
+    values, words = numbers(path.read_bytes().decode("ascii", "replace").split())
+    if values.size != math.prod(shape):
+        what = f"the file holds {values.size} numbers, {header} announces {math.prod(shape)}"
         raise InputError(what, where=str(path), remedy=again)
-    return values
+    unreadable: dict[int, str] = {}
+    for index, word in words.items():
+        sample, channel = divmod(index, shape[1])
+        unreadable.setdefault(channel, f"{word} (sample {sample + 1})")
+    return Samples(values.reshape(shape), unreadable)
 
 
 def turn_to_fixed(
     along_ya: NDArray | float, along_za: NDArray | float, azimuth: NDArray | float
 ) -> tuple[NDArray, NDArray]:
-    """Components along the non-rotating y and z from those in the rotating shaft axes, at the azimuth ψ [rad].
+    """Components along the non-rotating y and z from those in the rotating shaft axes.
 
-    y = y_a cos ψ − z_a sin ψ, z = y_a sin ψ + z_a cos ψ; ψ = 0 with blade 1 up, increasing with rotation about +x.
+    y = y_a cos ψ − z_a sin ψ, z = y_a sin ψ + z_a cos ψ at the azimuth ψ [rad]; ψ = 0 with blade 1
+    up, increasing with rotation about +x.
 
     Examples
     --------
@@ -126,3 +210,32 @@ def turn_to_fixed(
     """
     cos, sin = np.cos(azimuth), np.sin(azimuth)
     return along_ya * cos - along_za * sin, along_ya * sin + along_za * cos
+
+
+def moment_at_hub(force: NDArray, moment: NDArray, hub_to_output: float) -> NDArray[np.float64]:
+    """Moment about the hub centre from that about a point behind it on the shaft.
+
+    M_hub = M + d x̂ × F, with x̂ the shaft's axis, downwind, and no load on the shaft between.
+
+    Parameters
+    ----------
+    force, moment : (n, 3) array [N], [N m]
+        Force and moment of the rotor on the shaft, the moment about the point of output.
+    hub_to_output : float [m]
+        Distance d of this point from the hub centre, positive downwind.
+
+    Returns
+    -------
+    (n, 3) array [N m]
+        (mx, my − d fz, mz + d fy).
+
+    Examples
+    --------
+    A rotor of 300 kN, two metres before the point of output, bends the shaft there by −600 kN m:
+
+    >>> weight = np.array([[0.0, 0.0, -300e3]])
+    >>> moment_at_hub(weight, np.array([[0.0, -600e3, 0.0]]), 2.0).tolist()
+    [[0.0, 0.0, 0.0]]
+    """
+    arm = np.array([hub_to_output, 0.0, 0.0])
+    return moment + np.cross(arm, force)

@@ -20,12 +20,19 @@ MOUNTS = ("three-point", "four-point")
 BEARINGS = ("front", "rear")
 #: Default distance from the main bearing to the gearbox's support [m].
 _TO_GEARBOX = 2.2
-_BOTH = "A case file for macroslip run may also have both. A study varies drivetrain.bearing: [front, rear]."
+_BOTH = (
+    "A case file for macroslip run may also have both. A study varies drivetrain.bearing: [front, "
+    "rear]."
+)
+_UPWIND = (
+    "Distances count downwind, from the hub of a rotor that is upwind of the tower. A rotor "
+    "downwind of it is not modelled."
+)
 _FOUR_POINT_KEYS = ("front_to_rear", "locating", "bearing")
 
 
 def _end_of_shaft(given: Mapping[str, Any]) -> float:
-    """Farthest place of the shaft's mass: the gearbox's support, or 10 m behind the rear bearing."""
+    """Farthest station of the shaft's mass: gearbox support, or 10 m behind the rear bearing."""
     if given.get("mount") == "four-point":
         return given["hub_to_bearing"] + (given.get("front_to_rear") or 0.0) + 10.0
     return given["hub_to_bearing"] + given["bearing_to_gearbox"]
@@ -35,40 +42,46 @@ def _end_of_shaft(given: Mapping[str, Any]) -> float:
 class Drivetrain:
     """Supports and weight of the shaft.
 
-    Lengths are measured along the shaft, positive downwind. Valid for an upwind rotor. On a three-point mount one main
-    bearing and the gearbox carry the shaft. On a four-point mount two main bearings carry it, and the gearbox takes
-    nothing but torque. Raises InputError for a value outside its range, for keys of a four-point mount that are missing
-    there, or given on a three-point mount.
+    Lengths are measured along the shaft, positive downwind. Valid for a rotor upwind of the tower.
+    On a three-point mount one main bearing and the gearbox carry the shaft. On a four-point mount
+    two main bearings carry it, and the gearbox takes nothing but torque. Raises InputError for a
+    value outside its range, for keys of a four-point mount that are missing there, or given on a
+    three-point mount.
 
     Parameters
     ----------
     mount : str
         `three-point` or `four-point`.
     hub_to_bearing : float [m]
-        Hub centre to main-bearing centre, on a four-point mount to the front one, 0 to 20 m. The default 1.26 m is an
-        engineering estimate for the WindPACT 1.5 MW turbine, whose published model gives no bearing position.
+        Hub centre to main-bearing centre, on a four-point mount to the front one, 0 to 20 m. The
+        default 1.26 m is an engineering estimate for the WindPACT 1.5 MW turbine, whose published
+        model gives no bearing position.
     bearing_to_gearbox : float [m]
-        Three-point mount: main-bearing centre to the plane of the gearbox's support, above 0 up to 20 m. Default 2.2 m,
-        an estimate as well.
+        Three-point mount: main-bearing centre to the plane of the gearbox's support, above 0 up to
+        20 m. Default 2.2 m, an estimate as well.
     front_to_rear : float [m]
-        Four-point mount: centre of the front to centre of the rear main bearing, above 0 up to 20 m.
+        Four-point mount: centre of the front to centre of the rear main bearing, above 0 up to
+        20 m.
     locating : str
-        Four-point mount: which bearing carries all thrust, `front` or `rear`; the other one floats along the shaft.
+        Four-point mount: which bearing carries all thrust, `front` or `rear`; the other one floats
+        along the shaft.
     bearing : str
         Four-point mount: which bearing is simulated, `front` or `rear`.
     tilt : float [rad]
-        Shaft tilt, positive when the hub end is up, at most 0.3 rad (17°) either way. OpenFAST's ShftTilt has the
-        opposite sign. Directs the weight of the shaft and of the rollers.
+        Shaft tilt, positive when the hub end is up, at most 0.3 rad (17°) either way. OpenFAST's
+        ShftTilt has the opposite sign. Directs the weight of the shaft and of the rollers.
     shaft_mass : float [kg]
-        Mass of the shaft with all that is fixed to it, except the rotor, whose weight is in the hub loads. 0 to 1e6 kg.
+        Mass of the shaft with all that is fixed to it, except the rotor, whose weight is in the hub
+        loads. 0 to 1e6 kg.
     shaft_mass_station : float [m]
-        Distance of that mass behind the hub centre: on a three-point mount up to the gearbox's support, on a four-point
-        mount up to 10 m behind the rear bearing.
+        Distance of that mass behind the hub centre: on a three-point mount up to the gearbox's
+        support, on a four-point mount up to 10 m behind the rear bearing.
     """
 
     mount: Annotated[str, Choice("what carries the shaft", lambda: MOUNTS)] = "three-point"
     hub_to_bearing: Annotated[
-        float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)
+        float,
+        Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0, remedy=_UPWIND),
     ] = 1.26
     bearing_to_gearbox: Annotated[
         float, Positive("distance from main bearing to gearbox support", LENGTH, 20.0)
@@ -101,8 +114,9 @@ class Drivetrain:
         given = [key for key in _FOUR_POINT_KEYS if getattr(self, key) is not None]
         missing = [key for key in _FOUR_POINT_KEYS if key not in given]
         if self.mount == "four-point" and missing:
+            are = "is" if len(missing) == 1 else "are"
             raise InputError(
-                f"the mount is four-point, and {' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
+                f"the mount is four-point, and {' and '.join(missing)} {are} missing",
                 allowed="front_to_rear: a length; locating and bearing: front or rear",
                 remedy="Add what is missing.",
             )
@@ -117,36 +131,43 @@ class Drivetrain:
 def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDArray[np.float64]]:
     """Load of the shaft on each of its two supports, from the loads at the hub.
 
-    Free body: the shaft, cut at the hub and at both supports. With x downwind along the shaft from the hub centre, z up
-    and y = z × x, and with h = `hub_to_bearing`, b the distance between the supports and a = h + b, on it act
+    Free body: the shaft, cut at the hub and at both supports. With x downwind along the shaft from
+    the hub centre, z up and y = z × x, and with h = `hub_to_bearing`, b the distance between the
+    supports and a = h + b, on it act
 
     * at x = 0 the rotor: force (fx, fy, fz), moment (mx, my, mz);
-    * at x = s the weight W = m·9.81 m/s² of the shaft, (W sin tilt, 0, −W cos tilt): with the hub end up, the shaft
-      points downwind and down, so its weight has a part along +x;
-    * at x = h and x = a the supports, each with a force and no moment, because the bearings are spherical. One of the
-      two carries thrust: the main bearing of a three-point mount, the locating bearing of a four-point mount;
-    * the gearbox with the torque −mx. On a three-point mount its torque arms are the support at x = a. On a four-point
-      mount it is held against rotation only.
+    * at x = s the weight W = m·9.81 m/s² of the shaft, (W sin tilt, 0, −W cos tilt): with the hub
+      end up, the shaft points downwind and down, so its weight has a part along +x;
+    * at x = h and x = a the supports, each with a force and no moment, because the bearings are
+      spherical. One of the two carries thrust: the main bearing of a three-point mount, the
+      locating bearing of a four-point mount;
+    * the gearbox with the torque −mx. On a three-point mount its torque arms are the support at
+      x = a. On a four-point mount it is held against rotation only.
 
-    The shaft is in equilibrium: its inertia forces are neglected. A force F at x has the moment (x − a) x̂ × F = (x − a)
-    (0, −Fz, Fy) about the second support, whose own force has none there. The load of the shaft **on** the first
-    support, in the bearing frame (X0, Y0, Z0) = (y, z, x), is therefore
+    The shaft is in equilibrium: its inertia forces are neglected. A force F at x has the moment
+    (x − a) x̂ × F = (x − a) (0, −Fz, Fy) about the second support, whose own force has none there.
+    The load of the shaft **on** the first support, in the bearing frame (X0, Y0, Z0) = (y, z, x),
+    is therefore
 
         F_X0 = (a fy − mz)/b
         F_Y0 = (a fz + my − (a − s) W cos tilt)/b
 
-    and what the forces across the shaft leave goes to the second one. Thrust is F_Z0 = fx + W sin tilt.
+    and what the forces across the shaft leave goes to the second one. Thrust is
+    F_Z0 = fx + W sin tilt.
 
-    The result is (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing` and `gearbox` on a
-    three-point mount, `front` and `rear` on a four-point mount. Valid while the frequency content lies below the first bending mode of the shaft. Seats that give way or are out of
-    line change nothing: two supports without moment are statically determinate.
+    The result is (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing`
+    and `gearbox` on a three-point mount, `front` and `rear` on a four-point mount. Valid for a
+    rotor upwind of the tower, and while the frequency content lies below the first bending mode of
+    the shaft. Seats that give way or are out of line change nothing: two supports without moment are
+    statically determinate.
 
     Examples
     --------
     A rotor of 263 kN on two main bearings, 1.5 m apart, the rear one locating:
 
     >>> rotor = HubLoads.constant([164.4e3, 0.0, -263.0e3], [0.0, 0.0, 0.0], 2.143, 1.0)
-    >>> two = Drivetrain(mount="four-point", hub_to_bearing=1.2, front_to_rear=1.5, locating="rear", bearing="front")
+    >>> two = Drivetrain(mount="four-point", hub_to_bearing=1.2, front_to_rear=1.5,
+    ...                  locating="rear", bearing="front")
     >>> for name, force in support_loads(rotor, two).items():
     ...     print(name, (force[0] / 1e3).round(1), "kN")
     front [   0.  -473.4    0. ] kN
@@ -161,11 +182,9 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     _, my, mz = hub_loads.moment.T
     weight_moment = (arm - drivetrain.shaft_mass_station) * weight * math.cos(drivetrain.tilt)
     thrust = fx + weight * math.sin(drivetrain.tilt)
-    x, y, none = (
-        (arm * fy - mz) / span,
-        (arm * fz + my - weight_moment) / span,
-        np.zeros_like(thrust),
-    )
+    x = (arm * fy - mz) / span
+    y = (arm * fz + my - weight_moment) / span
+    none = np.zeros_like(thrust)
     first_carries = not four_point or drivetrain.locating == "front"
     first = np.column_stack([x, y, thrust if first_carries else none])
     second = np.column_stack(
@@ -177,9 +196,10 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 
 
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
-    """Load on the inner ring of the simulated main bearing, by `support_loads`, with time and speed of the hub loads.
+    """Load on the inner ring of the simulated main bearing, by `support_loads`.
 
-    Raises InputError if the load is beyond 1e8 N, as a support distance close to zero makes it.
+    Time and speed are those of the hub loads. Raises InputError if the load is beyond 1e8 N, as a
+    support distance close to zero makes it.
 
     Examples
     --------

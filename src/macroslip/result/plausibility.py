@@ -6,6 +6,7 @@ Every sentence says what was found, what is usual, and what to look at. Nothing 
 from __future__ import annotations
 
 import json
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +25,8 @@ _ROTORS = (5e3, 1e7)
 #: Highest plausible shaft speed [rad/s]: 40 rpm. Largest static safety and contact pressure [Pa] of a bearing in use.
 _FASTEST, _SAFEST, _PRESSURE = 40.0 * np.pi / 30.0, 100.0, 4e9
 _RPM = 30.0 / np.pi
+#: Largest mean lateral over vertical force; 0.10 in simulations of whole turbines.
+_SIDEWAYS = 0.2
 #: Share of the rollers' load that films may carry without the balance of the rings.
 _FILMS = 0.05
 #: Numbers of a rating that are judged.
@@ -35,9 +38,10 @@ _MOST = 0.5
 def doubtful_loads(
     loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearing | None = None
 ) -> list[str]:
-    """Sentences on loads that cannot be meant so; none where all is plausible.
+    """Sentences on loads that no rotor in fixed axes has; none where all is plausible.
 
-    The rotor's weight is compared with the static load rating of a bearing; without one, with 5 kN to 10 MN.
+    The rotor's weight is compared with the static load rating of a bearing; without one, with 5 kN
+    to 10 MN.
 
     Examples
     --------
@@ -47,39 +51,76 @@ def doubtful_loads(
     >>> doubtful_loads(upwards)[0][:44]
     "the rotor's weight acts upwards: the mean of"
     """
-    found, fastest = [], float(np.abs(loads.shaft_speed).max())
+    doubts = []
+    fastest = float(np.abs(loads.shaft_speed).max())
     if fastest > _FASTEST and (bearing is None or bearing.rows > 1):
-        found.append(
-            f"the shaft turns at up to {_RPM * fastest:.3g} rpm, and rotors on main bearings stay below 40 rpm; is the "
-            "speed that of the generator, or in another unit?"
+        doubts.append(
+            f"the shaft turns at up to {_RPM * fastest:.3g} rpm, and rotors on main bearings stay "
+            "below 40 rpm; is the speed that of the generator, or in another unit?"
         )
-    if not isinstance(loads, HubLoads):
-        return found
-    thrust, _, lift = (float(one) for one in loads.force.mean(axis=0))
+    if isinstance(loads, HubLoads):
+        # A weight in axes that turn says nothing of the rotor's.
+        doubts += _loads_that_turn(loads) or _doubtful_weight(loads, bearing)
+        thrust = float(loads.force[:, 0].mean())
+        if thrust < 0.0:
+            doubts.append(
+                f"the mean thrust is {thrust / 1e3:.3g} kN, against the wind, and x points "
+                "downwind; is the axis turned round, or the rotor downwind of the tower? Loads are "
+                "those of a rotor upwind of it."
+            )
+    return doubts
+
+
+def _loads_that_turn(loads: HubLoads) -> list[str]:
+    """Sentence on transverse forces that turn with the rotor, or are turned back by another angle.
+
+    In axes that turn, fy and fz go round with amplitude W, the rotor's weight, and have a mean near
+    zero. Turned back by an angle that is wrong by δ, the weight has a mean fy of W sin δ.
+    """
+    mean_y, mean_z = loads.force[:, 1:].mean(axis=0)
+    deviations = loads.force[:, 1:].std(axis=0)
+    for name, deviation in zip(("fy", "fz"), deviations, strict=True):
+        if deviation > abs(mean_z):
+            return [
+                f"{name} goes up and down by {_plain(deviation / 1e3)} kN (its standard deviation), "
+                f"more than the rotor's weight, a mean fz of {_plain(mean_z / 1e3)} kN; are these "
+                "axes that turn with the rotor, or is the angle that of another bearing?"
+            ]
+    if abs(mean_y) > _SIDEWAYS * abs(mean_z):
+        angle = math.degrees(math.atan2(mean_y, -mean_z))
+        return [
+            f"the rotor's weight acts sideways: fy is {_plain(mean_y / 1e3)} kN and fz "
+            f"{_plain(mean_z / 1e3)} kN on average, turned by {angle:.0f} degrees; is y the "
+            "vertical axis, or do rotating channels count from another azimuth (AzimB1Up)?"
+        ]
+    return []
+
+
+def _doubtful_weight(loads: HubLoads, bearing: Bearing | None) -> list[str]:
+    """Sentence on a mean vertical force that is no weight of a rotor on this bearing."""
+    lift = float(loads.force[:, 2].mean())
     if lift > 0.0:
-        found.append(
-            f"the rotor's weight acts upwards: the mean of the vertical force is {lift / 1e3:+.3g} kN, and z points up; is "
-            "the axis turned round, or the force that of the shaft on the rotor?"
-        )
-    if thrust < 0.0:
-        found.append(
-            f"the mean thrust is {thrust / 1e3:.3g} kN, against the wind, and x points downwind; is the axis turned round?"
-        )
+        return [
+            f"the rotor's weight acts upwards: the mean of the vertical force is {lift / 1e3:+.3g} "
+            "kN, and z points up; is the axis turned round, or the force that of the shaft on the "
+            "rotor?"
+        ]
     rating = bearing.static_load_rating if bearing is not None else None
+    weight = f"the rotor weighs {_plain(-lift / 1e3)} kN"
     if rating and lift < 0.0 and not _WEIGHTS[0] <= rating / -lift <= _WEIGHTS[1]:
-        found.append(
-            f"the rotor weighs {_plain(-lift / 1e3)} kN, which is 1/{_plain(rating / -lift)} of the bearing's static load "
-            f"rating C0, and main bearings have 1/{_WEIGHTS[0]:g} to 1/{_WEIGHTS[1]:g}; are the forces in another unit?"
-        )
-    elif not rating and lift < 0.0 and not _ROTORS[0] <= -lift <= _ROTORS[1]:
-        found.append(
-            f"the rotor weighs {_plain(-lift / 1e3)} kN, and rotors weigh 5 to 10,000 kN; are the forces in another unit?"
-        )
-    return found
+        return [
+            f"{weight}, which is 1/{_plain(rating / -lift)} of the bearing's static load rating "
+            f"C0, and main bearings have 1/{_WEIGHTS[0]:g} to 1/{_WEIGHTS[1]:g}; are the forces in "
+            "another unit?"
+        ]
+    if not rating and lift < 0.0 and not _ROTORS[0] <= -lift <= _ROTORS[1]:
+        return [f"{weight}, and rotors weigh 5 to 10,000 kN; are the forces in another unit?"]
+    return []
 
 
 def _plain(value: float) -> str:
-    return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
+    """A number with three digits, or whole from 100 on."""
+    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
 
 
 def doubtful_result(result: xr.Dataset) -> list[str]:

@@ -15,7 +15,7 @@ import numpy as np
 from macroslip.bearing import Bearing
 from macroslip.case.case import Case
 from macroslip.case.case_file import build_case
-from macroslip.case.load_source import LoadSource
+from macroslip.case.load_source import FOR_HUB_FILES, LoadSource
 from macroslip.errors import InputError
 from macroslip.input.fields import FORM_ONLY, Choice, Quantity, Text, Whole
 from macroslip.input.files import Source
@@ -230,15 +230,16 @@ def template(
 def read_loads(source: str, path: str, cut: Mapping[str, Any]) -> HubLoads | BearingLoads:
     """Read the loads of a run: a `file`, `bearing_file`, or `bundled` case.
 
-    The cut has `start` and `end` [s], if the loads are to be cut, `shaft_speed` [rad/s] of files
-    without one, and `decimal` and `thousands` of CSV tables. Raises
-    InputError if they cannot be used, or a file cannot be read.
+    The cut has `start` and `end` [s], if the loads are to be cut, of files with hub loads that lack
+    them `shaft_speed` [rad/s] and `hub_to_output` [m], and `decimal` and `thousands` of CSV tables.
+    Raises InputError if they cannot be used, or a file cannot be read.
     """
     try:
-        if "shaft_speed" in cut and source != "file":
-            what = "shaft_speed is given in the base case, but these loads have a speed"
-            remedy = "Remove loads.shaft_speed; it serves hub loads from files only."
-            raise InputError(what, where=path, remedy=remedy)
+        for name in FOR_HUB_FILES:
+            if name in cut and source != "file":
+                what = f"{name} is given in the base case, but these loads have their own"
+                remedy = f"Remove loads.{name}; it serves hub loads from files only."
+                raise InputError(what, where=path, remedy=remedy)
         if source == "bundled":
             return HubLoads.bundled(path).window(cut.get("start"), cut.get("end"))
         return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
