@@ -58,7 +58,7 @@ def test_base_bearing_has_the_specified_values_in_si(base):
         "axial_factor_y0": 2.2, "mass": 519.0, "rollers_per_row": 28, "roller_diameter": 0.07, "roller_length": 0.106,
         "contact_angle": pytest.approx(np.radians(11.2), rel=1e-15), "pitch_radius": 0.3727,
         "outer_raceway_radius": 0.4149, "row_offset": 0.074,
-        "osculation_inner": 0.98, "osculation_outer": 0.98, "diametral_clearance": 2e-4, "youngs_modulus": 210e9,
+        "osculation_inner": 0.98, "osculation_outer": 0.98, "diametral_clearance": 2e-4, "clearance_state": "warm", "youngs_modulus": 210e9,
         "poisson_ratio": 0.3, "density": 7850.0, "cage_youngs_modulus": 210e9, "cage_poisson_ratio": 0.3,
         "composite_roughness": 3e-7, "hardness": 7e9, "thermal_conductivity": 46.0, "specific_heat": 460.0,
         "out_of_round_second": None, "out_of_round_third": None, "out_of_round_angle": None, "roller_crown_radius": None,
@@ -73,6 +73,7 @@ def test_every_quantity_says_where_it_comes_from(base):
     assert set(base.provenance) == set(fields_of(Bearing)) - {
         "name",
         "title",
+        "clearance_state",
         *WAVES,
         "roller_crown_radius",
     }

@@ -51,6 +51,18 @@ def test_a_better_cooled_bearing_is_colder_and_no_friction_leaves_it_at_ambient(
     assert balance_temperature(lambda _: 0.0, 60.0, 288.15) == 288.15
 
 
+def test_a_bearing_that_warms_stops_at_the_lowest_of_its_balances():
+    """Surplus −(x − 10)(x − 30)(x − 60)/100 W at a rise x: balances at 10, 30 and 60 K over the
+    surroundings.
+    """
+
+    def power(temperature):
+        rise = temperature - 288.15
+        return 60.0 * rise - 0.01 * (rise - 10.0) * (rise - 30.0) * (rise - 60.0)
+
+    assert balance_temperature(power, 60.0, 288.15) == pytest.approx(298.15, abs=1e-8)
+
+
 def test_no_balance_is_an_error():
     with pytest.raises(
         InputError, match=f"^there is no heat balance up to {HOTTEST:g} K: .* by 3700 W. Allowed: "

@@ -1,4 +1,4 @@
-"""A double-row spherical or single-row cylindrical roller bearing: all its data that the model uses."""
+"""Data of a double-row spherical or a single-row cylindrical roller bearing."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 
 from macroslip.bearing import geometry
 from macroslip.errors import InputError
-from macroslip.input.fields import Positive, Quantity, Text
+from macroslip.input.fields import Choice, Positive, Quantity, Text
 from macroslip.input.files import Source
 from macroslip.input.record import Record
 from macroslip.input.units import (
@@ -23,20 +23,28 @@ from macroslip.input.units import (
     SPECIFIC_HEAT,
 )
 
-#: Relative difference allowed between given and computed positions of the roller centre: drawings round.
+#: Relative difference allowed between given and computed positions of the roller centre: drawings
+#: round.
 SPHERE_TOLERANCE = 0.01
+#: States of a mounted bearing for which its clearance may be given.
+CLEARANCE_STATES = ("warm", "cold")
+_CLEARANCE_STATE = Choice(
+    "state of the clearance: warm, in operation, or cold, with all parts at one temperature",
+    lambda: CLEARANCE_STATES,
+)
 _Optional = float | None
 
 
 class Bearing(Record):
-    """Data of a double-row spherical roller bearing with identical, mirrored rows, or of a single-row cylindrical one.
+    """Data of a double-row spherical or a single-row cylindrical roller bearing.
 
-    A cylindrical roller bearing has a `roller_crown_radius` and no osculations: its crowned rollers touch straight raceways.
-    Contact angle and row offset are 0, and `outer_raceway_radius` is the radius of a cylinder.
+    The rows of a spherical roller bearing are identical and mirrored. A cylindrical roller bearing has a `roller_crown_radius` and no osculations: its crowned rollers
+    touch straight raceways. Contact angle and row offset are 0, and `outer_raceway_radius` is the
+    radius of a cylinder.
 
-    Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths and angles
-    have no sign, except the clearance, which is negative for a preloaded bearing. Raises InputError if a value is
-    missing, out of range, or inconsistent with the others.
+    Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths
+    and angles have no sign, except the clearance, which is negative for a preloaded bearing. Raises
+    InputError if a value is missing, out of range, or inconsistent with the others.
 
     Examples
     --------
@@ -49,7 +57,8 @@ class Bearing(Record):
 
     noun: ClassVar[str] = "bearing"
     sections: ClassVar[Mapping[str, str]] = {
-        "out_of_round": "out-of-roundness of the outer raceway, as a housing that gives way makes it: waves of the clearance"
+        "out_of_round": "out-of-roundness of the outer raceway, as a housing that gives way makes "
+        "it: waves of the clearance"
     }
 
     name: Annotated[str, Text("short name of the bearing, used in results", line=True)]
@@ -133,8 +142,9 @@ class Bearing(Record):
         _Optional, Positive("radius of a cylindrical roller's crown along its axis", LENGTH, 1000)
     ] = None
     diametral_clearance: Annotated[
-        float, Quantity("diametral operating clearance, negative for preload", LENGTH, -1e-3, 5e-3)
+        float, Quantity("diametral clearance, mounted; negative for preload", LENGTH, -1e-3, 5e-3)
     ]
+    clearance_state: Annotated[str, _CLEARANCE_STATE] = "warm"
     out_of_round_second: Annotated[
         _Optional,
         Quantity("wave with two crests: its part of the radial clearance", LENGTH, -1e-3, 1e-3),
@@ -188,7 +198,8 @@ class Bearing(Record):
         yield from kind
         if kind:
             return
-        # Positions or shapes that contradict each other make all that is computed from them meaningless.
+        # Positions or shapes that contradict each other make all that is computed from them
+        # meaningless.
         contradictions = list(_contradictions(self, source))
         yield from contradictions
         yield from _spacing(self, source)
@@ -206,17 +217,20 @@ def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
                 f"{' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
                 where=source.where(missing[0]),
                 allowed="both, above 0.9 and below 1",
-                remedy="Add what is missing. A cylindrical roller bearing has a roller_crown_radius in their place: with a drop "
-                "d of the roller's contour at its ends, roller_length²/(8 d).",
+                remedy="Add what is missing. A cylindrical roller bearing has a "
+                "roller_crown_radius in their place: with a drop d of the roller's contour at its "
+                "ends, roller_length²/(8 d).",
             )
         return
     for key in (*osculations, "contact_angle", "row_offset"):
         if getattr(bearing, key):
             yield InputError(
-                f"{key} is {bearing.written(key)}, and roller_crown_radius tells of a cylindrical roller bearing",
+                f"{key} is {bearing.written(key)}, and roller_crown_radius tells of a cylindrical "
+                "roller bearing",
                 where=source.where(key, "value"),
                 allowed="no value" if key in osculations else "0",
-                remedy=f"Remove roller_crown_radius from a spherical roller bearing, or {key} from a cylindrical one."
+                remedy=f"Remove roller_crown_radius from a spherical roller bearing, or {key} from "
+                "a cylindrical one."
                 if key in osculations
                 else "Remove roller_crown_radius from a spherical roller bearing.",
             )
@@ -230,16 +244,19 @@ def _contradictions(bearing: Bearing, source: Source) -> Iterator[InputError]:
     ):
         if abs(getattr(bearing, key) - expected) > SPHERE_TOLERANCE * abs(expected):
             yield InputError(
-                f"{key} is {bearing.written(key)}, but rollers that touch the outer raceway sphere have "
-                f"(outer_raceway_radius - roller_diameter/2) {formula} = {bearing.written(key, expected)}",
+                f"{key} is {bearing.written(key)}, but rollers that touch the outer raceway sphere "
+                f"have (outer_raceway_radius - roller_diameter/2) {formula} = "
+                f"{bearing.written(key, expected)}",
                 where=source.where(key, "value"),
                 allowed=f"agreement within {SPHERE_TOLERANCE:.0%}",
-                remedy="Check pitch_radius, row_offset, outer_raceway_radius, roller_diameter and contact_angle.",
+                remedy="Check pitch_radius, row_offset, outer_raceway_radius, roller_diameter and "
+                "contact_angle.",
             )
     slenderness = bearing.roller_length / bearing.roller_diameter
     if not 0.5 <= slenderness <= 4:
         yield InputError(
-            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} times roller_diameter",
+            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} "
+            "times roller_diameter",
             where=source.where("roller_length", "value"),
             allowed="0.5 to 4 times roller_diameter",
             remedy="Check roller_length and roller_diameter.",
@@ -254,11 +271,14 @@ def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
             math.pi / math.asin(min(1.0, bearing.roller_diameter / (2 * bearing.pitch_radius)))
         )
         yield InputError(
-            f"{bearing.rollers_per_row} rollers do not fit round the circumference: roller_diameter is "
-            f"{bearing.written('roller_diameter')}, centres are {bearing.written('roller_diameter', spacing)} apart",
+            f"{bearing.rollers_per_row} rollers do not fit round the circumference: "
+            f"roller_diameter is {bearing.written('roller_diameter')}, centres are "
+            f"{bearing.written('roller_diameter', spacing)} apart",
             where=source.where("rollers_per_row", "value"),
-            allowed=f"2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter, here at most {most} rollers",
-            remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row counts one row only.",
+            allowed="2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter, here at most "
+            f"{most} rollers",
+            remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row "
+            "counts one row only.",
         )
 
 
@@ -273,18 +293,21 @@ def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
             else f"the rollers of the two rows overlap by {overlap}"
         )
         yield InputError(
-            f"{what}: row_offset is {bearing.written('row_offset')}, roller_length {bearing.written('roller_length')}",
+            f"{what}: row_offset is {bearing.written('row_offset')}, roller_length "
+            f"{bearing.written('roller_length')}",
             where=source.where("row_offset", "value"),
-            allowed="rollers that end before the mid-plane: row_offset > roller_length/2 cos(contact_angle) + end radius "
-            f"sin(contact_angle) = {bearing.written('row_offset', bearing.row_offset - space.nearest)}",
+            allowed="rollers that end before the mid-plane: row_offset > roller_length/2 "
+            "cos(contact_angle) + end radius sin(contact_angle) = "
+            f"{bearing.written('row_offset', bearing.row_offset - space.nearest)}",
             remedy="Check roller_length, contact_angle and outer_raceway_radius.",
         )
     if bearing.width is not None and space.farthest > bearing.width / 2:
         yield InputError(
-            f"the rollers reach {bearing.written('width', space.farthest)} from the mid-plane, farther than the faces of "
-            f"a bearing of width {bearing.written('width')}",
+            f"the rollers reach {bearing.written('width', space.farthest)} from the mid-plane, "
+            f"farther than the faces of a bearing of width {bearing.written('width')}",
             where=source.where("width", "value"),
-            allowed=f"a width of at least {bearing.written('width', 2.0 * space.farthest)} for these rollers",
+            allowed=f"a width of at least {bearing.written('width', 2.0 * space.farthest)} for "
+            "these rollers",
             remedy="Check width, roller_length, contact_angle and outer_raceway_radius.",
         )
 
@@ -301,17 +324,20 @@ def _rings(bearing: Bearing, source: Source) -> Iterator[InputError]:
     inside = geometry.envelope(bearing).inside
     if bore is not None and inside <= bore / 2 and (outside is None or bore < outside):
         yield InputError(
-            f"bore_diameter is {bearing.written('bore_diameter')}, so that nothing is left of the inner ring below the "
-            "rollers",
+            f"bore_diameter is {bearing.written('bore_diameter')}, so that nothing is left of the "
+            "inner ring below the rollers",
             where=source.where("bore_diameter", "value"),
-            allowed=f"below {bearing.written('bore_diameter', 2.0 * inside)}, the smallest diameter of the inner raceway",
+            allowed=f"below {bearing.written('bore_diameter', 2.0 * inside)}, the smallest "
+            "diameter of the inner raceway",
             remedy="Check bore_diameter, outer_raceway_radius, roller_diameter and roller_length.",
         )
     if outside is not None and outside / 2 <= bearing.outer_raceway_radius:
         yield InputError(
-            f"outside_diameter is {bearing.written('outside_diameter')}, smaller than the outer raceway sphere",
+            f"outside_diameter is {bearing.written('outside_diameter')}, smaller than the outer "
+            "raceway sphere",
             where=source.where("outside_diameter", "value"),
-            allowed=f"above {bearing.written('outside_diameter', 2.0 * bearing.outer_raceway_radius)}, twice "
+            allowed="above "
+            f"{bearing.written('outside_diameter', 2.0 * bearing.outer_raceway_radius)}, twice "
             "outer_raceway_radius",
             remedy="Check outside_diameter and outer_raceway_radius, which is no diameter.",
         )

@@ -1,4 +1,4 @@
-"""Sections of a case beside its loads: integrators, window, traces, and how the bearing loses its heat."""
+"""Sections of a case beside its loads: integrators, window, traces and loss of heat."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ class Radau:
     Parameters
     ----------
     tolerance : float
-        Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
+        Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to
+        1e-2.
     max_steps : int
         Steps and rejections after which a roller counts as failed.
     """
@@ -42,7 +43,10 @@ class Radau:
 
 @input_section("integrator", "fixed step, explicit, on the spin")
 class ExplicitEuler:
-    """Explicit Euler on the spin at a fixed step [s], as in the paper's Appendix A; unstable in the load zone."""
+    """Explicit Euler on the spin at a fixed step [s], as in the paper's Appendix A.
+
+    It is unstable in the load zone.
+    """
 
     step: _Step
 
@@ -70,13 +74,15 @@ INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler"
 
 @input_section("window", "part of the time over which energies and peaks are taken")
 class Window:
-    """Part of the history over which energies and peaks are taken; the simulation always starts with the history.
+    """Part of the history over which energies and peaks are taken.
+
+    The simulation always starts with the history.
 
     Parameters
     ----------
     start : float, optional
-        [s] on the loads' time axis. None: when the rollers have completed one orbit, or at the first sample if they
-        never do, or if the loads are an event.
+        [s] on the loads' time axis. None: when the rollers have completed one orbit, or at the
+        first sample if they never do, or if the loads are an event.
     end : float, optional
         [s]; None: the last sample.
     """
@@ -116,13 +122,19 @@ class Heat:
     ambient : float
         Temperature of the surroundings [K].
     inner_mass, outer_mass : float, optional
-        Masses that warm with the rings [kg]: inner ring with the shaft, outer ring with the housing.
+        Masses that warm with the rings [kg]: inner ring with the shaft, outer ring with the
+        housing.
     ring_conductance : float, optional
-        Heat flow between them per kelvin [W/K]. With these three the rings have temperatures of their own.
+        Heat flow between them per kelvin [W/K]. With these three the rings have temperatures of
+        their own.
+    clearance_temperature : float, optional
+        Temperature of the oil at which the bearing's warm clearance holds [K]; None: that of the
+        lubricant's values.
 
     Notes
     -----
-    Two nodes: half of the friction goes into each ring, the inner one loses its half to the outer one, and that loses all of
+    Two nodes: half of the friction goes into each ring, the inner one loses its half to the outer
+    one, and that loses all of
     it by `conductance`. The oil has the mean of both temperatures.
     """
 
@@ -139,6 +151,15 @@ class Heat:
     ring_conductance: Annotated[
         float | None, Positive("heat flow between the rings per kelvin", CONDUCTANCE)
     ] = None
+    clearance_temperature: Annotated[
+        float | None,
+        Quantity(
+            "oil at which the bearing's warm clearance holds; without it that of its values",
+            TEMPERATURE,
+            253.15,
+            423.15,
+        ),
+    ] = None
 
     def __post_init__(self) -> None:
         given = [
@@ -148,14 +169,18 @@ class Heat:
         ]
         if len(given) not in (0, 3):
             raise InputError(
-                "rings with temperatures of their own need inner_mass, outer_mass and ring_conductance",
+                "rings with temperatures of their own need inner_mass, outer_mass and "
+                "ring_conductance",
                 allowed="all three, or none of them",
                 remedy="Some tonnes of shaft and housing go with the rings.",
             )
 
     @property
     def to_oil(self) -> float:
-        """Heat flow to the surroundings per kelvin of the oil [W/K]: conductance, and the way from ring to ring."""
+        """Heat flow to the surroundings per kelvin of the oil [W/K].
+
+        It passes `conductance` and the way from ring to ring in series.
+        """
         if self.ring_conductance is None:
             return self.conductance
         return 1.0 / (1.0 / self.conductance + 0.25 / self.ring_conductance)

@@ -29,7 +29,7 @@ from macroslip.measures.details import STATIONS
 from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
 from macroslip.result import skew, surface_maps
-from macroslip.result.heat_balance import clearance_loss, rings_at_balance
+from macroslip.result.heat_balance import operating_rings
 from macroslip.result.prepared import Prepared
 from macroslip.result.variables import COUNTS, ENTRY_EXTREMES, ORBIT_EXTREMES, VARIABLES
 from macroslip.roller.model import TableReport
@@ -201,25 +201,11 @@ def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict
         "window_start": float(ready.edges[0]),
         "window_end": ready.end,
         **ready.notes(tables),
-        **_rings(case),
+        **operating_rings(case),
         "rollers_per_row": case.bearing.rollers_per_row,
         "drag_power": ready.drag_power(),
         "input": json.dumps(case.as_dict() | supplied, ensure_ascii=False),
         "citations": "\n".join([*CITATIONS, *references(case.laws), *method]),
-    }
-
-
-def _rings(case: Case) -> dict[str, float]:
-    """Temperatures of the rings at the balance of heat [K], and the clearance that their difference took [m]."""
-    heat = case.heat
-    if heat is None or heat.ring_conductance is None or not isinstance(case.temperature, float):
-        return {}
-    inner, outer = rings_at_balance(heat, case.temperature)
-    loss = clearance_loss(case.bearing, inner, outer)
-    return {
-        "inner_ring_temperature": inner,
-        "outer_ring_temperature": outer,
-        "clearance_loss": loss,
     }
 
 

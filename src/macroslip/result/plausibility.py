@@ -161,11 +161,13 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
             "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of what makers publish: lives are "
             "0.5 to 0.9 of those by the maker's C."
         )
+    preload = -result.attrs.get("operating_clearance", 0.0)
     loss = result.attrs.get("clearance_loss", 0.0)
-    if loss > 0.0 and bearing["diametral_clearance"]["value"] <= 0.0:
+    if preload > 0.0 and loss > 0.0:
         found.append(
-            f"the inner ring is so much warmer that it takes all of the clearance and more ({1e6 * loss:.3g} um): preload is not "
-            "modelled; give the bearing more clearance, or check heat.ring_conductance."
+            f"the inner ring is so much warmer than the outer one that it takes {1e6 * loss:.3g} um of clearance and "
+            f"preloads the rollers by {1e6 * preload:.3g} um: friction, heat and loads of the rollers rise with it, and "
+            "a little more heat may seize the bearing; give it more clearance, or check heat.ring_conductance."
         )
     if "mean_film_load" in result and "mean_elastic_load" in result.attrs:
         films, elastic = (

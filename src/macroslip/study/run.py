@@ -448,13 +448,13 @@ def study_at_balance(
     loads = study.loads.loads
     shares = study.weights.of(loads) if study.weights else [1.0 / len(loads)] * len(loads)
     weights = dict(zip((load.name for load in loads), shares, strict=True))
-    heats = {
-        run.group: study.case_of(run)[0].heat
+    cases = {
+        run.group: study.case_of(run)[0]
         for run in {run.group: run for run in study.runs()}.values()
     }
-    known: dict[str, dict[float, float]] = {group: {} for group in heats}
+    known: dict[str, dict[float, float]] = {group: {} for group in cases}
     while True:
-        found = {group: next_temperature(known[group], heats[group]) for group in heats}
+        found = {group: next_temperature(known[group], cases[group]) for group in cases}
         if all(settled for _, settled in found.values()):
             temperatures = {group: round(at, _DIGITS) for group, (at, _) in found.items()}
             return replace(study, heat=None, weights=None, temperatures=temperatures)
