@@ -251,6 +251,16 @@ def test_a_group_that_nobody_needs_may_be_of_another_kind(tmp_path, truth, old, 
     np.testing.assert_allclose(HubLoads.read(header).force, truth.force, rtol=1e-6, atol=0.1)
 
 
+def test_a_header_with_blanks_behind_its_keys(tmp_path, truth):
+    """Some versions part keys and numbers by blanks, others by a tab."""
+    header = _run(tmp_path, truth)
+    for path in (header, tmp_path / "demo.%05"):
+        path.write_text(path.read_text().replace("\t", "  "))
+    read = HubLoads.read(header)
+    np.testing.assert_allclose(read.force, truth.force, rtol=1e-6, atol=0.1)
+    np.testing.assert_allclose(read.shaft_speed, truth.shaft_speed, rtol=1e-6)
+
+
 def test_keys_of_other_versions_and_a_label_with_a_line_break_of_its_encoding(tmp_path, truth):
     header = _run(tmp_path, truth)
     text = header.read_text(encoding="latin-1")

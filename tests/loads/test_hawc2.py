@@ -367,19 +367,33 @@ def test_loads_that_are_not_those_at_the_hub(tmp_path, truth, node, label):
     assert f"node {int(node)}" in read.reading[0]
 
 
-def test_of_several_nodes_the_one_at_the_hub_is_taken(tmp_path, truth):
-    """Channels of one name differ by their description."""
-    columns = _channels(truth, label="")
-    for node, label in ((1, "main bearing"), (9, "hub end")):
+@pytest.mark.parametrize(
+    "nodes",
+    [
+        {5: "", 9: "hub end"},
+        {9: "hub end", 10: "generator"},
+        {4: "shaft main bearing", 5: "shaft rotor center"},
+        {1: "main bearing", 5: ""},
+        {1: "", 3: "first flexible shaft node", 5: "outer generator rotor", 10: "rotor centre"},
+    ],
+)
+def test_of_several_nodes_the_one_at_the_hub_is_taken(tmp_path, truth, nodes):
+    """Channels of one name differ by their description; labels are those of public models."""
+    columns = {}
+    hub = max(nodes, key=lambda node: ("hub" in nodes[node], node))
+    for node, label in nodes.items():
         for name, (unit, text, values) in _channels(truth, node=node, label=label).items():
-            if "coo: shaft" in name:
-                factor = 1.0 if label == "hub end" else 2.0
-                columns[f"{name} {node}"] = (unit, text, factor * values)
-    path = _write_sel(tmp_path, columns, binary=False)
-    read = HubLoads.read(path)
+            of_shaft = "coo: shaft" in name
+            factor = 2.0 if of_shaft and node != hub else 1.0
+            columns[f"{name} {node}" if of_shaft else name] = (unit, text, factor * values)
+    read = HubLoads.read(_write_sel(tmp_path, columns, binary=False))
     _check(read, truth, 1e-5)
-    assert "node 9 (hub end)" in read.reading[0]
-    with pytest.raises(InputError, match=r"node 9 \(hub end\), and a distance .* is given"):
+    assert f"node {hub}" in read.reading[0]
+
+
+def test_a_distance_beside_loads_at_the_hub_is_refused(tmp_path, truth):
+    path = _write_sel(tmp_path, _channels(truth, label="hub end"), binary=False)
+    with pytest.raises(InputError, match=r"node 5 \(hub end\), and a distance .* is given"):
         HubLoads.read(path, hub_to_output=2.5)
 
 

@@ -34,8 +34,13 @@ from macroslip.loads.source_file import (
     text_lines,
 )
 
-#: Keys that a header may write before a blank; before a tab, any word in capitals is a key.
-_KEYS = ("MIN", "STEP", "MEAN", "ULOADS", "MAXTIME", "MINTIME", "NVARS", "DIMENS", "VARIAB")
+#: Keys of a header, which some versions part from their value by blanks, others by a tab. Before a
+#: tab other words in capitals are keys as well.
+_KEYS = (
+    "FILE", "ACCESS", "FORM", "RECL", "FORMAT", "CONTENT", "CONFIG", "NDIMENS", "DIMENS", "GENLAB",
+    "VARIAB", "VARUNIT", "AXISLAB", "AXIUNIT", "AXIMETH", "AXIVAL", "AXITICK", "MIN", "STEP",
+    "NVARS", "ULOADS", "MAXTIME", "MINTIME", "MEAN",
+)  # fmt: skip
 _NUMBERS = {"R*4": np.dtype("<f4"), "R*8": np.dtype("<f8")}
 _LOADS = tuple(f"Stationary hub {kind}{axis}" for kind in "FM" for axis in "xyz")
 _SPEED = "Rotor speed"

@@ -12,7 +12,7 @@ serves instead, or may be given.
 
 A channel is taken by what its name and description say. The bearing is that called shaft_rot, or
 else the only one that is not one of pitch or yaw. Of several nodes of the shaft one that is
-labelled hub is taken, or else that with the highest number, the hub's end. A node 1, or a label of
+labelled hub or rotor center is taken, or else that with the highest number, the hub's end. A node 1, or a label of
 something else, such as a main bearing, is not the hub: such loads are read if the distance from the
 hub is given, and the moments are moved there.
 
@@ -63,7 +63,8 @@ _NOT_THE_SHAFT = r"^dll|mbdy|pitch|yaw|blade|teeter|filter|reference|error"
 #: How the shaft's bearing is recognised, best first; bearing2 has an angle that is prescribed, as
 #: pitch and yaw have.
 _SHAFT_BEARING = ("shaft_rot", "shaft|rotor|drive", r"^bea(ring)?[13]\b", "")
-#: Labels of a node of the shaft that is not its hub's end.
+#: Labels of the node at the hub's end of the shaft, and of a node that is none.
+_THE_HUB = "hub|rotor cent(er|re)"
 _NOT_THE_HUB = r"bearing|gear|generator|tower|yaw|nacelle|rear|\bmb\d?\b"
 
 
@@ -203,7 +204,7 @@ def _section(output: _Output, at_hub: bool) -> _Section:
                 "in the description",
                 remedy=_REMEDY,
             )
-    hubs = [each for each in known if re.search("hub", each.label, re.IGNORECASE)]
+    hubs = [each for each in known if re.search(_THE_HUB, each.label, re.IGNORECASE)]
     if hubs and not at_hub:
         raise InputError(
             f"the file has loads at the hub, {hubs[0].text}, and a distance from hub to output is "
