@@ -143,8 +143,14 @@ def test_rollers_have_to_fit(base):
 @given(st.integers(3, 60), st.floats(0.02, 0.15))
 @settings(max_examples=50, deadline=None)
 def test_the_largest_number_of_rollers_is_reported_right(count, diameter):
+    # Without the values of the whole bearing, which go with its own rollers.
     base = Bearing.read("skf-240-600-bc").replace(
-        bore_diameter=None, outside_diameter=None, width=None
+        bore_diameter=None,
+        outside_diameter=None,
+        width=None,
+        dynamic_load_rating=None,
+        static_load_rating=None,
+        fatigue_load_limit=None,
     )
     centre = 0.38
     sphere = {"outer_raceway_radius": centre + diameter / 2, "pitch_radius": centre * math.cos(base.contact_angle),
@@ -194,3 +200,22 @@ def test_thermal_data_may_be_left_out_and_are_asked_for_by_name(base):
         "Allowed: thermal_conductivity: above 0, up to 1000 W/(m K); specific_heat: above 0, up to 10000 J/(kg K). Add to its file: thermal_conductivity: {value: ..., unit: W/(m K)}, "
         "specific_heat: {value: ..., unit: J/(kg K)}."
     )
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "expected"),
+    [
+        ("dynamic_load_rating", 1.0, "7084 kN"),  # 0.001 kN; ISO 281 as in load_ratings' example
+        ("dynamic_load_rating", 8.5e8, "7084 kN"),
+        ("static_load_rating", 17.6, "16283"),  # 17.6 N, ISO 76
+        ("fatigue_load_limit", 1e9, "1087"),
+        ("mass", 519e3, "665.6 kg"),  # pi/4 (0.87^2 - 0.6^2) 0.272 m3 of steel with 7850 kg/m3
+    ],
+)
+def test_ratings_and_mass_in_another_unit_are_refused(base, key, value, expected):
+    with pytest.raises(InputError, match=f"{key} is .* rings and rollers of this size") as caught:
+        base.replace(**{key: value})
+    assert "unit" in str(caught.value)
+    number = float(expected.split()[0])
+    told = float(str(caught.value).partition("size have ")[2].split()[0])
+    assert told == pytest.approx(number, rel=2e-3) or told == pytest.approx(1e3 * number, rel=2e-3)

@@ -1,5 +1,6 @@
 """Stored tables: found again, made again where they are not what was written, and never in the way."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -60,6 +61,14 @@ def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
     forget(monkeypatch)
     store.stored("ab12", make)
     assert make.count == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes on this system")
+def test_a_pipe_under_the_name_of_a_table_does_not_hang(place):
+    place.mkdir(parents=True)
+    os.mkfifo(place / "pipe.table")
+    (values,) = store.stored("pipe", lambda: [np.arange(3.0)])
+    assert values.tolist() == [0.0, 1.0, 2.0]
 
 
 def test_files_that_were_exchanged_are_made_again(place, monkeypatch):

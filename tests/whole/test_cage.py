@@ -18,6 +18,7 @@ pytestmark = pytest.mark.slow
         ({"impact": "wet"}, "squeeze-film, dry"),
         ({"arrangement": "two"}, "one, per-row"),
         ({"damping": float("nan")}, "cage.damping: it is nan"),
+        ({"damping": 30.0}, "a squeeze film has none"),
         ({"seed": -1}, "cage.seed: it is -1"),
         ({"weight": 1}, "true or false"),
         ({"offsets": "left"}, "centred, random"),

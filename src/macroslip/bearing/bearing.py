@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar
 
-from macroslip.bearing import geometry
+from macroslip.bearing import geometry, load_ratings
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity, Text
 from macroslip.input.files import Source
@@ -33,6 +33,9 @@ _CLEARANCE_STATE = Choice(
     lambda: CLEARANCE_STATES,
 )
 _Optional = float | None
+#: Ratings and mass are within this factor of those by the standard and of solid rings: makers differ
+#: by far less, and a wrong unit by more.
+_SIZE_FACTOR = 30.0
 
 
 class Bearing(Record):
@@ -204,8 +207,8 @@ class Bearing(Record):
         yield from contradictions
         yield from _spacing(self, source)
         if not contradictions:
-            yield from _rows(self, source)
-            yield from _rings(self, source)
+            faults = [*_rows(self, source), *_rings(self, source)]
+            yield from faults or _sizes(self, source)
 
 
 def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
@@ -341,3 +344,30 @@ def _rings(bearing: Bearing, source: Source) -> Iterator[InputError]:
             "outer_raceway_radius",
             remedy="Check outside_diameter and outer_raceway_radius, which is no diameter.",
         )
+
+
+def _sizes(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    """Yield load ratings and a mass that no bearing of this size has: they have another unit."""
+    rollers = (bearing.rows, bearing.rollers_per_row, bearing.roller_diameter)
+    shape = (bearing.roller_length, bearing.contact_angle, 2.0 * bearing.pitch_radius)
+    static = load_ratings.static_load_rating(*rollers, *shape)
+    limit = load_ratings.fatigue_load_limit(static, 2.0 * bearing.pitch_radius)
+    expected = {"static_load_rating": static, "fatigue_load_limit": limit}
+    slenderness = bearing.roller_diameter * math.cos(bearing.contact_angle) / shape[-1]
+    if 0.01 <= slenderness <= 0.30:
+        expected["dynamic_load_rating"] = load_ratings.dynamic_load_rating(*rollers, *shape)
+    bore, outside, width = bearing.bore_diameter, bearing.outside_diameter, bearing.width
+    if bore is not None and outside is not None and width is not None and bore < outside:
+        volume = math.pi / 4.0 * (outside**2 - bore**2) * width
+        expected["mass"] = bearing.density * volume
+    for key, value in expected.items():
+        given = getattr(bearing, key)
+        lowest, highest = value / _SIZE_FACTOR, value * _SIZE_FACTOR
+        if given is not None and not lowest <= given <= highest:
+            yield InputError(
+                f"{key} is {bearing.written(key)}, and rings and rollers of this size have "
+                f"{bearing.written(key, value)}",
+                where=source.where(key, "value"),
+                allowed=f"{bearing.written(key, lowest)} to {bearing.written(key, highest)}",
+                remedy="Check its unit, and marks between its digits.",
+            )

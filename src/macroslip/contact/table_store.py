@@ -160,6 +160,8 @@ def _content(key: str, arrays: Sequence[np.ndarray]) -> bytes:
 
 
 def _read(path: Path) -> list[np.ndarray] | None:
+    if not path.is_file():  # a pipe of that name would wait for ever
+        return None
     try:
         content = path.read_bytes()
     except OSError:

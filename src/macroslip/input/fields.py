@@ -25,6 +25,7 @@ from macroslip.input.units import (
     TIME,
     Dimension,
     is_finite_number,
+    number_advice,
     parse_quantity,
     quantity_pattern,
 )
@@ -136,11 +137,11 @@ class Quantity(Form):
             hasattr(value, "__index__") or (abs(value) <= _MOST and float(value).is_integer())
         ):
             return int(value)
-        quotes = (
-            "Write it without quotes and units." if given.in_file and isinstance(value, str) else ""
-        )
+        remedy = ""
+        if given.in_file and isinstance(value, str):
+            remedy = number_advice(value) or "Write it without quotes and units."
         raise self.wrong(
-            value, quotes, self.form if self.whole or given.in_file else "a finite number"
+            value, remedy, self.form if self.whole or given.in_file else "a finite number"
         )
 
     def _check_range(self, value: float, given: Given, written: str, unit: str) -> None:
@@ -269,12 +270,25 @@ class Text(Form):
         if self.line and (unfit or len(value) > _LONGEST):
             allowed = f"at most {_LONGEST} characters on one line, without control characters"
             raise self.wrong(value, "Write it as one line of plain text.", allowed)
-        check_no_zero_byte(value)
+        _check_text(value)
         return value
 
     def json(self) -> dict[str, Any]:
         """Text."""
         return {"type": "string"} | ({} if self.may_be_empty else {"minLength": 1})
+
+
+def _check_text(text: str) -> None:
+    """Refuse control characters in text, which a backslash in double quotes may have become."""
+    check_no_zero_byte(text)
+    control = next((letter for letter in text if unicodedata.category(letter) == "Cc"), "")
+    if control:
+        raise InputError(
+            f"it is {shown(text)}, with the control character {control!r}",
+            allowed="text without control characters",
+            remedy="In double quotes a backslash begins such a character: write a path of Windows "
+            "in single quotes, or with slashes.",
+        )
 
 
 @dataclass(frozen=True)
@@ -293,7 +307,7 @@ class Texts(Form):
         ):
             raise self.wrong(value, f"It is the {self.about}.")
         for text in texts:
-            check_no_zero_byte(text)
+            _check_text(text)
         return texts
 
     def json(self) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -18,6 +19,7 @@ from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
 from macroslip.errors import InputError
 from macroslip.files import SPECIAL, is_special
+from macroslip.input.messages import shown
 
 # A bearing file has 6 kB, 250 nodes and 2 levels. Some thousand nodes parse in a second; YAML without bounds can
 # describe a file of any size in a few lines.
@@ -26,6 +28,8 @@ MOST_NODES = 10_000
 MOST_LEVELS = 20
 _KINDS = {type(None): "nothing", CommentedSeq: "a list"}
 _WIDTH = 118
+#: Whole numbers that YAML has beside decimal ones.
+_OTHER_INTEGER = re.compile(r"[+-]?0[xob][\da-fA-F_]+")
 
 
 @dataclass(frozen=True)
@@ -134,6 +138,8 @@ def parse(
 
     def not_yaml(problem: str, where: str) -> InputError:
         remedy = "Correct the text at or before this place."
+        if "escape character" in problem:
+            remedy = "Write text with backslashes, such as a path of Windows, in single quotes."
         return InputError(f"this is not valid YAML ({problem})", where=where, remedy=remedy)
 
     try:
@@ -168,15 +174,29 @@ def _check_size(text: str, file: str) -> None:
     open_nodes: list[tuple[str | None, int]] = []  # anchor, and nodes before it
     nodes = 0
 
+    def problem(what: str, allowed: str, remedy: str) -> InputError:
+        where = f"{file}, line {event.start_mark.line + 1}"
+        return InputError(what, where=where, allowed=allowed, remedy=remedy)
+
     def too_large(what: str) -> InputError:
-        return InputError(
-            f"the file has {what}",
-            where=f"{file}, line {event.start_mark.line + 1}",
-            allowed=f"{MOST_NODES} keys and values in {MOST_LEVELS} levels",
-            remedy="Is it the file you meant?",
-        )
+        allowed = f"{MOST_NODES} keys and values in {MOST_LEVELS} levels"
+        return problem(f"the file has {what}", allowed, "Is it the file you meant?")
 
     for event in YAML(typ="rt", pure=True).parse(text):
+        tag = str(getattr(event, "tag", None) or "")
+        if tag:
+            raise problem(
+                f"the value has the type {shown(tag)}",
+                "numbers, text, true, false, null, lists and mappings",
+                "Remove the type and write a plain value; [0, 1] is a list.",
+            )
+        is_plain = isinstance(event, ScalarEvent) and event.style is None
+        if is_plain and _OTHER_INTEGER.fullmatch(event.value):
+            raise problem(
+                f"{shown(event.value)} is not a decimal number",
+                "decimal digits",
+                "Write it as a decimal number, or in quotes if it is text.",
+            )
         if isinstance(event, CollectionStartEvent):
             open_nodes.append((event.anchor, nodes))
             nodes += 1

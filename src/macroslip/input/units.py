@@ -122,20 +122,70 @@ DENSITY = _dimension(**{"kg/m3": 1})
 NUMBER = _dimension(**{"1": 1})
 
 
+def number_advice(text: str) -> str:
+    """Advice for a number that is not written as it has to be, by its likely cause; empty if none.
+
+    Where a comma or a space may separate thousands or decimals, the advice is right for both.
+
+    Examples
+    --------
+    >>> number_advice("17 600 kN")
+    'Write 17600, without marks between thousands.'
+    >>> number_advice("1,08 mm"), number_advice("75 mm")
+    ('Use a decimal point, not a comma.', '')
+    """
+    if re.search(r"[\u2010-\u2015\u2212]\s*[\d.]", text):
+        return "Its minus sign is another character (U+2212, for example); write a hyphen, -."
+    number = re.match(r"\s*[+-]?(\d[\d.,'\u2019\s]*\d)", text)
+    if number is None:
+        return ""
+    digits = re.sub(r"\D", "", number[1])
+    marks = set(re.sub(r"\d", "", number[1]))
+    groups = re.fullmatch(r"\d{1,3}(\D\d{3})+", number[1])
+    if groups and marks <= {","}:
+        return (
+            f"Write {digits} if the comma separates thousands, "
+            "and a decimal point if it separates decimals."
+        )
+    if groups and not marks & {",", "."}:
+        return f"Write {digits}, without marks between thousands."
+    if len(marks) > 1:
+        return "Write a decimal point, and no marks between thousands."
+    return "Use a decimal point, not a comma." if "," in marks else ""
+
+
 def parse_quantity(
     given: str | float, dimension: Dimension, what: str = "it", where: str = ""
 ) -> tuple[float, str]:
-    """The number as written, an integer where it was written as one, and the unit, "1" for a pure number.
+    """Number and unit of a quantity that is written as text.
 
-    Raises InputError if the text is no number, has no unit or another one, or is too large for a float; `what` and
-    `where` name the quantity and its place.
+    Parameters
+    ----------
+    given : str or float
+        Text of number and unit; spaces of any kind may stand around and in the unit.
+    dimension : Dimension
+        Its units.
+    what, where : str
+        Name and place of the quantity, for errors.
+
+    Returns
+    -------
+    tuple
+        The number as written, an integer where it was written as one, and the unit, "1" for a pure
+        number.
+
+    Raises
+    ------
+    InputError
+        If the text is no number, has no unit or another one, or is too large for a float.
 
     Examples
     --------
     >>> parse_quantity("75 mm", LENGTH), parse_quantity("0.98", NUMBER)
     ((75, 'mm'), (0.98, '1'))
     """
-    pure, text = dimension is NUMBER, str(given)
+    pure = dimension is NUMBER
+    text = " ".join(str(given).split())
 
     def problem(why: str, remedy: str = "") -> InputError:
         allowed = "a number" if pure else f"a number with its unit, {dimension.choices}"
@@ -146,18 +196,18 @@ def parse_quantity(
     # The text after the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
     match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,]|$)\s*(?P<unit>.*?)\s*", text)
     if match is None:
-        decimal = re.match(r"\s*[+-]?\d+,\d", text)
         example = f"Write {with_unit(1, dimension.si_unit)}, for example."
-        raise problem(
-            "is not a quantity", "Use a decimal point, not a comma." if decimal else example
-        )
-    number, unit = match["number"], match["unit"] or ("1" if pure else "")
+        raise problem("is not a quantity", number_advice(text) or example)
+    number = match["number"]
+    unit = match["unit"] or ("1" if pure else "")
     if not unit:
         # Whoever left the unit out may mean any of them: a tilt of 5 is hardly one of 5 rad.
         examples = " or ".join(f"{number} {name}" for name in dimension.units)
         raise problem("does not give its unit", f"Write {examples}, whichever it is.")
     if unit not in dimension.units:
         remedy = "Write the number alone." if pure else "Convert it to one of these units."
+        if re.match(r"['\u2019\d]", unit) and (advice := number_advice(text)):
+            raise problem("is not a quantity", advice)
         raise problem(f"has the unit {shown(unit)}", remedy)
     value = float(number)
     if not math.isfinite(value) or not math.isfinite(dimension.to_si(value, unit)):

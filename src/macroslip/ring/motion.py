@@ -92,12 +92,14 @@ def ring_motion(
 
 def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -> None:
     if largest > highest_load:
+        waves = abs(bearing.out_of_round_second or 0.0) + abs(bearing.out_of_round_third or 0.0)
+        shape = f"out_of_round, whose waves reach {1e6 * waves:.3g} um, " if waves else ""
         raise InputError(
             f"a roller carries {largest / 1e3:.4g} kN, at which its contact ellipse would reach beyond the roller's "
             "ends",
             where=where,
             allowed=f"roller loads up to {highest_load / 1e3:.4g} kN for {bearing.name}",
-            remedy="Check units and signs of the loads, the bearing's size and its osculation. Loads a little higher are "
+            remedy=f"Check {shape}units and signs of the loads, the bearing's size and its osculation. Loads a little higher are "
             "taken with laws: {model: physical}, whose microslip cuts the contact off at the roller's ends.",
         )
 

@@ -31,6 +31,8 @@ GUIDED_BY, _LAND = (
     ("rollers", "inner-ring", "outer-ring"),
     ("land_diameter", "land_width", "land_clearance"),
 )
+#: Damping of dry contacts by default [s/m].
+_DAMPING = 50.0
 #: Where rollers are in their pockets at the start.
 OFFSETS = ("centred", "random")
 
@@ -98,7 +100,7 @@ class Cage:
     impact: Annotated[str, Choice("how a roller meets a spar", lambda: IMPACTS)] = "squeeze-film"
     damping: Annotated[
         float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)
-    ] = 50.0
+    ] = _DAMPING
     film_fullness: Annotated[
         float | None,
         Quantity(
@@ -162,7 +164,12 @@ class Cage:
                 allowed="the largest skew, such as 5 mrad, with guidance: guide-ring",
                 remedy="Its axial play over the distance of its edges is that angle.",
             )
-
+        if self.impact != "dry" and self.damping != _DAMPING:
+            raise InputError(
+                f"damping is {self.damping:g} s/m, and a squeeze film has none",
+                allowed="with impact: dry",
+                remedy="Set impact: dry, or remove damping.",
+            )
         given = [name for name in _LAND if getattr(self, name) is not None]
         if self.guided_by == "rollers" and given:
             raise InputError(
