@@ -182,7 +182,7 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
     first_of = dict(reversed(fields))
     try:
         names = tuple(name.strip() for name in shlex.split(first_of["VARIAB"]))
-        variables, *others = [int(word) for word in first_of["DIMENS"].split()]
+        variables, *others = map(int, first_of["DIMENS"].split())
         axes = [value.strip("' ") for key, value in fields if key == "AXISLAB"]
         if len(others) != 1 or axes[-1:] != ["Time"] or first_of["AXIMETH"].strip() != "2":
             return None

@@ -1,4 +1,4 @@
-"""The load cases that come with the package: their names, their files, and what is known of each."""
+"""The load cases that come with the package: names, files, and what is known of each."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from pathlib import Path
 from macroslip.errors import InputError
 
 SETS = ("paper", "year")
-#: Transients and other states; start-up, stops, idling and the like need a supervisor, which the turbine's model lacks.
+#: Transients and other states; start-up, stops, idling and the like need a supervisor, which the
+#: turbine's model lacks.
 EVENTS = (
-    "start-8", "start-14", "stop-14", "stop-24", "estop-20", "gridloss-14", "idle-6", "idle-25", "parked-12", "eog-14",
-    "ecd-14", "yaw20-14",
+    "start-8", "start-14", "stop-14", "stop-24", "estop-20", "gridloss-14", "idle-6", "idle-25",
+    "parked-12", "eog-14", "ecd-14", "yaw20-14",
 )  # fmt: skip
 ASSUMED = "its supervisor is assumed"
 
@@ -41,18 +42,18 @@ class BundledCase:
         )
 
 
+def _turbulent(speeds: range, classes: str) -> list[BundledCase]:
+    """Cases of production at mean wind speeds [m/s] in classes of turbulence."""
+    return [
+        BundledCase(f"{speed}{letter}", float(speed), letter)
+        for speed in speeds
+        for letter in classes
+    ]
+
+
 def _year() -> list[BundledCase]:
-    paper = [
-        BundledCase(f"{speed}{letter}", speed, letter)
-        for speed in range(12, 25, 2)
-        for letter in "ABC"
-    ]
-    below = [
-        BundledCase(f"{speed}{letter}", speed, letter)
-        for speed in range(4, 11, 2)
-        for letter in "AB"
-    ]
-    second = [BundledCase(f"{speed}B-2", speed, "B", 2) for speed in (8, 10, 12, 16, 24)]
+    """All cases, those of the paper first."""
+    second = [BundledCase(f"{speed}B-2", float(speed), "B", 2) for speed in (8, 10, 12, 16, 24)]
     events = [
         BundledCase(
             name,
@@ -62,17 +63,19 @@ def _year() -> list[BundledCase]:
         )
         for name in EVENTS
     ]
-    return paper + below + second + events
+    production = _turbulent(range(12, 25, 2), "ABC") + _turbulent(range(4, 11, 2), "AB")
+    return production + second + events
 
 
-_CASES = {one.name: one for one in _year()}
+_CASES = {case.name: case for case in _year()}
 
 
 def bundled_cases(which: str = "paper") -> list[str]:
     """Names of the load cases that come with the package.
 
-    "paper": the 21 of the paper, by mean wind speed [m/s] and IEC turbulence class. "year": all, also winds below rated,
-    second seeds ("12B-2") and events ("start-8"), whose supervisor is assumed.
+    "paper": the 21 of the paper, by mean wind speed [m/s] and IEC turbulence class. "year": all,
+    also winds below rated, second seeds ("12B-2") and events ("start-8"), whose supervisor is
+    assumed.
 
     Examples
     --------
@@ -96,11 +99,12 @@ def bundled_case(name: str) -> BundledCase:
 
 
 def bundled_labels(names: Sequence[str]) -> list[dict[str, float | str]]:
-    """Labels of bundled cases in a study: wind speed and turbulence, and where one is not of the paper seed and event."""
+    """Labels of bundled cases in a study: wind speed and turbulence.
+
+    With seed and event where a case is not one of the paper.
+    """
     cases = [bundled_case(name) for name in names]
-    extra = any(one.name not in bundled_cases() for one in cases)
-    return [
-        {"wind_speed": float(one.wind_speed), "turbulence": one.turbulence}
-        | ({"seed": one.seed, "event": one.event} if extra else {})
-        for one in cases
-    ]
+    labels = ["wind_speed", "turbulence"]
+    if not set(names).issubset(bundled_cases()):
+        labels += ["seed", "event"]
+    return [{label: getattr(case, label) for label in labels} for case in cases]

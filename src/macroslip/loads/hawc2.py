@@ -12,9 +12,9 @@ serves instead, or may be given.
 
 A channel is taken by what its name and description say. The bearing is that called shaft_rot, or
 else the only one that is not one of pitch or yaw. Of several nodes of the shaft one that is
-labelled hub or rotor center is taken, or else that with the highest number, the hub's end. A node 1, or a label of
-something else, such as a main bearing, is not the hub: such loads are read if the distance from the
-hub is given, and the moments are moved there.
+labelled hub or rotor center is taken, or else that with the highest number, the hub's end. A node
+1, or a label of something else, such as a main bearing, is not the hub: such loads are read if the
+distance from the hub is given, and the moments are moved there.
 
 The axes of the main body ``shaft`` turn with the rotor. At angle zero x' points to the left
 (looking downwind), y' down and z' upwind along the shaft, as in the usual models, so that in the
@@ -297,7 +297,8 @@ def _to_fixed(
         direction: np.hypot(*vector[:, 1:].mean(axis=0)) for direction, vector in directions.items()
     }
     direction = max(sizes, key=lambda each: sizes[each])
-    size, mean_z = sizes[direction], directions[direction][:, 2].mean()
+    size = sizes[direction]
+    mean_z = directions[direction][:, 2].mean()
     if not np.isfinite(size) or size == 0.0 or abs(mean_z) < _DOWN * size:
         raise InputError(
             f"the weight of the rotor cannot be seen: the force across the shaft has a mean of "
@@ -368,7 +369,8 @@ def _channel_list(
         raise ValueError(
             f"the line below Scans, Channels, Time and Format has {len(announcement)} words"
         )
-    scans, count, duration = int(announcement[0]), int(announcement[1]), float(announcement[2])
+    scans, count = map(int, announcement[:2])
+    duration = float(announcement[2])
     kind = announcement[3]
     if not (0 < scans * count <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in (
         "ASCII",

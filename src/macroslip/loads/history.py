@@ -76,6 +76,7 @@ class History:
     source: str
 
     def __post_init__(self) -> None:
+        """Check the arrays and replace them by read-only copies."""
         source = self.source
         time = _numbers("time", self.time, source)
         if time.ndim != 1 or time.size < 2:
@@ -148,9 +149,11 @@ class History:
         return html_overview(title, ["", "mean", "std", "min", "max"], rows)
 
     def _span(self) -> str:
+        """Number of samples and their time."""
         return f"{self.time.size} samples, {self.time[0]:g} s to {self.time[-1]:g} s"
 
     def _forces(self) -> dict[str, NDArray[np.float64]]:
+        """Forces (n,) [N] by their names."""
         return dict(zip(self._VECTORS["force"], self.force.T, strict=True))
 
 

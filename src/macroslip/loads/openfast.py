@@ -26,8 +26,10 @@ The official reader, openfast_io, reads a binary file once it is sure that the f
 from __future__ import annotations
 
 import io
+import re
 import struct
 from collections.abc import Mapping
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +39,7 @@ from macroslip.errors import InputError
 from macroslip.loads.source_file import (
     ANGLE,
     FORCE,
+    MOMENT,
     SPEED,
     Samples,
     in_si,
@@ -45,14 +48,7 @@ from macroslip.loads.source_file import (
     turn_to_fixed,
 )
 
-
-def _in_brackets(factors: Mapping[str, float]) -> dict[str, float]:
-    return {f"({unit})": factor for unit, factor in factors.items()}
-
-
-_FORCES, _SPEEDS, _ANGLES = _in_brackets(FORCE), _in_brackets(SPEED), _in_brackets(ANGLE)
-_MOMENTS, _TIMES = {"(N-m)": 1.0, "(kN-m)": 1e3}, {"(s)": 1.0, "(sec)": 1.0}
-
+_TIME = {"s": 1.0, "sec": 1.0}
 _THRUST = ("LSShftFxa", "LSShftFxs", "LSSGagFxa", "LSSGagFxs", "RotThrust")
 _TORQUE = ("LSShftMxa", "LSShftMxs", "LSSGagMxa", "LSSGagMxs", "RotTorq", "LSShftTq")
 _SPEED = ("RotSpeed", "LSSTipVxa", "LSSTipVxs", "LSSTipV")
@@ -116,16 +112,16 @@ def read_openfast(path: Path, *, speed_needed: bool = True, at_hub: bool = True)
 
 def loads_from_channels(channels: Channels, *, speed_needed: bool, at_hub: bool = True) -> dict:
     """Hub loads from channels with OpenFAST's names, as `read_openfast` returns them."""
-    loads = {"time": channels.column(("Time",), _TIMES)}
+    loads = {"time": channels.column(("Time",), _TIME)}
     if speed_needed or channels.has_all((_SPEED,)):
-        loads["shaft_speed"] = channels.column(_SPEED, _SPEEDS)
-    thrust = channels.column(_THRUST, _FORCES)
-    shear = channels.across(_SHEAR, _ROTATING_SHEAR, _FORCES)
-    torque = channels.column(_TORQUE, _MOMENTS)
+        loads["shaft_speed"] = channels.column(_SPEED, SPEED)
+    thrust = channels.column(_THRUST, FORCE)
+    shear = channels.across(_SHEAR, _ROTATING_SHEAR, FORCE)
+    torque = channels.column(_TORQUE, MOMENT)
     bending_pairs = (_BENDING, _ROTATING_BENDING)
     if not at_hub and not any(map(channels.has_all, bending_pairs)):
         bending_pairs = (_GAUGE_BENDING, _ROTATING_GAUGE_BENDING)
-    bending = channels.across(*bending_pairs, _MOMENTS)
+    bending = channels.across(*bending_pairs, MOMENT)
     channels.raise_if_missing()
     if not channels.has_all(_SHEAR):
         _check_weight(*shear, channels.where)
@@ -142,7 +138,7 @@ class Channels:
     Parameters
     ----------
     names, units : list of str
-        Of all channels, the time among them; units without brackets.
+        Of all channels, the time among them.
     samples : Samples
         Their values.
     where : str
@@ -150,7 +146,10 @@ class Channels:
     """
 
     def __init__(self, names: list[str], units: list[str], samples: Samples, where: str):
-        self.names, self.units, self.samples, self.where = names, units, samples, where
+        self.names = names
+        self.units = units
+        self.samples = samples
+        self.where = where
         #: Index and sign of a channel by its name in lower case; of two, the first.
         self.index: dict[str, tuple[int, float]] = {}
         for i, name in enumerate(map(str.lower, names)):
@@ -173,13 +172,15 @@ class Channels:
             self.missing[aliases[0]] = " or ".join(aliases)
             return np.zeros(len(self.samples.values))
         i, sign = self.index[alias.lower()]
-        name, unit = self.names[i], self.units[i]
-        self.taken.append(f"{name} ({unit})" + (", its sign turned back" if sign < 0.0 else ""))
+        name = self.names[i]
+        unit = re.sub("[-·* ()]", "", self.units[i])
+        turned = ", its sign turned back" if sign < 0.0 else ""
+        self.taken.append(f"{name} ({unit}){turned}")
         remedy = "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel."
         # OpenFAST writes INVALID without the brackets that its reader takes away.
         if unit.upper() in ("INVALID", "NVALI"):
-            unit, remedy = "INVALID", _INVALID
-        unit = f"({unit.replace('·', '-').replace('*', '-').replace(' ', '-')})"
+            unit = "INVALID"
+            remedy = _INVALID
         values = sign * self.samples.channel(i, name, self.where)
         return in_si(values, unit, factors, channel=name, where=self.where, remedy=remedy)
 
@@ -193,8 +194,9 @@ class Channels:
         if self.has_all(fixed):
             return self.column(fixed[0], factors), self.column(fixed[1], factors)
         if self.has_all((*rotating, _AZIMUTH)):
-            y, z = self.column(rotating[0], factors), self.column(rotating[1], factors)
-            azimuth = self.column(_AZIMUTH, _ANGLES)
+            y = self.column(rotating[0], factors)
+            z = self.column(rotating[1], factors)
+            azimuth = self.column(_AZIMUTH, ANGLE)
             self.taken[-3:] = [f"{self.taken[-3]} and {self.taken[-2]} turned by {self.taken[-1]}"]
             return turn_to_fixed(y, z, azimuth)
         for aliases in fixed:
@@ -235,7 +237,8 @@ class Channels:
 def _check_weight(fy: NDArray, fz: NDArray, where: str) -> None:
     """InputError if forces that were turned back do not point down on average."""
     # The file does not contain AzimB1Up. Other than zero, it turns the rotor's weight away from -z.
-    mean_y, mean_z = float(fy.mean()), float(fz.mean())
+    mean_y = float(fy.mean())
+    mean_z = float(fz.mean())
     if np.isfinite(mean_y + mean_z) and mean_z >= -abs(mean_y):
         raise InputError(
             "LSShftFya and LSShftFza turned by Azimuth do not point down: mean fy "
@@ -252,7 +255,8 @@ def _read_binary(path: Path) -> Channels:
     """All channels of a binary file, the time among them."""
     from openfast_io.FAST_output_reader import load_binary_output
 
-    actual, expected = path.stat().st_size, _binary_size(path)
+    actual = path.stat().st_size
+    expected = _binary_size(path)
     # Some versions of OpenFAST write more bytes than their header announces; the official reader
     # leaves them.
     if actual < expected:
@@ -278,6 +282,7 @@ def _binary_size(path: Path) -> int:
     with path.open("rb") as file:
 
         def take(layout: str) -> tuple:
+            """The next numbers of the file."""
             return struct.unpack("<" + layout, file.read(struct.calcsize("<" + layout)))
 
         try:
@@ -310,7 +315,8 @@ def _read_text(path: Path) -> Channels:
     while lines and not lines[-1].strip():
         lines.pop()
     head = _head(lines, path)
-    names, units = lines[head].split(), lines[head + 1].split()
+    names = lines[head].split()
+    units = lines[head + 1].split()
     rows = [number for number in range(head + 2, len(lines)) if lines[number].strip()]
     values = np.empty((len(rows), len(names)))
     unreadable: dict[int, str] = {}
@@ -332,7 +338,6 @@ def _read_text(path: Path) -> Channels:
     if not content.endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip()):
         remedy = "Copy the file again, run OpenFAST again, or delete that line."
         raise InputError("the last line is cut off", where=str(path), remedy=remedy)
-    units = [unit[1:-1] for unit in units]
     return Channels(names, units, Samples(values, unreadable), str(path))
 
 
@@ -341,16 +346,16 @@ def _head(lines: list[str], path: Path) -> int:
 
     OpenFAST writes six lines before it, the first one empty, which editors and archives lose.
     """
-    for index, line in enumerate(lines[:_LONGEST_HEAD]):
-        names, units = line.split(), lines[index + 1].split() if index + 1 < len(lines) else []
-        if names and names[0].lower() == "time" and units and units[0].startswith("("):
+    what = "there is no channel Time that begins a line of names above a line of units"
+    words = [line.split() for line in lines[:_LONGEST_HEAD]]
+    for index, (names, units) in enumerate(pairwise(words)):
+        if names[:1] and names[0].lower() == "time" and units[:1] and units[0].startswith("("):
             if len(units) == len(names) and index + 2 < len(lines):
                 return index
-            what = f"{len(names)} channel names, {len(units)} units, "
-            what += f"{len(lines) - index - 2} lines of data"
-            break
-    else:
-        what = "there is no channel Time that begins a line of names above a line of units"
+            what = (
+                f"{len(names)} channel names, {len(units)} units, {len(lines) - index - 2} lines "
+                "of data"
+            )
     raise InputError(
         f"not an OpenFAST text output: {what}",
         where=str(path),

@@ -1,4 +1,4 @@
-"""Loads of the rollers from elsewhere, such as a finite-element model of bearing, housing and shaft."""
+"""Loads of the rollers from elsewhere, such as an FE model of bearing, housing and shaft."""
 
 from __future__ import annotations
 
@@ -23,27 +23,30 @@ COLUMNS = ("time_s", "shaft_speed_rpm", "row", "angle_deg", "load_N")
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class RollerLoads(History):
-    """Load of a roller over its place in the bearing, at times: in place of a balance of the inner ring.
+    """Load of a roller by its position over time, in place of a balance of the ring.
 
-    Between places a roller's approach, which goes with its load to the power 2/3, is linear in the angle; between times it is
-    linear in time at a place at rest. A place without load has the bearing's clearance as its play. Raises InputError
-    as `HubLoads`, for a negative load, and for a place given twice.
+    Between positions a roller's approach, which goes with its load to the power 2/3, is linear in
+    the angle; between times it is linear in time at a position at rest. A position without load has
+    the bearing's clearance as its play. Raises InputError as `HubLoads`, for a negative load, and
+    for a position given twice.
 
     Parameters
     ----------
     time, shaft_speed : (n,) array [s], [rad/s]
         As in `HubLoads`.
     angle : (n, 2, m) array [rad]
-        Places over time, row (downwind, upwind) and number; from the horizontal X0, counter-clockwise about Z0.
+        Positions over time, row (downwind, upwind) and number; from the horizontal X0,
+        counter-clockwise about Z0.
     load : (n, 2, m) array [N]
-        Load along the contact normal that a roller at the place has, 0 or more.
+        Load along the contact normal that a roller at the position has, 0 or more.
     source : str
         Where the loads come from, for errors and reports.
 
     Examples
     --------
-    >>> places = np.radians(np.tile(np.arange(0.0, 360.0, 45.0), (2, 2, 1)))
-    >>> even = RollerLoads(np.array([0.0, 1.0]), np.full(2, 2.1), places, np.full(places.shape, 1e4), "even")
+    >>> angle = np.radians(np.tile(np.arange(0.0, 360.0, 45.0), (2, 2, 1)))
+    >>> load = np.full(angle.shape, 1e4)
+    >>> even = RollerLoads(np.array([0.0, 1.0]), np.full(2, 2.1), angle, load, "even")
     >>> np.abs(even.resultant(0.2, 28).force).round(6).tolist()
     [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
     """
@@ -91,11 +94,23 @@ class RollerLoads(History):
         decimal: str = "",
         thousands: str = "",
     ) -> RollerLoads:
-        """Read a table (``.csv``, ``.parquet``) with the columns time_s, shaft_speed_rpm, row, angle_deg and load_N.
+        """Read a table (``.csv``, ``.parquet``) of the loads of rollers.
 
-        One line for each time, row and place, in any order; row is downwind or upwind. The other
-        parameters are those of `HubLoads.read`. Raises InputError if the file cannot be read, lacks a column, or has not as many places in each
-        row at each time.
+        Columns are time_s, shaft_speed_rpm, row, angle_deg and load_N. There is one line for each
+        time, row and position, in any order; row is downwind or upwind.
+
+        Parameters
+        ----------
+        path : path
+            The table.
+        start, end, decimal, thousands : optional
+            As in `HubLoads.read`.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read, lacks a column, or has not as many positions in each row at
+            each time.
         """
         path, _ = source_file(
             path, {".csv": "table", ".parquet": "table"}, "Columns: " + ", ".join(COLUMNS)
@@ -105,30 +120,25 @@ class RollerLoads(History):
             table = open_table(path, number_format)
         missing = [name for name in COLUMNS if name not in table.names]
         if missing:
-            what = f"no column {', '.join(missing)}. The columns are: {', '.join(table.names)}"
             raise InputError(
-                what,
+                f"no column {', '.join(missing)}. The columns are: {', '.join(table.names)}",
                 where=str(path),
                 allowed=", ".join(COLUMNS),
                 remedy="Add or rename the columns.",
             )
-        rows = table.texts(table.names.index("row"))
-        strange = sorted({str(row) for row in rows} - set(ROW_NAMES))
+        rows = [str(row) for row in table.texts(table.names.index("row"))]
+        strange = sorted(set(rows) - set(ROW_NAMES))
         if strange:
             raise InputError(
                 f"row is {strange[0]}", where=str(path), allowed=" or ".join(ROW_NAMES)
             )
-        names = [name for name in COLUMNS if name != "row"]
         with reading(path, DAMAGED):
-            numbers = table.numbers([table.names.index(name) for name in names])
-        import pandas as pd
-
-        places = pd.DataFrame(dict(zip(names, numbers, strict=True)))
-        places["row"] = [ROW_NAMES.index(str(row)) for row in rows]
-        places = places.sort_values(["time_s", "row", "angle_deg"])
-        counts = places.groupby(["time_s", "row"]).size()
-        times = places.time_s.nunique()
-        if counts.size != 2 * times or counts.nunique() != 1:
+            indices = [table.names.index(name) for name in COLUMNS if name != "row"]
+            values = np.array(table.numbers(indices))
+        row = np.array([ROW_NAMES.index(name) for name in rows])
+        _, counts = np.unique(np.stack([values[0], row]), axis=1, return_counts=True)
+        times = np.unique(values[0]).size
+        if counts.size != len(ROW_NAMES) * times or np.ptp(counts):
             raise InputError(
                 f"rows have {counts.min()} to {counts.max()} places, "
                 f"{counts.size} rows at {times} times",
@@ -136,8 +146,8 @@ class RollerLoads(History):
                 allowed="as many places in both rows at every time",
                 remedy="Give places without load as well, with 0 N.",
             )
-        shape = (-1, len(ROW_NAMES), int(counts.iloc[0]))
-        time, speed, angle, load = (places[name].to_numpy().reshape(shape) for name in names)
+        order = np.lexsort((values[2], row, values[0]))
+        time, speed, angle, load = values[:, order].reshape(4, times, len(ROW_NAMES), -1)
         if np.ptp(speed, axis=(1, 2)).any():
             raise InputError(
                 "the shaft has two speeds at one time",
@@ -153,24 +163,26 @@ class RollerLoads(History):
         return cls(**cut(columns, start, end, str(path)), source=str(path))
 
     def _forces(self) -> dict[str, NDArray[np.float64]]:
+        """Mean load of a row's positions (n,) [N] by the row's name."""
         return dict(zip(ROW_NAMES, self.load.mean(axis=2).T, strict=True))
 
     def resultant(self, contact_angle: float, rollers_per_row: int) -> BearingLoads:
-        """Load on the inner ring that rollers with these loads carry together, at a contact angle [rad].
+        """Load on the inner ring that rollers with these loads carry, at a contact angle [rad].
 
-        Where a row has more or fewer places than rollers, each place stands for its share of them.
+        Where a row has more or fewer positions than rollers, each stands for its share of them.
         """
         share = rollers_per_row / self.load.shape[2]
-        radial, signs = math.cos(contact_angle) * self.load, np.array([1.0, -1.0])
+        radial = math.cos(contact_angle) * self.load
+        downwind, upwind = self.load.sum(axis=2).T
         force = np.column_stack(
             [
                 (radial * np.cos(self.angle)).sum(axis=(1, 2)),
                 (radial * np.sin(self.angle)).sum(axis=(1, 2)),
-                math.sin(contact_angle) * (self.load.sum(axis=2) @ signs),
+                math.sin(contact_angle) * (downwind - upwind),
             ]
         )
         return BearingLoads(self.time, self.shaft_speed, share * force, self.source)
 
     def approach(self, stiffness: float, play: float) -> NDArray[np.float64]:
-        """Approach of inner ring and outer ring at every place [m], from K [N/m^1.5]; minus the play [m] without load."""
+        """Approach of the rings [m] at every position, from K [N/m^1.5]; without load −play [m]."""
         return np.where(self.load > 0.0, (self.load / stiffness) ** (2.0 / 3.0), -play)

@@ -86,7 +86,26 @@ def in_si(
     where: str,
     remedy: str = "Convert the channel.",
 ) -> NDArray[np.float64]:
-    """Values of a channel in SI units; InputError if its unit is none of those in `factors`."""
+    """Values of a channel in SI units.
+
+    Parameters
+    ----------
+    values : (n,) array
+        In the channel's unit.
+    unit : str
+        The unit that the file declares.
+    factors : mapping
+        Known units, and the factors to SI.
+    channel, where : str
+        Name of the channel and of the file, for the error.
+    remedy : str
+        What to do about another unit.
+
+    Raises
+    ------
+    InputError
+        If the unit is none of the known ones.
+    """
     if unit not in factors:
         what = f"channel {channel} has the unit {unit or 'none'}"
         raise InputError(what, where=where, allowed=", ".join(factors), remedy=remedy)
@@ -169,7 +188,21 @@ def numbers(words: Sequence[str]) -> tuple[NDArray[np.float64], dict[int, str]]:
 def announced_binary(
     path: Path, number: DTypeLike, shape: tuple[int, int], header: str, again: str
 ) -> NDArray:
-    """Binary numbers of a shape, which must fill the file; `header` names where it is announced."""
+    """Binary numbers of a file that a header announces.
+
+    Parameters
+    ----------
+    path : Path
+        The file, which the numbers must fill.
+    number : dtype
+        Their type.
+    shape : (int, int)
+        Their shape.
+    header : str
+        Words for where the shape is announced.
+    again : str
+        Advice for a file that does not fit.
+    """
     size = path.stat().st_size
     full = math.prod(shape) * np.dtype(number).itemsize
     if size == full:
@@ -180,7 +213,17 @@ def announced_binary(
 
 
 def announced_text(path: Path, shape: tuple[int, int], header: str, again: str) -> Samples:
-    """Samples of a shape (samples, channels) as text, which must fill the file, as in binary."""
+    """Samples of a text file that a header announces.
+
+    Parameters
+    ----------
+    path : Path
+        The file, which the numbers must fill.
+    shape : (int, int)
+        Numbers of samples and of channels.
+    header, again : str
+        As in `announced_binary`.
+    """
     values, words = numbers(path.read_bytes().decode("ascii", "replace").split())
     if values.size != math.prod(shape):
         what = f"the file holds {values.size} numbers, {header} announces {math.prod(shape)}"

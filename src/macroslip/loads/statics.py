@@ -111,6 +111,7 @@ class Drivetrain:
     ] = 0.0
 
     def __post_init__(self) -> None:
+        """InputError for keys that are missing or do not count."""
         given = [key for key in _FOUR_POINT_KEYS if getattr(self, key) is not None]
         missing = [key for key in _FOUR_POINT_KEYS if key not in given]
         if self.mount == "four-point" and missing:

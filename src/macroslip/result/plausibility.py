@@ -1,6 +1,7 @@
-"""Loads and results that cannot be meant so: a unit confused, an axis turned round, a law beyond its range.
+"""Plausibility checks of loads and results: confused units, turned axes, laws beyond their range.
 
-Every sentence says what was found, what is usual, and what to look at. Nothing is refused: a rare case may be right.
+Every sentence says what was found, what is usual, and what to look at. Nothing is refused: a rare
+case may be right.
 """
 
 from __future__ import annotations
@@ -22,8 +23,11 @@ if TYPE_CHECKING:
 _WEIGHTS = (5.0, 2000.0)
 #: Weights of rotors [N], where no bearing is known.
 _ROTORS = (5e3, 1e7)
-#: Highest plausible shaft speed [rad/s]: 40 rpm. Largest static safety and contact pressure [Pa] of a bearing in use.
-_FASTEST, _SAFEST, _PRESSURE = 40.0 * np.pi / 30.0, 100.0, 4e9
+#: Highest plausible shaft speed [rad/s]: 40 rpm.
+_FASTEST = 40.0 * np.pi / 30.0
+#: Largest static safety and contact pressure [Pa] of a bearing in use.
+_SAFEST = 100.0
+_PRESSURE = 4e9
 _RPM = 30.0 / np.pi
 #: Largest mean lateral over vertical force; 0.10 in simulations of whole turbines.
 _SIDEWAYS = 0.2
