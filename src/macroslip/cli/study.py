@@ -80,7 +80,10 @@ def study(
             remedy="Name one, new or empty, with -o.",
         )
     from macroslip.study.run import run_study
+    from macroslip.study.store import lacks_database
 
+    if resume and lacks_database(output):
+        to_stderr(f"note: {output} has no database any more; all runs are computed again.")
     try:
         with _shown(quiet=quiet) as report:
             chosen = {"workers": workers, "scheduler": scheduler, "threads": threads}
