@@ -41,7 +41,12 @@ def test_the_file_holds_what_simulate_gives(quick, folder, macroslip):
 
 def test_the_summary(quick, folder, macroslip):
     done = macroslip("run", quick(rollers="all"), "-o", "case.nc")
-    lines = done.out.splitlines()
+    answer, _, rest = done.out.partition("\n\n")
+    assert [line.partition(":")[0] for line in answer.splitlines()] == [
+        "Downwind row",
+        "Upwind row",
+    ]
+    lines = rest.splitlines()
     assert (
         f"under {OUTB.name}, model paper, vg460-pao at 35 °C, from 60 s to 62 s, 0 complete orbits"
         in lines[0]

@@ -267,12 +267,18 @@ def test_print_has_everything_but_the_controls(opened):
     assert page.locator("details.fold[open]").count() == 0
 
 
-@pytest.mark.parametrize(("width", "height"), [(1366, 768), (1920, 1080)])
-def test_the_opening_fits_on_one_screen(opened, width, height):
+@pytest.mark.parametrize(("width", "height"), [(1280, 900), (390, 844)])
+def test_the_answer_and_a_picture_that_can_be_read_are_on_the_first_screen(opened, width, height):
     page = opened(width, anchor="")
-    box = page.locator("#answer").bounding_box()
-    assert box["y"] + box["height"] <= height
-    assert page.locator("#answer p").count() == 5 and page.locator("#answer img").count() == 4
+    sentences, pictures = page.locator("#answer p"), page.locator("#answer img")
+    assert sentences.count() == 2 and pictures.count() == 4
+    for number in range(2):
+        box = sentences.nth(number).bounding_box()
+        assert box["y"] + box["height"] <= height
+    first = pictures.first.bounding_box()
+    assert first["y"] + first["height"] <= height
+    # Their letters are drawn for 403 pixels.
+    assert all(pictures.nth(number).bounding_box()["width"] >= 340 for number in range(4))
 
 
 def test_contents_lead_to_folded_sections(opened):

@@ -83,7 +83,7 @@ def damage(
 def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: str) -> None:
     """Print a line for every criterion, and a sentence for what is missing."""
     from macroslip.cli.printing import print_table
-    from macroslip.report.result_numbers import criteria_table
+    from macroslip.report.result_numbers import criteria_table, how_sure
 
     if lines:
         shown = criteria_table(lines)
@@ -92,6 +92,7 @@ def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: st
             [(heading, heading in ("value", "ratio")) for heading in shown.headings],
             shown.rows,
         )
+        typer.echo(f"how sure: {how_sure(lines)}")
     for one in missing:
         typer.echo(one)
 

@@ -83,7 +83,7 @@ def run(
             temporary.write_bytes(content)
         told[name] = _numbers(dataset) | {"written": str(path)}
         if not (quiet or as_json):
-            _summary(dataset, name, path)
+            _summary(dataset, told[name], name, path)
         failed = _tell_doubts(dataset, quiet) or failed
     if as_json:
         print_json(told.get("", told))
@@ -166,27 +166,32 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     if "books_warning" in dataset.attrs:
         found["warning"] = dataset.attrs["books_warning"]
     found["doubtful"] = doubtful_result(dataset)
+    from macroslip.report.answer import answer
     from macroslip.result.damage import lines
 
     criteria, missing = lines(dataset)
-    return found | {"damage": {"criteria": criteria, "not kept": missing}}
+    return {
+        "answer": answer(dataset, criteria),
+        **found,
+        "damage": {"criteria": criteria, "not kept": missing},
+    }
 
 
-def _summary(dataset: xr.Dataset, bearing: str, path: Path) -> None:
+def _summary(dataset: xr.Dataset, found: dict[str, Any], bearing: str, path: Path) -> None:
     from macroslip.cli.damage import print_criteria
-    from macroslip.result.damage import lines
 
     if bearing:
         typer.echo(f"{bearing} main bearing")
-    _print_rows(dataset)
-    print_criteria(
-        *lines(dataset), title="from slip to damage, the worst of either row and any place"
-    )
+    for sentence in found["answer"]:
+        typer.echo(sentence)
+    typer.echo()
+    _print_rows(dataset, found)
+    title = "from slip to damage, the worst of any row and place"
+    print_criteria(found["damage"]["criteria"], found["damage"]["not kept"], title=title)
     typer.echo(f"written: {path}")
 
 
-def _print_rows(dataset: xr.Dataset) -> None:
-    found = _numbers(dataset)
+def _print_rows(dataset: xr.Dataset, found: dict[str, Any]) -> None:
     rows = []
     for name, row in found["rows"].items():
         *values, rollers, failed = row.values()

@@ -47,6 +47,8 @@ _PARTS = {
 }
 #: What `plot_film_and_slip` shares out, by name, and the least share that has a colour [%].
 FILM_AND_SLIP, _LEAST_SHARE = {"time": "time under load", "passes": "passes"}, 0.01
+#: Ratios of criteria are drawn from here on.
+_LEAST_RATIO = 1e-4
 _LOADS = {
     "radial": {"color": BLUE, "linestyle": "-"},
     "axial": {"color": ORANGE, "linestyle": "--"},
@@ -439,31 +441,38 @@ def plot_slip_over_orbit(axes: Axes, slip: xr.DataArray) -> Axes:
 
 
 def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
-    """Criteria of damage side by side: value over what it is compared with, and how sure that is; logarithmic.
+    """Criteria of damage: value over reference as a dot with its uncertainty as a bar, logarithmic; grey without a reference.
 
     Takes the dataset of `macroslip.result.damage.damage`. A criterion that is passed lies right of 1.
     """
-    some = damage.isel(
-        criterion=np.flatnonzero(np.isfinite(damage.ratio.values) & (damage.ratio.values > 0.0))
-    )
-    ratio, factor = some.ratio.values, some.factor.values
-    place = np.arange(ratio.size)[::-1]
-    axes.axvline(1.0, color=GREY, linewidth=0.8)
-    axes.errorbar(
-        ratio,
-        place,
-        xerr=[ratio - ratio / factor, ratio * factor - ratio],
-        color=BLUE,
-        marker="o",
-        linestyle="none",
-        capsize=3,
-    )
+    known = damage.isel(criterion=np.flatnonzero(damage.value.notnull()))
+    ratio = np.clip(known.ratio.values, _LEAST_RATIO, None)
+    factor = known.factor.values
+    axes.axvline(1.0, color=BLACK, linewidth=1.0)
     axes.set_xscale("log")
-    axes.set_yticks(
-        place, [str(one).replace(": ", ":\n") for one in some.title.values], fontsize=SMALL
-    )
-    axes.margins(y=0.15)
-    return finish(axes, "value / reference [–]", "")
+    for line, (title, own, sure) in enumerate(zip(known.title.values, ratio, factor, strict=True)):
+        has_reference = np.isfinite(own)
+        if has_reference:
+            colour = ORANGE if own > 1.0 else BLUE
+            bar = [[own - own / sure], [own * sure - own]]
+            axes.errorbar(own, -line, xerr=bar, color=colour, marker="o", capsize=3)
+        label = str(title) if has_reference else f"{title} (no reference)"
+        axes.annotate(
+            label,
+            (0.01, -line),
+            xycoords=("axes fraction", "data"),
+            xytext=(0, 7),
+            textcoords="offset points",
+            fontsize=SMALL,
+            color=BLACK if has_reference else GREY,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+        )
+    axes.set_ylim(-known.sizes["criterion"] + 0.4, 0.9)
+    axes.set_yticks([])
+    axes.margins(x=0.15)
+    finish(axes, "value / reference [–]", "")
+    axes.spines["left"].set_visible(False)
+    return axes
 
 
 def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -347,21 +347,38 @@ def usual_units(value: float, unit: str) -> str:
     return f"{float(f'{found:.2g}'):g}{name}"
 
 
-def criteria_table(lines: list[dict[str, Any]]) -> Table:
-    """Criteria of damage from `macroslip.result.damage.lines`: value, reference, ratio, and how sure each is."""
+def criteria_table(lines: Sequence[Mapping[str, Any]]) -> Table:
+    """Criteria of damage from `macroslip.result.damage.lines`: value, reference, ratio, and the factor either way."""
     rows = []
-    for one in lines:
-        reference = (
-            f"{usual_units(one['reference'], one['unit'])}, "
-            if np.isfinite(one["reference"])
-            else ""
-        )
-        value, ratio = usual_units(one["value"], one["unit"]), number(one["ratio"], 2)
-        ratio = "< 0.001" if 0.0 < one["ratio"] < 1e-3 else ratio
+    for line in lines:
+        value, reference = (usual_units(line[key], line["unit"]) for key in ("value", "reference"))
+        has_reference = np.isfinite(line["reference"])
+        ratio = "< 0.001" if 0.0 < line["ratio"] < 1e-3 else number(line["ratio"], 2)
         rows.append(
-            (one["title"], value, f"{reference}{one['compared with']}", ratio, one["how sure"])
+            (
+                line["title"],
+                value,
+                f"{reference}, {line['compared with']}" if has_reference else "–",
+                ratio,
+                f"{line['factor']:g}",
+            )
         )
-    return Table(("criterion", "value", "compared with", "ratio", "how sure"), rows)
+    return Table(("criterion", "value", "reference", "ratio", "known to a factor of"), rows)
+
+
+def how_sure(lines: Sequence[Mapping[str, Any]]) -> str:
+    """What makes the values of criteria unsure, once for all criteria that share it.
+
+    Examples
+    --------
+    >>> how_sure([{"title": "wear: time", "how sure": "factor 10: k"}, {"title": "wear: depth", "how sure": "factor 10: k"}])
+    'factor 10: k (wear)'
+    """
+    mechanisms: dict[str, dict[str, None]] = {}
+    for line in lines:
+        mechanism, _, _ = line["title"].partition(":")
+        mechanisms.setdefault(line["how sure"], {})[mechanism] = None
+    return "; ".join(f"{reason} ({', '.join(names)})" for reason, names in mechanisms.items())
 
 
 def by_raceway(values: xr.DataArray) -> list[tuple[str, str, float]]:

@@ -317,7 +317,8 @@ def _driver(found: xr.Dataset) -> Markup | str:
     energy = found.sel(quantity="energy").dropna("parameter", subset=["rank_correlation"])
     if not energy.sizes["parameter"]:
         return ""
-    first = energy.isel(parameter=int(abs(energy.rank_correlation).argmax()))
+    strongest = abs(energy.rank_correlation).argmax("parameter")
+    first = energy.isel(parameter=int(strongest))
     return words(_TEMPLATE).driver(
         first.parameter.item(), 100.0 * first.main_effect.item(), first.rank_correlation.item()
     )

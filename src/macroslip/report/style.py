@@ -45,8 +45,8 @@ INTERFACE: _Styles = MappingProxyType(
 #: size of a round one.
 WIDTH, HEIGHT = 4.2, 3.1
 ROUND: Mapping[str, Any] = MappingProxyType({"height": 4.6, "polar": True})
-#: Options of `picture` on the first screen of a page.
-OPENING: Mapping[str, Any] = MappingProxyType({"width": 3.5, "height": 2.55, "legend": "above"})
+#: Options of `picture` in the opening of a page.
+OPENING: Mapping[str, Any] = MappingProxyType({"legend": "above"})
 #: Size of letters: labels and titles; numbers at the axes and legends.
 LABEL, SMALL = 11, 10
 

@@ -1,0 +1,241 @@
+"""The answer of a result in whole sentences: load, slip and films of its rows, and the criterion nearest to its reference."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from macroslip.damage.micropitting import share_below
+from macroslip.measures.details import FILM_EDGES
+from macroslip.report.page import number
+from macroslip.result.orbit import in_window
+
+#: A row is said to skid if its rollers without load hardly ever come above this part of rolling speed.
+_SKIDS = 0.9
+#: Rollers whose speed differs by less than this part from rolling are said to turn at rolling speed.
+_ROLLS = 0.01
+#: A row that is loaded for less than this part of the time is described by its rollers without load.
+_HARDLY_LOADED = 0.01
+#: Films above this film ratio Λ are full.
+_FULL_FILM = 3.0
+#: Part of the highest speed of the shaft below which the ratio to rolling speed tells nothing.
+_SLOW = 0.1
+#: Traces that reach this part of the window's end stand for all of it.
+_TRACED = 0.98
+
+
+@dataclass(frozen=True, slots=True)
+class RowSlip:
+    """How the rollers of a row turn; None where a result does not tell."""
+
+    row: str
+    loaded: float | None  #: Share of time in which a roller carries load [1]
+    lowest: float | None  #: Lowest spin over pure rolling [1], without load as far as traces tell
+    under_load: float | None  #: Mean spin over pure rolling under load [1], from traces
+    #: 5 and 95 % quantile of spin over pure rolling without load [1], from traces.
+    without_load: tuple[float, float] | None
+    traced: float | None = None  #: Length of the traces [s] where they end before the window
+
+
+def answer(result: xr.Dataset, criteria: Sequence[Mapping[str, Any]] = ()) -> list[str]:
+    """Three to five sentences on a result, each made from its numbers.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        From `macroslip.simulate`.
+    criteria : sequence of mappings, optional
+        Criteria of damage as `macroslip.result.damage.lines` gives them.
+
+    Returns
+    -------
+    list of str
+        Failed rollers first if there are any; then each row, the films, and the criteria.
+    """
+    sentences = []
+    failed = int((result.status != 0).sum())
+    if failed:
+        sentences.append(
+            f"{failed} of {result.status.size} rollers FAILED; every mean they enter is missing."
+        )
+    sentences += [row_sentence(row_slip(result, row)) for row in result.row.values.tolist()]
+    return [*sentences, *_films(result), *_nearest(criteria)]
+
+
+def row_slip(result: xr.Dataset, row: str) -> RowSlip:
+    """Load and slip of a row, from the rating and the traces as far as the result has them."""
+    of_row = result.sel(row=row)
+    loaded = _known(of_row.get("loaded_share"))
+    lowest = _known(of_row.min_spin_ratio.min()) if "min_spin_ratio" in of_row else None
+    if "spin" not in of_row or not in_window(of_row).sizes["time"]:
+        return RowSlip(row, loaded, lowest, None, None)
+    traces = in_window(of_row)
+    load = traces.roller_load
+    if loaded is None:
+        loaded = _known((load > 0.0).mean())
+    rolling = abs(traces.spin_pure)
+    # Where the shaft hardly turns, a roller at rest is no sign of slip.
+    turns = (rolling > 0.0) & (rolling >= _SLOW * rolling.max())
+    ratio = traces.spin / traces.spin_pure.where(turns)
+    pressed = ratio.where(load > 0.0)
+    idle = ratio.where(load <= 0.0)
+    without_load = None
+    if bool(idle.notnull().any()):
+        low, high = idle.quantile((0.05, 0.95)).values
+        without_load = (float(low), float(high))
+        if pressed.min() < idle.min():
+            lowest = float(idle.min())
+    length = float(traces.time[-1] - traces.time[0])
+    is_part = traces.time[-1] < _TRACED * result.attrs["window_end"]
+    return RowSlip(
+        row, loaded, lowest, _known(pressed.mean()), without_load, length if is_part else None
+    )
+
+
+def _known(value: xr.DataArray | None) -> float | None:
+    return float(value) if value is not None and bool(np.isfinite(value)) else None
+
+
+def row_sentence(slip: RowSlip) -> str:
+    """A row's load and slip in a sentence.
+
+    Examples
+    --------
+    >>> row_sentence(RowSlip("downwind", 0.958, 0.206, 0.996, (0.26, 0.54)))
+    'Downwind row: loaded 96 % of the time; loaded rollers turn at rolling speed (0.4 % below it in the mean), between load zones they slow down to 21 % of it.'
+    >>> row_sentence(RowSlip("upwind", 0.0007, 0.1, 0.78, (0.12, 0.28)))
+    'Upwind row: loaded 0.07 % of the time; its rollers turn at 12 to 28 % of rolling speed: it skids.'
+    """
+    name = "The rollers" if slip.row == "single" else f"{slip.row.capitalize()} row"
+    parts = [part for part in (_load(slip.loaded), _turning(slip)) if part]
+    traced = "" if slip.traced is None else f" (speeds in the {slip.traced:.0f} s that are traced)"
+    return f"{name}: {'; '.join(parts)}{traced}."
+
+
+def _load(share: float | None) -> str:
+    if share is None:
+        return ""
+    if share == 0.0:
+        return "never loaded"
+    if share > 0.9995:
+        return "loaded all the time"
+    percent = f"{100.0 * share:.1f}" if share > 0.99 else number(100.0 * share, 2)
+    return f"loaded {percent} % of the time"
+
+
+def _turning(slip: RowSlip) -> str:
+    """How fast the rollers turn, under load and without."""
+    if slip.lowest is None and slip.under_load is None and slip.without_load is None:
+        return "the shaft stands still or hardly turns, so that there is no rolling speed to compare with"
+    if slip.under_load is None and slip.without_load is None:
+        return f"its slowest roller {_slowest(slip.lowest)}"
+    hardly_loaded = slip.under_load is None or (slip.loaded or 0.0) < _HARDLY_LOADED
+    if hardly_loaded and slip.without_load is not None:
+        low, high = (number(100.0 * ratio, 2) for ratio in slip.without_load)
+        skids = ": it skids" if slip.without_load[1] < _SKIDS else ""
+        speeds = low if low == high else f"{low} to {high}"
+        return f"its rollers turn at {speeds} % of rolling speed{skids}"
+    below = 100.0 * (1.0 - slip.under_load)
+    off = f"{number(abs(below), 1 if abs(below) < 1.0 else 2)} % {'below' if below >= 0.0 else 'above'}"
+    rolls = abs(below) < 100.0 * _ROLLS
+    speed = (
+        f"at rolling speed ({off} it in the mean)" if rolls else f"{off} rolling speed in the mean"
+    )
+    if slip.without_load is None:
+        return f"its rollers turn {speed}"
+    return f"loaded rollers turn {speed}, between load zones they {_slowing(slip)}"
+
+
+def _slowest(lowest: float) -> str:
+    """What the slowest roller does."""
+    if lowest < 0.0:
+        return f"turns backwards, at up to {number(-100.0 * lowest, 2)} % of rolling speed"
+    return f"falls to {number(100.0 * lowest, 2)} % of rolling speed"
+
+
+def _slowing(slip: RowSlip) -> str:
+    """What rollers do without load."""
+    lowest = slip.without_load[0] if slip.lowest is None else slip.lowest
+    if lowest < 0.0:
+        return f"even turn backwards, at up to {number(-100.0 * lowest, 2)} % of it"
+    return (
+        f"{'keep' if lowest > 1.0 - _ROLLS else 'slow down to'} {number(100.0 * lowest, 2)} % of it"
+    )
+
+
+def _films(result: xr.Dataset) -> list[str]:
+    """Whether loaded contacts run on a full film; nothing where the result does not keep it, or nothing is loaded."""
+    if "film_slip_time" not in result:
+        return []
+    time = result.film_slip_time.transpose("row", "raceway", "film_class", "slip_class")
+    mixed = xr.DataArray(
+        share_below(time.values, FILM_EDGES, _FULL_FILM),
+        time.isel(film_class=0, slip_class=0).coords,
+    )
+    if not bool(mixed.notnull().any()):
+        return []
+    worst = mixed.where(mixed == mixed.max(), drop=True).isel(row=0, raceway=0)
+    least = None
+    if result.sizes["orbit"]:
+        least = _known(result.min_film_ratio.sel(interface=result.raceway.values).min())
+    if worst == 0.0:
+        orbits = "" if least is None else f", {number(least, 2)} at least in complete orbits"
+        return [f"Loaded contacts run on a full film (Λ above {_FULL_FILM:g}{orbits})."]
+    thinnest = "" if least is None else f", and at least {number(least, 2)} in complete orbits"
+    where = f"the {worst.raceway.item()} raceway"
+    if result.sizes["row"] > 1:
+        where = f"{where} of the {worst.row.item()} row"
+    return [
+        f"At {where} films are mixed (Λ below {_FULL_FILM:g}) for {number(100.0 * worst, 2)} % of the "
+        f"loaded time{thinnest}."
+    ]
+
+
+def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
+    """The criterion of damage whose value is nearest to its reference, or furthest beyond, and the others beyond theirs."""
+    judged = sorted(
+        (line for line in criteria if np.isfinite(line["ratio"])), key=lambda line: -line["ratio"]
+    )
+    if not judged:
+        return []
+    first = judged[0]
+    beyond = [line for line in judged[1:] if line["ratio"] > 1.0]
+    sentence = (
+        f"{'Furthest beyond' if first['ratio'] > 1.0 else 'Nearest to'} its reference is "
+        f"{_name(first)}: {_times(first)} ({first['compared with']}), "
+        f"known to a factor of {first['factor']:g}"
+    )
+    if first["ratio"] > first["factor"]:
+        sentence += ", so beyond it in any case"
+    elif first["ratio"] > 1.0 / first["factor"]:
+        sentence += ", so not told apart from it"
+    if beyond:
+        sentence += "; also beyond: "
+    return [f"{sentence}{'; '.join(f'{_name(line)} ({_times(line)})' for line in beyond)}."]
+
+
+def _name(line: Mapping[str, Any]) -> str:
+    """Title of a criterion inside a sentence: its mechanism, then its quantity."""
+    return line["title"].replace(":", ",", 1)
+
+
+def _times(line: Mapping[str, Any]) -> str:
+    """A criterion's ratio to its reference in words; of a time, which is bad where it is short, the reference's to it.
+
+    Examples
+    --------
+    >>> _times({"ratio": 21.7, "value": 1.085, "reference": 0.05})
+    '22 times the reference'
+    >>> _times({"ratio": 0.03125, "value": 640.0, "reference": 20.0})
+    'the reference is 0.031 of it'
+    """
+    times = f"{number(line['ratio'], 2)} {'times' if line['ratio'] > 1.0 else 'of'}"
+    if line["ratio"] < 1e-3:
+        times = "less than a thousandth of"
+    is_direct = math.isclose(line["ratio"], line["value"] / line["reference"])
+    return f"{times} the reference" if is_direct else f"the reference is {times} it"
