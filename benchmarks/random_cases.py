@@ -61,8 +61,11 @@ SPEEDS = (
     "oscillating", "creeping", "standstill",
 )  # fmt: skip
 FORCES = "constant", "waves", "rotating", "thrust reversal", "through zero", "jumps", "thrust"
-WIDE = "wide"
-#: Most samples of a wide history, and steps after which an integration is given up.
+#: Kinds of speed that change within a sample or are hardly there, and forces beside `FORCES` that go with them.
+SUDDEN_SPEEDS = ("sawtooth", "held steps", "knocks", "inching", "run-down")
+SUDDEN_FORCES = (*FORCES, "held steps", "knocks")
+WIDE, SUDDEN = "wide", "sudden"
+#: Most samples of a wide or sudden history, and steps after which an integration is given up.
 _MOST_SAMPLES, _MOST_STEPS = 3000, 50_000
 _STEP = 0.05
 
@@ -128,6 +131,82 @@ def _levels(random: np.random.Generator, x: np.ndarray, low: float) -> np.ndarra
     return random.uniform(low, 1.0, jumps.size + 1)[np.searchsorted(jumps, x)]
 
 
+def _held(random: np.random.Generator, time_s: np.ndarray) -> np.ndarray:
+    """The times [s], each held for as long as a controller or recorder holds its output, 0.05 to 2 s."""
+    hold = float(np.exp(random.uniform(np.log(0.05), np.log(2.0))))
+    return np.floor(time_s / hold) * hold
+
+
+def _knocks(random: np.random.Generator, size: int) -> np.ndarray:
+    """A value of 0 that rises to 1 for one to five of `size` samples, two to ten times."""
+    knocks = np.zeros(size)
+    for _ in range(int(random.integers(2, 11))):
+        first = int(random.integers(0, size))
+        knocks[first : first + int(random.integers(1, 6))] = 1.0
+    return knocks
+
+
+def _sudden_speed(random: np.random.Generator, kind: str, time_s: np.ndarray) -> np.ndarray:
+    """A speed of a kind of `SUDDEN_SPEEDS` over its largest one, at times from zero on."""
+    if kind == "sawtooth":
+        # It rises or falls over a period and comes back within a sample.
+        phase = time_s / random.uniform(0.5, 10.0) % 1.0
+        low = random.uniform(0.0, 0.8)
+        return low + (1.0 - low) * (phase if random.random() < 0.5 else 1.0 - phase)
+    if kind == "held steps":
+        return 1.0 + _waves(random, _held(random, time_s), 0.1)
+    if kind == "knocks":
+        return 1.0 - random.uniform(0.05, 1.0) * _knocks(random, time_s.size)
+    if kind == "inching":
+        # Short turns, forth or forth and back, with rests between them.
+        moves = np.sin(2.0 * np.pi * time_s / random.uniform(1.0, 8.0))
+        moves = np.clip(4.0 * moves - 2.0, 0.0, 1.0) - random.choice([0.0, 1.0]) * np.clip(
+            -4.0 * moves - 2.0, 0.0, 1.0
+        )
+        return random.uniform(0.05, 0.5) * moves
+    # A run-down by friction and drag ends at a finite time, after which the shaft is at rest.
+    left = np.clip(1.0 - time_s / (random.uniform(0.3, 1.1) * time_s[-1]), 0.0, 1.0)
+    return left ** random.uniform(1.0, 2.0)
+
+
+def _sudden_history(
+    random: np.random.Generator, heavy: float, speed: float, period: float
+) -> BearingLoads:
+    """Speeds of `SUDDEN_SPEEDS` with any kind of force, in samples of 1 ms to 0.2 s."""
+    way, kind = str(random.choice(SUDDEN_SPEEDS)), str(random.choice(SUDDEN_FORCES))
+    step = float(np.exp(random.uniform(np.log(1e-3), np.log(0.2))))
+    t = np.arange(min(int(random.uniform(0.5, 1.5) * period / step), _MOST_SAMPLES) + 3) * step
+    turn = _sudden_speed(random, way, t)
+    size = heavy * 10.0 ** random.uniform(-3.0, -0.3)
+    force = _force(random, kind, t, size, 2 * np.pi * t / random.uniform(0.5, 20.0))
+    return BearingLoads(t, speed * turn, force, f"{SUDDEN}: {way}, {kind}")
+
+
+def _force(
+    random: np.random.Generator, kind: str, t: np.ndarray, size: float, slow: np.ndarray
+) -> np.ndarray:
+    """Forces [N] of a kind of `SUDDEN_FORCES` at times [s], with the phase `slow` [rad] of what comes back."""
+    one = np.ones_like(t)
+    force = np.column_stack([0.0 * t, -size * one, size * random.uniform(-0.4, 0.4) * one])
+    if kind == "waves":
+        force += np.column_stack([_waves(random, t, 0.2 * size) for _ in range(3)])
+    elif kind == "rotating":
+        force[:, :2] = size * np.column_stack([np.cos(slow), np.sin(slow)])
+    elif kind == "thrust reversal":
+        force[:, 2] = 0.4 * size * np.sin(slow)
+    elif kind == "through zero":
+        force *= np.sin(slow)[:, None]
+    elif kind == "jumps":
+        force *= _levels(random, t / t[-1], 0.0)[:, None]
+    elif kind == "thrust":
+        force[:, :2] = 0.0
+    elif kind == "held steps":
+        force *= 1.0 + _waves(random, _held(random, t), 0.3)[:, None]
+    elif kind == "knocks":
+        force *= 1.0 + random.uniform(1.0, 10.0) * _knocks(random, t.size)[:, None]
+    return force
+
+
 def _wide_history(
     random: np.random.Generator, heavy: float, speed: float, period: float
 ) -> BearingLoads:
@@ -145,19 +224,7 @@ def _wide_history(
         "oscillating": 1.0 + 0.5 * np.sin(slow), "creeping": 0.01 * one, "standstill": 0.0 * one,
     }[way]  # fmt: skip
     size = heavy * 10.0 ** random.uniform(-3.0, -0.3)
-    force = np.column_stack([0.0 * t, -size * one, size * random.uniform(-0.4, 0.4) * one])
-    if kind == "waves":
-        force += np.column_stack([_waves(random, t, 0.2 * size) for _ in range(3)])
-    elif kind == "rotating":
-        force[:, :2] = size * np.column_stack([np.cos(slow), np.sin(slow)])
-    elif kind == "thrust reversal":
-        force[:, 2] = 0.4 * size * np.sin(slow)
-    elif kind == "through zero":
-        force *= np.sin(slow)[:, None]
-    elif kind == "jumps":
-        force *= _levels(random, x, 0.0)[:, None]
-    elif kind == "thrust":
-        force[:, :2] = 0.0
+    force = _force(random, kind, t, size, slow)
     return BearingLoads(t, speed * turn, force, f"{WIDE}: {way}, {kind}")
 
 
@@ -201,9 +268,29 @@ def _temperature(random: np.random.Generator, lubricant: Lubricant, *, wide: boo
 
 
 def random_case(
-    number: int, seed: int = 1, physical: float = 0.1, whole: float = 0.0, wide: float = 0.0
+    number: int,
+    seed: int = 1,
+    physical: float = 0.1,
+    whole: float = 0.0,
+    wide: float = 0.0,
+    sudden: float = 0.0,
 ) -> tuple[str, Case]:
-    """The kind of loads and the case with a number: the same ones whenever it is asked for."""
+    """The kind of loads and the case with a number: the same ones whenever it is asked for.
+
+    Parameters
+    ----------
+    number, seed : int
+        From which all is drawn.
+    physical, whole, wide, sudden : float
+        Shares of cases with laws of the set physical, in which the whole bearing moves, with any kind of speed, force
+        and sample, and with speeds that change within a sample [-].
+
+    Returns
+    -------
+    kind : str
+        Of loads.
+    case : Case
+    """
     random = np.random.default_rng([seed, number])
     bearing = Bearing.read(random.choice(Bearing.catalogue()))
     bearing = bearing.replace(diametral_clearance=float(random.uniform(0.0, 0.4e-3)))
@@ -214,9 +301,12 @@ def random_case(
     speed = float(random.choice([-1.0, 1.0], p=[0.1, 0.9]) * random.uniform(4.0, 22.0) * np.pi / 30)
     heavy = truncation_load(bearing, lubricant) * bearing.rollers_per_row * 0.4
     period = 2 * np.pi / (orbit_ratio(bearing) * abs(speed))
-    is_wide = wide > 0.0 and random.random() < wide
-    if is_wide:
-        loads = _wide_history(random, heavy, speed, period)
+    # Nothing is drawn for a share of zero, so that a number gives the case that it gave before there was the share.
+    is_sudden = sudden > 0.0 and random.random() < sudden
+    is_wide = not is_sudden and wide > 0.0 and random.random() < wide
+    if is_sudden or is_wide:
+        history = _sudden_history if is_sudden else _wide_history
+        loads = history(random, heavy, speed, period)
         kind = loads.source
     elif kind == "bundled":
         start = float(random.uniform(0.0, 500.0))
@@ -240,7 +330,7 @@ def random_case(
         gravity=bool(random.random() < 0.9),
         drag=bool(random.random() < 0.9),
         rollers="all" if dynamics == WHOLE_BEARING else rollers,
-        window=Window(start=0.0) if is_wide else Window(),
+        window=Window(start=0.0) if is_wide or is_sudden else Window(),
     )
     return kind, replace(case, loads=_borne(loads, case))
 
@@ -334,7 +424,7 @@ def table(outcomes: list[Outcome]) -> Iterator[str]:
     yield f"{'loads':<18}{'cases':>6}{''.join(f'{word:>8}' for word in words)}{'energy error':>14}{'peak error':>12}"
     kinds = (
         *HISTORIES,
-        *([WIDE] if any(one.history.startswith(WIDE) for one in outcomes) else []),
+        *(kind for kind in (WIDE, SUDDEN) if any(one.history.startswith(kind) for one in outcomes)),
         "all",
     )
     for kind in kinds:
@@ -374,6 +464,12 @@ def main(arguments: list[str] | None = None) -> None:
         default=0.0,
         help="share of cases with any kind of speed, force and sample",
     )
+    parser.add_argument(
+        "--sudden",
+        type=float,
+        default=0.0,
+        help="share of cases whose speed changes within a sample, or inches and runs down",
+    )
     parser.add_argument("-o", "--output", type=Path, default=Path("random_cases.csv"))
     given = parser.parse_args(arguments)
     outcomes = []
@@ -388,6 +484,7 @@ def main(arguments: list[str] | None = None) -> None:
                 physical=given.physical,
                 whole=given.whole,
                 wide=given.wide,
+                sudden=given.sudden,
             )
             outcomes.append(one)
             writer.writerow(one)

@@ -9,6 +9,9 @@ from benchmarks.random_cases import (
     FORCES,
     HISTORIES,
     SPEEDS,
+    SUDDEN,
+    SUDDEN_FORCES,
+    SUDDEN_SPEEDS,
     WIDE,
     _largest,
     compare,
@@ -45,6 +48,28 @@ def test_wide_cases_have_every_kind_of_speed_and_force():
     )
     steps = [float(case.loads.time[1] - case.loads.time[0]) for _, case in drawn]
     assert min(steps) < 2e-3 and max(steps) > 0.5
+
+
+def test_sudden_cases_have_every_kind_of_speed_and_force():
+    drawn = [random_case(number, sudden=1.0) for number in range(150)]
+    kinds = [kind.removeprefix(f"{SUDDEN}: ").split(", ") for kind, _ in drawn]
+    assert {speed for speed, _ in kinds} == set(SUDDEN_SPEEDS)
+    assert {force for _, force in kinds} == set(SUDDEN_FORCES)
+    # Inching and run-down shafts come to rest, and a sawtooth comes back within a sample.
+    for (speed, _), (_, case) in zip(kinds, drawn, strict=True):
+        turn = np.abs(case.loads.shaft_speed)
+        if speed == "inching":
+            assert turn.min() < 0.01 * turn.max(), case
+        if speed == "run-down":
+            assert np.diff(turn).max() <= 0.0, case
+
+
+@pytest.mark.slow
+@examples(5)
+@given(number=st.integers(0, 2**20))
+def test_any_case_of_sudden_speeds_agrees_with_itself_made_tight_or_says_that_it_failed(number):
+    one = compare(number, tight=2e-5, physical=0.0, sudden=1.0)
+    assert not one.verdict.startswith("off"), one
 
 
 @pytest.mark.slow

@@ -282,6 +282,8 @@ def test_asterisks_in_text(tmp_path, truth):
         data.write_text("\n".join([*lines[:7], " ".join(words), *lines[8:]]))
 
     write(3)
+    words = header.read_text().split("MEAN")[1].split()
+    header.write_text(header.read_text().replace(words[3], "*" * 13))
     np.testing.assert_allclose(HubLoads.read(header).moment, truth.moment, rtol=1e-6, atol=0.1)
     write(1)
     _message(header, "channel Stationary hub My holds '*************' (sample 8)")

@@ -45,7 +45,7 @@ def test_a_result_tells_the_errors_of_its_tables(traced):
     assert found["contact_evaluation"] == "tables" and (traced.status == Status.COMPLETED).all()
     # The largest is that of rollers under a few newtons whose slip exceeds the ring's speed.
     assert 0.0 < found["table_error_typical"] <= 1e-5 < found["table_error_worst"] < 1.0
-    assert found["table_size"] > 1e5 and found["table_build_time"] >= 0.0
+    assert found["table_size"] > 1e5
 
 
 def raceway_loads(model, row, angle):

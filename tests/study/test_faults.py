@@ -180,6 +180,57 @@ def test_a_damaged_database_is_named(tmp_path, load_files, content, counted, res
     complete(out, 4)
 
 
+def test_without_its_database_a_study_is_computed_again_and_says_so(
+    tmp_path, load_files, content, counted, resumed
+):
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    (out / "study.sqlite").unlink()
+    message = "the database is not there.*--resume: then all runs are computed again"
+    with pytest.raises(InputError, match=message):
+        open_study(out)
+    assert resumed(study, out, counted)[1] == 4
+    assert "the database is not there; all runs are computed again" in (out / "log.txt").read_text()
+    complete(out, 4)
+
+
+@pytest.mark.parametrize("act", ["remove", "replace", "move the folder"])
+def test_a_database_that_goes_while_the_study_runs_stops_it(
+    tmp_path, long_content, counted, resumed, act
+):
+    """Once a batch is recorded the file is looked at: nothing is reported done that nobody will find."""
+    study, out = study_of(long_content, tmp_path), tmp_path / "out"
+    reported = []
+
+    def report(progress):
+        reported.append(progress.done)
+        if progress.done == 3:
+            path = out / "study.sqlite"
+            if act == "move the folder":
+                out.rename(tmp_path / "elsewhere")
+                return
+            path.rename(tmp_path / "aside")
+            if act == "replace":
+                path.write_bytes((tmp_path / "aside").read_bytes())
+
+    with pytest.raises(
+        MacroslipError, match=r"study\.sqlite: .*(removed|replaced|stored).*--resume"
+    ):
+        run_study(study, out, threads=1, progress=report)
+    assert max(reported) == 3 and len(counted) <= 4
+
+
+@pytest.mark.parametrize("command", ["DELETE FROM runs", "DROP TABLE runs"])
+def test_a_study_without_runs_is_named(tmp_path, load_files, content, counted, resumed, command):
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    change(out, command)
+    with pytest.raises(InputError, match="(list of runs is empty|has no runs yet).*--resume"):
+        open_study(out)
+    assert resumed(study, out, counted)[1] == 0  # results are kept by their keys
+    complete(out, 4)
+
+
 def test_a_database_of_another_study_gives_it_no_results(
     tmp_path, load_files, content, counted, resumed
 ):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from collections import OrderedDict
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from macroslip import (
     run_study,
     simulate,
 )
+from macroslip.contact import table_store
 from macroslip.study.reader import stored_results
 from macroslip.study.run import Progress
 from macroslip.study.study_file import study_of
@@ -53,6 +55,64 @@ def test_several_runs_at_once_store_the_same(tmp_path, load_files, content):
     assert len(stored[0]) == 4 and stored[0] == stored[1]
     assert "1 at once with 1 threads each" in (tmp_path / "one" / "log.txt").read_text()
     assert "4 at once with 1 threads each" in (tmp_path / "many" / "log.txt").read_text()
+
+
+@pytest.fixture
+def same_content(load_files, content):
+    """Eight runs of one key: four copies of a load file, at the tilt of the base case and without one."""
+    for path in (load_files / "runs").iterdir():
+        _copy = (load_files / "runs" / "12mps_seed1.csv").read_bytes()
+        path.write_bytes(_copy)
+    return content | {"models": {"base": {}, "said again": {"drivetrain.tilt": "5 deg"}}}
+
+
+@pytest.mark.parametrize("options", [{"threads": 8}, {"threads": 1}, {"workers": 3}])
+def test_runs_of_one_key_are_computed_once(
+    tmp_path, load_files, same_content, options, done, rows, wait_for
+):
+    out = tmp_path / "out"
+    ended = run_study(study_of(same_content, load_files), out, **options)
+    assert (ended.progress.computed, ended.progress.unchanged, ended.progress.failed) == (1, 7, 0)
+    assert len(done(out)) == 1  # compares the checksum
+    assert rows(out, "SELECT count(*), count(DISTINCT run), count(DISTINCT key) FROM runs") == [
+        (8, 8, 1)
+    ]
+    assert (open_study(out).outcome == "completed").all()
+    assert open_study(out).energy.notnull().all()
+    assert not list(out.rglob("*.part"))
+
+
+def test_runs_of_one_key_that_fails_have_each_its_reason(
+    tmp_path, load_files, same_content, monkeypatch
+):
+    def broken(case, **options):
+        raise ZeroDivisionError("a fault of the program")
+
+    monkeypatch.setattr("macroslip.result.simulate.simulate", broken)
+    out = tmp_path / "out"
+    ended = run_study(study_of(same_content, load_files), out, threads=4)
+    assert ended.progress.failed == 8
+    assert all("ZeroDivisionError" in reason for reason in open_study(out).reason.values)
+    assert not list(out.rglob("*.part"))
+
+
+def test_equal_inputs_give_equal_bytes(tmp_path, monkeypatch, load_files, content):
+    """Whether the tables of contacts are made, found on the disk or remembered."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    physical = content | {"case": {"rollers": [0], "loads": {"end": "0.4 s"}}}
+    study = study_of(physical, load_files)
+    found = []
+    for name in ("cold", "warm", "remembered"):
+        if name != "remembered":
+            monkeypatch.setattr(table_store, "_in_memory", OrderedDict())
+        run_study(study, tmp_path / name, threads=1)
+        found.append(
+            {path.name: path.read_bytes() for path in (tmp_path / name).glob("cases/*/*.nc")}
+        )
+    assert list((tmp_path / "cache").rglob("*.table"))
+    assert len(found[0]) == 4 and found[0] == found[1] == found[2]
+    attributes = next(stored_results(tmp_path / "cold"))[1].attrs
+    assert not [name for name in attributes if "time" in name or "second" in name]
 
 
 def test_only_what_is_to_be_kept_is_stored(tmp_path, load_files, content):

@@ -183,11 +183,40 @@ def test_the_balance_of_heat_counts_events_by_their_hours():
             {"wind": {"weibull": "IEC I"}, "events": {"idle-6": "9000 h per year"}},
             "take 9000 hours of a year",
         ),
+        # A record of 199.95 s, a hundred million times.
+        (
+            {"wind": {"weibull": "IEC I"}, "events": {"start-8": "1e8 per year"}},
+            r"the events take 5\.55417e\+06 hours of a year.*up to 8766 hours",
+        ),
     ],
 )
 def test_weights_that_are_refused(weights, message):
     with pytest.raises(InputError, match=message):
         of_file(weights)
+
+
+def test_an_event_of_a_file_takes_the_length_of_its_record(tmp_path, write_loads):
+    """A record of 100 s, of which the case takes 40 s: 788,940 of them fill a year of 31,557,600 s."""
+    write_loads(tmp_path / "8_.csv", seconds=100.0)
+    write_loads(tmp_path / "8_start.csv", seconds=100.0)
+
+    def study(rate):
+        return study_of(
+            {
+                "case": {"loads": {"start": "50 s"}, "window": {"start": "55 s", "end": "95 s"}},
+                "loads": {"files": "{wind_speed:g}_*.csv", "kind": "main-bearing"},
+            }
+            | {"loads": {"table": "list.csv", "kind": "main-bearing"}}
+            | {"weights": {"wind": {"weibull": "IEC I"}, "events": {"start": rate}}},
+            tmp_path,
+        )
+
+    (tmp_path / "list.csv").write_text(
+        "file,wind_speed,event\n8_.csv,8.0,\n8_start.csv,8.0,start\n"
+    )
+    assert len(study("788939 per year")) == 2
+    with pytest.raises(InputError, match="the events take 8766.01 hours of a year"):
+        study("788941 per year")
 
 
 def test_weights_that_underflow_are_refused_where_results_are_weighted():

@@ -15,6 +15,7 @@ from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.printing import plain_console, print_json, print_table
 from macroslip.errors import InputError, safe_text
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.study.run import Ended, Progress
@@ -62,8 +63,20 @@ def study(
     quiet: Annotated[
         bool, typer.Option("--quiet", help="Show failures only, each error on one line.")
     ] = False,
+    from_folder: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write the study file for all OpenFAST output in this folder; compute nothing."
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="With --from-folder, replace the file if it exists.")
+    ] = False,
 ) -> None:
     """Compute all cases of a study; a failed one does not stop it."""
+    if from_folder is not None:
+        _write_study(study, from_folder, force=force)
+        return
     from macroslip.study.study_file import read_study
 
     checked = read_study(study)
@@ -80,7 +93,10 @@ def study(
             remedy="Name one, new or empty, with -o.",
         )
     from macroslip.study.run import run_study
+    from macroslip.study.store import lacks_database
 
+    if resume and lacks_database(output):
+        to_stderr(f"note: {output} has no database any more; all runs are computed again.")
     try:
         with _shown(quiet=quiet) as report:
             chosen = {"workers": workers, "scheduler": scheduler, "threads": threads}
@@ -97,6 +113,24 @@ def study(
     if ended.failures:
         _failures(ended, output)
         raise typer.Exit(CASES_FAILED)
+
+
+def _write_study(study: Path, folder: Path, *, force: bool) -> None:
+    """Write a study file, and its table of loads, for the load files in a folder."""
+    from macroslip.study.from_folder import study_of_folder
+
+    check_new_file(study, force=force)
+    made = study_of_folder(folder, study)
+    for path in made.texts:
+        check_new_file(path, force=force)
+    for path, text in made.texts.items():
+        with new_file(path, force=force) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+    for remark in made.remarks:
+        to_stderr(f"note: {remark}")
+    winds = [labels["wind_speed"] for labels in made.labels]
+    typer.echo(f"{len(winds)} load files, {min(winds):g} to {max(winds):g} m/s")
+    typer.echo(f"written: {' and '.join(map(str, made.texts))}")
 
 
 def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:

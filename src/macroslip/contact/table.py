@@ -8,7 +8,6 @@ same for all cases alike, so that they share their files on disk.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -265,8 +264,7 @@ def _bent_ratio(contact: ContactLaws, box: Box) -> float:
 
 
 def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
-    """Quantities at all loads and slip ratios at one speed w [m/s], and last the processor time it took [s]."""
-    began = time.thread_time()
+    """Quantities at all loads and slip ratios at one speed w [m/s]."""
     load, slip = np.meshgrid(
         grid.loads(grid.load.nodes), grid.slips(grid.ratio.nodes), indexing="ij"
     )
@@ -275,10 +273,9 @@ def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
     pull, lag, skew, rough = tractions(contact, load, along, speed * slip)
     root = np.cbrt(load)
     heavy = load * root * root
-    found = np.stack(
+    return np.stack(
         [pull / load, lag / heavy, skew / (load * root), rough / (heavy * speed)], axis=-1
     )
-    return np.append(found.ravel(), time.thread_time() - began)
 
 
 def contact_parts(contact: ContactLaws) -> tuple:
@@ -293,11 +290,10 @@ def contact_parts(contact: ContactLaws) -> tuple:
 
 
 class TableErrors(NamedTuple):
-    """Relative errors of force and power of a traction table: median and largest; and the time it took to make [s]."""
+    """Relative errors of force and power of a traction table: median and largest."""
 
     typical: float
     worst: float
-    build_time: float
 
 
 class _Made(NamedTuple):
@@ -319,8 +315,7 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
 
 
 def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
-    shape = (grid.load.cells + 1, grid.ratio.cells + 1, CHANNELS)
-    sheets, seconds = [], 0.0
+    sheets = []
     for root_speed in grid.speed.nodes:
         name = table_key(
             key,
@@ -331,16 +326,11 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
             grid.scale,
             round(float(root_speed), 12),
         )
-        (found,) = stored(name, lambda speed=float(root_speed) ** 4: [_sheet(contact, grid, speed)])
-        sheets.append(found[:-1].reshape(shape))
-        seconds += float(found[-1])
+        sheets += stored(name, lambda speed=float(root_speed) ** 4: [_sheet(contact, grid, speed)])
     nodes = np.stack(sheets, axis=1)
     coefficients = spline_coefficients(nodes, 3)
-    return _Made(
-        coefficients,
-        _rising(grid, nodes),
-        _errors(contact, grid, coefficients, box)._replace(build_time=seconds),
-    )
+    errors = _errors(contact, grid, coefficients, box)
+    return _Made(coefficients, _rising(grid, nodes), errors)
 
 
 def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
@@ -415,4 +405,4 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
     off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
     least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)
     off = np.maximum(off, np.abs(other_power - power) / np.maximum(power, least))
-    return TableErrors(float(np.median(off)), float(off.max()), 0.0)
+    return TableErrors(float(np.median(off)), float(off.max()))

@@ -31,6 +31,7 @@ from macroslip.loads.source_file import (
     Samples,
     announced_binary,
     announced_text,
+    numbers,
     text_lines,
 )
 
@@ -62,7 +63,7 @@ class _Group(NamedTuple):
     first: float  #: Time of the first sample [s].
     step: float  #: Time between samples [s].
     number: np.dtype | None  #: Type of binary data; None for text.
-    mean: tuple[float, ...]  #: Means that the header states, or empty.
+    mean: NDArray[np.float64]  #: Means that the header states, or empty.
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -198,9 +199,9 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
             raise ValueError(
                 f"MIN {first:g} and STEP {step:g}, where times are finite and the step is above 0"
             )
-        mean = tuple(float(word) for word in first_of.get("MEAN", "").split())
-        if not all(map(math.isfinite, mean)):
-            raise ValueError("MEAN is not finite")
+        mean, _ = numbers(first_of.get("MEAN", "").split())
+        if mean.size not in (0, variables):
+            raise ValueError(f"MEAN has {mean.size} numbers for {variables} variables")
     except (KeyError, ValueError, IndexError) as error:
         what = f"not readable as a header of Bladed ({error})"
         allowed = "the keys DIMENS, VARIAB, VARUNIT, FORM, FORMAT, AXISLAB, AXIMETH, MIN and STEP"
@@ -239,7 +240,7 @@ def _columns(group: _Group, names: Sequence[str]) -> NDArray[np.float64]:
     else:
         samples = Samples(announced_binary(data, group.number, shape, "its header", _AGAIN))
     columns = [samples.channel(group.names.index(name), name, str(data)) for name in names]
-    if len(group.mean) == len(group.names):
+    if group.mean.size:
         _check_means(group, samples, data)
     return np.column_stack(columns)
 
@@ -249,7 +250,7 @@ def _check_means(group: _Group, samples: Samples, data: Path) -> None:
     mean = samples.values.mean(axis=0, dtype=np.float64)
     largest = np.maximum(np.abs(samples.values).max(axis=0), 1e-30)
     # What is not finite is told of the channels that are taken, and of no others.
-    difference = np.nan_to_num(np.abs(mean - np.array(group.mean)) / largest, posinf=0.0)
+    difference = np.nan_to_num(np.abs(mean - group.mean) / largest, posinf=0.0)
     worst = int(difference.argmax())
     if difference[worst] > _SAME_MEAN:
         raise InputError(

@@ -61,6 +61,9 @@ _BENDING = (("LSSTipMys",), ("LSSTipMzs",))
 _ROTATING_BENDING = (("LSSTipMya",), ("LSSTipMza",))
 _GAUGE_BENDING = (("LSSGagMys",), ("LSSGagMzs",))
 _ROTATING_GAUGE_BENDING = (("LSSGagMya",), ("LSSGagMza",))
+#: Wind at the hub, as InflowWind has it; without a lateral channel its speed is the one downwind.
+_WIND = ("Wind1VelX", "WindHubVelX")
+_LATERAL_WIND = ("Wind1VelY", "WindHubVelY")
 #: Letters before a name by which OpenFAST is asked for the negative of a channel.
 _MINUS = ("-", "_", "m")
 
@@ -106,8 +109,21 @@ def read_openfast(path: Path, *, speed_needed: bool = True, at_hub: bool = True)
         If the file is cut off or damaged, lacks a channel (the error gives the lines to add to the
         output list), declares a unit that is not known, or a channel holds what is no number.
     """
-    read = _read_binary if path.suffix.lower() == ".outb" else _read_text
-    return loads_from_channels(read(path), speed_needed=speed_needed, at_hub=at_hub)
+    return loads_from_channels(read_channels(path), speed_needed=speed_needed, at_hub=at_hub)
+
+
+def read_channels(path: Path) -> Channels:
+    """All channels of an output file; InputError if it is cut off or damaged."""
+    return _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)
+
+
+def mean_wind_speed(channels: Channels) -> float | None:
+    """Mean of the horizontal wind speed [m/s] at the hub, None without a channel for it."""
+    if not channels.has_all((_WIND,)):
+        return None
+    downwind = channels.column(_WIND, {"m/s": 1.0})
+    lateral = channels.column(_LATERAL_WIND, {"m/s": 1.0})
+    return float(np.hypot(downwind, lateral).mean())
 
 
 def loads_from_channels(channels: Channels, *, speed_needed: bool, at_hub: bool = True) -> dict:

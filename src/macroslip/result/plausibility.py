@@ -86,8 +86,8 @@ def _loads_that_turn(loads: HubLoads) -> list[str]:
     for name, deviation in zip(("fy", "fz"), deviations, strict=True):
         if deviation > abs(mean_z):
             return [
-                f"{name} goes up and down by {_plain(deviation / 1e3)} kN (its standard deviation), "
-                f"more than the rotor's weight, a mean fz of {_plain(mean_z / 1e3)} kN; are these "
+                f"{name} goes up and down by {_plain(deviation / 1e3)} kN (its standard "
+                f"deviation), more than the rotor's weight, a mean fz of {_plain(mean_z / 1e3)} kN; are these "
                 "axes that turn with the rotor, or is the angle that of another bearing?"
             ]
     if abs(mean_y) > _SIDEWAYS * abs(mean_z):
@@ -128,60 +128,80 @@ def _plain(value: float) -> str:
 
 
 def doubtful_result(result: xr.Dataset) -> list[str]:
-    """Sentences on numbers of a result and its rating that cannot be meant so, or that its laws do not reach.
+    """Sentences on numbers of a result and its rating that are implausible or beyond its laws.
 
-    With those on its loads and on keys of earlier versions.
+    With those on its loads.
     """
     notes = result.attrs.get("oil_supply_note", "").splitlines()
-    found = [f"{line}." for line in notes if not line.startswith("oil_supply ")]
-    found += result.attrs.get("doubtful_loads", "").splitlines()
-    known = {name: float(result[name].max()) for name in JUDGED if name in result}
+    doubts = [f"{line}." for line in notes if not line.startswith("oil_supply ")]
+    doubts += result.attrs.get("doubtful_loads", "").splitlines()
+    return doubts + _doubtful_rating(result) + _preload_by_heat(result) + _films_in_balance(result)
+
+
+def _doubtful_rating(result: xr.Dataset) -> list[str]:
+    """Sentences on safety, pressure, minimum load, film law and life."""
+    doubts = []
+    largest = {name: float(result[name].max()) for name in JUDGED if name in result}
+    safety = largest.get("static_safety", 0.0)
+    if safety > _SAFEST:
+        doubts.append(
+            f"the static safety is {_plain(safety)}, and main bearings in use have 2 to 50: the "
+            "loads are too small for this bearing, or in another unit."
+        )
+    pressure = largest.get("largest_pressure", 0.0)
+    if pressure > _PRESSURE:
+        doubts.append(
+            f"the largest pressure is {pressure / 1e9:.3g} GPa, beyond the 4 GPa that the static "
+            "load rating stands for: the loads are too large for this bearing, or in another unit."
+        )
+    share = largest.get("share_below_minimum_load", 0.0)
+    if share > _MOST:
+        doubts.append(
+            "the load is below the minimum that the maker requires for "
+            f"{100.0 * share:.3g} % of the time: rollers skid."
+        )
     if "outside_film_range" in result:
-        known["outside"] = float(
-            result.outside_film_range.sel(interface=["inner", "outer"]).mean("roller").max()
-        )
-    if (safety := known.get("static_safety", 0.0)) > _SAFEST:
-        found.append(
-            f"the static safety is {_plain(safety)}, and main bearings in use have 2 to 50: the loads are too small for "
-            "this bearing, or in another unit."
-        )
-    if (pressure := known.get("largest_pressure", 0.0)) > _PRESSURE:
-        found.append(
-            f"the largest pressure is {pressure / 1e9:.3g} GPa, beyond the 4 GPa that the static load rating stands "
-            "for: the loads are too large for this bearing, or in another unit."
-        )
-    if (share := known.get("share_below_minimum_load", 0.0)) > _MOST:
-        found.append(
-            f"the load is below the minimum that the maker requires for {100.0 * share:.3g} % of the time: rollers skid."
-        )
-    if (share := known.get("outside", 0.0)) > _MOST:
-        found.append(
-            f"the film's formula is outside its range for {100.0 * share:.3g} % of the loaded time at a raceway: film "
-            "thickness and traction are extrapolated there."
-        )
+        at_raceways = result.outside_film_range.sel(interface=["inner", "outer"])
+        outside = float(at_raceways.mean("roller").max())
+        if outside > _MOST:
+            doubts.append(
+                f"the film's formula is outside its range for {100.0 * outside:.3g} % of the "
+                "loaded time at a raceway: film thickness and traction are extrapolated there."
+            )
     bearing = json.loads(result.attrs.get("input", "{}")).get("bearing", {})
     if "basic_life" in result and bearing.get("dynamic_load_rating", {}).get("tag") == "D":
-        found.append(
-            "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of what makers publish: lives are "
-            "0.5 to 0.9 of those by the maker's C."
+        doubts.append(
+            "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of "
+            "what makers publish: lives are 0.5 to 0.9 of those by the maker's C."
         )
+    return doubts
+
+
+def _preload_by_heat(result: xr.Dataset) -> list[str]:
+    """Sentence on a warm inner ring that takes all clearance."""
     preload = -result.attrs.get("operating_clearance", 0.0)
     loss = result.attrs.get("clearance_loss", 0.0)
-    if preload > 0.0 and loss > 0.0:
-        found.append(
-            f"the inner ring is so much warmer than the outer one that it takes {1e6 * loss:.3g} um of clearance and "
-            f"preloads the rollers by {1e6 * preload:.3g} um: friction, heat and loads of the rollers rise with it, and "
-            "a little more heat may seize the bearing; give it more clearance, or check heat.ring_conductance."
-        )
-    if "mean_film_load" in result and "mean_elastic_load" in result.attrs:
-        films, elastic = (
-            float(result.mean_film_load.mean()),
-            float(result.attrs["mean_elastic_load"]),
-        )
-        if films > _FILMS * (films + elastic):
-            found.append(
-                f"films of oil carry {100.0 * films / (films + elastic):.3g} % of the rollers' load, and the balance of the rings "
-                "does not know them: in oil so thick the rings stand further apart, and loads, energies and torque are less than "
-                "computed; take a warmer or thinner oil, or a larger load."
-            )
-    return found
+    if preload <= 0.0 or loss <= 0.0:
+        return []
+    return [
+        f"the inner ring is so much warmer than the outer one that it takes {1e6 * loss:.3g} um of "
+        f"clearance and preloads the rollers by {1e6 * preload:.3g} um: friction, heat and loads "
+        "of the rollers rise with it, and a little more heat may seize the bearing; give it more "
+        "clearance, or check heat.ring_conductance."
+    ]
+
+
+def _films_in_balance(result: xr.Dataset) -> list[str]:
+    """Sentence on films that carry a load which the balance of the rings does not know."""
+    if "mean_film_load" not in result or "mean_elastic_load" not in result.attrs:
+        return []
+    films = float(result.mean_film_load.mean())
+    load = films + float(result.attrs["mean_elastic_load"])
+    if not films > _FILMS * load:
+        return []
+    return [
+        f"films of oil carry {100.0 * films / load:.3g} % of the rollers' load, and the balance of the "
+        "rings does not know them: in oil so thick the rings stand further apart, and loads, "
+        "energies and torque are less than computed; take a warmer or thinner oil, or a larger "
+        "load."
+    ]

@@ -84,7 +84,6 @@ class Prepared:
             "table_error_typical": tables.typical_error,
             "table_error_worst": tables.worst_error,
             "table_size": tables.size,
-            "table_build_time": tables.build_time,
         }
 
 

@@ -101,12 +101,11 @@ class Roller(NamedTuple):
 
 
 class TableReport(NamedTuple):
-    """Numbers on tables for a result: relative errors of force and power, size [bytes], and processor time they took [s]."""
+    """Numbers on tables for a result: relative errors of force and power, and size [bytes]."""
 
     typical_error: float
     worst_error: float
     size: int
-    build_time: float
 
 
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
@@ -202,10 +201,9 @@ def with_tables(
         load = _faded_load(found, model, box)
         for one in found.values():
             one.body[0]["faded_load"] = load
-    typical, worst, seconds = (
-        (max(column) for column in zip(*errors, strict=True)) if errors else (0.0, 0.0, 0.0)
-    )
-    return found, TableReport(typical, worst, flat.nbytes, seconds)
+    typical = max((error.typical for error in errors), default=0.0)
+    worst = max((error.worst for error in errors), default=0.0)
+    return found, TableReport(typical, worst, flat.nbytes)
 
 
 def _write_contact(

@@ -37,6 +37,11 @@ class Load:
     name: str
     fields: Mapping[str, Any]
 
+    @property
+    def event(self) -> str:
+        """Name of the event that it is, by its label `event`; empty for wind speeds."""
+        return str(self.fields.get("event") or "")
+
 
 @dataclass(frozen=True)
 class LoadList:

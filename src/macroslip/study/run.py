@@ -242,6 +242,7 @@ class Session:
         self.ended = Ended(Progress(len(study)))
         self._id = uuid.uuid4().hex
         self._open: dict[str, Run] = {}
+        self._waiting: dict[str, list[dict[str, Any]]] = {}
         self._logged = self._progress.started
 
     @property
@@ -270,6 +271,8 @@ class Session:
             )
             for remark in study.loads.remarks:
                 self.note(remark)
+            if store.lacks_database(self.directory):
+                self.note("the database is not there; all runs are computed again")
             make_folder(self.directory / CASES)
             if left := store.remove_unfinished(self.directory):
                 self.note(f"{left} unfinished files of an earlier run removed")
@@ -286,6 +289,8 @@ class Session:
             self.note(f"{how}: {self._progress.line}, in {duration(self._progress.seconds)}")
         except BaseException as error:
             self.note(f"broken off after {self._progress.line}: {type(error).__name__}: {error}")
+            with contextlib.suppress(OSError):
+                store.remove_unfinished(self.directory)
             raise
 
     def _manifest(self) -> dict[str, Any]:
@@ -342,17 +347,32 @@ class Session:
                 pool.submit(tasks)
             done = pool.wait()
             if not done and not again:
-                return
+                if not self._waiting:
+                    return
+                # Those they wait for have died with their workers.
+                for key in list(self._waiting):
+                    again.extend(self._released(key))
             entries = []
             for task, result in done:
                 self._check(result)
-                if result.get("found") and not self._sound(result):
+                if result.get("waits"):
+                    self._waiting.setdefault(result["key"], []).append(task)
+                elif result.get("found") and not self._sound(result):
                     again.append(task | {"again": True})
                 else:
                     entries.append((self._open.pop(result["run"]), result))
-            if self._record(entries) and strict:
+            failures = self._record(entries)
+            for _, result in entries:
+                if "key" in result:
+                    again.extend(self._released(result["key"]))
+            if failures and strict:
                 self.ended.stopped = True
                 return
+
+    def _released(self, key: str) -> list[dict[str, Any]]:
+        """End the claim on a key, whose result is recorded; gives the runs that waited for it."""
+        store.claim_path(store.case_path(self.directory, key), self._id).unlink(missing_ok=True)
+        return self._waiting.pop(key, [])
 
     def _task(self, run: Run, threads: int | None) -> dict[str, Any]:
         return {

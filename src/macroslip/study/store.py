@@ -29,7 +29,7 @@ import pandas as pd
 import xarray as xr
 from filelock import FileLock, Timeout
 
-from macroslip.errors import InputError
+from macroslip.errors import InputError, MacroslipError
 from macroslip.files import (
     DATABASE,
     LOCK,
@@ -53,6 +53,8 @@ REMEDY = "Write it again with macroslip study STUDY.yaml -o DIR --resume; result
 _DAMAGED = (
     "Put back a copy of it, or remove it and go on with --resume: then all runs are computed again."
 )
+_GONE = "Put back a copy of it, or go on with --resume: then all runs are computed again."
+_NO_RUNS = "Begin it again with macroslip study STUDY.yaml -o DIR --resume."
 #: Attribute with the description of variables that have no values.
 _EMPTY = "variables_without_values"
 #: Columns of a run that is not done, and their values then.
@@ -84,7 +86,7 @@ class Database:
     """
 
     def __init__(self, directory: Path):
-        path = directory / DATABASE
+        self._path = path = directory / DATABASE
         self._db = sqlite3.connect(path, isolation_level=None)
         try:
             self._db.execute("PRAGMA journal_mode = WAL")
@@ -103,6 +105,7 @@ class Database:
                         "key TEXT PRIMARY KEY, outcome TEXT, reason TEXT, detail TEXT, layout TEXT"
                     )
                     self._db.execute(f"CREATE TABLE results ({texts}, {numbers}, crc INTEGER)")
+            self._file = path.stat()
         except sqlite3.OperationalError:  # a full disk, or no right to write
             self.close()
             raise
@@ -117,6 +120,19 @@ class Database:
         with self._db:
             self._db.execute("BEGIN IMMEDIATE")
             yield
+
+    def check_there(self) -> None:
+        """Stop if the file was removed or replaced: what is written now would end with this process.
+
+        Raises MacroslipError.
+        """
+        try:
+            same = os.path.samestat(self._path.stat(), self._file)
+        except OSError:
+            same = False
+        if not same:
+            what = "the database was removed or replaced while the study ran"
+            raise MacroslipError(f"{self._path}: {what}. {_GONE}")
 
     def close(self) -> None:
         """Close the file; without a log beside it, it can be read where nothing can be written."""
@@ -177,8 +193,9 @@ class Database:
         """Record what runs ended with, in one transaction: when this returns it is on the disk.
 
         Entries are as from `macroslip.study.work.work`; without `outcome` a run has the result of its key, which is there. If
-        the system refuses, none of them is recorded, and sqlite3.Error is raised.
+        the system refuses, none of them is recorded, and sqlite3.Error is raised; MacroslipError if the file is gone.
         """
+        self.check_there()
         places = ", ?" * (len(NUMBERS) + 5)
         with self._transaction():
             for entry in entries:
@@ -225,11 +242,13 @@ def read_runs(directory: Path) -> pd.DataFrame:
     """
     path = directory / DATABASE
     if not path.exists():
-        raise InputError("the database is not there", where=str(path), remedy=REMEDY)
+        raise InputError("the database is not there", where=str(path), remedy=_GONE)
     frames = []
     with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as db:
         if [row[1] for row in db.execute("PRAGMA table_info(results)")] != _COLUMNS:
             raise _other_version(directory, "with other numbers")
+        if not list(db.execute("SELECT 1 FROM sqlite_schema WHERE name = 'runs'")):
+            raise InputError("the study has no runs yet", where=str(directory), remedy=_NO_RUNS)
         cursor = db.execute(
             "SELECT run, labels, runs.crc, runs.key, runs.outcome, runs.reason, results.* FROM runs "
             'LEFT JOIN results ON results.key = runs.key AND runs.outcome IS NULL ORDER BY "case"'
@@ -240,11 +259,9 @@ def read_runs(directory: Path) -> pd.DataFrame:
             labels = pd.DataFrame([{"run": row[0], **json.loads(row[1])} for row in rows])
             found = pd.DataFrame(list(map(_line, rows)), columns=[*TEXTS, *NUMBERS])
             frames.append(pd.concat([labels, found.astype(dict.fromkeys(NUMBERS, float))], axis=1))
-    return (
-        pd.concat(frames, ignore_index=True)
-        if frames
-        else pd.DataFrame(columns=["run", *TEXTS, *NUMBERS])
-    )
+    if not frames:
+        raise InputError("its list of runs is empty", where=str(path), remedy=_NO_RUNS)
+    return pd.concat(frames, ignore_index=True)
 
 
 def _line(row: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -290,6 +307,11 @@ def case_path(directory: Path, key: str) -> Path:
     if len(key) != 64 or not set(key) <= set("0123456789abcdef"):
         raise ValueError(f"{key!r} is not a key")
     return directory / CASES / key[:2] / f"{key}.nc"
+
+
+def claim_path(path: Path, session: str) -> Path:
+    """File by which a run of a session claims the result of this path; it counts as unfinished."""
+    return path.with_name(f".{path.stem}.{session}{UNFINISHED}")
 
 
 def to_bytes(result: xr.Dataset) -> bytes:
@@ -425,6 +447,11 @@ def _other_version(directory: Path, found: Any) -> InputError:
         allowed=f"format {FORMAT}",
         remedy="Read it with that version, or compute the study again in a new folder.",
     )
+
+
+def lacks_database(directory: Path) -> bool:
+    """True if a study was begun in the folder and its database is gone, so that its results count no longer."""
+    return (directory / CASES).is_dir() and not (directory / DATABASE).exists()
 
 
 def parts(directory: Path) -> list[Path]:

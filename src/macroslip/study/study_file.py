@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import itertools
 import json
@@ -24,7 +25,7 @@ from macroslip.input.section import MappingOf, input_section, read_all, read_fie
 from macroslip.result.heat_balance import at_balance
 from macroslip.result.variables import VARIABLES
 from macroslip.study.loads_list import Load, LoadList, load_list
-from macroslip.study.settings import RECORDS, Sample, Setting, template
+from macroslip.study.settings import RECORDS, Sample, Setting, read_loads, template
 from macroslip.study.weights import Weighting
 
 LOAD_SOURCES = ("files", "table", "bundled")
@@ -156,7 +157,7 @@ class Study:
 
     def place(self, load: Load) -> str:
         """Path of a load history, or its name if it is bundled."""
-        return load.name if self.loads.source == "bundled" else str(self.folder / load.name)
+        return load_path(self.loads, load, self.folder)
 
     @property
     def labels(self) -> dict[str, tuple[str, str]]:
@@ -361,7 +362,8 @@ _OF_A_CASE = Case.__annotations__.keys() - StudyFile.__annotations__.keys()
 def read_study(path: str | PathLike[str]) -> Study:
     """Read a study file.
 
-    Bearings and lubricants are read here and now; load files are listed, but not opened.
+    Bearings and lubricants are read here and now; load files are listed, and opened only if they
+    are events that `weights` count by number: such an event takes the length of its record.
 
     Parameters
     ----------
@@ -447,7 +449,8 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
     weights = values.get("weights")
     if weights is not None and loads is not None:
-        attempt("weights", lambda: weights.of(loads.loads))
+        lengths = _event_lengths(weights, loads, base, mapping, folder)
+        attempt("weights", lambda: weights.check(loads.loads, lengths))
     if problems:
         raise together(problems)
     combinations = itertools.product(
@@ -486,6 +489,35 @@ def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Case:
         if keys[:1] == ("case",) and len(keys) > 1
     }
     return template(mapping, [], {}, source=Source(source.file, inner), folder=folder)[0]
+
+
+def _event_lengths(
+    weights: Weighting, loads: LoadList, base: Case | None, mapping: Mapping[str, Any], folder: Path
+) -> dict[str, float]:
+    """Mean length [s] of the records of each event that the weights count by number.
+
+    Records that cannot be read are left out: their runs fail for themselves.
+    """
+    if base is None:
+        return {}
+    cut = template(mapping, [], {}, folder=folder)[1]
+    lengths: dict[str, list[float]] = {}
+    for load in loads.loads:
+        rate = weights.year.events.get(load.event)
+        if rate is None or rate.in_hours:
+            continue
+        with contextlib.suppress(InputError):
+            record = read_loads(loads.source, load_path(loads, load, folder), cut)
+            first, last = float(record.time[0]), float(record.time[-1])
+            start = first if base.window.start is None else base.window.start
+            end = last if base.window.end is None else base.window.end
+            lengths.setdefault(load.event, []).append(end - start)
+    return {event: sum(known) / len(known) for event, known in lengths.items()}
+
+
+def load_path(loads: LoadList, load: Load, folder: Path) -> str:
+    """Path of a load history, or its name if it is bundled; relative paths start at the folder."""
+    return load.name if loads.source == "bundled" else str(folder / load.name)
 
 
 def _heat(base: Case, parameters: Mapping[str, str] | None) -> Heat | None:

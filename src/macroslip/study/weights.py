@@ -228,17 +228,7 @@ class Weighting:
         >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
         [0.308, 0.308, 0.384]
         """
-        events = [str(load.fields.get("event") or "") for load in loads]
-        known = [load.fields.get(self.field) for load in loads]
-        values = [value if isinstance(value, int | float) else math.nan for value in known]
-        for load, value, event in zip(loads, values, events, strict=True):
-            if not event and not math.isfinite(value):
-                raise InputError(
-                    f"the loads {load.name} have no number as '{self.field}'",
-                    where="weights.field",
-                    allowed=", ".join(loads[0].fields) or "a field in the names of the load files",
-                )
-        bins = Bins.of(values, events, self.width, dict.fromkeys(events, 0.0))
+        bins = self._bins(loads, {})
         shares = (bins.probabilities(self.year) / np.bincount(bins.bin))[bins.bin]
         if shares.sum() <= 0.0:
             raise InputError(
@@ -247,6 +237,36 @@ class Weighting:
                 remedy="Give wind speeds or hours.",
             )
         return (shares / shares.sum()).tolist()
+
+    def check(self, loads: Sequence[Load], lengths: Mapping[str, float]) -> None:
+        """Check that the weights go with the load histories of a study.
+
+        Raises InputError as `of`, or if the events take more time than there is.
+
+        Parameters
+        ----------
+        loads : sequence of Load
+            Load histories of the study.
+        lengths : mapping
+            Length of the record of each event [s]; those without one are taken for no time.
+        """
+        self.of(loads)
+        self._bins(loads, lengths).probabilities(self.year)
+
+    def _bins(self, loads: Sequence[Load], lengths: Mapping[str, float]) -> Bins:
+        values = []
+        for load in loads:
+            value = load.fields.get(self.field)
+            number = float(value) if isinstance(value, int | float) else math.nan
+            if not load.event and not math.isfinite(number):
+                raise InputError(
+                    f"the loads {load.name} have no number as '{self.field}'",
+                    where="weights.field",
+                    allowed=", ".join(loads[0].fields) or "a field in the names of the load files",
+                )
+            values.append(number)
+        events = [load.event for load in loads]
+        return Bins.of(values, events, self.width, dict.fromkeys(events, 0.0) | dict(lengths))
 
 
 def weights_in_use(

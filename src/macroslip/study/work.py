@@ -19,13 +19,21 @@ from macroslip.case.case import Case
 from macroslip.case.parts import Traces, Window
 from macroslip.contact.registry import own_laws
 from macroslip.errors import InputError, MacroslipError
-from macroslip.files import write_durably
+from macroslip.files import make_folder, write_durably
 from macroslip.fingerprint import KERNEL_PARTS, RESULT_PARTS, fingerprint
 from macroslip.imposed.status import Status
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.study.settings import RECORDS, Setting, read_loads, template
-from macroslip.study.store import Outcome, case_path, checksum, layout, read_manifest, to_bytes
+from macroslip.study.store import (
+    Outcome,
+    case_path,
+    checksum,
+    claim_path,
+    layout,
+    read_manifest,
+    to_bytes,
+)
 from macroslip.study.study_file import Study
 from macroslip.study.summary import COMPONENTS, RANGE_EDGES, load_cycles, summary_values
 
@@ -78,7 +86,8 @@ def work(
 
     The record is for the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `layout`,
     `values`; and `program`, by which the study verifies that a worker runs the same version. With `found` true nothing
-    was computed: a result of that key is there, and the database decides whether it is sound.
+    was computed: a result of that key is there, and the database decides whether it is sound. With `waits` true nothing
+    was done: another run of this session has the same key and is under way.
 
     A task is plain data: `directory`, `setup` (checksum of its manifest), `session` (a name that no other has), `run`
     (name), `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
@@ -92,6 +101,8 @@ def work(
         options = {name: setup[name] for name in ("cycles", "keep")}
         record["key"] = case_key(case, options)
         path = case_path(Path(task["directory"]), record["key"])
+        if not _claimed(claim_path(path, task["session"]), task["run"]):
+            return record | {"waits": True}
         with suppress(OSError):  # what cannot be read is computed again
             if not task["again"] and path.is_file():
                 return record | {"found": True, "detail": checksum(path.read_bytes())}
@@ -125,6 +136,25 @@ def work(
         "outcome": Outcome.ROLLERS_FAILED if reason else Outcome.COMPLETED, "reason": reason,
         "detail": checksum(content), "layout": layout(result), "values": values,
     }  # fmt: skip
+
+
+def _claimed(claim: Path, run: str) -> bool:
+    """Claim a key for a run, so that no other run of this session computes it too.
+
+    A run whose worker has died finds its own claim and goes on. Raises StoreError if nothing can be written.
+    """
+    try:
+        make_folder(claim.parent)
+        with claim.open("x", encoding="utf-8") as file:
+            file.write(run)
+    except FileExistsError:
+        with suppress(FileNotFoundError):  # the other run has ended meanwhile
+            return claim.read_text(encoding="utf-8") == run
+        return False
+    except OSError as error:
+        what = f"{claim}: nothing can be stored ({error.strerror or error})"
+        raise StoreError(what) from None
+    return True
 
 
 def work_several(

@@ -79,14 +79,14 @@ _BUFFER = 6 * 2**20
 #: force : largest force an iteration may leave unbalanced [N]
 #: rounding : of speeds [m/s]; times mass over step it is the force below which no iteration can get
 #: longest_step, longest_rest : of a step, and between evaluations of tractions [s]
-#: cage_reach : relative change of load or slip within which the slopes of a cage's contact serve; what they leave out goes with
-#: its square
+#: cage_reach : relative change of load or slip within which the slopes of a cage's contact serve
+#: slip_reach : change of a raceway's force by slip over its load, within which its slopes serve
 #: slowest : least speed of a raceway contact in its tables [m/s]
 #: rests : whether tractions may follow from slopes between evaluations
 LIMITS = np.dtype(
     [
         *((name, "f8") for name in ("allowed_speed", "power", "force", "rounding", "longest_step", "longest_rest")),
-        ("cage_reach", "f8"), ("slowest", "f8"), ("max_steps", "i8"), ("rests", "i8"),
+        ("cage_reach", "f8"), ("slip_reach", "f8"), ("slowest", "f8"), ("max_steps", "i8"), ("rests", "i8"),
     ]
 )  # fmt: skip
 #: State of the kernel between two calls: whether it has begun; time [s], sample interval and shaft speed [rad/s]; the next
@@ -241,7 +241,10 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
     limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
     limits["longest_rest"] = tuning.LONGEST_REST
-    limits["cage_reach"] = min(tuning.CAGE_REACH, tuning.CAGE_REACH * math.sqrt(tolerance / 2e-4))
+    # What slopes leave out goes with the square of their reach.
+    finer = min(1.0, math.sqrt(tolerance / 2e-4))
+    limits["cage_reach"] = tuning.CAGE_REACH * finer
+    limits["slip_reach"] = tuning.SLIP_REACH * finer
     limits["slowest"] = (
         max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 4
     )
@@ -374,7 +377,10 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
                 whole.turn[k],
             )
             rest = solve_stage(
-                assembly, Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach), k, space
+                assembly,
+                Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach, limits.slip_reach),
+                k,
+                space,
             )
             solved = rest <= tolerance
             worst = max(worst, rest) if solved else rest
@@ -680,7 +686,7 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         stop = stops[memory.next_stop]
         start, left = Clock(memory.time, memory.interval, memory.shaft_speed), stop - memory.time
         h = _cut(assembly.bearing[0], space.rollers, min(memory.step, limits.longest_step), left)
-        if h <= 4e-16 * abs(start.time) + 1e-300:
+        if h < left and h <= 4e-16 * abs(start.time) + 1e-300:
             status = STEP_TOO_SMALL
             break
         time = stop if h == left else start.time + h

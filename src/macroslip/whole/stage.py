@@ -101,6 +101,9 @@ class Stage(NamedTuple):
     cage_reach: (
         float  #: Relative change of load or slip within which the slopes of a cage's contact serve
     )
+    slip_reach: (
+        float  #: Change of a raceway's force by slip over its load within which its slopes serve
+    )
 
 
 class Meeting(NamedTuple):
@@ -312,7 +315,7 @@ def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
         at.spin_outer, at.pull_outer = raceway_from(
             sheet.outer, at.outer_load, at.outer_speed, own[1]
         )
-        if not rest.fresh and is_out_of_reach(sheet, at, own):
+        if not rest.fresh and is_out_of_reach(sheet, at, own, stage.slip_reach):
             rest.fresh = True
         rest.marked = rest.fresh and not rest.settled
     evaluations = evaluate_marked(assembly, stage.time, moments, rollers, FIRST + k, rests, sheets)

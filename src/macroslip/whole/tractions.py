@@ -221,23 +221,23 @@ def shear_from(sheet, load, speed, slip):
 
 
 @jit_inline
-def _reaches(sheet, load, speed, slip):
+def _reaches(sheet, load, speed, slip, slip_reach):
     """Whether a contact's slopes serve at another load [N], ring speed and slip [m/s]; at rest it has none."""
     if sheet.slip == 0.0 and sheet.speed == 0.0 and (slip != 0.0 or speed != 0.0):
         return False
     change = sheet.pull_by_slip * (slip - sheet.slip)
     return (
         abs(load - sheet.load) <= tuning.LOAD_REACH * sheet.load
-        and abs(change) <= tuning.SLIP_REACH * load
+        and abs(change) <= slip_reach * load
     )
 
 
 @jit_inline
-def is_out_of_reach(sheet, at, slips):
+def is_out_of_reach(sheet, at, slips, slip_reach):
     """Whether a raceway's load or slip [m/s] has changed too much for the slopes."""
     return not (
-        _reaches(sheet.inner, at.inner_load, at.inner_speed, slips[0])
-        and _reaches(sheet.outer, at.outer_load, at.outer_speed, slips[1])
+        _reaches(sheet.inner, at.inner_load, at.inner_speed, slips[0], slip_reach)
+        and _reaches(sheet.outer, at.outer_load, at.outer_speed, slips[1], slip_reach)
     )
 
 

@@ -58,9 +58,12 @@ FAR_OFF = 30.0
 #: Relative change of a raceway's load over which the time between evaluations shortens, and that beyond which slopes no
 #: longer serve. Judgement.
 LOAD_CHANGE, LOAD_REACH = 0.2, 0.25
-#: Change of a raceway's force by slip over its load beyond which slopes no longer serve: as much as the largest coefficients
-#: of friction. Beyond a peak of traction slopes are negative, and rollers ran away by them to speeds that no ring has.
-SLIP_REACH = 0.03
+#: Change of a raceway's force by slip over its load beyond which its slopes no longer serve, at a tolerance of 2e-4. It has to
+#: be far below the coefficients of friction, where tractions bend: at 0.03, through a fall of the shaft's speed within 20 ms,
+#: gripped rollers followed their slopes past the bend until their next evaluation was due, and a row was off by 7 %. From 0.01
+#: down to 0.0003 it is off by 2e-4, and the bundled cases take as many evaluations.
+#: Beyond a peak of traction slopes are negative, and rollers ran away by them to speeds that no ring has.
+SLIP_REACH = 0.004
 #: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most.
 CAGE_REACH = 0.1
 #: Force of the cage that never matters [N]. Judgement.
