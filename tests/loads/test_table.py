@@ -314,6 +314,42 @@ def test_names_with_units_in_a_parquet_file(tmp_path):
     assert read.moment[0].tolist() == [7e8, 1e5, 0.0]
 
 
+@pytest.mark.parametrize("extension", ["csv", "parquet"])
+def test_rotating_and_negated_channels_that_a_tool_exported(tmp_path, extension):
+    """Blade 1 turns by 90 degrees a sample: fy = ya cos − za sin, fz = ya sin + za cos."""
+    columns = {
+        "Time_[s]": [0.0, 0.1, 0.2, 0.3],
+        "Wind1VelX_[m/s]": [9.0, 9.0, 9.0, 9.0],
+        "LSSTipVxa_[rpm]": [12.0, 12.0, 12.0, 12.0],
+        "Azimuth_[deg]": [0.0, 90.0, 180.0, 270.0],
+        "-RotThrust_[kN]": [-400.0, -400.0, -400.0, -400.0],
+        "LSSGagFya_[kN]": [5.0, -900.0, -5.0, 900.0],
+        "LSSGagFza_[kN]": [-900.0, -5.0, 900.0, 5.0],
+        "RotTorq_[kN-m]": [3900.0, 3900.0, 3900.0, 3900.0],
+        "LSSGagMys_[kN-m]": [-1800.0 + 650.0] * 4,
+        "LSSGagMzs_[kN-m]": [-10.0 - 240.0] * 4,
+    }
+    path = tmp_path / f"a.{extension}"
+    if extension == "csv":
+        rows = zip(*columns.values(), strict=True)
+        lines = [",".join(columns), *(",".join(map(str, row)) for row in rows)]
+        path.write_text("\n".join(lines) + "\n")
+    else:
+        _write(path, columns)
+    with pytest.raises(InputError, match="LSSTipMys, LSSTipMzs are not in the file"):
+        HubLoads.read(path)
+    read = HubLoads.read(path, hub_to_output=2.0)
+    assert read.force == pytest.approx(np.tile([400e3, 5e3, -900e3], (4, 1)))
+    assert read.moment == pytest.approx(np.tile([3900e3, 650e3, -240e3], (4, 1)))
+    assert "-RotThrust (kN), its sign turned back" in read.reading
+
+
+def test_own_names_beside_the_time_and_speed_of_openfast(tmp_path):
+    header = "Time [s],RotSpeed [rpm],fx [kN],fy [kN],fz [kN],mx [kNm],my [kNm],mz [kNm]"
+    hub = _read_text(tmp_path / "a.csv", "\n".join([header, *map(_comma, _ROWS)]), "utf-8")
+    assert hub.force == pytest.approx(np.array(_FORCE), rel=1e-12)
+
+
 _THOUSANDS = "\n".join([_NAMES, "0;12;420;6;-1.020;900;650;-240", "1;12;423;6;-975;900;650;-240"])
 
 

@@ -58,7 +58,7 @@ _READERS = dict.fromkeys((".out", ".outb"), read_openfast)
 _READERS |= dict.fromkeys((".sel", ".dat", ".hdf5", ".h5"), read_hawc2)
 _READERS |= dict.fromkeys(_TABLES, read_hub_table)
 #: Readers of files that may also hold loads at another point of the shaft than the hub.
-_READERS_OF_OTHER_POINTS = (read_openfast, read_hawc2)
+_READERS_OF_OTHER_POINTS = (read_openfast, read_hawc2, read_hub_table)
 
 
 class History:

@@ -61,11 +61,33 @@ _BENDING = (("LSSTipMys",), ("LSSTipMzs",))
 _ROTATING_BENDING = (("LSSTipMya",), ("LSSTipMza",))
 _GAUGE_BENDING = (("LSSGagMys",), ("LSSGagMzs",))
 _ROTATING_GAUGE_BENDING = (("LSSGagMya",), ("LSSGagMza",))
+#: Names of the channels that give a quantity of a table of hub loads, in axes that do not turn.
+FIXED_CHANNELS = {
+    "time": ("Time",),
+    "rotor_speed": _SPEED,
+    "fx": _THRUST,
+    "fy": _SHEAR[0],
+    "fz": _SHEAR[1],
+    "mx": _TORQUE,
+    "my": _BENDING[0],
+    "mz": _BENDING[1],
+}
 #: Wind at the hub, as InflowWind has it; without a lateral channel its speed is the one downwind.
 _WIND = ("Wind1VelX", "WindHubVelX")
 _LATERAL_WIND = ("Wind1VelY", "WindHubVelY")
 #: Letters before a name by which OpenFAST is asked for the negative of a channel.
 _MINUS = ("-", "_", "m")
+
+_TURNING_CHANNELS = (
+    _AZIMUTH,
+    *_ROTATING_SHEAR,
+    *_ROTATING_BENDING,
+    *_GAUGE_BENDING,
+    *_ROTATING_GAUGE_BENDING,
+)
+_LOAD_CHANNELS = {
+    name.lower() for names in (*FIXED_CHANNELS.values(), *_TURNING_CHANNELS) for name in names
+}
 
 _MEANING = {
     "RotSpeed": "(rpm); rotor speed",
@@ -115,6 +137,12 @@ def read_openfast(path: Path, *, speed_needed: bool = True, at_hub: bool = True)
 def read_channels(path: Path) -> Channels:
     """All channels of an output file; InputError if it is cut off or damaged."""
     return _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)
+
+
+def is_load_channel(name: str) -> bool:
+    """True if loads at the hub may be read from a channel of this name, or from its negative."""
+    name = name.lower()
+    return name in _LOAD_CHANNELS or (name.startswith(_MINUS) and name[1:] in _LOAD_CHANNELS)
 
 
 def mean_wind_speed(channels: Channels) -> float | None:
@@ -191,7 +219,7 @@ class Channels:
         name = self.names[i]
         unit = re.sub("[-·* ()]", "", self.units[i])
         turned = ", its sign turned back" if sign < 0.0 else ""
-        self.taken.append(f"{name} ({unit}){turned}")
+        self.taken.append(f"{name} ({self.units[i].strip('()')}){turned}")
         remedy = "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel."
         # OpenFAST writes INVALID without the brackets that its reader takes away.
         if unit.upper() in ("INVALID", "NVALI"):

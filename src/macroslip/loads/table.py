@@ -12,7 +12,8 @@ main-bearing force ``F_X0``, ``F_Y0``, ``F_Z0``  ``…_N``, ``…_kN``
 
 A table of hub loads holds time, speed and the six hub loads; a table of bearing loads holds time,
 speed and the three main-bearing forces. A unit may stand in brackets, ``fx [kN]``, and channels of
-OpenFAST in fixed axes may have their own names, ``LSShftFxa_[kN]``, as tools export them.
+OpenFAST may have their own names, ``LSShftFxa_[kN]``, as tools export them: a table with all of
+them is read as OpenFAST's own output is, with rotating axes and aliases.
 """
 
 from __future__ import annotations
@@ -28,7 +29,13 @@ from numpy.typing import NDArray
 
 from macroslip.errors import InputError
 from macroslip.loads.csv_text import NumberFormat, read_csv
-from macroslip.loads.source_file import FORCE, MOMENT, RPM
+from macroslip.loads.openfast import (
+    FIXED_CHANNELS,
+    Channels,
+    is_load_channel,
+    loads_from_channels,
+)
+from macroslip.loads.source_file import FORCE, MOMENT, RPM, Samples
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -41,23 +48,10 @@ _BASE = {
 _UNITS = {"force": FORCE, "moment": MOMENT}
 _HUB_VECTORS = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}
 _BEARING_VECTORS = {"force": ("F_X0", "F_Y0", "F_Z0")}
-#: Channels of OpenFAST in the fixed axes of the shaft, in lower case, and their quantities.
-_OPENFAST = {
-    "time": "time",
-    "rotspeed": "rotor_speed",
-    "lsshftfxa": "fx",
-    "lsshftfxs": "fx",
-    "rotthrust": "fx",
-    "lsshftfys": "fy",
-    "lssgagfys": "fy",
-    "lsshftfzs": "fz",
-    "lssgagfzs": "fz",
-    "lsshftmxa": "mx",
-    "lsshftmxs": "mx",
-    "rottorq": "mx",
-    "lsstipmys": "my",
-    "lsstipmzs": "mz",
-}
+#: Quantities of OpenFAST's channels in the fixed axes of the shaft, by their names in lower case.
+_OPENFAST = {name.lower(): quantity for quantity, names in FIXED_CHANNELS.items() for name in names}
+#: Columns of loads that have this program's names.
+_OWN_COMPONENT = re.compile(r"\s*([fm][xyz]|F_[XYZ]0)(?![a-zA-Z])")
 _IN_BRACKETS = re.compile(r"(?P<name>.*?)[ _]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
@@ -79,7 +73,11 @@ class Table(Protocol):
 
 
 def read_hub_table(
-    path: Path, *, speed_needed: bool = True, number_format: NumberFormat | None = None
+    path: Path,
+    *,
+    speed_needed: bool = True,
+    at_hub: bool = True,
+    number_format: NumberFormat | None = None,
 ) -> dict:
     """Read a table of hub loads.
 
@@ -89,6 +87,8 @@ def read_hub_table(
         Parquet or CSV file.
     speed_needed : bool
         True if a table without a column of the shaft speed is refused.
+    at_hub : bool
+        True if moments that OpenFAST writes must be those at the hub.
     number_format : NumberFormat, optional
         Marks in the numbers of a CSV file.
 
@@ -103,9 +103,30 @@ def read_hub_table(
     InputError
         If a column is missing, is there twice, has no known unit, or holds no numbers.
     """
+    table = open_table(path, number_format)
+    channels = _openfast_channels(table, str(path))
+    if channels is not None:
+        return loads_from_channels(channels, speed_needed=speed_needed, at_hub=at_hub)
     remedy = "This table holds main-bearing loads: read it with BearingLoads.read."
     optional = () if speed_needed else ("shaft_speed",)
-    return _read(open_table(path, number_format), path, _HUB_VECTORS, ("F_X0", remedy), optional)
+    return _read(table, path, _HUB_VECTORS, ("F_X0", remedy), optional)
+
+
+def _openfast_channels(table: Table, where: str) -> Channels | None:
+    """Channels of a table that was exported from OpenFAST's output, None of any other table."""
+    columns = [_IN_BRACKETS.fullmatch(name.strip()) for name in table.names]
+    channels = {
+        index: column
+        for index, column in enumerate(columns)
+        if column is not None and is_load_channel(column["name"])
+    }
+    names = [column["name"] for column in channels.values()]
+    has_time = any(name.lower() == "time" for name in names)
+    if not has_time or len(names) == 1 or any(map(_OWN_COMPONENT.match, table.names)):
+        return None
+    values = np.column_stack(table.numbers(list(channels)))
+    samples = Samples(values[: _filled_rows(values)])
+    return Channels(names, [column["unit"] for column in channels.values()], samples, where)
 
 
 def read_bearing_table(

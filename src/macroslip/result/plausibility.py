@@ -87,8 +87,9 @@ def _loads_that_turn(loads: HubLoads) -> list[str]:
         if deviation > abs(mean_z):
             return [
                 f"{name} goes up and down by {_plain(deviation / 1e3)} kN (its standard "
-                f"deviation), more than the rotor's weight, a mean fz of {_plain(mean_z / 1e3)} kN; are these "
-                "axes that turn with the rotor, or is the angle that of another bearing?"
+                f"deviation), more than the rotor's weight, a mean fz of {_plain(mean_z / 1e3)} "
+                "kN; are these axes that turn with the rotor, or is the angle that of another "
+                "bearing?"
             ]
     if abs(mean_y) > _SIDEWAYS * abs(mean_z):
         angle = math.degrees(math.atan2(mean_y, -mean_z))
@@ -200,8 +201,8 @@ def _films_in_balance(result: xr.Dataset) -> list[str]:
     if not films > _FILMS * load:
         return []
     return [
-        f"films of oil carry {100.0 * films / load:.3g} % of the rollers' load, and the balance of the "
-        "rings does not know them: in oil so thick the rings stand further apart, and loads, "
-        "energies and torque are less than computed; take a warmer or thinner oil, or a larger "
-        "load."
+        f"films of oil carry {100.0 * films / load:.3g} % of the rollers' load, and the balance "
+        "of the rings does not know them: in oil so thick the rings stand further apart, and "
+        "loads, energies and torque are less than computed; take a warmer or thinner oil, or a "
+        "larger load."
     ]
