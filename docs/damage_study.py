@@ -3,6 +3,7 @@
 python docs/damage_study.py 40          # oil at 40 degC
 python docs/damage_study.py 40 0.5      # and an oil supply: flooded, skf or film / flooded film
 python docs/damage_study.py 40 skf skew # of rollers that skew, guided by the default cage
+python docs/damage_study.py oval        # an outer raceway out of round, three load cases of two minutes
 python docs/damage_study.py figure      # figures/damage.svg, of 14B at 35 degC
 """
 
@@ -13,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from macroslip import Case, HubLoads, Laws, bundled_cases, simulate
+from macroslip import Bearing, Case, HubLoads, Laws, bundled_cases, simulate
 from macroslip.result.damage import CRITERIA, YEAR, damage
 
 ROLLERS = [0, 9, 18]
@@ -61,6 +62,35 @@ def main(temperature: float, oil_supply: str | float = "skf", *, skew: bool = Fa
     print("years to 10 um, least of the cases, by k:", np.min(wear, axis=0))
 
 
+def oval() -> None:
+    """Print what an oval outer raceway does to energy, peak, e_a and entries, over the round one."""
+    round_bearing = Bearing.read("skf-240-600-bc")
+    for name in ("12C", "14B", "24A"):
+        loads = HubLoads.bundled(name).window(0.0, 120.0)
+        reference = None
+        for wave in (0.0, 50e-6, -50e-6, 100e-6, -100e-6):
+            bearing = round_bearing.replace(out_of_round_second=wave) if wave else round_bearing
+            result = simulate(Case(loads=loads, bearing=bearing, rollers=ROLLERS))
+            found = damage(result)
+            raceways = ["inner", "outer"]
+            values = np.array(
+                [
+                    float(result.energy.sel(interface=raceways).sum()),
+                    float(result.window_peak_power.sel(interface=raceways).max()),
+                    float(found.pressure_slip_rate.max()),
+                    float(found.entry_rate.sum()),
+                    float(found.entry_slide_roll_ratio.max()),
+                ]
+            )
+            if reference is None:
+                reference = values
+            print(
+                f"{name} {1e6 * wave:+5.0f} um: raceway energy, peak, e_a, entries, slip at entry",
+                np.round(values / reference, 2),
+                flush=True,
+            )
+
+
 def figure() -> None:
     from matplotlib import pyplot
 
@@ -76,6 +106,8 @@ def figure() -> None:
 if __name__ == "__main__":
     if sys.argv[1:] == ["figure"]:
         figure()
+    elif sys.argv[1:] == ["oval"]:
+        oval()
     else:
         words = [one for one in sys.argv[2:] if one != "skew"]
         supplies = [one if one in ("flooded", "skf") else float(one) for one in words]

@@ -77,8 +77,12 @@ def main(names: list[str]) -> None:
                     found.frictional_thrust.values,
                     float(on_ring.force[inside, 2].mean()),
                 )
+                before = straight.energy.sel(interface=["inner", "outer"]).sum(
+                    ("interface", "roller")
+                )
                 print(
-                    f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)}  skew "
+                    f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)} of straight "
+                    f"rollers under the same loads, {np.round(energy / before.values, 3)} of the case without skew  skew "
                     + " ".join(f"{a:.2f}..{b:.2f}" for a, b in zip(low, high, strict=True))
                     + f" mrad  ends {float(found.stop_force.max()):.1f} N  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN"
                     f"  torque {torque(straight, base):.1f} to {torque(found, base):.1f} N m, loads of rows "

@@ -12,14 +12,14 @@ from pathlib import Path
 
 import numpy as np
 
-from macroslip import Bearing, Case, HubLoads, Laws, Lubricant, main_bearing_load
+from macroslip import Bearing, Case, HubLoads, Laws, main_bearing_load
 from macroslip.bearing import geometry
-from macroslip.contact.film import inlet_heating_factor, masjedi_khonsari_moes, thermal_loading
-from macroslip.contact.interface import interfaces
+from macroslip.constants import ZERO_CELSIUS
+from macroslip.contact.laws import ContactLaws, prepare
 from macroslip.result.rating import roller_load_series
 from validation.comparison import Comparison, Range
 
-BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+BEARING = Bearing.read("skf-240-600-bc")
 CASES = tuple(f"{speed}{turbulence}" for speed in range(12, 25, 2) for turbulence in "ABC")
 TEMPERATURES = np.arange(25.0, 46.0, 2.5)
 #: Film over the film of a flooded contact.
@@ -41,18 +41,41 @@ def states(case: str) -> tuple[np.ndarray, np.ndarray]:
     return load[loaded], np.broadcast_to(speed[:, None, None], load.shape)[loaded]
 
 
-def film_ratio(load: np.ndarray, speed: np.ndarray, celsius: float, supply: float) -> np.ndarray:
-    """Λ at the inner raceway, by the film of `laws: {model: physical}` with an oil supply."""
-    contact = interfaces(BEARING, OIL.at(273.15 + celsius))[0]
-    warming = inlet_heating_factor(thermal_loading(contact) * speed**2)
-    return (
-        supply * masjedi_khonsari_moes(contact, load, speed) * warming / BEARING.composite_roughness
+@lru_cache
+def inner_raceway(case: str, celsius: float, supply: float) -> ContactLaws:
+    """The laws of the inner raceway in a load case as the program has them, with its oil supply."""
+    whole = Case(
+        loads=HubLoads.bundled(case),
+        laws=Laws.physical(),
+        temperature=ZERO_CELSIUS + celsius,
+        oil_supply=supply,
     )
+    return prepare(whole.laws, BEARING, whole.oil, 1).inner
+
+
+def film_ratio(
+    case: str, load: np.ndarray, speed: np.ndarray, celsius: float, supply: float
+) -> np.ndarray:
+    """Λ at the inner raceway, by the film of `laws: {model: physical}` with an oil supply.
+
+    Parameters
+    ----------
+    case : str
+        Load case, under whose mean load and speed the film is `supply` times the flooded one.
+    load, speed : ndarray
+        Loads of rollers [N] and entrainment speeds [m/s].
+    celsius : float
+        Temperature of the oil [degC].
+    supply : float
+        Film over the flooded film, 0.3 to 1.
+    """
+    contact = inner_raceway(case, celsius, supply)
+    return contact.film_thickness(load, speed) / BEARING.composite_roughness
 
 
 def mixed_share(case: str, celsius: float, supply: float, below: float = MIXED) -> float:
     """Share of the loaded time of a load case with Λ below a limit."""
-    return float(np.mean(film_ratio(*states(case), celsius, supply) < below))
+    return float(np.mean(film_ratio(case, *states(case), celsius, supply) < below))
 
 
 @lru_cache
@@ -77,7 +100,8 @@ def half_load() -> float:
     """Film under half the load over the film, at the mean load of a loaded roller and rated speed."""
     load, speed = (float(np.mean(one)) for one in states("12B"))
     thick, thin = (
-        float(film_ratio(np.array(one), np.array(speed), 35.0, 1.0)) for one in (0.5 * load, load)
+        float(film_ratio("12B", np.array(one), np.array(speed), 35.0, 1.0))
+        for one in (0.5 * load, load)
     )
     return thick / thin
 
@@ -125,7 +149,7 @@ def draw(path: Path) -> None:
     for celsius, colour in ((25.0, "C0"), (35.0, "C1"), (45.0, "C3")):
         right.plot(
             1e-3 * load,
-            film_ratio(load, np.full(60, speed), celsius, 0.7),
+            film_ratio("12B", load, np.full(60, speed), celsius, 0.7),
             color=colour,
             label=f"{celsius:g} °C",
         )

@@ -142,6 +142,7 @@ def test_the_readme_quotes_what_the_case_that_init_writes_gives():
     words = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     assert (
         f"loaded for {loaded[0]:.0f} % of the time, slide by {power[0]:.1f} W each, and slow down to "
-        f"{found.min_spin_ratio[0].min():.2f} of pure rolling where they are not; upwind they carry nothing and turn at "
-        f"{mean_spin(found)[1]:.2f} of it, with full inlets at {mean_spin(full)[1]:.2f}."
+        f"{found.min_spin_ratio[0].min():.2f} of pure rolling at the least; upwind they carry nothing and turn at "
+        f"{mean_spin(found)[1]:.2f} of it on average, {found.min_spin_ratio[1].min():.2f} at the least; with full inlets at "
+        f"{mean_spin(full)[1]:.2f} on average."
     ) in words
