@@ -115,6 +115,18 @@ def test_inputs_that_differ_and_what_restricts_the_comparison():
     assert same.attrs["ranking"] == "All dissipate the same energy."
 
 
+def test_where_the_best_by_energy_is_not_the_best_is_said():
+    less = result(1.0, osculation=0.98)
+    less["window_peak_power"] = 2.0 * less.window_peak_power
+    less["min_spin_ratio"] = less.min_spin_ratio.where(less.row != "upwind", 0.5)
+    ranking = compare(result(1.1), less).attrs["ranking"]
+    assert ranking.endswith(
+        "Others are more than 5 % better than result 2 in: largest power, downwind (result 1); "
+        "largest power, upwind (result 1); lowest spin over pure rolling, upwind (result 1)."
+    )
+    assert "Others" not in compare(result(1.1), result(1.0, osculation=0.98)).attrs["ranking"]
+
+
 def test_three_results_are_ranked():
     ranking = compare(
         result(2.0), result(1.0, osculation=0.98), result(3.0, osculation=0.99)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from macroslip.constants import HOURS_A_YEAR
 from macroslip.report.style import scaled
 from macroslip.study.year import CRITERIA
 
@@ -12,6 +13,10 @@ from macroslip.study.year import CRITERIA
 ENERGY = CRITERIA["energy"][2]
 #: Designs that the first sentence names beside the best.
 _MOST_NAMED = 4
+#: Ends of quantities of which more is better; of all others less is.
+_MORE_IS_BETTER = ("life", "static safety", "lowest spin over pure rolling")
+#: Numbers that differ by less than this are alike; lives beyond this many hours are, too.
+_ALIKE, _LONG_LIFE = 0.05, 500.0 * HOURS_A_YEAR
 
 
 def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
@@ -39,7 +44,31 @@ def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
     if unknown:
         sentences.append(f"The energy of {unknown} is not known.")
     first = energies["design"].iloc[0]
-    return sentences + _differences(first, shown[shown["design"] != first])
+    sentences += _differences(first, shown[shown["design"] != first])
+    best = shown["design"].iloc[0]
+    worse = [
+        f"{quantity} ({other})"
+        for quantity, of_quantity in comparison.groupby("quantity", sort=False)
+        if not str(quantity).startswith("energy")
+        and (other := _better_design(str(quantity), of_quantity, best))
+    ]
+    if worse:
+        sentences.append(f"Others are more than 5 % better than {best} in: {'; '.join(worse)}.")
+    return sentences
+
+
+def _better_design(quantity: str, numbers: pd.DataFrame, best: str) -> str:
+    """The design with the best number of a quantity, if that is clearly better than that of `best`; empty otherwise."""
+    values = numbers.set_index("design")["value"].dropna()
+    if best not in values.index:
+        return ""
+    if quantity.partition(",")[0].endswith(_MORE_IS_BETTER):
+        if quantity.endswith("life"):
+            values = values.clip(upper=_LONG_LIFE)
+        is_better = values.max() > (1.0 + _ALIKE) * values[best]
+        return str(values.idxmax()) if is_better else ""
+    is_better = values.min() < (1.0 - _ALIKE) * values[best]
+    return str(values.idxmin()) if is_better else ""
 
 
 def _order(ranked: pd.DataFrame) -> str:
