@@ -381,6 +381,7 @@ def test_numbers_as_fortran_writes_them(tmp_path, sample_out, word, value):
         lambda content: content.replace(b"WindPACT", b"WindPACT\x85 \xa0\x0b\x1c"),
         lambda content: content.replace(b"WindPACT", "风机".encode("gbk")),
         lambda content: "\N{BYTE ORDER MARK}".encode() + content,
+        lambda content: content.decode().encode("utf-16"),
     ],
 )
 def test_text_that_other_programs_saved(tmp_path, sample_out, change):
@@ -428,3 +429,9 @@ def test_text_with_hardly_any_lines(tmp_path, sample_out, lines):
     assert (
         "not an OpenFAST text output" in message if lines < 9 else "at least 2 samples" in message
     )
+
+
+@pytest.mark.parametrize("distance", [-2.0, 20.1, np.nan, np.inf])
+def test_a_distance_that_no_shaft_has(sample_outb, distance):
+    with pytest.raises(InputError, match=r"hub_to_output is .* 0 to 20 m\. It counts downwind"):
+        HubLoads.read(sample_outb, hub_to_output=distance)

@@ -38,6 +38,8 @@ N is about ten times the weight of the heaviest rotor, 1e9 N m about ten times t
 moment of a 20 MW rotor.
 """
 
+#: Largest distance from the hub to the point on the shaft at which a file has its loads [m].
+_FARTHEST_OUTPUT = 20.0
 #: Samples of a constant load beyond which the duration must be a mistake.
 _MOST_SAMPLES = 20_000_000
 
@@ -261,9 +263,9 @@ class HubLoads(History):
             Marks in the numbers of a CSV table, found out by default: before the decimals "." or
             ",", between groups of three digits ".", ",", "'" or a space.
         hub_to_output : float, optional
-            Distance [m] of the point that the file's loads are given at behind the hub centre,
-            where it is not the hub: a node of HAWC2's shaft, or OpenFAST's strain gauge. The
-            moments are moved to the hub; the shaft between has no weight.
+            Distance, 0 to 20 m, of the point that the file's loads are given at behind the hub
+            centre, where it is not the hub: a node of HAWC2's shaft, or OpenFAST's strain gauge.
+            The moments are moved to the hub; the shaft between has no weight.
 
         Raises
         ------
@@ -272,6 +274,15 @@ class HubLoads(History):
             `HubLoads` refuses.
         """
         path, extension = source_file(path, _HUB_FILES)
+        if hub_to_output is not None and not (
+            is_finite_number(hub_to_output) and 0.0 <= hub_to_output <= _FARTHEST_OUTPUT
+        ):
+            raise InputError(
+                f"hub_to_output is {hub_to_output} m",
+                where=str(path),
+                allowed=f"0 to {_FARTHEST_OUTPUT:g} m",
+                remedy="It counts downwind, from the hub of a rotor that is upwind of the tower.",
+            )
         reader = _READERS.get(extension, read_bladed)
         options: dict[str, Any] = {"speed_needed": shaft_speed is None}
         number_format = csv_number_format(path, decimal, thousands)

@@ -17,8 +17,8 @@ refused.
 
 OpenFAST turns the sign of a channel that is asked for with -, _ or m before its name; the sign is
 turned back. If the distance from the hub to the strain gauge is known, the moments there
-(LSSGagMys, LSSGagMzs) serve in place of those at the hub. The units written in the file are used. Text
-output holds four significant digits as a rule; prefer the binary one.
+(LSSGagMys, LSSGagMzs) serve in place of those at the hub. The units written in the file are used.
+Text output holds four significant digits as a rule; prefer the binary one.
 
 The official reader, openfast_io, reads a binary file once it is sure that the file is whole.
 """
@@ -353,9 +353,9 @@ def _binary_size(path: Path) -> int:
 def _read_text(path: Path) -> Channels:
     """All channels of a text file, the time among them."""
     content = path.read_bytes()
-    if b"\0" in content[:1024]:
-        raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
     lines = text_lines(content)
+    if any("\0" in line for line in lines[:_LONGEST_HEAD]):
+        raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
     while lines and not lines[-1].strip():
         lines.pop()
     head = _head(lines, path)

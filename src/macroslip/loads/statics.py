@@ -159,8 +159,8 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     The result is (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing`
     and `gearbox` on a three-point mount, `front` and `rear` on a four-point mount. Valid for a
     rotor upwind of the tower, and while the frequency content lies below the first bending mode of
-    the shaft. Seats that give way or are out of line change nothing: two supports without moment are
-    statically determinate.
+    the shaft. Seats that give way or are out of line change nothing: two supports without moment
+    are statically determinate.
 
     Examples
     --------

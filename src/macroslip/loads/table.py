@@ -95,8 +95,8 @@ def read_hub_table(
     Returns
     -------
     dict
-        time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the hub,
-        and `reading`, the names of their columns.
+        time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the
+        hub, and `reading`, the names of their columns.
 
     Raises
     ------
@@ -305,7 +305,7 @@ def open_table(path: Path, number_format: NumberFormat | None = None) -> Table:
 
 
 def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Uniform axis that a float32 time column was rounded from; a column that is not uniform as it is.
+    """Uniform axis that a float32 time column was rounded from; another column as it is.
 
     At 600 s neighbouring float32 numbers are 6e-5 s apart, which would give a record of 50 Hz steps
     that vary by 0.3 %.
