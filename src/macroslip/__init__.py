@@ -45,11 +45,10 @@ _HOMES = {
 }
 _FOLDERS = ("film", "traction", "hertz")
 
-# Numba cannot be imported with a number of threads below 1, as some containers set it; its threads are not used here.
-if (
-    os.environ.get("NUMBA_NUM_THREADS", "").strip().lstrip("-").isdecimal()
-    and int(os.environ["NUMBA_NUM_THREADS"]) < 1
-):
+# With what is no number of threads above 0, as some containers set it, numba cannot be imported or
+# warns with a traceback; its threads are not used here.
+_threads = os.environ.get("NUMBA_NUM_THREADS", "1").strip()
+if not _threads.isdecimal() or int(_threads) < 1:
     del os.environ["NUMBA_NUM_THREADS"]
 
 __all__ = ["__version__", *_HOMES, *_FOLDERS]  # pyright: ignore[reportUnsupportedDunderAll]

@@ -288,6 +288,16 @@ def test_what_was_not_kept_is_said_and_no_zero(result):
     )
 
 
+def test_a_part_of_an_orbit_tells_nothing_of_a_year(result):
+    """Without a complete orbit, rates stay and what is said of a year is left out."""
+    whole = {line["criterion"] for line in lines(result)[0]}
+    kept, missing = lines(result.isel(orbit=slice(0, 0)))
+    assert whole - {line["criterion"] for line in kept} >= {"friction_energy_year", "wear_time"}
+    assert "friction_energy_rate" in {line["criterion"] for line in kept}
+    assert any("completed an orbit" in sentence for sentence in missing)
+    assert "wear_time" not in damage(result.isel(orbit=slice(0, 0)))
+
+
 def test_wear_without_asperities_names_the_law_to_choose():
     smooth = simulate(
         Case(loads=thrust(20e3).loads, laws=Laws.physical().but(asperities="none"), rollers=[0])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import sys
+import warnings
 
 
 class _Patient(io.FileIO):
@@ -26,18 +27,20 @@ def main() -> None:
                 # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
                 stream.reconfigure(errors="backslashreplace")
                 if os.name == "posix" and not stream.isatty():
-                    raw = io.BufferedWriter(_Patient(stream.fileno(), "w", closefd=False))
-                    line = stream.line_buffering
-                    setattr(
-                        sys,
-                        name,
-                        io.TextIOWrapper(
-                            raw, stream.encoding, "backslashreplace", line_buffering=line
-                        ),
+                    patient = io.TextIOWrapper(
+                        io.BufferedWriter(_Patient(stream.fileno(), "w", closefd=False)),
+                        stream.encoding,
+                        "backslashreplace",
+                        line_buffering=stream.line_buffering,
                     )
+                    setattr(sys, name, patient)
         # Pictures become files. A notebook hands the name of its own backend to the processes it
         # starts, and Matplotlib does not start where that one is not installed.
         os.environ["MPLBACKEND"] = "agg"
+        if not sys.warnoptions:
+            # NumPy's warnings are of no use to whoever runs a command: numbers that are not finite
+            # are refused by name, or have a status.
+            warnings.simplefilter("ignore", RuntimeWarning)
         from macroslip.machine import safe_path
 
         # Processes that are started here and get their path from this one do not get the current folder either.

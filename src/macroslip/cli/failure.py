@@ -13,11 +13,17 @@ from typing import Any
 
 import typer
 
+from macroslip.cli.printing import print_json
 from macroslip.errors import InputError, MacroslipError, legible
 from macroslip.files import SHORTER
 
-INTERNAL_ERROR, BAD_INPUT, ROLLERS_FAILED, INTERRUPTED = 1, 2, 3, 130
+INTERNAL_ERROR = 1
+BAD_INPUT = 2
+ROLLERS_FAILED = 3
+INTERRUPTED = 130
 CASES_FAILED = ROLLERS_FAILED
+#: Beginning of the message of dask about a file of settings that it cannot read.
+_OF_DASK = "A dask config file at "
 #: Time after which a lost interrupt is raised again [s]: the finalizer or callback has ended by then.
 _AGAIN = 0.05
 MEMORY = "Use shorter loads, fewer rollers or no traces."
@@ -31,8 +37,9 @@ def to_stderr(text: str) -> None:
 def command(app: typer.Typer, function: Callable[..., None], name: str | None = None) -> None:
     """Add a function to the commands of `app`, under its own name if no other is given.
 
-    Its exceptions become a paragraph on standard error and an exit code; only an error in the program itself shows a
-    traceback. With the option `quiet` of the command it becomes one line in any case.
+    Its exceptions become a paragraph on standard error and an exit code; only an error in the
+    program itself shows a traceback. With the option `quiet` of the command it becomes one line in
+    any case; with `as_json` standard output has it too, as {"error": ...}.
     """
 
     @functools.wraps(function)
@@ -40,33 +47,32 @@ def command(app: typer.Typer, function: Callable[..., None], name: str | None = 
         try:
             with interrupts_kept():
                 function(*args, **options)
-        except (
-            typer.Exit,
-            BrokenPipeError,
-        ):  # a reader such as `head` that closes the pipe early is not an error
+        except (typer.Exit, BrokenPipeError):  # a reader such as `head` closes the pipe early
             raise
         except BaseException as error:
-            code, message = _told(error, quiet=bool(options.get("quiet")))
+            code, message = _code_and_message(error, quiet=bool(options.get("quiet")))
+            if options.get("as_json"):
+                print_json({"error": message.removeprefix("error: ")})
             to_stderr(message)
             raise typer.Exit(code) from None
 
     app.command(name)(run)
 
 
-def _told(error: BaseException, *, quiet: bool) -> tuple[int, str]:
+def _code_and_message(error: BaseException, *, quiet: bool) -> tuple[int, str]:
+    """Exit code and paragraph of an exception; prints the traceback of an internal error."""
     if isinstance(error, KeyboardInterrupt):
         return INTERRUPTED, "interrupted"
     if isinstance(error, MacroslipError):
         return BAD_INPUT, f"error: {' '.join(str(error).split()) if quiet else error}"
     if isinstance(error, OSError):
-        place = legible(f"{error.filename}: ", InputError.longest_place) if error.filename else ""
-        remedy = "Check the path, the rights to it and the free space on the disk."
-        return (
-            BAD_INPUT,
-            f"error: {place}{error.strerror or error}. {SHORTER if error.errno == errno.ENAMETOOLONG else remedy}",
-        )
+        return BAD_INPUT, _of_the_system(error)
     if isinstance(error, MemoryError):
         return BAD_INPUT, f"error: the computer has not enough memory for this. {MEMORY}"
+    if isinstance(error, ValueError) and str(error).startswith(_OF_DASK):
+        # xarray imports dask, which reads the user's settings whether it is used or not.
+        what = " ".join(str(error).split())
+        return BAD_INPUT, f"error: {what}. Correct this file of settings of dask, or remove it."
     if not isinstance(error, Exception):
         raise error
     if quiet:
@@ -78,16 +84,26 @@ def _told(error: BaseException, *, quiet: bool) -> tuple[int, str]:
     traceback.print_exception(error)
     return (
         INTERNAL_ERROR,
-        f"internal error: {type(error).__name__}. This is a fault of macroslip; please report what is above.",
+        f"internal error: {type(error).__name__}. "
+        "This is a fault of macroslip; please report what is above.",
     )
+
+
+def _of_the_system(error: OSError) -> str:
+    """Paragraph on an error of the operating system."""
+    where = legible(f"{error.filename}: ", InputError.longest_place) if error.filename else ""
+    remedy = "Check the path, the rights to it and the free space on the disk."
+    if error.errno == errno.ENAMETOOLONG:
+        remedy = SHORTER
+    return f"error: {where}{error.strerror or error}. {remedy}"
 
 
 @contextmanager
 def interrupts_kept() -> Iterator[None]:
     """Raise a `KeyboardInterrupt` in the main thread again, if Python could not raise it.
 
-    Where it arises in a finalizer or in a callback from compiled code, of which compiling makes many, Python cannot
-    raise it: it prints it and goes on.
+    Where it arises in a finalizer or in a callback from compiled code, of which compiling makes
+    many, Python cannot raise it: it prints it and goes on.
     """
     report = sys.unraisablehook
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from macroslip.cli.failure import MEMORY, ROLLERS_FAILED, to_stderr
+from macroslip.cli.options import AsJson, Force, Quiet, Threads
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.cli.progress import command_progress
 from macroslip.constants import ZERO_CELSIUS
@@ -24,18 +25,26 @@ if TYPE_CHECKING:
 
     from macroslip.case.case import Case
 
-#: Time between the samples of a case's motion, and the longest time of it [s].
-_STEP, _MINUTE = 0.05, 60.0
+#: Time between the samples of a case's motion [s].
+_TRACE_STEP = 0.05
+#: Longest time of a case's motion [s].
+_TRACE_LENGTH = 60.0
 #: Names in the summary of what `macroslip.report.result_numbers.row_numbers` has for a row.
 _OF_ROW = {
-    "energy": "mean energy per roller [J]", "peak": "highest peak power [W]", "spin": "lowest spin / pure rolling [1]",
-    "rollers": "rollers", "failed": "failed rollers",
-}  # fmt: skip
+    "energy": "mean energy per roller [J]",
+    "peak": "highest peak power [W]",
+    "spin": "lowest spin / pure rolling [1]",
+    "rollers": "rollers",
+    "failed": "failed rollers",
+}
 #: Names in the JSON summary of what a rating has for the bearing as a whole.
 _RATED = {
-    "static_safety": "static safety [1]", "basic_life": "L10h [h]", "modified_life": "L10mh [h]",
-    "viscosity_ratio": "kappa [1]", "share_below_minimum_load": "share of time below the minimum load [1]",
-}  # fmt: skip
+    "static_safety": "static safety [1]",
+    "basic_life": "L10h [h]",
+    "modified_life": "L10mh [h]",
+    "viscosity_ratio": "kappa [1]",
+    "share_below_minimum_load": "share of time below the minimum load [1]",
+}
 
 
 def run(
@@ -44,21 +53,19 @@ def run(
     laws: Annotated[
         list[Path] | None,
         typer.Option(
-            help="Python file that registers film or traction laws of your own; it is run. Repeatable."
+            help="Python file that registers film or traction laws of your own; it is run. "
+            "Repeatable."
         ),
     ] = None,
-    threads: Annotated[
-        int | None, typer.Option(min=1, help="Threads; all processors if not given.")
-    ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help="Replace the output file if it exists.")
-    ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
-    quiet: Annotated[
-        bool, typer.Option("--quiet", help="Show failures only, each error on one line.")
-    ] = False,
+    threads: Threads = None,
+    force: Force = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
 ) -> None:
-    """Compute the slip of a case's rollers, as netCDF; of both main bearings as OUTPUT-front.nc and OUTPUT-rear.nc."""
+    """Compute the slip of a case's rollers, as netCDF.
+
+    Of both main bearings the files are OUTPUT-front.nc and OUTPUT-rear.nc.
+    """
     from macroslip.case.case_file import bearings_in, files_named_in
 
     inputs = [case, *(laws or ()), *files_named_in(case)]
@@ -74,22 +81,23 @@ def run(
         from macroslip.plugins import load_laws
 
         load_laws(path)
-    told, failed = {}, False
+    summaries = {}
+    any_failed = False
     for name, path in outputs.items():
         dataset = _computed(case, name, threads, quiet)
         # In memory first: the HDF5 library may bring the whole process down when the disk is full.
         content = to_netcdf(dataset)
         with new_file(path, force=force) as temporary:
             temporary.write_bytes(content)
-        told[name] = _numbers(dataset) | {"written": str(path)}
+        summaries[name] = _numbers(dataset) | {"written": str(path)}
         if not (quiet or as_json):
-            _summary(dataset, told[name], name, path)
-        failed = _tell_doubts(dataset, quiet) or failed
+            _summary(dataset, summaries[name], name, path)
+        any_failed = _print_doubts(dataset, quiet) or any_failed
     if as_json:
-        print_json(told.get("", told))
+        print_json(summaries.get("", summaries))
     elif len(outputs) > 1 and not quiet:
         typer.echo(f"one page on both: macroslip report {' '.join(map(str, outputs.values()))}")
-    if failed:
+    if any_failed:
         raise typer.Exit(ROLLERS_FAILED)
 
 
@@ -102,9 +110,8 @@ def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.
     checked = read_case(case, bearing=bearing)
     if not names_key(case, "traces"):
         checked = with_motion(checked)
-    for sentence in [] if quiet else doubtful_loads(checked.loads, checked.bearing):
-        to_stderr(f"doubtful: {sentence}")
-    with command_progress(quiet=quiet) as report, _named(case, checked.loads.source):
+    doubts = doubtful_loads(checked.loads, checked.bearing)
+    with command_progress(quiet=quiet) as report, _named(case, checked.loads.source, doubts):
         progress = report and (lambda done, total: report("rollers", done, total))
         return with_rating(simulate(checked, threads=threads, progress=progress), checked)
 
@@ -113,20 +120,23 @@ def with_motion(case: Case) -> Case:
     """The case with traces of its first minute, from which its page shows the bearing in motion."""
     from macroslip.case.parts import Traces
 
-    first, last = float(case.loads.time[0]), float(case.loads.time[-1])
-    return replace(case, traces=Traces(step=_STEP, end=min(first + _MINUTE, last)))
+    first = float(case.loads.time[0])
+    last = float(case.loads.time[-1])
+    return replace(case, traces=Traces(step=_TRACE_STEP, end=min(first + _TRACE_LENGTH, last)))
 
 
 @contextmanager
-def _named(case: Path, loads: str) -> Iterator[None]:
-    """Name the case file, and the key of its loads, in errors of the computation."""
+def _named(case: Path, loads: str, doubts: Sequence[str]) -> Iterator[None]:
+    """Name the case file, the key of its loads, and doubts about them, in errors of computing."""
     try:
         yield
     except InputError as problem:
-        place = f"loads, {problem.where}" if problem.where.startswith(loads) else problem.where
-        where = f"{case}, {place}" if place else str(case)
+        inner = f"loads, {problem.where}" if problem.where.startswith(loads) else problem.where
         raise InputError(
-            problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+            problem.what,
+            where=f"{case}, {inner}" if inner else str(case),
+            allowed=problem.allowed,
+            remedy=" ".join([problem.remedy, *(f"Doubtful: {doubt}" for doubt in doubts)]).strip(),
         ) from None
     except MemoryError:
         what = "the computer has not enough memory for this case"
@@ -134,115 +144,111 @@ def _named(case: Path, loads: str) -> Iterator[None]:
 
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
+    from macroslip.report.answer import answer
     from macroslip.report.result_numbers import row_numbers
+    from macroslip.result.damage import lines
     from macroslip.result.plausibility import doubtful_result
 
     rows = {
-        one["name"]: {
-            words: math.nan if one[key] is None else one[key] for key, words in _OF_ROW.items()
+        row["name"]: {
+            words: math.nan if row[key] is None else row[key] for key, words in _OF_ROW.items()
         }
-        for one in row_numbers(dataset)
+        for row in row_numbers(dataset)
     }
     window = {
         "start [s]": dataset.attrs["window_start"],
         "end [s]": dataset.attrs["window_end"],
         "complete orbits": dataset.sizes["orbit"],
     }
-    found = {name: dataset.attrs[name] for name in ("title", "model", "oil")} | {
-        "window": window,
-        "rows": rows,
-    }
+    numbers = {name: dataset.attrs[name] for name in ("title", "model", "oil")}
+    numbers |= {"window": window, "rows": rows}
     if "inlet_temperature" in dataset:
-        found["inlet temperature [degC]"] = float(dataset.inlet_temperature) - ZERO_CELSIUS
+        numbers["inlet temperature [degC]"] = float(dataset.inlet_temperature) - ZERO_CELSIUS
     if "static_safety" in dataset:
-        found["rating"] = {
-            words: float(dataset[name]) for name, words in _RATED.items() if name in dataset
-        }
-        found["rating"]["largest pressure [Pa]"] = float(dataset.largest_pressure.max())
+        rating = {words: float(dataset[name]) for name, words in _RATED.items() if name in dataset}
+        rating["largest pressure [Pa]"] = float(dataset.largest_pressure.max())
+        numbers["rating"] = rating
     if "rating_problem" in dataset.attrs:
-        found["not rated"] = dataset.attrs["rating_problem"]
+        numbers["not rated"] = dataset.attrs["rating_problem"]
     if "cage_slip" in dataset:
-        found["cage slip [1]"] = {str(one.cage.item()): float(one) for one in dataset.cage_slip}
+        numbers["cage slip [1]"] = {
+            str(slip.cage.item()): float(slip) for slip in dataset.cage_slip
+        }
     if "books_warning" in dataset.attrs:
-        found["warning"] = dataset.attrs["books_warning"]
-    found["doubtful"] = doubtful_result(dataset)
-    from macroslip.report.answer import answer
-    from macroslip.result.damage import lines
-
+        numbers["warning"] = dataset.attrs["books_warning"]
+    numbers["doubtful"] = doubtful_result(dataset)
     criteria, missing = lines(dataset)
-    return {
-        "answer": answer(dataset, criteria),
-        **found,
-        "damage": {"criteria": criteria, "not kept": missing},
-    }
+    numbers["damage"] = {"criteria": criteria, "not kept": missing}
+    return {"answer": answer(dataset, criteria)} | numbers
 
 
-def _summary(dataset: xr.Dataset, found: dict[str, Any], bearing: str, path: Path) -> None:
+def _summary(dataset: xr.Dataset, summary: dict[str, Any], bearing: str, path: Path) -> None:
     from macroslip.cli.damage import print_criteria
 
     if bearing:
         typer.echo(f"{bearing} main bearing")
-    for sentence in found["answer"]:
+    for sentence in summary["answer"]:
         typer.echo(sentence)
     typer.echo()
-    _print_rows(dataset, found)
+    _print_rows(dataset, summary)
     title = "from slip to damage, the worst of any row and place"
-    print_criteria(found["damage"]["criteria"], found["damage"]["not kept"], title=title)
+    print_criteria(summary["damage"]["criteria"], summary["damage"]["not kept"], title=title)
     typer.echo(f"written: {path}")
 
 
-def _print_rows(dataset: xr.Dataset, found: dict[str, Any]) -> None:
+def _print_rows(dataset: xr.Dataset, summary: dict[str, Any]) -> None:
     rows = []
-    for name, row in found["rows"].items():
+    for name, row in summary["rows"].items():
         *values, rollers, failed = row.values()
         rows.append([name, *map(number, values), f"{failed} of {rollers}"])
-    start, end, orbits = found["window"].values()
-    window = (
-        f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
-    )
-    numbers = [name for name in next(iter(found["rows"].values())) if name != "rollers"]
-    print_table(
-        f"{found['title']}, {window}",
-        [("row", False), *((heading, True) for heading in numbers)],
-        rows,
-    )
-    for cage, slip in found.get("cage slip [1]", {}).items():
-        whose = "the cage" if len(found["cage slip [1]"]) == 1 else f"the {cage} cage"
+    start, end, orbits = summary["window"].values()
+    plural = "" if orbits == 1 else "s"
+    window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{plural}"
+    columns = [words for key, words in _OF_ROW.items() if key != "rollers"]
+    headings = [("row", False), *((heading, True) for heading in columns)]
+    print_table(f"{summary['title']}, {window}", headings, rows)
+    cages = summary.get("cage slip [1]", {})
+    for cage, slip in cages.items():
+        whose = "the cage" if len(cages) == 1 else f"the {cage} cage"
         behind = "behind" if slip <= 0.0 else "ahead of"
         typer.echo(f"mean slip of {whose}: {number(100.0 * abs(slip))} % {behind} pure rolling")
     if "rating_problem" in dataset.attrs:
         typer.echo(f"not rated: {dataset.attrs['rating_problem']}")
-    if "static_safety" not in dataset:
-        return
-    safety, kappa = (number(float(dataset[name])) for name in ("static_safety", "viscosity_ratio"))
-    life = years(float(dataset.basic_life))
-    modified = years(float(dataset.modified_reference_life.sel(load_along_roller="hertz")))
-    below = number(100.0 * float(dataset.share_below_minimum_load))
+    if "static_safety" in dataset:
+        _print_rating(dataset)
+
+
+def _print_rating(dataset: xr.Dataset) -> None:
+    modified = dataset.modified_reference_life.sel(load_along_roller="hertz")
     loaded = ", ".join(
         f"{100.0 * share:.3g} % {row}" for row, share in dataset.loaded_share.to_series().items()
     )
     typer.echo(
-        f"beside slip: static safety {safety}, L10h {life}, modified reference life {modified}, largest pressure "
-        f"{number(float(dataset.largest_pressure.max()) / 1e9)} GPa, kappa {kappa}, below the minimum load {below} % of the "
-        f"time; rollers carry load {loaded}"
+        f"beside slip: static safety {number(float(dataset.static_safety))}, "
+        f"L10h {years(float(dataset.basic_life))}, "
+        f"modified reference life {years(float(modified))}, "
+        f"largest pressure {number(float(dataset.largest_pressure.max()) / 1e9)} GPa, "
+        f"kappa {number(float(dataset.viscosity_ratio))}, below the minimum load "
+        f"{number(100.0 * float(dataset.share_below_minimum_load))} % of the time; "
+        f"rollers carry load {loaded}"
     )
 
 
-def _tell_doubts(dataset: xr.Dataset, quiet: bool) -> bool:
-    """Print what is doubtful, and of every roller that failed when and how; returns whether there is one."""
+def _print_doubts(dataset: xr.Dataset, quiet: bool) -> bool:
+    """Print what is doubtful, and how every roller failed that did; True if there is one."""
     from macroslip.report.result_numbers import failures
     from macroslip.result.plausibility import doubtful_result
 
-    told = dataset.attrs["doubtful_loads"].splitlines()  # before it began
-    for sentence in [] if quiet else doubtful_result(dataset):
-        if sentence not in told:
+    if not quiet:
+        for sentence in doubtful_result(dataset):
             to_stderr(f"doubtful: {sentence}")
     if "books_warning" in dataset.attrs:
         to_stderr(f"warning: {dataset.attrs['books_warning']}")
     failed = failures("", dataset)
-    for one in failed:
+    for failure in failed:
         to_stderr(
-            f"failed: roller {one['roller']} of the {one['row']} row at t = {one['time']:.6g} s with a slip of "
-            f"{one['slip']:.4g} m/s: {one['how']}."
+            f"failed: roller {failure['roller']} of the {failure['row']} row at "
+            f"t = {failure['time']:.6g} s with a slip of {failure['slip']:.4g} m/s: "
+            f"{failure['how']}."
         )
     return bool(failed)

@@ -40,6 +40,10 @@ _FEW_ROLLERS = (
     "Of {all} rollers a row {some} were simulated, {why}: values at the outer raceway may be off by several times, because "
     "what lasts a short time falls on the few places where these rollers are. Leave rollers away to compute all."
 )
+_NO_ORBIT = (
+    "No roller completed an orbit in the window, so nothing is said of a year like it: energies and wear of a part of an orbit "
+    "depend on where the rollers were. Give loads that last for some orbits."
+)
 _NO_ENTRIES = "No roller entered a load zone in a complete orbit of the window, so nothing is said of smearing."
 
 
@@ -134,10 +138,13 @@ def damage(
         "friction_power": (_PROFILE, found.profile("surface_energy"), described("W/m2", "frictional power per area, mean over time")),
         **_films(result),
     }  # fmt: skip
+    tells_of_year = result.sizes["orbit"] > 0 or bool(given.settings["loads"].get("event"))
+    if not tells_of_year:
+        missing.append(_NO_ORBIT)
     power = _largest(data["pressure_slip_rate"][1])
     values = {
         "friction_energy_rate": power,
-        "friction_energy_year": YEAR * power,
+        "friction_energy_year": YEAR * power if tells_of_year else math.nan,
         "mixed_time": _largest(data["mixed_time"][1][..., FILM_EDGES.index(1.0)]),
         "slower_time": _largest(data["slower_share"][1]),
     }
@@ -154,10 +161,11 @@ def damage(
         missing.append(_NO_WEAR)
     else:
         data |= _wear(result, given, found, coefficients, friction)
-        middle = len(coefficients) // 2
-        values["wear_time"] = (
-            float(np.nanmin(data["wear_time"][1][:, :, 1, middle], initial=math.inf)) / YEAR
-        )
+        if tells_of_year:
+            of_middle = data["wear_time"][1][:, :, 1, len(coefficients) // 2]
+            values["wear_time"] = float(np.nanmin(of_middle, initial=math.inf)) / YEAR
+        else:
+            del data["wear_time"], data["worn_depth"]
     failed = int((result.status != 0).sum())
     if failed:
         missing.append(

@@ -93,7 +93,7 @@ def ring_motion(
 def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -> None:
     if largest > highest_load:
         waves = abs(bearing.out_of_round_second or 0.0) + abs(bearing.out_of_round_third or 0.0)
-        shape = f"out_of_round, whose waves reach {1e6 * waves:.3g} um, " if waves else ""
+        shape = f"out_of_round, whose waves reach {1e6 * waves:.4g} um, " if waves else ""
         raise InputError(
             f"a roller carries {largest / 1e3:.4g} kN, at which its contact ellipse would reach beyond the roller's "
             "ends",
