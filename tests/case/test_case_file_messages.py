@@ -48,7 +48,7 @@ def reported(tmp_path):
         (
             "rollers: all\n",
             "case.yaml: 'loads' is missing (loads, from exactly one source). Allowed: a section with the keys bundled, "
-            "file, bearing_file, roller_loads, hub, main_bearing, start, end, shaft_speed, decimal, thousands. Add it.",
+            "file, bearing_file, roller_loads, hub, main_bearing, start, end, shaft_speed, decimal, thousands, hub_to_output. Add it.",
         ),
         (
             "loads: {bundled: 14B, file: x.outb}\n",
@@ -122,7 +122,8 @@ def reported(tmp_path):
         (
             LOADS
             + "drivetrain:\n  hub_to_bearing: 1260 m\n  tilt: 50 deg\n  shaft_mass_station: 4 m\n",
-            "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m. It "
+            "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m, "
+            "downwind of the hub; rotors downwind of the tower are not modelled. It "
             "is the distance from hub centre to main bearing; check value and unit. (2) case.yaml, line 4, "
             "drivetrain.tilt: it is 50 deg. Allowed: -17.1887 to 17.1887 deg. It is the shaft tilt, positive with the hub "
             "end up; check value and unit.",

@@ -158,7 +158,7 @@ def test_torque_does_not_load_the_bearing_and_the_record_is_kept():
     ("changes", "words"),
     [
         ({"hub_to_bearing": 1260.0}, ["hub_to_bearing: it is 1260.0", "0 to 20 m", "metres"]),
-        ({"hub_to_bearing": -1.0}, ["0 to 20 m", "A rotor downwind of it is not modelled"]),
+        ({"hub_to_bearing": -1.0}, ["0 to 20 m", "rotors downwind of the tower are not modelled"]),
         ({"bearing_to_gearbox": 0.0}, ["bearing_to_gearbox: it is 0.0", "above 0"]),
         ({"tilt": 5.0}, ["tilt: it is 5.0", "radians"]),
         ({"shaft_mass": -1.0}, ["shaft_mass: it is -1.0", "0 to 1e6 kg"]),

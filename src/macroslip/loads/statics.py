@@ -24,10 +24,7 @@ _BOTH = (
     "A case file for macroslip run may also have both. A study varies drivetrain.bearing: [front, "
     "rear]."
 )
-_UPWIND = (
-    "Distances count downwind, from the hub of a rotor that is upwind of the tower. A rotor "
-    "downwind of it is not modelled."
-)
+_UPWIND = ", downwind of the hub; rotors downwind of the tower are not modelled"
 _FOUR_POINT_KEYS = ("front_to_rear", "locating", "bearing")
 
 
@@ -81,7 +78,7 @@ class Drivetrain:
     mount: Annotated[str, Choice("what carries the shaft", lambda: MOUNTS)] = "three-point"
     hub_to_bearing: Annotated[
         float,
-        Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0, remedy=_UPWIND),
+        Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0, note=_UPWIND),
     ] = 1.26
     bearing_to_gearbox: Annotated[
         float, Positive("distance from main bearing to gearbox support", LENGTH, 20.0)
