@@ -71,14 +71,15 @@ def _write_sel(folder, columns, binary):
     return path
 
 
-def _write_gtsdf(folder, columns, packed):
+def _write_gtsdf(folder, columns, packed, blocks=1):
+    """Output in the format gtsdf, whose attributes HAWC2 12.7 writes as arrays of one element."""
     values = np.column_stack([column for name, (_, _, column) in columns.items() if name != "Time"])
     rest = {name: entry for name, entry in columns.items() if name != "Time"}
     path = folder / "run.hdf5"
     with h5py.File(path, "w") as file:
         file.attrs["type"] = "General time series data format"
         file.attrs["name"] = "run"
-        file.attrs["no_blocks"] = 1
+        file.attrs["no_blocks"] = np.array([blocks], dtype=np.int32)
         for kind, texts in (
             ("names", list(rest)),
             ("units", [unit for unit, _, _ in rest.values()]),
@@ -87,16 +88,21 @@ def _write_gtsdf(folder, columns, packed):
             file.create_dataset(
                 f"attribute_{kind}", data=np.array([text.encode() for text in texts])
             )
-        block = file.create_group("block0000")
-        block.attrs["time_start"], block.attrs["time_step"] = 0.0, 0.05
-        if packed:
-            offsets = values.mean(axis=0)
-            gains = np.maximum(np.abs(values - offsets).max(axis=0) / 32000.0, 1e-12)
-            block.create_dataset("data", data=np.round((values - offsets) / gains).astype(np.int16))
-            block.create_dataset("gains", data=gains)
-            block.create_dataset("offsets", data=offsets)
-        else:
-            block.create_dataset("data", data=values)
+        start = 0.0
+        for number, part in enumerate(np.array_split(values, blocks)):
+            block = file.create_group(f"block{number:04d}")
+            block.attrs["time_start"] = np.array([start])
+            block.attrs["time_step"] = np.array([0.05])
+            start += 0.05 * len(part)
+            if packed:
+                offsets = part.mean(axis=0)
+                gains = np.maximum(np.abs(part - offsets).max(axis=0) / 32000.0, 1e-12)
+                packed_part = np.round((part - offsets) / gains).astype(np.int16)
+                block.create_dataset("data", data=packed_part)
+                block.create_dataset("gains", data=gains)
+                block.create_dataset("offsets", data=offsets)
+            else:
+                block.create_dataset("data", data=part)
     return path
 
 
@@ -136,12 +142,16 @@ def test_list_of_channels(tmp_path, truth, sign, direction, binary):
 
 
 @pytest.mark.parametrize("packed", [False, True])
-def test_gtsdf(tmp_path, truth, packed):
-    _check(
-        HubLoads.read(_write_gtsdf(tmp_path, _channels(truth), packed)),
-        truth,
-        3e-3 if packed else 1e-9,
-    )
+@pytest.mark.parametrize("blocks", [1, 3])
+def test_gtsdf(tmp_path, truth, packed, blocks):
+    path = _write_gtsdf(tmp_path, _channels(truth), packed, blocks)
+    _check(HubLoads.read(path), truth, 3e-3 if packed else 1e-9)
+    with h5py.File(path, "r+") as file:  # other programs write numbers
+        for block in (file[name] for name in file if name.startswith("block")):
+            block.attrs["time_start"] = float(block.attrs["time_start"][0])
+            block.attrs["time_step"] = float(block.attrs["time_step"][0])
+        file.attrs["no_blocks"] = blocks
+    _check(HubLoads.read(path), truth, 3e-3 if packed else 1e-9)
 
 
 @pytest.mark.parametrize(
