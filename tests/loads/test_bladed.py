@@ -251,6 +251,21 @@ def test_a_group_that_nobody_needs_may_be_of_another_kind(tmp_path, truth, old, 
     np.testing.assert_allclose(HubLoads.read(header).force, truth.force, rtol=1e-6, atol=0.1)
 
 
+@pytest.mark.parametrize("access", ["ACCESS\tS\n", "ACCESS\tD\n", ""])
+def test_text_and_binary_data_under_a_header_of_text(tmp_path, truth, access):
+    """Some versions write FORM F, text, above binary data with direct access, ACCESS D."""
+    for form in ("F", "U"):
+        header = _run(tmp_path, truth, form)
+        for path in (header, tmp_path / "demo.%05"):
+            text = path.read_text().replace("ACCESS\tD\n", access)
+            path.write_text(text.replace("FORM\tU", "FORM\tF"))
+        if form == "U" and access != "ACCESS\tD\n":
+            _message(header, "numbers, its header announces")
+        else:
+            read = HubLoads.read(header)
+            np.testing.assert_allclose(read.force, truth.force, rtol=1e-6, atol=0.1)
+
+
 def test_a_header_with_blanks_behind_its_keys(tmp_path, truth):
     """Some versions part keys and numbers by blanks, others by a tab."""
     header = _run(tmp_path, truth)

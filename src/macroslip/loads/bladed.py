@@ -62,7 +62,8 @@ class _Group(NamedTuple):
     samples: int
     first: float  #: Time of the first sample [s].
     step: float  #: Time between samples [s].
-    number: np.dtype | None  #: Type of binary data; None for text.
+    number: np.dtype | None  #: Type of binary data; None if they can only be text.
+    may_be_text: bool
     mean: NDArray[np.float64]  #: Means that the header states, or empty.
 
     @property
@@ -192,7 +193,9 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
         form = first_of["FORM"].strip().upper()
         if form not in ("F", "U"):
             raise ValueError(f"FORM {form}, where F is text and U is binary")
-        number = None if form == "F" else _NUMBERS[first_of["FORMAT"].strip().upper()]
+        # Some versions declare binary data as F, with direct access. Sequential data are text.
+        sequential = form == "F" and first_of.get("ACCESS", "S").strip().upper() == "S"
+        number = None if sequential else _NUMBERS[first_of["FORMAT"].strip().upper()]
         first = float(first_of["MIN"])
         step = float(first_of["STEP"])
         if not (step > 0.0 and math.isfinite(first + step * samples)):
@@ -216,7 +219,7 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
     if not 0 < variables * samples <= MOST_VALUES:
         what = f"the header announces {variables} variables of {samples} samples"
         raise InputError(what, where=str(path), allowed=f"1 to {MOST_VALUES} values", remedy=_AGAIN)
-    return _Group(path, names, units, samples, first, step, number, mean)
+    return _Group(path, names, units, samples, first, step, number, form == "F", mean)
 
 
 def _columns(group: _Group, names: Sequence[str]) -> NDArray[np.float64]:
@@ -235,10 +238,14 @@ def _columns(group: _Group, names: Sequence[str]) -> NDArray[np.float64]:
         what = f"there is no {data.name} beside the header"
         raise InputError(what, where=str(group.header), remedy="Copy the data file too.")
     shape = (group.samples, len(group.names))
-    if group.number is None:
+    number = group.number
+    if number is not None and group.may_be_text:
+        is_binary = data.stat().st_size == math.prod(shape) * number.itemsize
+        number = number if is_binary else None
+    if number is None:
         samples = announced_text(data, shape, "its header", _AGAIN)
     else:
-        samples = Samples(announced_binary(data, group.number, shape, "its header", _AGAIN))
+        samples = Samples(announced_binary(data, number, shape, "its header", _AGAIN))
     columns = [samples.channel(group.names.index(name), name, str(data)) for name in names]
     if group.mean.size:
         _check_means(group, samples, data)
