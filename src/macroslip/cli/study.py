@@ -126,8 +126,10 @@ def _write_study(study: Path, folder: Path, *, force: bool) -> None:
     for path, text in made.texts.items():
         with new_file(path, force=force) as temporary:
             temporary.write_text(text, encoding="utf-8")
-    for remark in made.remarks:
+    for remark in made.remarks[:_LISTED]:
         to_stderr(f"note: {remark}")
+    if len(made.remarks) > _LISTED:
+        to_stderr(f"note: {len(made.remarks) - _LISTED} more files are left out or relabelled")
     winds = [labels["wind_speed"] for labels in made.labels]
     typer.echo(f"{len(winds)} load files, {min(winds):g} to {max(winds):g} m/s")
     typer.echo(f"written: {' and '.join(map(str, made.texts))}")
