@@ -8,7 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from macroslip.contact.asperities import REFERENCES, asperity_share, film_ratio_share, load_ratio
+from macroslip.contact.asperities import (
+    REFERENCES,
+    asperity_share,
+    film_ratio_share,
+    load_group,
+    load_is_in_range,
+    load_ratio,
+)
 from macroslip.contact.film import masjedi_khonsari_moes
 
 RATED_SURFACE_SPEED = 0.39594  # Ω r~_out at 20.463 rpm [m/s]
@@ -54,7 +61,47 @@ def test_load_ratio_is_the_formula(base, number, log_load, log_speed):
         expected, rel=1e-11, abs=1e-300
     )
     found = asperity_share("masjedi-khonsari", interface, load, speed, 1e-6)
-    assert found == pytest.approx(min(1.0, expected), rel=1e-11, abs=1e-300)
+    by_film = float(film_ratio_share(1e-6 / interface.roughness))
+    if 4e-5 <= w <= 4.5e-4:
+        assert found == pytest.approx(min(1.0, expected), rel=1e-11, abs=1e-300)
+    elif w < 2e-5 or w > 5e-4:
+        assert found == pytest.approx(min(1.0, expected, by_film), rel=1e-11, abs=1e-300)
+
+
+@pytest.mark.parametrize(
+    ("film_ratio", "speed", "by_film"),
+    [(16.5, 0.4, 5e-16), (7.0, 0.15, 2e-7), (3.8, 0.15, 2e-4)],
+)
+def test_idle_contacts_have_no_more_than_their_film_ratio_gives(base, film_ratio, speed, by_film):
+    """W of an idle contact is 1.1e-6, 18 times below the range, where the load ratio hardly knows Λ: it has 8.5e-4 to .4."""
+    inner, load = base[0], 30.0
+    assert load_group(inner, load) == pytest.approx(1.1e-6, rel=0.01)
+    assert not load_is_in_range(inner, load) and load_is_in_range(inner, 5e3)
+    found = asperity_share("masjedi-khonsari", inner, load, speed, film_ratio * inner.roughness)
+    assert found == pytest.approx(by_film, rel=0.35)
+    assert found == asperity_share("film-ratio", inner, load, speed, film_ratio * inner.roughness)
+
+
+@settings(deadline=None)
+@given(log_load=st.floats(-6.0, 6.5), log_speed=log_speeds, log_film=st.floats(-8.0, -4.0))
+def test_outside_the_range_of_w_no_more_than_the_film_ratio_gives(
+    base, log_load, log_speed, log_film
+):
+    states = 10.0**log_load, 10.0**log_speed, 10.0**log_film
+    for interface in base[:2]:
+        by_film, found = (
+            asperity_share(law, interface, *states) for law in ("film-ratio", "masjedi-khonsari")
+        )
+        assert load_is_in_range(interface, states[0]) or found <= by_film
+
+
+def test_the_share_has_no_step_at_the_ends_of_its_range(base):
+    load = np.geomspace(1e2, 1e6, 200_001)
+    film = masjedi_khonsari_moes(base[0], load, 0.15)
+    share = asperity_share("masjedi-khonsari", base[0], load, 0.15, film)
+    # Over a hundredth of the way between two loads it changes by a hundredth.
+    far, near = np.abs(share[200:] - share[:-200]).max(), np.abs(share[2:] - share[:-2]).max()
+    assert near < 0.011 * far
 
 
 @pytest.mark.parametrize("name", REFERENCES)

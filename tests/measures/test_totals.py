@@ -19,7 +19,7 @@ from macroslip.measures.totals import (
     HIGHEST_RISE,
     SPIN_RATIO_SPEED,
     book,
-    film_times,
+    law_times,
     new_totals,
     orbit_at,
     vertex,
@@ -117,7 +117,7 @@ def test_spin_ratio_is_taken_where_rings_run(walked):
 
 def test_time_with_load_and_out_of_range(walked):
     model, _, _, steps = walked
-    found = film_times(booked_with_ends(steps)[1], model.laws)
+    found = law_times(booked_with_ends(steps)[1], model.laws)
     inside = steps[(steps["start"] >= EDGES[0]) & (steps["weight"][:, 0] > 0.0)]
     span = inside["end"] - inside["start"]
     loaded = [
@@ -126,7 +126,10 @@ def test_time_with_load_and_out_of_range(walked):
         inside["cage_load"][:, 2] != 0.0,
     ]
     np.testing.assert_allclose(found[0], [span[one].sum() for one in loaded], rtol=1e-10)
-    assert ((found[1] >= 0.0) & (found[1] <= found[0] * (1 + 1e-12))).all()
+    assert ((found[1:] >= 0.0) & (found[1:] <= found[0] * (1 + 1e-12))).all()
+    loads = inside["inner_load"][:, 2]
+    light = (loads > 0.0) & ~model.laws.inner.asperity_share_in_range(np.maximum(loads, 1e-9))
+    assert found[2, 0] == pytest.approx(span[light].sum(), rel=1e-10)
 
 
 def test_load_of_films_is_what_raceways_carry_beside_the_rings(walked):

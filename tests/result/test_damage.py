@@ -149,6 +149,31 @@ def test_rollers_that_do_not_pass_the_whole_raceway_are_told():
     assert "did not pass" not in damage(simulate(replace(quarter, rollers="all"))).attrs["not_kept"]
 
 
+def test_the_result_says_for_how_long_the_law_of_asperities_was_out_of_its_range():
+    """Two seconds of thrust: the downwind row is pressed by 20 kN (W 8e-5), the upwind one by its films alone (W 1e-6)."""
+    held = replace(thrust(20e3), rollers=[0], window=Window(start=0.0))
+    held = replace(held, loads=BearingLoads.constant(held.loads.force[0], RATED, 2.0))
+    result = simulate(held)
+    share = result.outside_asperity_range.sel(interface=["inner", "outer"])
+    assert share.attrs["units"] == "1" and "asperities" in share.attrs["long_name"]
+    assert (share.sel(row="downwind") == 0.0).all() and (share.sel(row="upwind") == 1.0).all()
+    told = damage(result).attrs["not_kept"]
+    assert "0 % in the downwind row and 100 % in the upwind row of the loaded time" in told
+    # An idle film of Λ 16 leaves nothing to wear but what tables are off by.
+    wear = damage(result).asperity_work_rate
+    assert float(wear.sel(row="upwind").max()) < 1e-6 * float(wear.sel(row="downwind").max())
+    by_film = replace(held, laws=held.laws.but(asperities="film-ratio"))
+    assert "outside_asperity_range" not in simulate(by_film)
+
+
+def test_maps_of_films_that_leave_asperities_nothing_hold_numbers():
+    """Cold oil: of an idle roller's load asperities carry less than the least number."""
+    cold = replace(thrust(20e3), rollers=[0], temperature=273.15, window=Window(start=0.0))
+    cold = replace(cold, loads=BearingLoads.constant(cold.loads.force[0], RATED, 1.0))
+    energy = simulate(cold).surface_asperity_energy
+    assert np.isfinite(energy).all() and (energy >= 0.0).all()
+
+
 def test_maps_hold_all_that_asperities_dissipate(result):
     by_row = result.surface_asperity_energy.sum(("angle", "station"))
     total = (

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from scipy.stats import weibull_min
 
-from macroslip import InputError
+from macroslip import InputError, open_study, run_study
 from macroslip.study.lifetime import lifetime_energy
 from macroslip.study.loads_list import Load
 from macroslip.study.study_file import study_of
@@ -47,6 +47,19 @@ def study(energy=(600.0, 1200.0, 300.0, 50.0), life=(2e4, 2e4, 1e4, np.inf)):
 
 
 YEARLY = Year(Given({12.0: 0.5}), {"start-8": Rate(300.0), "idle-6": Rate(400.0, in_hours=True)})
+
+
+@pytest.mark.slow
+def test_all_rollers_of_events_are_computed(tmp_path):
+    """What a start or stop does falls on few places, so two rollers would tell several times too much or too little."""
+    case = {"rollers": [0, 14], "laws": {"model": "paper"}, "loads": {"end": "1 s"}}
+    study = study_of({"case": case, "loads": {"bundled": ["8B", "idle-6"]}})
+    rollers = {run.load.name: study.case_of(run)[0].rollers for run in study.runs()}
+    assert rollers == {"8B": (0, 14), "idle-6": "all"}
+    run_study(study, tmp_path / "out")
+    status = open_study(tmp_path / "out").status
+    computed = status.sel(row="downwind").count("roller").to_series()
+    assert computed.tolist() == [2, 28]
 
 
 def test_events_take_their_time_and_wind_speeds_the_rest():

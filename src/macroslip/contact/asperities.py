@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from macroslip.contact.film import line_groups
+from macroslip.contact.film import RANGES, line_groups
 from macroslip.contact.interface import Interface
 
 #: Works to cite for each share, by the names in case files.
@@ -23,6 +23,11 @@ REFERENCES = {
 #: elastically during their passage. Junctions of about a micrometre that cross a contact 1 mm wide at 0.4 m/s are there at
 #: some 0.1 mm/s; an engineering estimate.
 FULL_SLIP = 1e-4
+#: Laws with a range of the load group W, outside of which the share by Λ bounds theirs.
+BOUNDED = ("masjedi-khonsari",)
+#: Factors of W inside the lower and the upper end of its range from which on the load ratio alone counts, since tables
+#: cannot hold a step. Rollers pass the lower end in an instant; near the upper one they wear, so there it is narrow.
+_WITHIN_LEAST, _WITHIN_MOST = 2.0, 1.1
 
 # Gauss-Legendre with four points, exact for the polynomials of degree 7 that occur between two corners.
 _FAR = math.sqrt(3.0 / 7.0 + 2.0 / 7.0 * math.sqrt(6.0 / 5.0))
@@ -74,15 +79,68 @@ def film_ratio_share(film_ratio):
     return np.exp(-2.32 * np.power(film_ratio, 0.97))
 
 
+def load_group(interface: Interface, load):
+    """Load group W = w/(E'R) [-] of a contact taken as a line, w = 3Q/(4a), at loads Q > 0 [N].
+
+    Examples
+    --------
+    >>> from macroslip import Bearing, Lubricant
+    >>> from macroslip.contact.interface import interfaces
+    >>> inner, outer, cage = interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
+    >>> float(f"{load_group(inner, 30.0):.2g}")
+    1.1e-06
+    """
+    return line_groups(interface).load * np.cbrt(load) ** 2
+
+
+def load_is_in_range(interface: Interface, load):
+    """True where W lies in the range to which Masjedi and Khonsari fitted their load ratio, 2e-5 to 5e-4."""
+    group = load_group(interface, load)
+    least, most = RANGES["load"]
+    return (least <= group) & (group <= most)
+
+
+def _load_ratio_weight(group):
+    """Weight of the load ratio at W [-]: 0 outside the range, 1 from a little inside its ends, smooth between."""
+    least, most = np.log(RANGES["load"])
+    above = (np.log(group) - least) / math.log(_WITHIN_LEAST)
+    below = (most - np.log(group)) / math.log(_WITHIN_MOST)
+    part = np.clip(np.minimum(above, below), 0.0, 1.0)
+    return part**3 * (10.0 - 15.0 * part + 6.0 * part * part)
+
+
 def asperity_share(name: str, interface: Interface, load, entrainment_speed, film_thickness):
-    """Share of the load that asperities carry, 0 to 1 [-], by the law called `name`, a key of `REFERENCES`.
+    """Share of the load that asperities carry, 0 to 1 [-], by the law called `name`.
 
-    `masjedi-khonsari` takes the ellipse as a line, w = 3Q/(4a), as films do; `film-ratio` alone depends on the film,
-    and so on starvation. Load Q [N], entrainment speed u_e [m/s] and film thickness h [m] are > 0.
+    Parameters
+    ----------
+    name : str
+        A key of `REFERENCES`.
+    interface : Interface
+        The contact; its ellipse counts as a line, w = 3Q/(4a), as films have it.
+    load : array_like
+        Q > 0 [N].
+    entrainment_speed : array_like
+        u_e > 0 [m/s].
+    film_thickness : array_like
+        h > 0 [m], with all corrections.
 
-    The load ratio is used outside its range too: it is small where the film is thick, so a cage contact has none
-    (1e-6), and it is clamped to 1 where it exceeds that, at 20 kN on the base bearing's raceways below a third of the
-    lowest U of its range.
+    Returns
+    -------
+    ndarray
+        `film-ratio`: exp(−2.32 Λ^0.97), Λ = h/σ_rms. `masjedi-khonsari`: their load ratio where W lies in its range, 2e-5
+        to 5e-4. Outside of it no more than `film-ratio` gives: light contacts are far below the range, where the load
+        ratio hardly knows the film. From W = 2e-5 to 4e-5, and from 4.5e-4 to 5e-4, one passes over into the other.
+
+    Notes
+    -----
+    The load ratio is used outside its range of U: it is small where the film is thick, and clamped to 1 where it exceeds
+    that, at 20 kN on the base bearing's raceways below a third of the lowest U of its range. A cage's contact is below
+    the range of W, and has none.
+
+    References
+    ----------
+    Those of `REFERENCES`.
 
     Examples
     --------
@@ -91,18 +149,23 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
     >>> inner, outer, cage = interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
     >>> float(round(asperity_share("masjedi-khonsari", inner, 5e4, 0.396, 1e-6), 5))
     0.00123
+    >>> by_range, by_film = (
+    ...     asperity_share(law, inner, 30.0, 0.15, 2.1e-6) for law in ("masjedi-khonsari", "film-ratio"))
+    >>> f"{by_range:.1e}", bool(by_range == by_film)
+    ('2.2e-07', True)
     """
     none = np.zeros(np.broadcast(load, entrainment_speed, film_thickness).shape)[()]
-    if name == "film-ratio" and interface.roughness > 0.0:
-        return film_ratio_share(np.asarray(film_thickness) / interface.roughness) + none
-    if name == "masjedi-khonsari":
-        groups = line_groups(interface)
-        loads, speeds = (
-            groups.load * np.cbrt(load) ** 2,
-            groups.speed * np.asarray(entrainment_speed),
-        )
-        return np.minimum(1.0, load_ratio(loads, speeds, *groups[2:])) + none
-    return none
+    if name == "none" or interface.roughness <= 0.0:
+        return none
+    by_film = film_ratio_share(np.asarray(film_thickness) / interface.roughness) + none
+    if name == "film-ratio":
+        return by_film
+    groups = line_groups(interface)
+    loads = load_group(interface, load)
+    speeds = groups.speed * np.asarray(entrainment_speed)
+    ratio = np.minimum(1.0, load_ratio(loads, speeds, *groups[2:]))
+    bounded = np.minimum(ratio, by_film)
+    return bounded + _load_ratio_weight(loads) * (ratio - bounded)
 
 
 def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):

@@ -84,6 +84,12 @@ class ContactLaws:
             self.asperity_name, self.interface, load, speed, film_thickness
         )
 
+    def asperity_share_in_range(self, load) -> np.ndarray:
+        """True where the law of asperities holds at Q > 0 [N]; outside of it the share by Λ bounds its own."""
+        if self.asperity_name in asperities.BOUNDED:
+            return asperities.load_is_in_range(self.interface, load)
+        return np.ones(np.shape(load), dtype=bool)
+
     def uniform_traction(self, load, film_thickness, slip) -> np.ndarray:
         """Force of the film [N] with the sign of the slip, which is the same all over the contact.
 

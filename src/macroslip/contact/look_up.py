@@ -142,7 +142,8 @@ def traction(table, tables, load, log_load, ring_speed, slip):
         sign * load * value[0],
         sign * heavy * value[1],
         sign * table.side * load * root * value[2],
-        heavy * speed * value[3],
+        # Where asperities have nearly nothing, splines pass a little below zero.
+        heavy * speed * max(value[3], 0.0),
         pull_by_w * w_by_slip + pull_by_y * y_by_slip,
         lag_by_w * w_by_slip + lag_by_y * y_by_slip,
         pull_by_w * w_by_speed + pull_by_y * y_by_speed,

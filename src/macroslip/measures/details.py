@@ -63,6 +63,8 @@ _SETTLED, _ENTRY = 0.01, 0.35
 #: after this way [rad]. On 14B and 24A over 600 s, against looks at every step: extremes at the raceways are low by 0.5 % on
 #: average and 18 % at most, and up to 0.5 % of the energy lies at other stations.
 _CHANGE, _RISE, _TURN = 0.1, 0.03, 0.35
+#: Least share of asperities by which their energy is spread along the roller: quotients of less overflow.
+_LEAST_SHARE = 1e-30
 #: Looks from one at the quadrature's error to the next, which takes as long as five hundred others.
 _FINE = 4096
 
@@ -390,7 +392,7 @@ def _look_along(maps, interface, contact, state, look, passes, along):
     line = look.lines[interface]
     middle, v0, v1, v2, w0, w1, w2 = line[0], line[1], line[2], line[3], line[4], line[5], line[6]
     width, node = 2.0 * patch.half_length / STATIONS, film_node(contact.chords, film)
-    boundary = 0.75 * patch.boundary_friction * share * load / across
+    boundary = 0.75 * patch.boundary_friction * max(share, _LEAST_SHARE) * load / across
     hot, hottest, densest, fastest = look.hot[interface], 0.0, 0.0, 0.0
     along.total = along.rough_total = along.work_total = 0.0
     for k in range(STATIONS):

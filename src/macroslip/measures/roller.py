@@ -13,7 +13,7 @@ from macroslip.measures.totals import (
     Batch,
     Totals,
     book,
-    film_times,
+    law_times,
     loaded_contacts,
     new_totals,
 )
@@ -52,7 +52,7 @@ class RollerMeasures:
         wanted = row.wanted
         self.row = row
         self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
-        self.film_times, self._states = np.zeros((2, 3)), Batch(END)
+        self.law_times, self._states = np.zeros((3, 3)), Batch(END)
         self.skew = SkewMeasures(row.skewing, row.roller, wanted.edges[0]) if row.skewing else None
         places = row.contacts, row.motion, start_angle, self.skew
         self.looker = (
@@ -77,7 +77,7 @@ class RollerMeasures:
             return
         if self.skew:
             self.skew.add(steps, j, self._places(mine))
-        states = self._states.room(mine.size, self._add_film_times)
+        states = self._states.room(mine.size, self._add_law_times)
         book(steps, j, self.totals, states)
         self._states.count += mine.size
         if self.looker:
@@ -92,13 +92,13 @@ class RollerMeasures:
         """Slip at which the integration ended [m/s], the mean of both raceways."""
         return 0.5 * float(self._last["inner_slip"] + self._last["outer_slip"])
 
-    def _add_film_times(self, states: np.ndarray) -> None:
-        self.film_times += film_times(states, self.row.model.laws)
+    def _add_law_times(self, states: np.ndarray) -> None:
+        self.law_times += law_times(states, self.row.model.laws)
 
     def finish(self) -> None:
         """Take up what is left in batches, and spread what has been kept since the last look."""
         self._last = self._last.copy()
-        self._states.empty(self._add_film_times)
+        self._states.empty(self._add_law_times)
         if self.looker:
             self.looker.finish()
 

@@ -247,14 +247,17 @@ def book(steps, j, totals, states):
             totals.spin_ratio[0], totals.spin_ratio[2] = min(totals.spin_ratio[0], ratio), way
 
 
-def film_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
-    """Time with load on each interface, and the part of it outside the film law's range [s], shape (2, 3)."""
-    counted, found = states[states["span"] > 0.0], np.zeros((2, 3))
+def law_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
+    """Time with load, and its parts outside the ranges of the film's and the asperities' law [s], over (3, interface)."""
+    counted = states[states["span"] > 0.0]
+    times = np.zeros((3, len(INTERFACES)))
     for i, (law, load, speed) in enumerate(loaded_contacts(counted, laws)):
         loaded = load > 0.0
-        span = counted["span"][loaded]
-        found[:, i] = span.sum(), span[~law.film_in_range(load[loaded], speed[loaded])].sum()
-    return found
+        span, load = counted["span"][loaded], load[loaded]
+        times[0, i] = span.sum()
+        times[1, i] = span[~law.film_in_range(load, speed[loaded])].sum()
+        times[2, i] = span[~law.asperity_share_in_range(load)].sum()
+    return times
 
 
 def spin_ratio(totals: Totals) -> float:

@@ -44,6 +44,10 @@ _NO_ORBIT = (
     "No roller completed an orbit in the window, so nothing is said of a year like it: energies and wear of a part of an orbit "
     "depend on where the rollers were. Give loads that last for some orbits."
 )
+_LIGHT = (
+    "The load lay outside the range of the law of asperities for {rows} of the loaded time of raceways; there their share, "
+    "and so wear, is no more than the film ratio gives."
+)
 _NO_ENTRIES = "No roller entered a load zone in a complete orbit of the window, so nothing is said of smearing."
 
 
@@ -161,6 +165,7 @@ def damage(
         missing.append(_NO_WEAR)
     else:
         data |= _wear(result, given, found, coefficients, friction)
+        missing += _outside_asperity_range(result)
         if tells_of_year:
             of_middle = data["wear_time"][1][:, :, 1, len(coefficients) // 2]
             values["wear_time"] = float(np.nanmin(of_middle, initial=math.inf)) / YEAR
@@ -310,6 +315,22 @@ def _few_rollers(result: xr.Dataset, given: RunInput) -> str:
     else:
         return ""
     return _FEW_ROLLERS.format(all=given.bearing.rollers_per_row, some=simulated, why=reason)
+
+
+def _outside_asperity_range(result: xr.Dataset) -> list[str]:
+    """For how much of the loaded time the law of asperities is out of its range at the raceways, as a sentence."""
+    if "outside_asperity_range" not in result:
+        return []
+    shares = result.outside_asperity_range.sel(interface=["inner", "outer"])
+    shares = shares.transpose("row", ...).values.reshape(result.sizes["row"], -1)
+    shares = np.nan_to_num(shares).mean(axis=1)
+    if not (shares > 0.0).any():
+        return []
+    rows = " and ".join(
+        f"{100.0 * share:.3g} % in the {row} row"
+        for row, share in zip(result.row.values, shares, strict=True)
+    )
+    return [_LIGHT.format(rows=rows)]
 
 
 def _films(result: xr.Dataset) -> dict[str, Any]:

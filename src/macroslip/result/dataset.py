@@ -20,6 +20,7 @@ from macroslip.bearing.geometry import initial_angles, row_names
 from macroslip.case.case import Case
 from macroslip.case.parts import Radau
 from macroslip.constants import ZERO_CELSIUS
+from macroslip.contact.asperities import BOUNDED
 from macroslip.contact.laws import references
 from macroslip.imposed.run import Outcome
 from macroslip.imposed.status import Status
@@ -146,6 +147,8 @@ def _dataset(
         [results[row, number] for number in case.roller_numbers] for row in row_names(case.bearing)
     ]
     values = _window_values(table)
+    if case.laws.asperities not in BOUNDED:
+        del values["outside_asperity_range"]
     if ready.edges.size == 1:
         sectors = np.array([[one.measures.sector_power for one in line] for line in table])
         sectors[_failed(table)] = np.nan
@@ -227,7 +230,7 @@ def _window_values(table: list[list[Measured]]) -> dict[str, np.ndarray]:
         return np.array([[getattr(one.outcome, name) for one in line] for line in table])
 
     peaks = _gathered(table, "peak_power")
-    times = np.array([[one.measures.film_times for one in line] for line in table])
+    times = np.array([[one.measures.law_times for one in line] for line in table])
     loads = np.array([[one.measures.totals.film_load for one in line] for line in table])
     ratio = np.array([[spin_ratio(one.measures.totals) for one in line] for line in table])
     failed = _failed(table)
@@ -235,13 +238,14 @@ def _window_values(table: list[list[Measured]]) -> dict[str, np.ndarray]:
     times[failed] = loads[failed] = np.nan
     with np.errstate(invalid="ignore", divide="ignore"):
         films = loads[:, :, 1] / loads[:, :, 0]
-        outside = times[:, :, 1] / times[:, :, 0]
+        outside = times[:, :, 1:] / times[:, :, :1]
     return {
         **{name: _gathered(table, name) for name in ("energy", "rolling_energy", "orbit_energy")},
         "peak_power": peaks[:, :, :-1],
         "window_peak_power": peaks.max(axis=2),
         "min_spin_ratio": ratio,
-        "outside_film_range": outside,
+        "outside_film_range": outside[:, :, 0],
+        "outside_asperity_range": outside[:, :, 1],
         "mean_film_load": films,
         "status": outcome("status").astype(np.int8),
         **{

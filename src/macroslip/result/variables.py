@@ -32,6 +32,8 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "shaft turns at a tenth or more of its highest speed and the raceways pass at 1 mm/s or more"),
     "outside_film_range": (_INTERFACES, "1", "share of loaded time in which load or speed lay outside the film "
         "law's range"),
+    "outside_asperity_range": (_INTERFACES, "1", "share of loaded time in which load lay outside the range of the law of "
+        "asperities, where their share is bounded by that of the film ratio"),
     "mean_film_load": (_ROLLERS, "N", "mean load in the window that films of oil carry beside the rings' elastic load; "
         "the balance of the rings does not know it"),
     "status": (_ROLLERS, "1", "outcome of the integration"),

@@ -234,7 +234,7 @@ def _closed_form(law, tables, load, ln_load, slip, entrainment_speed):
     film, by_load, by_speed = in_plane(
         law.film, tables, ln_load, log_speed(max(entrainment_speed, LOWEST_SPEED))
     )
-    share = film[1]
+    share = max(film[1], 0.0)
     root = math.exp(ln_load * (1.0 / 3.0))
     exponent = law.pressure_exponent * root
     patch, by_log_slip, by_exponent = patch_integral(exponent, law.heating * abs(slip))

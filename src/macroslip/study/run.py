@@ -379,7 +379,7 @@ class Session:
             "directory": str(self.directory), "setup": self._setup, "session": self._id, "run": run.name,
             "load": self.study.place(run.load), "bearing": run.bearing, "lubricant": run.lubricant,
             "settings": [[setting.key, setting.value, setting.unit] for setting in run.settings],
-            "threads": threads, "again": False,
+            "threads": threads, "again": False, "all_rollers": run.is_event,
         }  # fmt: skip
 
     def _check(self, result: dict[str, Any]) -> None:

@@ -47,6 +47,11 @@ class Run:
     settings: Sequence[Setting]
 
     @property
+    def is_event(self) -> bool:
+        """True if the loads are those of an event: all rollers of it are computed."""
+        return bool(self.load.fields.get("event"))
+
+    @property
     def group(self) -> str:
         """Hash of everything but loads and temperature: runs that differ in these have one."""
         return self._hash([self.bearing, self.lubricant, self.model], TEMPERATURE)
@@ -142,7 +147,10 @@ class Study:
             yield run
 
     def case_of(self, run: Run | None = None) -> tuple[Case, dict[str, float]]:
-        """The case of a run, by default the base case, without its loads; and how to read these."""
+        """The case of a run, by default the base case, without its loads; and how to read these.
+
+        Of an event all rollers are computed: what lasts a short time falls on the few places where rollers then are.
+        """
         known = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
         records = {
             noun: one[getattr(run, noun)] if run else next(iter(one.values()))
@@ -151,6 +159,8 @@ class Study:
         case, cut = template(
             self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder
         )
+        if run and run.is_event:
+            case = replace(case, rollers="all")
         if run and self.temperatures:
             case = at_balance(case, self.temperatures[run.group])
         return case, cut

@@ -193,6 +193,8 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
     records = {noun: setup["records"][noun][task[noun]] for noun in RECORDS}
     case, cut = template(setup["case"], settings, records, keep=setup["keep"])
     loads = _loads(task["session"], setup["source"], task["load"], tuple(sorted(cut.items())))
+    if task["all_rollers"]:
+        case = replace(case, rollers="all")
     try:
         return replace(case, loads=loads)
     except InputError as problem:
