@@ -13,7 +13,8 @@ from macroslip.contact.laws import prepare
 from macroslip.contact.skewed import constant_friction, resultants, slip_lines
 from macroslip.measures import details as looks
 from macroslip.measures.details import STATIONS, new_details
-from macroslip.result.damage import _slip_profile, _working_skew, damage
+from macroslip.result.criteria.wear import slip_profile, working_skew
+from macroslip.result.damage import damage
 from macroslip.roller.skew import equilibrium, pocket, raceways
 from macroslip.whole.cage import Cage
 
@@ -200,8 +201,8 @@ def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
         ).power
         assert float(one.surface_work[i].sum()) / seconds == pytest.approx(power, rel=0.02)
     assert (
-        _working_skew(one) == pytest.approx(angle, rel=1e-9)
-        and _working_skew(straight.sel(row="downwind")) == 0.0
+        working_skew(one) == pytest.approx(angle, rel=1e-9)
+        and working_skew(straight.sel(row="downwind")) == 0.0
     )
     skewed, held = damage(stopped), damage(straight)
     for name in ("pressure_slip_rate", "asperity_work_rate"):
@@ -209,5 +210,5 @@ def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
         assert np.nanmax(ratio) > 2.0 and skewed[name].sum() > held[name].sum()
     assert (skewed.wear_time < held.wear_time).all()
     shape, place = laws.inner.shape, np.linspace(-0.03, 0.03, 4 * STATIONS)
-    slip = _slip_profile(shape, place, np.ones_like(place), np.ones(STATIONS), angle)
+    slip = slip_profile(shape, place, np.ones_like(place), np.ones(STATIONS), angle)
     assert slip.min() >= angle

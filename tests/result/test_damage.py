@@ -11,7 +11,9 @@ import pytest
 
 from macroslip import Bearing, BearingLoads, Case, HubLoads, InputError, Laws, Window, simulate
 from macroslip.bearing import geometry
-from macroslip.result.damage import PLACES, YEAR, Threshold, damage, lines
+from macroslip.result.criteria.criterion import Threshold
+from macroslip.result.criteria.evaluation import PLACES, YEAR
+from macroslip.result.damage import damage, lines
 from macroslip.result.stored import to_netcdf
 from macroslip.result.surface_maps import energy_density
 

@@ -9,7 +9,8 @@ import xarray as xr
 from scipy.stats import qmc
 
 from macroslip import BearingLoads, Case, InputError, Laws, compare, simulate
-from macroslip.result.damage import REFERENCE_POWER, damage
+from macroslip.result.criteria.friction_energy import REFERENCE_POWER
+from macroslip.result.damage import damage
 from macroslip.study.effects import effects, main_effects, rank_correlations, sampled_parameters
 from macroslip.study.summary import damage_values
 from macroslip.study.weights import YEAR, Given, Rate, Year

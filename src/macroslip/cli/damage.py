@@ -12,7 +12,7 @@ from macroslip.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from macroslip.result.damage import Threshold
+    from macroslip.result.criteria.criterion import Threshold
 
 
 def damage(
@@ -41,7 +41,8 @@ def damage(
     from macroslip.cli.printing import print_json, print_table
     from macroslip.input.units import PRESSURE
     from macroslip.report.accessor import open_result
-    from macroslip.result.damage import YEAR, criterion_lines
+    from macroslip.result.criteria.evaluation import YEAR
+    from macroslip.result.damage import criterion_lines
     from macroslip.result.damage import damage as computed
 
     own = dict(map(_threshold, threshold or ()))
@@ -101,7 +102,7 @@ def _wear(found: xr.Dataset) -> list[dict[str, Any]]:
     """Years to each depth by row and place, over the coefficients of wear."""
     if "wear_time" not in found:
         return []
-    from macroslip.result.damage import YEAR
+    from macroslip.result.criteria.evaluation import YEAR
 
     return [
         {
@@ -118,7 +119,8 @@ def _threshold(text: str) -> tuple[str, Threshold]:
     from fractions import Fraction
 
     from macroslip.input.units import NUMBER, Dimension, Unit, parse_quantity
-    from macroslip.result.damage import CRITERIA, Threshold
+    from macroslip.result.criteria import CRITERIA
+    from macroslip.result.criteria.criterion import Threshold
 
     name, _, rest = text.partition("=")
     value, _, source = rest.partition(",")

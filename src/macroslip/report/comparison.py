@@ -22,7 +22,7 @@ from macroslip.result.run_input import stored_settings
 from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
 from macroslip.study.weights import YEAR, Given, Weibull, binned, weights_in_use
-from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, designs, year
+from macroslip.study.year import DESIGN_COLUMNS, LIVES, coverage, design_names, designs, year
 
 #: Pieces of a history whose differences are taken as independent of each other, at most.
 _PIECES = 10
@@ -385,7 +385,7 @@ def _year_numbers(found: xr.Dataset) -> dict[tuple[str, str], float]:
     """Numbers of a year of one design by quantity and unit."""
     table, _ = designs(found)
     numbers = {(ENERGY, "J/year"): np.nan}
-    for name, (_, units, about) in CRITERIA.items():
+    for name, (_, units, about) in DESIGN_COLUMNS.items():
         if name in table:
             numbers[about, units] = float(table[name].iloc[0])
     for row in found.row.values.tolist():

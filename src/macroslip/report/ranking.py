@@ -7,10 +7,10 @@ import pandas as pd
 
 from macroslip.constants import HOURS_A_YEAR
 from macroslip.report.style import scaled
-from macroslip.study.year import CRITERIA
+from macroslip.study.year import DESIGN_COLUMNS
 
 #: Quantity by which designs are ranked.
-ENERGY = CRITERIA["energy"][2]
+ENERGY = DESIGN_COLUMNS["energy"].meaning
 #: Designs that the first sentence names beside the best.
 _MOST_NAMED = 4
 #: Ends of quantities of which more is better; of all others less is.

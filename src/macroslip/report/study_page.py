@@ -45,7 +45,7 @@ from macroslip.study.weights import (
     binned,
     weights_in_use,
 )
-from macroslip.study.year import CRITERIA, coverage, design_names, designs, year
+from macroslip.study.year import DESIGN_COLUMNS, coverage, design_names, designs, year
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -287,7 +287,13 @@ def _effects(
         f"{int(found.points)} points",
     )
     pictures = [
-        picture(plot_effects, f"Main effects on the {CRITERIA[name][2]}", found, name, **OPENING)
+        picture(
+            plot_effects,
+            f"Main effects on the {DESIGN_COLUMNS[name].meaning}",
+            found,
+            name,
+            **OPENING,
+        )
         for name in ("energy", "wear")
         if name in found.quantity
     ]
@@ -342,7 +348,9 @@ def _year(found: xr.Dataset, names: list[str]) -> Table:
         values = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
         for name, (_, factor) in sums.items():
             both = (
-                here[name].sum(skipna=False) if name == "entries" else here[name].max(skipna=False)
+                here[name].sum(skipna=False)
+                if DESIGN_COLUMNS[name].drawn == "sum"
+                else here[name].max(skipna=False)
             )
             values.append(factor * both)
         cells = (number(float(value)) for value in values)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from macroslip.errors import InputError
 from macroslip.result.variables import described
 from macroslip.study.weights import Weights
-from macroslip.study.year import CRITERIA, LIVES, designs, year
+from macroslip.study.year import DESIGN_COLUMNS, LIVES, designs, year
 
 #: Quantiles of a quantity over the sample, and points below which nothing is said.
 QUANTILES = (0.05, 0.5, 0.95)
@@ -103,7 +103,9 @@ def effects(
         if one.dims == ("group",) and name not in names
     ]
     table["_block"] = table.groupby(labels, dropna=False, sort=False).ngroup()
-    units = {name: unit for name, (_, unit, _) in CRITERIA.items()} | dict.fromkeys(LIVES, "h")
+    units = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
+        LIVES, "h"
+    )
     quantities = [
         name
         for name in units

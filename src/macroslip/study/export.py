@@ -16,7 +16,7 @@ from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
 from macroslip.study.store import Outcome
 from macroslip.study.weights import Weights
-from macroslip.study.year import CRITERIA, EXPONENTS, LIVES, SUMS, designs, year
+from macroslip.study.year import DESIGN_COLUMNS, EXPONENTS, LARGEST, LIVES, SUMS, designs, year
 
 FORMATS = ("csv", "parquet")
 
@@ -66,7 +66,9 @@ def tables(
     spread = percentiles(study, field=field, width=width, by=by)
     found["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
     whole = year(study, weights, field=field, width=width, by=by)
-    units = {name: unit for name, (_, unit, _) in CRITERIA.items()} | dict.fromkeys(LIVES, "h")
+    units = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
+        LIVES, "h"
+    )
     ranked = designs(whole)[0].dropna(axis="columns", how="all")
     found["designs"] = ranked.rename(
         columns={name: f"{name} [{unit}]" for name, unit in units.items() if unit != "1"}
@@ -78,7 +80,7 @@ def tables(
         )
     if weights is None:
         return found
-    by_bin = ["hours", "runs", "energy", "per_hour", "peak", "entry_slip", *SUMS]
+    by_bin = ["hours", "runs", "energy", "per_hour", *LARGEST, *SUMS]
     found["year"] = as_table(whole, [name for name in by_bin if name in whole])
     found["lives"] = as_table(whole, [*LIVES, *(f"damage_equivalent_load_{m}" for m in EXPONENTS)])
     life = lifetime_energy(study, weights, years=years, field=field, width=width, by=by)

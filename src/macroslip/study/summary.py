@@ -9,12 +9,11 @@ import xarray as xr
 
 from macroslip.bearing.geometry import ROWS, orbit_ratio
 from macroslip.case.case import Case
-from macroslip.damage.wear import COEFFICIENTS as WEAR_COEFFICIENTS
 from macroslip.errors import InputError
 from macroslip.imposed.status import Status
 from macroslip.loads import BearingLoads
-from macroslip.measures.details import FILM_EDGES
 from macroslip.rating.spectrum import rainflow_ranges
+from macroslip.result.criteria import YEARLY
 from macroslip.result.damage import damage
 from macroslip.result.heat_balance import bearing_friction_power
 from macroslip.result.rating import rate_case
@@ -52,29 +51,8 @@ ROW_VARIABLES = {
         "smallest ratio of spin to spin in pure rolling in the window, of all rollers",
     ),
     "failed_rollers": ("1", "number of rollers whose integration failed"),
-    "entry_rate": (
-        "1/s",
-        "entries beyond the slip of a smearing rig, of all rollers of the row, at least",
-    ),
-    "largest_entry_slip": ("1", "largest slide-roll ratio at an entry into the load zone"),
-    "pressure_slip_rate": (
-        "W/m2",
-        "mean of pressure times slip over time, e_a, at the place with most",
-    ),
-    "wear_rate": ("m/s", "growth of the deepest wear at k = 1e-17 m2/N, unworn contour"),
-    "mixed_film_time": (
-        "1",
-        "share of time of a roller under load with Lambda < 1, raceway with more",
-    ),
+    **{one.run_name: (one.run_unit, one.run_meaning) for one in YEARLY},
 }
-#: Those of them that need details of the contacts.
-OF_DETAILS = (
-    "entry_rate",
-    "largest_entry_slip",
-    "pressure_slip_rate",
-    "wear_rate",
-    "mixed_film_time",
-)
 #: The same of the rating of a case.
 RATING_VARIABLES = {
     "static_safety": ("1", "static safety factor C0/P0, the least"),
@@ -186,33 +164,13 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
 
 
 def damage_values(result: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Rates of damage of each row, as in `macroslip.result.damage`; NaN without details of the contacts."""
+    """Numbers of damage of each row, of the criteria; NaN without details of the contacts."""
     unknown = xr.DataArray(np.full(result.sizes["row"], np.nan), {"row": result.row}, "row")
-    found: dict[str, xr.DataArray] = dict.fromkeys(OF_DETAILS, unknown)
     if "surface_work" not in result:
-        return found
+        return {one.run_name: unknown for one in YEARLY}
     criteria = damage(result)
-    below_one = list(FILM_EDGES).index(1.0) + 1
-    mixed = result.film_slip_time.isel(film_class=slice(below_one)).sum(
-        ["film_class", "slip_class"], skipna=False
-    )
-    length = (result.attrs["window_end"] - result.attrs["window_start"]) * result.sizes["roller"]
-    found["mixed_film_time"] = (mixed / length).max("raceway", skipna=False)
-    found["pressure_slip_rate"] = criteria.pressure_slip_rate.max(
-        ["place", "station"], skipna=False
-    )
-    if "entry_rate" in criteria:  # there are orbits
-        # A row into which no roller has entered has no slip; max would warn of it.
-        found["entry_rate"] = criteria.entry_slide_roll_ratio_beyond_least.reduce(
-            np.fmax.reduce, "raceway"
-        )
-        found["largest_entry_slip"] = criteria.entry_slide_roll_ratio.reduce(
-            np.fmax.reduce, "raceway"
-        )
-    if "asperity_work_rate" in criteria:
-        work = criteria.asperity_work_rate.max(["place", "station"], skipna=False)
-        found["wear_rate"] = WEAR_COEFFICIENTS[1] * work
-    return found
+    values = {one.run_name: one.of_run(criteria, result) for one in YEARLY}
+    return {name: unknown if value is None else value for name, value in values.items()}
 
 
 def rating_values(case: Case) -> dict[str, float]:

@@ -3,30 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from macroslip.loads.bundled import EVENTS
-from macroslip.result.damage import REFERENCE_POWER
+from macroslip.result.criteria import YEARLY
 from macroslip.result.variables import described
 from macroslip.study.weights import CHOICES, YEAR, Weights, binned, weighted
 
 #: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
 LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
 EXPONENTS = (4, 10)
-#: Sums over a year: by name the rate in the summary [1/s of the unit], unit and meaning.
+
+
+class Column(NamedTuple):
+    """A number of a design in a year."""
+
+    drawn: str  #: How rows and bins are drawn together, as in `macroslip.result.criteria.criterion.Yearly`
+    unit: str
+    meaning: str
+
+
+_PEAK = "largest frictional power of any run"
+#: Rates of criteria that a year sums up, and numbers of which the largest counts: by name the number of a run, unit of
+#: the year's, and meaning.
 SUMS = {
-    "entries": (
-        "entry_rate",
-        "1",
-        "entries beyond the slip of a smearing rig, all rollers of the row, at least",
-    ),
-    "wear": ("wear_rate", "m", "depth of wear at k = 1e-17 m2/N, at most"),
-    "pressure_slip": ("pressure_slip_rate", "J/m2", "pressure times slip per area, largest place"),
-    "mixed_time": ("mixed_film_time", "s", "time of a roller under load with Lambda below 1"),
+    one.name: (one.run_name, one.year_unit, one.year_meaning)
+    for one in YEARLY
+    if one.drawn != "largest"
+}
+LARGEST = {"peak": ("peak_power_max", "W", _PEAK)} | {
+    one.name: (one.run_name, one.year_unit, one.year_meaning)
+    for one in YEARLY
+    if one.drawn == "largest"
+}
+#: Columns of `designs`.
+DESIGN_COLUMNS = {
+    "energy": Column("sum", "J/year", "energy of a mean roller, both rows"),
+    **{one.name: Column(one.drawn, one.unit, one.meaning) for one in YEARLY},
+    "peak": Column("largest", "W", "largest power"),
 }
 
 
@@ -115,15 +133,7 @@ def year(
         ),
         "covered": ((), share.sum(), described("1", "share of the year in the cases")),
     }
-    for name, variable, units, about in (
-        ("peak", "peak_power_max", "W", "largest frictional power of any run"),
-        (
-            "entry_slip",
-            "largest_entry_slip",
-            "1",
-            "largest slide-roll ratio at an entry of any run",
-        ),
-    ):
+    for name, (variable, units, about) in LARGEST.items():
         if variable in study:
             largest = np.full(mean.shape, np.nan)
             for cell, value in zip(
@@ -156,22 +166,10 @@ def year(
     return xr.Dataset(data, coordinates, {"weighted": int(weights is not None)})
 
 
-#: Columns of `designs`: by name how rows and bins of a year are drawn together, unit and meaning.
-CRITERIA = {
-    "energy": ("sum", "J/year", "energy of a mean roller, both rows"),
-    "wear": ("max", "m/year", "wear at k = 1e-17 m²/N, deepest place"),
-    "entries": ("sum", "1/year", "entries beyond the slip of a smearing rig"),
-    "mixed_time": ("max", "1", "share of time with Λ < 1"),
-    "pressure_slip": ("max", "1", "e_a over the FE8 test"),
-    "entry_slip": ("largest", "1", "largest slide-roll ratio at an entry"),
-    "peak": ("largest", "W", "largest power"),
-}
-
-
 def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     """The designs side by side, of `year`, the least energy first; and sentences on what is not known.
 
-    The table has a line a group, with its number as index: its labels, the columns of `CRITERIA` and the lives [h].
+    The table has a line a group, with its number as index: its labels, the columns of `DESIGN_COLUMNS` and the lives [h].
     Energy and entries are of both rows, the others of the worse one. NaN where something is not known; a criterion that
     no run has is left out.
     """
@@ -179,13 +177,13 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     table, told = pd.DataFrame(labels, index=range(found.sizes["group"])), []
     missing = []
     seconds = float(found.covered) * YEAR
-    scale = {"mixed_time": 1.0 / seconds, "pressure_slip": 1.0 / (seconds * REFERENCE_POWER)}
-    for name, (how, _, about) in CRITERIA.items():
+    mean_over = {one.name: seconds * one.mean_over for one in YEARLY if one.mean_over is not None}
+    for name, (drawn, _, about) in DESIGN_COLUMNS.items():
         known = found[name].where(found.hours > 0.0) if name in found else None
         if known is None or not bool(known.notnull().any()):
             missing.append(about)
             continue
-        if how == "largest":
+        if drawn == "largest":
             table[name] = known.reduce(np.fmax.reduce, ("bin", "row")).values
             continue
         values = found[name]
@@ -198,8 +196,8 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
                 )
                 values = values.where(~unknown, 0.0)
         whole = values.sum("bin", skipna=False)
-        drawn = whole.sum("row", skipna=False) if how == "sum" else whole.max("row", skipna=False)
-        table[name] = scale.get(name, 1.0) * drawn.values
+        rows = whole.sum("row", skipna=False) if drawn == "sum" else whole.max("row", skipna=False)
+        table[name] = rows.values / mean_over.get(name, 1.0)
     for name in LIVES:
         if name in found and bool(found[name].notnull().any()):
             table[name] = found[name].values

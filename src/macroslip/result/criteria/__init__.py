@@ -1,0 +1,19 @@
+"""Criteria of damage: every module of this folder that has `CRITERIA`, a tuple of `Criterion`, adds its own."""
+
+from __future__ import annotations
+
+import pkgutil
+from importlib import import_module
+
+from macroslip.result.criteria.criterion import Criterion, Yearly
+
+
+def _declared() -> list[Criterion]:
+    modules = (import_module(f"{__name__}.{one.name}") for one in pkgutil.iter_modules(__path__))
+    return [one for module in modules for one in getattr(module, "CRITERIA", ())]
+
+
+#: All criteria in their order.
+CRITERIA: tuple[Criterion, ...] = tuple(sorted(_declared(), key=lambda one: one.order))
+#: What a study keeps of them.
+YEARLY: tuple[Yearly, ...] = tuple(yearly for one in CRITERIA for yearly in one.yearly)

@@ -1,0 +1,86 @@
+"""What a criterion of damage is: its value, what that is compared with, how sure it is, and what a year makes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+if TYPE_CHECKING:
+    from macroslip.result.criteria.evaluation import Evaluation
+
+#: Variables of the answer by name: dimensions, values, and attributes with units and long_name.
+Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
+
+
+class Threshold(NamedTuple):
+    """A threshold of one's own for a criterion."""
+
+    value: float  #: In the unit of the criterion
+    source: str  #: Where it comes from
+
+
+@dataclass(frozen=True, kw_only=True)
+class Yearly:
+    """A number that a study keeps of either row of a run, and what a year makes of it."""
+
+    run_name: str  #: Name in a study
+    run_unit: str
+    run_meaning: str
+    #: The number over row, of the dataset of criteria and of the result; None where it is not known.
+    of_run: Callable[[xr.Dataset, xr.Dataset], xr.DataArray | None]
+    name: str  #: Name in a year
+    #: `sum`: run numbers are rates that a year adds up, of both rows; `max`: the same, of the worse row; `largest`: the
+    #: largest of any run and row counts.
+    drawn: str
+    year_unit: str  #: Of the number of a wind speed or event
+    year_meaning: str
+    unit: str  #: Of the number of a design
+    meaning: str
+    #: The sum of a design is given over the covered time and this; None: as it is.
+    mean_over: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Criterion:
+    """A criterion of damage, a line of the answer."""
+
+    order: int  #: Lines are in this order
+    name: str
+    title: str
+    unit: str
+    #: Variables from which the value follows; none where the result lacks what they take.
+    variables: Callable[[Evaluation], Variables]
+    #: The worst value of either row and any place, of the variables of all criteria [unit]; NaN where not known.
+    value: Callable[[Mapping[str, np.ndarray]], float]
+    #: Sentences on what is missing, of the evaluation and the variables of all criteria.
+    missing: Callable[[Evaluation, Mapping[str, np.ndarray]], list[str]] | None = None
+    reference: float  #: What the value is compared with [unit]; NaN where none could be traced
+    compared_with: str  #: Source of the reference
+    factor: float  #: The value holds within this factor either way
+    reason: str  #: What the factor comes from
+    lowest: bool = False  #: True if a value below the reference is bad
+    references: tuple[str, ...] = ()  #: Works to cite
+    yearly: tuple[Yearly, ...] = ()
+
+    @property
+    def how_sure(self) -> str:
+        """Factor and reason."""
+        return f"factor {self.factor:g}: {self.reason}"
+
+
+def largest(values: np.ndarray) -> float:
+    """The largest number; NaN where there is none."""
+    return float(np.nanmax(values)) if np.isfinite(values).any() else np.nan
+
+
+def largest_of(name: str) -> Callable[[Mapping[str, np.ndarray]], float]:
+    """The largest number of a variable; NaN where it is missing."""
+
+    def value(variables: Mapping[str, np.ndarray]) -> float:
+        return largest(variables[name]) if name in variables else np.nan
+
+    return value

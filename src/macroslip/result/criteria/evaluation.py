@@ -1,0 +1,127 @@
+"""A result as criteria of damage see it: rates per second of a bearing with all its rollers, by place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+
+from macroslip.bearing import geometry
+from macroslip.measures.details import STATIONS
+from macroslip.result.criteria.criterion import Criterion, Threshold
+from macroslip.result.run_input import RunInput
+
+#: Places whose damage is told.
+PLACES = ("inner", "outer", "roller")
+#: A mean year [s].
+YEAR = 365.25 * 86400.0
+
+
+class Evaluation:
+    """Rates of damage of a result.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        With details of the contacts.
+    run_input : RunInput
+        What it was computed with.
+    thresholds : mapping
+        Thresholds of one's own by the name of the criterion.
+    wear_coefficients : sequence of float
+        k [m²/N], rising.
+    wear_is_asked_for : bool
+        True if coefficients of wear were given.
+
+    Attributes
+    ----------
+    seconds : float
+        Length of the window [s].
+    all_rollers : float
+        Rollers of a row over those that were simulated [-].
+    boundary_friction : float
+        µ_b [-]; 0 without asperities.
+    """
+
+    def __init__(
+        self,
+        result: xr.Dataset,
+        run_input: RunInput,
+        *,
+        thresholds: Mapping[str, Threshold],
+        wear_coefficients: Sequence[float],
+        wear_is_asked_for: bool,
+    ):
+        self.result = result
+        self.run_input = run_input
+        self.thresholds = thresholds
+        self.wear_coefficients = wear_coefficients
+        self.wear_is_asked_for = wear_is_asked_for
+        self.bearing = run_input.bearing
+        self.seconds = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
+        self.all_rollers = self.bearing.rollers_per_row / result.sizes["roller"]
+        first = next(iter(run_input.models.values()))
+        self.boundary_friction = first.laws.inner.boundary_friction
+        self._cell_area = result.cell_area.transpose("row", "raceway", "station").values
+
+    @property
+    def tells_of_year(self) -> bool:
+        """True if the window may go on for a year: it has a complete orbit, or is an event that is repeated."""
+        is_event = bool(self.run_input.settings["loads"].get("event"))
+        return self.result.sizes["orbit"] > 0 or is_event
+
+    def reference(self, criterion: Criterion) -> float:
+        """What a criterion is compared with [unit], one's own threshold or its reference."""
+        own = self.thresholds.get(criterion.name)
+        return criterion.reference if own is None else own.value
+
+    def powers(self, name: str) -> np.ndarray:
+        """Energy of a map per second [W], of all rollers of a row, over row, raceway, angle and station."""
+        energy = self.result[name]
+        kinds = [kind for kind in ("slip_sign", "film_regime") if kind in energy.dims]
+        energy = energy.sum(kinds, skipna=False).transpose("row", "raceway", "angle", "station")
+        return energy.values * (self.all_rollers / self.seconds)
+
+    def profile(self, name: str) -> np.ndarray:
+        """Power per area [W/m²] of a map over row, place and station.
+
+        The inner ring turns, so that of its sectors the mean counts. Of the outer ring it is the sector with the largest
+        value per pass, times the mean number of passes of all sectors: a few rollers, or orbits that are no whole number,
+        pass some sectors more often than others.
+        """
+        density = self.powers(name) / self._cell_area[:, :, None]
+        profile = np.empty((density.shape[0], len(PLACES), STATIONS))
+        profile[:, 0] = density[:, 0].mean(axis=1)
+        for row, sectors in enumerate(density[:, 1] * self._evenness()[..., None]):
+            worst = int(np.argmax(np.nan_to_num(sectors).max(axis=-1)))
+            profile[row, 1] = sectors[worst]
+        profile[:, 2] = self.roller_share(name).sum(axis=1)
+        return profile
+
+    def _evenness(self) -> np.ndarray:
+        """Mean passes of the outer raceway's sectors over those of each, over row and angle; 0 without passes."""
+        passes = self.result.surface_passes.sel(raceway="outer").transpose("row", "angle").values
+        mean = passes.mean(axis=1, keepdims=True)
+        return np.divide(mean, passes, out=np.zeros_like(passes), where=passes > 0.0)
+
+    def roller_share(self, name: str) -> np.ndarray:
+        """Power per area of a roller [W/m²] of a map over row, raceway and station."""
+        circumference = 2.0 * math.pi * geometry.roller_radius(self.bearing)
+        area = circumference * self.bearing.roller_length / STATIONS
+        return self.powers(name).sum(axis=2) / (self.bearing.rollers_per_row * area)
+
+    def pass_rates(self) -> np.ndarray:
+        """Passes a second over a place of either ring and of a roller [1/s], of the complete orbits; NaN without one."""
+        orbits = self.result.sizes["orbit"]
+        rate = orbits / self.orbit_time() if orbits else math.nan
+        outer_radius = geometry.outer_contact_radius(self.bearing)
+        outer = self.bearing.rollers_per_row
+        inner = outer * outer_radius / geometry.inner_contact_radius(self.bearing)
+        roller = 2.0 * outer_radius / geometry.roller_radius(self.bearing)
+        return rate * np.array([inner, outer, roller])
+
+    def orbit_time(self) -> float:
+        """Length of all complete orbits [s]."""
+        return float((self.result.orbit_end - self.result.orbit_start).sum())

@@ -1,0 +1,103 @@
+"""Criteria of micropitting: thin films, and on which side the slip is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from macroslip.damage import micropitting
+from macroslip.measures.details import FILM_EDGES, SLIP_EDGES
+from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest, largest_of
+from macroslip.result.criteria.evaluation import Evaluation
+from macroslip.result.variables import described
+
+_NO_THIN_FILMS = "No film under load was thinner than Λ = 3, so nothing is said of the sign of slip in thin films."
+_OVER = ("row", "raceway")
+#: Classes of Λ that lie below 1, and below 3.
+_BELOW_ONE = FILM_EDGES.index(1.0) + 1
+_BELOW_THREE = FILM_EDGES.index(3.0) + 1
+_MEANINGS = {"time": "loaded time", "passes": "passes"}
+
+
+def _amounts(evaluation: Evaluation, kind: str) -> np.ndarray:
+    """Time [s] or passes over row, raceway, class of Λ and class of slip."""
+    amounts = evaluation.result[f"film_slip_{kind}"]
+    return amounts.transpose(*_OVER, "film_class", "slip_class").values
+
+
+def _mixed(evaluation: Evaluation) -> Variables:
+    """Shares of loaded time and of passes with Λ below each of its edges."""
+    variables: Variables = {}
+    for kind, meaning in _MEANINGS.items():
+        amounts = _amounts(evaluation, kind)
+        shares = [micropitting.share_below(amounts, FILM_EDGES, edge) for edge in FILM_EDGES]
+        about = described("1", f"share of {meaning} with Lambda below film_ratio")
+        variables[f"mixed_{kind}"] = ((*_OVER, "film_ratio"), np.stack(shares, axis=-1), about)
+    return variables
+
+
+def _slower(evaluation: Evaluation) -> Variables:
+    thin = _amounts(evaluation, "time")[:, :, :_BELOW_THREE].sum(axis=2)
+    meaning = "of the time with Lambda below 3 the share with the ring the slower surface"
+    share = micropitting.slower_share(thin, SLIP_EDGES)
+    return {"slower_share": (_OVER, share, described("1", meaning))}
+
+
+def _without_thin_films(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
+    return [] if np.isfinite(variables["slower_share"]).any() else [_NO_THIN_FILMS]
+
+
+def _mixed_film_time(_: xr.Dataset, result: xr.Dataset) -> xr.DataArray:
+    """Share of a roller's time with load and Λ < 1 [-], over row, at the raceway with more."""
+    thin = result.film_slip_time.isel(film_class=slice(_BELOW_ONE))
+    time = thin.sum(["film_class", "slip_class"], skipna=False)
+    window = result.attrs["window_end"] - result.attrs["window_start"]
+    return (time / (window * result.sizes["roller"])).max("raceway", skipna=False)
+
+
+CRITERIA = (
+    Criterion(
+        order=30,
+        name="mixed_time",
+        title="micropitting: loaded time with Λ < 1",
+        unit="1",
+        variables=_mixed,
+        value=lambda variables: largest(variables["mixed_time"][..., _BELOW_ONE - 1]),
+        reference=math.nan,
+        compared_with="",
+        factor=3.0,
+        reason="roughness, oil supply",
+        references=micropitting.REFERENCES,
+        yearly=(
+            Yearly(
+                run_name="mixed_film_time",
+                run_unit="1",
+                run_meaning="share of time of a roller under load with Lambda < 1, raceway with more",
+                of_run=_mixed_film_time,
+                name="mixed_time",
+                drawn="max",
+                year_unit="s",
+                year_meaning="time of a roller under load with Lambda below 1",
+                unit="1",
+                meaning="share of time with Λ < 1",
+                mean_over=1.0,
+            ),
+        ),
+    ),
+    Criterion(
+        order=31,
+        name="slower_time",
+        title="micropitting: ring slower, Λ < 3",
+        unit="1",
+        variables=_slower,
+        value=largest_of("slower_share"),
+        missing=_without_thin_films,
+        reference=math.nan,
+        compared_with="",
+        factor=1.5,
+        reason="profile of slip",
+    ),
+)

@@ -1,0 +1,148 @@
+"""Criteria of smearing, when a roller enters the load zone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from macroslip.damage import smearing
+from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest_of
+from macroslip.result.criteria.evaluation import Evaluation
+from macroslip.result.variables import described
+
+_NO_ENTRIES = "No roller entered a load zone in a complete orbit of the window, so nothing is said of smearing."
+_OVER = ("row", "raceway")
+
+
+def _entries(evaluation: Evaluation) -> np.ndarray:
+    return evaluation.result.entries.transpose("row", "roller", "orbit").values
+
+
+def _largest(evaluation: Evaluation, criterion: Criterion) -> Variables:
+    """The largest value at entries, and how many are beyond its reference."""
+    if not evaluation.result.sizes["orbit"]:
+        return {}
+    at_entries = evaluation.result[criterion.name].transpose(*_OVER, "roller", "orbit")
+    # Unlike max, fmax does not warn where no roller entered.
+    worst = at_entries.reduce(np.fmax.reduce, ("roller", "orbit")).values
+    meaning = str(at_entries.attrs["long_name"]).split(",")[0]
+    variables: Variables = {
+        criterion.name: (_OVER, worst, described(criterion.unit, meaning)),
+    }
+    limit = evaluation.reference(criterion)
+    if math.isfinite(limit):
+        count = _entries(evaluation)[:, None]
+        scale = evaluation.all_rollers / evaluation.orbit_time()
+        beyond = smearing.entries_beyond(at_entries.values, count, limit)
+        for bound, number in zip(("least", "most"), beyond, strict=True):
+            meaning = f"entries of all rollers beyond {limit:g} {criterion.unit}, at {bound}"
+            about = described("1/s", meaning)
+            variables[f"{criterion.name}_beyond_{bound}"] = (_OVER, number * scale, about)
+    return variables
+
+
+def _slide_roll_ratio(evaluation: Evaluation) -> Variables:
+    """Entries a second, their least film ratio, and their largest slide-roll ratio."""
+    if not evaluation.result.sizes["orbit"]:
+        return {}
+    scale = evaluation.all_rollers / evaluation.orbit_time()
+    rate = np.nansum(_entries(evaluation), axis=(1, 2)) * scale
+    thinnest = evaluation.result.entry_film_ratio.reduce(np.fmin.reduce, ("roller", "orbit"))
+    return {
+        "entry_rate": (
+            ("row",),
+            rate,
+            described("1/s", "entries into the load zone of all rollers of a row"),
+        ),
+        "entry_film_ratio": (
+            _OVER,
+            thinnest.transpose(*_OVER).values,
+            described("1", "least Lambda at entry"),
+        ),
+        **_largest(evaluation, SLIDE_ROLL_RATIO),
+    }
+
+
+def _missing(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
+    return [] if float(evaluation.result.entries.sum()) > 0.0 else [_NO_ENTRIES]
+
+
+def _of_raceways(name: str, criteria: xr.Dataset) -> xr.DataArray | None:
+    """The larger of both raceways; None where no orbit is complete."""
+    if name not in criteria:
+        return None
+    # A row into which no roller has entered has no slip; max would warn of it.
+    return criteria[name].reduce(np.fmax.reduce, "raceway")
+
+
+_IDLE = "oil at idle rollers"
+SLIDE_ROLL_RATIO = Criterion(
+    order=10,
+    name="entry_slide_roll_ratio",
+    title="smearing: slide-roll ratio at entry",
+    unit="1",
+    variables=_slide_roll_ratio,
+    value=largest_of("entry_slide_roll_ratio"),
+    missing=_missing,
+    reference=smearing.RIG_SLIDE_ROLL_RATIO,
+    compared_with="rig, light load, Evans 2013",
+    factor=3.0,
+    reason=_IDLE,
+    references=smearing.REFERENCES,
+    yearly=(
+        Yearly(
+            run_name="entry_rate",
+            run_unit="1/s",
+            run_meaning="entries beyond the slip of a smearing rig, of all rollers of the row, at least",
+            of_run=lambda criteria, _: _of_raceways(
+                "entry_slide_roll_ratio_beyond_least", criteria
+            ),
+            name="entries",
+            drawn="sum",
+            year_unit="1",
+            year_meaning="entries beyond the slip of a smearing rig, all rollers of the row, at least",
+            unit="1/year",
+            meaning="entries beyond the slip of a smearing rig",
+        ),
+        Yearly(
+            run_name="largest_entry_slip",
+            run_unit="1",
+            run_meaning="largest slide-roll ratio at an entry into the load zone",
+            of_run=lambda criteria, _: _of_raceways("entry_slide_roll_ratio", criteria),
+            name="entry_slip",
+            drawn="largest",
+            year_unit="1",
+            year_meaning="largest slide-roll ratio at an entry of any run",
+            unit="1",
+            meaning="largest slide-roll ratio at an entry",
+        ),
+    ),
+)
+POWER_DENSITY = Criterion(
+    order=11,
+    name="entry_power_density",
+    title="smearing: power density at entry",
+    unit="W/m2",
+    variables=lambda evaluation: _largest(evaluation, POWER_DENSITY),
+    value=largest_of("entry_power_density"),
+    reference=math.nan,
+    compared_with="",
+    factor=3.0,
+    reason=_IDLE,
+)
+FLASH_TEMPERATURE = Criterion(
+    order=12,
+    name="entry_flash_temperature",
+    title="smearing: flash temperature at entry",
+    unit="K",
+    variables=lambda evaluation: _largest(evaluation, FLASH_TEMPERATURE),
+    value=largest_of("entry_flash_temperature"),
+    reference=math.nan,
+    compared_with="",
+    factor=3.0,
+    reason=_IDLE,
+)
+CRITERIA = (SLIDE_ROLL_RATIO, POWER_DENSITY, FLASH_TEMPERATURE)

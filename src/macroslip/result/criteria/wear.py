@@ -1,0 +1,229 @@
+"""Criterion of wear: how long it takes until the deepest place has worn by 10 µm."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from macroslip.bearing import geometry
+from macroslip.damage import wear
+from macroslip.errors import InputError
+from macroslip.measures.details import STATIONS
+from macroslip.result.criteria.criterion import Criterion, Variables, Yearly
+from macroslip.result.criteria.evaluation import PLACES, YEAR, Evaluation
+from macroslip.result.variables import described
+
+#: Time for which turbines are designed [years], IEC 61400-1.
+DESIGN_LIFE = 20.0
+#: Ages for which the worn profile is told [years].
+AGES = (1.0, 5.0, 20.0)
+#: Slips in the middle that are tried, in parts of the largest microslip, to find the profile of slip.
+_TRIED = 401
+#: Slices of a station while wear grows: at lines of pure rolling nothing wears, and what is left of them carries the load.
+_SLICES = 4
+#: Number of the depth of 10 µm, and of the middle coefficient k of a run.
+_TEN_MICROMETRES = wear.DEPTHS.index(1e-5)
+_MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
+_NO_WEAR = (
+    "Wear was not computed, since without asperities nothing touches: choose their law, laws: {asperities: masjedi-khonsari} "
+    "or film-ratio, and a boundary_friction above 0 of the lubricant."
+)
+_LIGHT = (
+    "The load lay outside the range of the law of asperities for {rows} of the loaded time of raceways; there their share, "
+    "and so wear, is no more than the film ratio gives."
+)
+
+
+def _variables(evaluation: Evaluation) -> Variables:
+    """Work of asperities, time to depths, and worn profiles at the middle coefficient."""
+    friction = evaluation.boundary_friction
+    if friction <= 0.0:
+        if evaluation.wear_is_asked_for or "wear_time" in evaluation.thresholds:
+            raise InputError(_NO_WEAR, where="wear", allowed="results with asperities")
+        return {}
+    # Splines may leave a little less than nothing of what asperities have.
+    work = wear.worn_volume(
+        1.0, np.maximum(evaluation.profile("surface_asperity_energy"), 0.0), friction
+    )
+    on_roller = np.maximum(evaluation.roller_share("surface_asperity_energy"), 0.0) / friction
+    meaning = "asperities' pressure times slip, mean over time: depth of wear a second over k"
+    rate = (("row", "place", "station"), work, described("W/m2", meaning))
+    if not evaluation.tells_of_year:
+        return {"asperity_work_rate": rate}
+    coefficients = np.array(evaluation.wear_coefficients)
+    middle = coefficients[len(coefficients) // 2]
+    rows = evaluation.run_input.models
+    times = np.full((len(rows), len(PLACES), len(wear.DEPTHS)), math.inf)
+    depths = np.zeros((len(rows), len(PLACES), len(AGES), STATIONS))
+    for r, row in enumerate(rows):
+        if np.isnan(work[r]).any():
+            times[r] = math.nan
+            depths[r] = math.nan
+            continue
+        worn = _grown(evaluation, row, work[r], on_roller[r])
+        times[r] = np.stack([worn.work_at(depth) for depth in wear.DEPTHS], axis=-1)
+        for a, age in enumerate(AGES):
+            slices = worn.depth_at(middle * age * YEAR).reshape(len(PLACES), STATIONS, _SLICES)
+            depths[r, :, a] = slices.mean(axis=-1)
+    return {
+        "asperity_work_rate": rate,
+        "wear_time": (
+            ("row", "place", "depth", "wear_coefficient"),
+            times[..., None] / coefficients,
+            described("s", "time like this window until the deepest place has worn by depth"),
+        ),
+        "worn_depth": (
+            ("row", "place", "age", "station"),
+            depths,
+            described("m", f"depth of wear at k = {middle:g} m2/N"),
+        ),
+    }
+
+
+def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.ndarray) -> wear.Worn:
+    """Wear of a row at the load that stands for it, as deep along the roller as its maps have it in the mean.
+
+    `work` and `on_roller` are depth a second over k [W/m²] over place and station, and the roller's over raceway and
+    station.
+    """
+    bearing = evaluation.bearing
+    width = bearing.roller_length / (_SLICES * STATIONS)
+    along = (np.arange(_SLICES * STATIONS) + 0.5) * width - 0.5 * bearing.roller_length
+    curvatures = (geometry.inner_curvatures(bearing), geometry.outer_curvatures(bearing))
+    result = evaluation.result.sel(row=row)
+    laws = evaluation.run_input.models[row].laws
+    skew = working_skew(result)
+    contacts = []
+    for i, (law, curved) in enumerate(zip((laws.inner, laws.outer), curvatures, strict=True)):
+        load = float(result.working_load.isel(raceway=i))
+        if not load > 0.0 or not work[i].sum() > 0.0:
+            nothing = np.zeros(along.size)
+            contacts.append(wear.Pressed(0.0, nothing, 1.0, nothing, 0.0, 0.0))
+            continue
+        contour = 0.5 * curved.lateral * along**2
+        half_length = law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
+        stiffness = wear.hertz_slices(load, half_length, curved.lateral)
+        pressed = wear.slice_loads(contour, load, stiffness, width)
+        mapped = result.surface_work.isel(raceway=i).sum("angle").values
+        slip = slip_profile(law.shape, along, pressed, mapped, skew)
+        total = (pressed * slip).sum() / _SLICES
+        ring, roller = work[i].sum() / total, on_roller[i].sum() / total
+        contacts.append(wear.Pressed(load, contour, stiffness, slip, ring, roller))
+    return wear.grow((contacts[0], contacts[1]), width)
+
+
+def working_skew(row: xr.Dataset) -> float:
+    """Root of the mean square of a row's skew [rad], weighted by what a pass of the outer raceway's sectors works.
+
+    The angle of that raceway is the orbit's.
+    """
+    if "skew_by_position" not in row:
+        return 0.0
+    outer = row.sel(raceway="outer")
+    work = outer.surface_work.sum("station").values
+    passes = outer.surface_passes.values
+    weight = np.divide(work, passes, out=np.zeros_like(work), where=passes > 0.0)
+    square = np.nan_to_num(row.skew_by_position.values) ** 2
+    return math.sqrt((square * weight).sum() / max(weight.sum(), 1e-300))
+
+
+def slip_profile(
+    shape: Any, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
+) -> np.ndarray:
+    """|v| along the roller over the ring's speed [-]: skew, microslip, and the slip of the middle that fits ∫ p |v| dt best.
+
+    Parameters
+    ----------
+    shape : ContactShape
+        Of the raceway contact.
+    along : ndarray, shape (n,)
+        Places of the slices along the roller [m].
+    pressed : ndarray, shape (n,)
+        Load per length of the slices [N/m].
+    work : ndarray, shape (stations,)
+        ∫∫ p |v| dA dt of the map by station [J].
+    skew : float
+        Skew [rad], whose slip lies across rolling.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    if not shape.microslip:
+        return np.ones_like(along)
+    curvature = shape.curvature_ratio / (2.0 * shape.contour_radius)
+    microslip = curvature * along**2 - shape.spin_ratio * along
+    largest = np.abs(microslip[pressed > 0.0]).max()
+    middle = np.linspace(-1.0, 1.0, _TRIED)[:, None] * largest
+    slips = np.hypot(microslip + middle, skew)
+    profiles = (slips * pressed).reshape(_TRIED, STATIONS, _SLICES).sum(axis=-1)
+    profiles /= profiles.sum(axis=1, keepdims=True)
+    error = ((profiles - work / work.sum()) ** 2).sum(axis=1)
+    return slips[int(np.argmin(error))]
+
+
+def _years(variables: Mapping[str, np.ndarray]) -> float:
+    if "wear_time" not in variables:
+        return math.nan
+    times = variables["wear_time"][:, :, _TEN_MICROMETRES]
+    return float(np.nanmin(times[..., times.shape[-1] // 2], initial=math.inf)) / YEAR
+
+
+def _missing(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
+    """Why there is no wear; and for how much of the loaded time the law of asperities was out of its range."""
+    if evaluation.boundary_friction <= 0.0:
+        return [_NO_WEAR]
+    if "outside_asperity_range" not in evaluation.result:
+        return []
+    shares = evaluation.result.outside_asperity_range.sel(interface=["inner", "outer"])
+    shares = shares.fillna(0.0).mean(["roller", "interface"])
+    if not bool((shares > 0.0).any()):
+        return []
+    rows = " and ".join(
+        f"{100.0 * float(share):.3g} % in the {share.row.item()} row" for share in shares
+    )
+    return [_LIGHT.format(rows=rows)]
+
+
+def _wear_rate(criteria: xr.Dataset, _: xr.Dataset) -> xr.DataArray | None:
+    if "asperity_work_rate" not in criteria:
+        return None
+    work = criteria.asperity_work_rate.max(["place", "station"], skipna=False)
+    return _MIDDLE_COEFFICIENT * work
+
+
+CRITERIA = (
+    Criterion(
+        order=40,
+        name="wear_time",
+        title="wear: time to 10 µm at the middle k",
+        unit="year",
+        variables=_variables,
+        value=_years,
+        missing=_missing,
+        reference=DESIGN_LIFE,
+        compared_with="design life, IEC 61400",
+        factor=10.0,
+        reason="k, share of asperities",
+        lowest=True,
+        references=(wear.REFERENCE,),
+        yearly=(
+            Yearly(
+                run_name="wear_rate",
+                run_unit="m/s",
+                run_meaning="growth of the deepest wear at k = 1e-17 m2/N, unworn contour",
+                of_run=_wear_rate,
+                name="wear",
+                drawn="max",
+                year_unit="m",
+                year_meaning="depth of wear at k = 1e-17 m2/N, at most",
+                unit="m/year",
+                meaning="wear at k = 1e-17 m²/N, deepest place",
+            ),
+        ),
+    ),
+)
