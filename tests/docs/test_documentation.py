@@ -27,6 +27,7 @@ from macroslip.study.store import Outcome
 from macroslip.study.study_file import KINDS, StudyFile, study_of
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 from macroslip.study.weights import Weibull
+from tools import variables_page
 
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
@@ -225,3 +226,8 @@ def test_readme_for_a_package_index_has_no_link_into_the_repository():
     for one in settings["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]:
         text = re.sub(one["pattern"], one["replacement"], text)
     assert "](" not in text and "bearing_slip" not in text and re.search(r"first\srun", text)
+
+
+def test_variables_of_results_are_those_of_the_table():
+    page = variables_page.PAGE.read_text(encoding="utf-8")
+    assert page == variables_page.with_tables(page), "run python -m tools.variables_page"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from macroslip.result.dataset import _open_books
+from macroslip.result.cage_variables import open_books
 from macroslip.whole.books import FLOWS, STOCKS, Books
 
 
@@ -38,7 +38,7 @@ def books(**flows):
     ],
 )
 def test_a_rest_above_half_a_percent_is_told(flows, words):
-    found = _open_books(books(**flows))
+    found = open_books(books(**flows))
     assert words in found and bool(words) == bool(found)
     assert not found or "smaller integrator.tolerance" in found
 
@@ -46,18 +46,18 @@ def test_a_rest_above_half_a_percent_is_told(flows, words):
 def test_what_the_bearing_holds_is_not_missing():
     found = books(shaft_work=10.0, raceway_loss=4.0)
     found.stocks[1:, STOCKS.index("kinetic_energy")] = 6.0
-    assert _open_books(found) == ""
+    assert open_books(found) == ""
 
 
 def test_friction_that_drives_is_told():
     found = books(shaft_work=100.0, raceway_loss=100.0)
     found.driven = 0.05
-    assert _open_books(found) == ""
+    assert open_books(found) == ""
     found.driven = 0.4
-    assert _open_books(found).startswith(
+    assert open_books(found).startswith(
         "friction gave back 0.4 % of what is dissipated, which it cannot; results"
     )
 
 
 def test_books_that_ended_early_say_nothing():
-    assert _open_books(Books(None, np.array([0.0, 1.0]))) == ""  # the status of its rollers does
+    assert open_books(Books(None, np.array([0.0, 1.0]))) == ""  # the status of its rollers does

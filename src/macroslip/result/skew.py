@@ -22,46 +22,6 @@ if TYPE_CHECKING:
     from macroslip.ring.balance import RingGeometry
     from macroslip.roller.model import RollerModel
 
-_TRACES = ("row", "roller", "time")
-#: Variables of a case with skew.
-VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
-    "skew_energy": (
-        ("row", "roller", "raceway"),
-        "J",
-        "energy in the window beyond that of a straight roller; it is part of the energy, and may be negative",
-    ),
-    "skew_residual": (
-        ("row", "roller"),
-        "N m",
-        "largest moment about the contact normal in the window that neither spar nor stop carries at the rest that was found",
-    ),
-    "stop_energy": (
-        ("row", "roller"),
-        "J",
-        "energy of friction at the two ends of spars that hold a roller at its stop in the window; part of the energy at the cage",
-    ),
-    "frictional_thrust": (
-        ("row",),
-        "N",
-        "mean axial force of a row's rollers on the inner ring by friction and turned normal force in the window, along +Z0",
-    ),
-    "skew_by_position": (("row", "position"), "rad", "mean skew of pressed rollers in the window by place on the orbit"),
-    "axial_force_by_position": (
-        ("row", "position"),
-        "N",
-        "mean axial force of a pressed roller on the inner ring in the window by place on the orbit, along +z'",
-    ),
-    "skew_power_by_position": (
-        ("row", "position"),
-        "W",
-        "mean power of a pressed roller beyond that of a straight one in the window by place on the orbit",
-    ),
-    "skew_angle": (_TRACES, "rad", "skew, turn of the roller's axis about +y'; NaN where the rings do not press it"),
-    "tilt": (_TRACES, "rad", "tilt, turn of the roller's axis about +x; NaN where the rings do not press it"),
-    "axial_force": (_TRACES, "N", "force on the inner ring by friction and turned normal force, along +z'"),
-    "stop_force": (_TRACES, "N", "force of either end of the pocket on a roller at its stop"),
-}  # fmt: skip
-
 
 def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
     """How the rollers of both rows skew; empty without skew. `laws` are the downwind row's."""

@@ -15,15 +15,10 @@ from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.errors import InputError
 from macroslip.imposed.status import Status
 from macroslip.measures.totals import INTERFACES
-from macroslip.result import skew
-from macroslip.result.variables import VARIABLES
+from macroslip.result.variables import TRACES, VARIABLES
 
 REMEDY = "Name files that macroslip run wrote, whole ones; run the case again if need be."
-_TRACES = [
-    name
-    for name, (dims, _, _) in VARIABLES.items()
-    if "time" in dims and "raceway" not in dims and name not in skew.VARIABLES
-]
+_TRACES = [name for name, variable in VARIABLES.items() if variable.when == TRACES]
 #: Largest block [bytes] with one checksum; larger variables are divided by the library.
 _LARGEST_BLOCK = 2**26
 #: Angle of a roller [rad] beyond which there is none: a thousand turns.
@@ -71,9 +66,10 @@ def _names(result: xr.Dataset) -> str:
 
 
 def _kinds(result: xr.Dataset) -> str:
-    for name, (expected, _, _) in VARIABLES.items():
+    for name, variable in VARIABLES.items():
         if name not in result:
             continue
+        expected = variable.dims
         found = tuple(dim for dim in result[name].dims if dim != "case")
         # A selection, of one row for example, has lost that dimension everywhere.
         if found != tuple(dim for dim in expected if dim in result.dims):

@@ -28,41 +28,6 @@ from macroslip.measures.details import (
     Details,
 )
 
-_PLACES = ("row", "raceway", "angle", "station")
-_CLASSES = ("row", "raceway", "film_class", "slip_class")
-#: As `macroslip.result.variables.VARIABLES`.
-VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
-    "surface_energy": (
-        (*_PLACES, "slip_sign", "film_regime"),
-        "J",
-        "energy in the window dissipated at each place of a raceway by all simulated rollers of the row, by the sign of "
-        "local slip and by Lambda",
-    ),
-    "surface_power_density": (
-        _PLACES,
-        "W/m2",
-        "largest frictional power per area at each place of a raceway, mean over the width of the contact",
-    ),
-    "surface_asperity_energy": (
-        _PLACES, "J", "part of the energy at each place of a raceway that asperities dissipate, of all simulated rollers"
-    ),
-    "surface_work": (
-        _PLACES, "J", "pressure times slip over time and area at each place of a raceway, of all simulated rollers: the "
-        "energy in the window that a coefficient of friction of 1 would dissipate",
-    ),
-    "surface_passes": (
-        ("row", "raceway", "angle"),
-        "1",
-        "passes of all simulated rollers over each sector of a raceway in the window, parts of a pass included",
-    ),
-    "working_load": (("row", "raceway"), "N", "mean load of the contacts, weighted by pressure times slip"),
-    "film_slip_time": (
-        _CLASSES, "s", "time under load by Lambda and by slide-roll ratio, times the part of the roller's length that has "
-        "them, of all simulated rollers",
-    ),
-    "film_slip_passes": (_CLASSES, "1", "passes over the ring by Lambda and slide-roll ratio, weighted alike"),
-}  # fmt: skip
-
 
 def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Maps of the rows; NaN for a row with a roller that failed, whose part is missing."""

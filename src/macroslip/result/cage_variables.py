@@ -1,0 +1,120 @@
+"""Variables of cages and pockets of a whole bearing, and its books of momentum and energy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from macroslip.case.case import Case
+from macroslip.imposed.run import Outcome
+from macroslip.imposed.status import Status
+from macroslip.measures.cage import CageMeasures
+from macroslip.whole.books import FLOWS, STOCKS, Books
+
+#: Part of momentum and energy that may be missing in the books of a whole bearing without a word.
+LARGEST_RESIDUAL = 0.005
+#: Part of what is dissipated that friction may seem to give back. What it gives is lost elsewhere, so rows are off by more.
+_LARGEST_GAIN = 0.001
+#: Energy [J] and impulse [N m s] of which no part is missed: those of a bearing at rest are rounding.
+_SLIGHT = 1e-4
+#: Traces of a cage, in the order of `CageMeasures.traces`.
+_CAGE_TRACES = ("cage_speed", "cage_lag", "cage_x", "cage_y", "cage_torque")
+
+
+def cage_values(case: Case, outcome: Outcome, cages: CageMeasures) -> dict[str, Any]:
+    """Values by name of the variables that a whole bearing adds, `WHOLE` and `WHOLE_TRACES` of the table."""
+    values = _pocket_values(case, outcome, cages) | _book_values(cages.books)
+    span, first, second = cages.slip.T
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = first / span
+        variance = second / span - mean * mean
+    values |= {
+        "cage_slip": mean,
+        "cage_slip_deviation": np.sqrt(np.maximum(variance, 0.0)),
+    }
+    if case.traces is not None:
+        values |= _trace_values(case, cages)
+    return values
+
+
+def _pocket_values(case: Case, outcome: Outcome, cages: CageMeasures) -> dict[str, Any]:
+    """Forces of spars over the chosen rollers; NaN where the integration did not complete."""
+    rows = case.bearing.rows
+    count = case.bearing.rollers_per_row
+
+    def by_roller(values: np.ndarray) -> np.ndarray:
+        every = np.array(values, dtype=float).reshape(rows, count, *values.shape[1:])
+        chosen = every[:, list(case.roller_numbers)]
+        return chosen if outcome.status == Status.COMPLETED else np.full_like(chosen, np.nan)
+
+    by_place = cages.largest_by_place.reshape(rows, count, -1)
+    return {
+        "pocket_impulse": by_roller(cages.impulse),
+        "largest_pocket_force": by_roller(cages.largest),
+        "pocket_contact_time": by_roller(cages.time),
+        "largest_force_by_position": by_place.max(axis=1),
+    }
+
+
+def _book_values(books: Books) -> dict[str, Any]:
+    columns = zip((*STOCKS, *FLOWS), (*books.stocks.T, *books.flows.T), strict=True)
+    return {f"book_{name}": column for name, column in columns} | {
+        "momentum_residual": books.momentum_residual(),
+        "energy_residual": books.energy_residual(),
+        "pocket_loss": books.pocket_loss(),
+    }
+
+
+def _trace_values(case: Case, cages: CageMeasures) -> dict[str, Any]:
+    shape = (-1, case.bearing.rows, case.bearing.rollers_per_row)
+
+    def over_time(values: np.ndarray) -> np.ndarray:
+        return np.moveaxis(values.reshape(shape)[:, :, list(case.roller_numbers)], 0, -1)
+
+    offset = cages.offset.reshape(shape)
+    spacing = np.roll(offset, -1, axis=2) - offset
+    return {
+        "pocket_offset": over_time(cages.offset),
+        "orbit_speed_deviation": over_time(cages.deviation),
+        "spacing_deviation": over_time(spacing),
+    } | dict(zip(_CAGE_TRACES, np.moveaxis(cages.traces, -1, 0).swapaxes(1, 2), strict=True))
+
+
+def open_books(books: Books) -> str:
+    """A sentence where more of momentum or energy is missing than `LARGEST_RESIDUAL`, or friction drives; or empty.
+
+    Energy is compared with what was dissipated by the end, momentum with the impulse of one kind that was largest.
+    """
+    flows = {name: np.abs(books.flows[:, k]) for k, name in enumerate(FLOWS)}
+    losses = ("raceway_loss", "friction_loss", "guide_loss")
+    dissipated = sum(flows[name][-1] for name in losses) + books.pocket_loss()[-1]
+    impulses = [values.max() for name, values in flows.items() if name.endswith("_impulse")]
+    residuals = (
+        ("energy", books.energy_residual(), dissipated, "what is dissipated"),
+        (
+            "angular momentum",
+            books.momentum_residual(),
+            max(impulses),
+            "what passes through the bearing",
+        ),
+    )
+    missing = []
+    for quantity, residual, whole, of in residuals:
+        share = np.abs(residual).max() / max(whole, _SLIGHT)
+        if share > LARGEST_RESIDUAL:
+            missing.append(f"{quantity} to {100.0 * share:.2g} % of {of}")
+    sentences = []
+    if missing:
+        sentences.append(f"the books close {' and '.join(missing)}, where 0.5 % is good")
+    gain = books.driven / max(dissipated, _SLIGHT)
+    if gain > _LARGEST_GAIN:
+        sentences.append(
+            f"friction gave back {100.0 * gain:.2g} % of what is dissipated, which it cannot"
+        )
+    if not sentences:
+        return ""
+    return (
+        f"{'; '.join(sentences)}; results may be off by several times that. Compute again with a smaller "
+        "integrator.tolerance."
+    )
