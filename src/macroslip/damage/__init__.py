@@ -1,1 +1,1 @@
-"""Criteria of damage by slip, each with its source: smearing, friction energy, micropitting, wear."""
+"""Formulas of damage by slip: smearing, friction energy, micropitting, wear."""

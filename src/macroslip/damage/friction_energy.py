@@ -1,6 +1,7 @@
-"""Power and accumulated energy of pressure times slip, as tests for white etching cracks are judged, beside such a test.
+"""Power and energy of pressure times slip, as tests for white etching cracks are judged.
 
-What counts is p |v|, without a coefficient of friction: e_a = ∫ p |v| dt of a pass over the time between passes.
+What counts is p |v|, without a coefficient of friction: e_a = ∫ p |v| dt of a pass over the time
+between passes.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ REFERENCE = "FE8 test with washers 81212, 60 kN, 750 rpm, 20 h; slip from its ge
 def pass_work(load_per_length, slip, speed):
     """∫ p |v| dt over one pass [J/m²], w |v|/u, with slip the same all along the chord that passes.
 
-    Of the chord's load per length w [N/m], slip v, any sign, and the speed u > 0 with which the contact passes over the
+    Of the chord's load per length w [N/m], slip v, any sign, and the speed u > 0 with which the
+    contact passes over the
     surface [m/s].
 
     Examples
@@ -43,9 +45,11 @@ def friction_power(work, passes_per_second):
 
 @dataclass(frozen=True)
 class ThrustTest:
-    """A test with a cylindrical roller thrust bearing, whose slip geometry imposes; by default FE8 with washers 81212.
+    """A test with a cylindrical roller thrust bearing; by default FE8 with washers 81212.
 
-    The shaft's washer turns at Ω and the cage at Ω/2, so that a roller slips on either washer by v = (Ω/2) ζ, ζ from its middle.
+    Its slip is imposed by geometry: the shaft's washer turns at Ω and the cage at Ω/2, so that a
+    roller slips on either washer by v
+    = (Ω/2) ζ, ζ from its middle.
     Number and size of the rollers are engineering estimates; the result hardly depends on them.
     """
 
@@ -62,12 +66,14 @@ class ThrustTest:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Places along the roller [m], outwards, and e_a of a washer there [W/m²].
 
-        The load is even along the roller (`uniform`), or that of ISO/TS 16281's `logarithmic` profile, 0.00035 D ln
+        The load is even along the roller (`uniform`), or that of ISO/TS 16281's `logarithmic`
+        profile, 0.00035 D ln
         1/(1 − (2ζ/L)²), with its slices of 35 948 N/mm per mm^(10/9) made linear at the mean load.
 
         Examples
         --------
-        At the middle of the washer's track F Ω/(8 π R) whatever the roller, and up to 5.6 W/mm² at its inner end:
+        At the middle of the washer's track F Ω/(8 π R) whatever the roller, and up to 5.6 W/mm² at
+        its inner end:
 
         >>> test = ThrustTest()
         >>> place, power = test.power()

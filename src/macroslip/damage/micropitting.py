@@ -1,4 +1,4 @@
-"""Mixed film and micropitting: how long, and for how many passes, films are thin, with the sign of slip."""
+"""Micropitting: how long, and for how many passes, films are thin, with the sign of slip."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 REFERENCES = (
-    "Rycerz and Kadiric, Tribol. Lett. 67 (2019) 63, doi:10.1007/s11249-019-1174-7: more with the slide-roll ratio at equal film "
+    "Rycerz and Kadiric, Tribol. Lett. 67 (2019) 63, doi:10.1007/s11249-019-1174-7: more with the "
+    "slide-roll ratio at equal film "
     "ratio, and on the surface that is slower",
 )
 
@@ -16,9 +17,10 @@ REFERENCES = (
 def share_below(
     amounts: ArrayLike, edges: Sequence[float], film_ratio: float
 ) -> NDArray[np.float64]:
-    """Share [-] of time, or of passes, in films thinner than a film ratio; NaN where there is nothing.
+    """Share [-] of time or passes in films thinner than a film ratio; NaN where there is none.
 
-    Of amounts over (..., class of Λ, class of slip); the film ratio is one of the upper edges of the classes of Λ.
+    Of amounts over (..., class of Λ, class of slip); the film ratio is one of the upper edges of
+    the classes of Λ.
 
     Examples
     --------
@@ -33,9 +35,10 @@ def share_below(
 
 
 def slower_share(amounts: ArrayLike, edges: Sequence[float]) -> NDArray[np.float64]:
-    """Share [-] of time, or of passes, with the ring the slower surface; at a place the roller's is the rest.
+    """Share [-] of time, or of passes, with the ring the slower surface; the rest is the roller's.
 
-    Of amounts over (..., class of the slide-roll ratio, ring less roller), whose upper edges but the last hold 0.
+    Of amounts over (..., class of the slide-roll ratio, ring less roller), whose upper edges but
+    the last hold 0.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Wear by Archard's law where asperities slide, and how the worn profile spreads the pressure along the roller."""
+"""Wear by Archard's law where asperities slide, and how a worn profile spreads the pressure."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 REFERENCE = "Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448"
-#: Wear of steel in a lubricated contact per work of asperities' pressure times slip [m²/N]: the range over which rigs scatter.
+#: Wear of steel in a lubricated contact per work of asperities' pressure times slip [m²/N]: the
+#: range over which rigs scatter.
 COEFFICIENTS = (1e-18, 1e-17, 1e-16)
 #: Depths whose time is told, and the depth after which the pressure is found anew [m].
-DEPTHS, STEP = (1e-6, 1e-5, 1e-4), 1e-6
+DEPTHS = (1e-6, 1e-5, 1e-4)
+STEP = 1e-6
 #: Steps after which bodies that hardly wear are given up.
 _MOST_STEPS = 2000
 
@@ -20,17 +22,21 @@ _Array = NDArray[np.float64]
 
 
 def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float) -> _Array:
-    """Volume k E/µ_b [m³] that wears where asperities dissipate E, or with E per area the depth [m].
+    """Volume k E/µ_b [m³] that wears where asperities dissipate E; with E per area the depth [m].
 
-    Asperities dissipate µ_b p |v| of the area that they carry, so E/µ_b is their pressure times slip over time and area. Where
-    slip is too slow for them to slide, they dissipate and wear less. k [m²/N] is the dimensionless coefficient over
+    Asperities dissipate µ_b p |v| of the area that they carry, so E/µ_b is their pressure times
+    slip over time and area. Where
+    slip is too slow for them to slide, they dissipate and wear less. k [m²/N] is the dimensionless
+    coefficient over
     hardness, µ_b > 0 the boundary friction [-], and E in J or J/m².
 
-    Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448. Each of the two surfaces wears by k.
+    Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448. Each of the two surfaces wears by
+    k.
 
     Examples
     --------
-    A pass with p v of 1.15e4 J/m² fully on asperities, 5.21 times a second for a year of 365 days, at k = 1e-17 m²/N:
+    A pass with p v of 1.15e4 J/m² fully on asperities, 5.21 times a second for a year of 365 days,
+    at k = 1e-17 m²/N:
 
     >>> round(float(worn_volume(1e-17, 0.1 * 1.15e4 * 5.21 * 3.1536e7, 0.1)) * 1e6, 1)
     18.9
@@ -39,12 +45,14 @@ def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float)
 
 
 def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> _Array:
-    """Load per length of slices that press a roller like springs side by side, w = c (δ − gap) where positive [N/m].
+    """Load per length of slices that press a roller like springs, w = c (δ − gap) ≥ 0 [N/m].
 
-    Of the gap of each slice where the roller just touches [m], its contour and what has worn; the sum of the slices'
+    Of the gap of each slice where the roller just touches [m], its contour and what has worn; the
+    sum of the slices'
     loads, not negative [N], from which δ follows; c [Pa]; and the width of a slice [m].
 
-    Neighbours do not hold each other, as they do in a half-space: a groove narrower than the contact is long loses its load a
+    Neighbours do not hold each other, as they do in a half-space: a groove narrower than the
+    contact is long loses its load a
     little too fast. With c of `hertz_slices` the unworn contour carries Hertz' load per length.
 
     Examples
@@ -108,12 +116,14 @@ class Worn(NamedTuple):
 
 
 def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DEPTHS[-1]) -> Worn:
-    """Wear of both raceways and the roller, with the pressure found anew after every `STEP` of the deepest slice.
+    """Wear of both raceways and the roller, with the pressure found anew after every `STEP`.
 
-    The roller wears in both contacts, and its worn profile counts in both. `width` is that of a slice, `deepest` the
+    The roller wears in both contacts, and its worn profile counts in both. `width` is that of a
+    slice, `deepest` the
     depth at which every body that wears is done [m].
 
-    dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves the lines of pure rolling, it
+    dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves
+    the lines of pure rolling, it
     does not follow.
 
     Examples
@@ -124,7 +134,9 @@ def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DE
     [2e-09, 2e-09, 2.5e-09]
     """
     depth = np.zeros((3, contacts[0].contour.size))
-    work, depths, followed = [0.0], [depth], 0.0
+    work = [0.0]
+    depths = [depth]
+    followed = 0.0
     rings = np.array([bool(one.ring * one.load) for one in contacts])
     wears = np.append(rings, any(one.roller * one.load for one in contacts))
     while wears.any() and len(work) < _MOST_STEPS and (depth.max(axis=-1)[wears] < deepest).any():

@@ -14,16 +14,18 @@ from macroslip.whole.books import FLOWS, STOCKS, Books
 
 #: Part of momentum and energy that may be missing in the books of a whole bearing without a word.
 LARGEST_RESIDUAL = 0.005
-#: Part of what is dissipated that friction may seem to give back. What it gives is lost elsewhere, so rows are off by more.
+#: Part of what is dissipated that friction may seem to give back. What it gives is lost elsewhere,
+#: so rows are off by more.
 _LARGEST_GAIN = 0.001
-#: Energy [J] and impulse [N m s] of which no part is missed: those of a bearing at rest are rounding.
+#: Energy [J] and impulse [N m s] of which no part is missed: those of a bearing at rest are
+#: rounding.
 _SLIGHT = 1e-4
 #: Traces of a cage, in the order of `CageMeasures.traces`.
 _CAGE_TRACES = ("cage_speed", "cage_lag", "cage_x", "cage_y", "cage_torque")
 
 
 def cage_values(case: Case, outcome: Outcome, cages: CageMeasures) -> dict[str, Any]:
-    """Values by name of the variables that a whole bearing adds, `WHOLE` and `WHOLE_TRACES` of the table."""
+    """Values by name of the variables that a whole bearing adds."""
     values = _pocket_values(case, outcome, cages) | _book_values(cages.books)
     span, first, second = cages.slip.T
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -82,9 +84,11 @@ def _trace_values(case: Case, cages: CageMeasures) -> dict[str, Any]:
 
 
 def open_books(books: Books) -> str:
-    """A sentence where more of momentum or energy is missing than `LARGEST_RESIDUAL`, or friction drives; or empty.
+    """A sentence where momentum or energy is missing, or friction drives; empty otherwise.
 
-    Energy is compared with what was dissipated by the end, momentum with the impulse of one kind that was largest.
+    More than `LARGEST_RESIDUAL` is told. Energy is compared with what was dissipated by the end,
+    momentum with the impulse of one kind
+    that was largest.
     """
     flows = {name: np.abs(books.flows[:, k]) for k, name in enumerate(FLOWS)}
     losses = ("raceway_loss", "friction_loss", "guide_loss")
@@ -115,6 +119,6 @@ def open_books(books: Books) -> str:
     if not sentences:
         return ""
     return (
-        f"{'; '.join(sentences)}; results may be off by several times that. Compute again with a smaller "
-        "integrator.tolerance."
+        f"{'; '.join(sentences)}; results may be off by several times that. "
+        "Compute again with a smaller integrator.tolerance."
     )

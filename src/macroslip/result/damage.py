@@ -21,15 +21,19 @@ from macroslip.result.run_input import run_input, stored_settings
 from macroslip.result.variables import described
 
 _NO_DETAILS = (
-    "The result keeps no details of its contacts, from which damage is computed: it needs laws with microslip or asperities, such "
+    "The result keeps no details of its contacts, from which damage is computed: it needs laws "
+    "with microslip or asperities, such "
     "as laws: {model: physical}, with contact_details: true; of a study, keep has to name them."
 )
 _FEW_ROLLERS = (
-    "Of {all} rollers a row {some} were simulated, {reason}: values at the outer raceway may be off by several times, because "
-    "what lasts a short time falls on the few places where these rollers are. Leave rollers away to compute all."
+    "Of {all} rollers a row {some} were simulated, {reason}: values at the outer raceway may be "
+    "off by several times, because "
+    "what lasts a short time falls on the few places where these rollers are. Leave rollers away "
+    "to compute all."
 )
 _NO_ORBIT = (
-    "No roller completed an orbit in the window, so nothing is said of a year like it: energies and wear of a part of an orbit "
+    "No roller completed an orbit in the window, so nothing is said of a year like it: energies "
+    "and wear of a part of an orbit "
     "depend on where the rollers were. Give loads that last for some orbits."
 )
 #: Columns of a line of the answer, in their order.
@@ -64,18 +68,22 @@ def damage(
     hardness : float, optional
         Hardness [Pa], with which the coefficients are dimensionless, and k is they over it.
     thresholds : mapping, optional
-        Your own thresholds by the name of the criterion, each with its source, in place of a reference.
+        Your own thresholds by the name of the criterion, each with its source, in place of a
+        reference.
 
     Returns
     -------
     xarray.Dataset
-        Rates per second over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`, and
-        as coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
+        Rates per second over row, place and station; over `criterion` the worst `value`, its
+        `reference` and `ratio`, and
+        as coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is
+        missing, and why.
 
     Raises
     ------
     InputError
-        If the result keeps no details; if wear is asked for where no asperities were chosen; for a criterion that does
+        If the result keeps no details; if wear is asked for where no asperities were chosen; for a
+        criterion that does
         not exist, or numbers out of range.
     """
     if "surface_work" not in result:
@@ -134,7 +142,8 @@ def _coefficients(given: Sequence[float] | None, hardness: float | None) -> list
         raise InputError(
             f"the wear coefficients are {coefficients}, the hardness {hardness}",
             where="wear",
-            allowed="rising numbers above 0 in m²/N; with a hardness above 0 in Pa they are dimensionless",
+            allowed="rising numbers above 0 in m²/N; with a hardness above 0 in Pa they are "
+            "dimensionless",
         )
     if hardness is None:
         return coefficients
@@ -202,7 +211,9 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
 
     coefficients = evaluation.wear_coefficients
     compared = [compared_with(one.name, one.compared_with) for one in CRITERIA]
-    low, high, rig = LEAST_POWER, LARGEST_POWER, smearing.RIG_SLIDE_ROLL_RATIO
+    low = LEAST_POWER
+    high = LARGEST_POWER
+    rig = smearing.RIG_SLIDE_ROLL_RATIO
     return {
         "row": result.row,
         "place": list(PLACES),
@@ -232,7 +243,7 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
 
 
 def lines(result: xr.Dataset) -> tuple[list[dict[str, Any]], list[str]]:
-    """The answer of a result: one dictionary a criterion that was computed, and sentences on what is missing."""
+    """The answer of a result: a dictionary for each criterion, and sentences on what is missing."""
     if "surface_work" not in result:
         return [], [_NO_DETAILS]
     if not stored_settings(result):

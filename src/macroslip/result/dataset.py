@@ -1,9 +1,13 @@
 """The result of a case as a labelled dataset.
 
-Dimensions: `row` (downwind, upwind), `roller`, `interface` (inner, outer, cage), `orbit` (complete orbits in the window)
-and, with traces, `time`. Contacts with microslip or asperities add `raceway` (inner, outer), `mechanism`,
-`station`; their maps of the raceways add `angle`, `slip_sign` and `film_regime`. The whole bearing adds `cage` (both, or
-downwind and upwind), `side` of the pocket (front, rear), `position` on the orbit, and `book_time`, at which the books of
+Dimensions: `row` (downwind, upwind), `roller`, `interface` (inner, outer, cage), `orbit` (complete
+orbits in the window)
+and, with traces, `time`. Contacts with microslip or asperities add `raceway` (inner, outer),
+`mechanism`,
+`station`; their maps of the raceways add `angle`, `slip_sign` and `film_regime`. The whole bearing
+adds `cage` (both, or
+downwind and upwind), `side` of the pocket (front, rear), `position` on the orbit, and `book_time`,
+at which the books of
 momentum and energy are closed.
 """
 
@@ -51,7 +55,10 @@ CITATIONS = (
     "Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing",
     "Johnson, Contact Mechanics, Cambridge University Press (1985), doi:10.1017/CBO9781139171731",
 )
-_RADAU = "Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), doi:10.1007/978-3-642-05221-7"
+_RADAU = (
+    "Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), "
+    "doi:10.1007/978-3-642-05221-7"
+)
 _SDIRK = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068"
 _TIME = {"units": "s", "long_name": "time"}
 #: Counts of an integrator by name of the variable, and their fields of an `Outcome`.
@@ -88,7 +95,8 @@ def to_dataset(
     Returns
     -------
     xarray.Dataset
-        Every variable has `units` and `long_name`; the attributes hold the full input, the version and the works cited.
+        Every variable has `units` and `long_name`; the attributes hold the full input, the version
+        and the works cited.
     """
     method = [_RADAU] if isinstance(ready.case.integrator, Radau) else []
     table = _by_row(ready.case, results)
@@ -313,7 +321,7 @@ def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
 def roller_coordinates(
     case: Case, edges: np.ndarray, *, curved: bool, raceways: bool
 ) -> dict[str, Any]:
-    """Rows, rollers, interfaces and orbits, and places and mechanisms where contacts distinguish them."""
+    """Rows, rollers, interfaces and orbits; places and mechanisms where contacts have them."""
     numbers = list(case.roller_numbers)
     angles = np.array(
         [

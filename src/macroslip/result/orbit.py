@@ -1,6 +1,7 @@
-"""Where on their orbit rollers are loaded, slip and lose energy, and how thick their films are, from a run's traces.
+"""Where on their orbit rollers are loaded, slip and lose energy, from a run's traces.
 
-Angles count from the bottom along the orbit of a shaft that turns forward; 180 degrees is the top. All functions need
+Angles count from the bottom along the orbit of a shaft that turns forward; 180 degrees is the top.
+All functions need
 traces from the first sample of the loads on, and raise InputError as `position` does.
 """
 
@@ -16,9 +17,11 @@ from macroslip.errors import InputError
 from macroslip.result.run_input import run_input
 
 #: Sectors of the orbit, 5 degrees each, and most samples of time from which quantiles are taken.
-SECTORS, _QUANTILE_SAMPLES = 72, 2400
+SECTORS = 72
+_QUANTILE_SAMPLES = 2400
 #: Most samples of a scene, and the least time between them [s].
-SCENE_SAMPLES, SCENE_STEP = 2400, 0.05
+SCENE_SAMPLES = 2400
+SCENE_STEP = 0.05
 _ORDER = ("row", "roller", "time")
 _ANGLE = {"units": "degree", "long_name": "angle from the bottom along the orbit"}
 
@@ -26,7 +29,8 @@ _ANGLE = {"units": "degree", "long_name": "angle from the bottom along the orbit
 def position(result: xr.Dataset) -> xr.DataArray:
     """Angle of every roller [degrees, 0 to 360] over (row, roller, time).
 
-    Raises InputError if there are no traces, they begin after the loads, where the rollers' places are not known, or no
+    Raises InputError if there are no traces, they begin after the loads, where the rollers' places
+    are not known, or no
     roller completed.
     """
     if "time" not in result.dims or not result.sizes["time"]:
@@ -37,7 +41,8 @@ def position(result: xr.Dataset) -> xr.DataArray:
     loads = run_input(result).settings["loads"]
     if abs(float(result.time[0]) - float(loads["start"])) > 1e-9:
         raise InputError(
-            f"the traces begin at {float(result.time[0]):g} s, after the loads' {loads['start']:g} s, and where the "
+            f"the traces begin at {float(result.time[0]):g} s, after the loads' {loads['start']:g} s, "
+            "and where the "
             "rollers are then is not in the result",
             remedy="Leave traces.start away.",
         )
@@ -47,7 +52,7 @@ def position(result: xr.Dataset) -> xr.DataArray:
 
 
 def travelled(result: xr.Dataset) -> np.ndarray:
-    """Angle [rad], with its sign, that all rollers have travelled since the traces begin, at each of their times."""
+    """Signed angle [rad] that all rollers have travelled since the traces begin, by time."""
     whole = np.isfinite(result.spin_pure.values).all(axis=-1)
     if not whole.any():
         raise InputError("no roller completed, so that nothing is known of the orbit")
@@ -75,12 +80,16 @@ def _sectors(angle: xr.DataArray, sectors: int) -> np.ndarray:
 
 
 def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArray:
-    """Frictional energy per orbit of a roller and per degree [J/degree], mean over the row's rollers that completed.
+    """Frictional energy per orbit and degree [J/degree], mean over the rollers that completed.
 
-    Over (row, interface, angle), the angle being the middle of the sector. The sum over the sectors times their width
-    is the energy per orbit, within what the traces' samples resolve; sectors that are passed more often than others,
-    because orbits are no whole number, count as if all were passed equally often. The attribute `energy_ratio` holds
-    energy from the traces over the integrator's own, both rows and all interfaces, `orbits` how many were made.
+    Over (row, interface, angle), the angle being the middle of the sector. The sum over the sectors
+    times their width
+    is the energy per orbit, within what the traces' samples resolve; sectors that are passed more
+    often than others,
+    because orbits are no whole number, count as if all were passed equally often. The attribute
+    `energy_ratio` holds
+    energy from the traces over the integrator's own, both rows and all interfaces, `orbits` how
+    many were made.
     """
     angle = position(result)
     window = in_window(result)
@@ -91,10 +100,12 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
     power = window.power.transpose(*_ORDER, "interface").values
     angles = travelled(result)[np.isin(result.time.values, window.time.values)]
     orbits = np.ptp(angles) / (2.0 * np.pi)
-    seconds, way = np.gradient(window.time.values), np.abs(np.gradient(angles))
+    seconds = np.gradient(window.time.values)
+    way = np.abs(np.gradient(angles))
     for weights in (seconds, way):
         weights[[0, -1]] *= 0.5  # trapezoids
-    good, sector = (result.status == 0).values, _sectors(angle.sel(time=window.time), sectors)
+    good = (result.status == 0).values
+    sector = _sectors(angle.sel(time=window.time), sectors)
     values = np.full((result.sizes["row"], result.sizes["interface"], sectors), np.nan)
     for r in np.flatnonzero(good.any(axis=1) & (orbits > 0.0)):
         rollers = int(good[r].sum())
@@ -105,7 +116,8 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
             per_way = np.divide(total, passed, out=np.zeros(sectors), where=passed > 0.0)
             shape = per_way / max(per_way.sum(), np.finfo(float).tiny)
             values[r, i] = shape * total.sum() / (rollers * orbits * 360.0 / sectors)
-    traced, integrated = (power[good] * seconds[:, None]).sum(), result.energy.values[good].sum()
+    traced = (power[good] * seconds[:, None]).sum()
+    integrated = result.energy.values[good].sum()
     about = {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit"}
     about |= {
         "energy_ratio": float(traced / integrated) if integrated else math.nan,
@@ -116,9 +128,10 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
 
 
 def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) -> xr.DataArray:
-    """Roller load [N] over (row, time, angle): at each time the rollers' loads, interpolated between neighbours.
+    """Roller load [N] over (row, time, angle), interpolated between neighbouring rollers.
 
-    The load is given at as many angles as there are sectors, and at `samples` evenly spaced times at most.
+    The load is given at as many angles as there are sectors, and at `samples` evenly spaced times
+    at most.
     """
     angles = position(result)
     every = slice(None, None, max(1, math.ceil(angles.sizes["time"] / samples)))
@@ -141,7 +154,8 @@ def over_orbit(
 ) -> xr.DataArray:
     """Quantiles of a traced quantity over all rollers and times, by sector of the orbit.
 
-    Of values over (row, roller, time, interface) and angles [degrees] over (row, roller, time) come quantiles over
+    Of values over (row, roller, time, interface) and angles [degrees] over (row, roller, time) come
+    quantiles over
     (row, interface, quantile, angle), NaN where a sector holds no value.
     """
     found = np.full(
@@ -169,8 +183,10 @@ def over_orbit(
 def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
     """Averages over traces that a report shows of one result.
 
-    "result" is the result without its traces; "orbit" has `energy_over_orbit`, and quantiles of film_thickness [m] and
-    film_parameter [1] over (row, interface, quantile, angle), and of slip over the speed of the raceways [1]; the
+    "result" is the result without its traces; "orbit" has `energy_over_orbit`, and quantiles of
+    film_thickness [m] and
+    film_parameter [1] over (row, interface, quantile, angle), and of slip over the speed of the
+    raceways [1]; the
     others are "load_zone", "scene" and "still".
     """
     orbit = energy_over_orbit(result).to_dataset()
@@ -201,10 +217,12 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
 def still(result: xr.Dataset) -> xr.Dataset:
     """The bearing at the moment of the largest frictional power in the traces.
 
-    Over (row, roller): angle [degrees], slip [1] over the speed of the raceways, 1 for a roller that does not spin, and
+    Over (row, roller): angle [degrees], slip [1] over the speed of the raceways, 1 for a roller
+    that does not spin, and
     roller_load [N].
     """
-    angle, power = position(result), in_window(result).power.sum("interface").max(("row", "roller"))
+    angle = position(result)
+    power = in_window(result).power.sum("interface").max(("row", "roller"))
     one = result.sel(time=power.time[int(power.argmax("time"))])
     values = {"angle": angle.sel(time=one.time), "slip": 1.0 - one.spin / one.spin_pure}
     return xr.Dataset(values | {"roller_load": one.roller_load})
@@ -213,14 +231,19 @@ def still(result: xr.Dataset) -> xr.Dataset:
 def scene(
     result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCENE_STEP
 ) -> xr.Dataset:
-    """A part of the traces to be played, around the largest power: at most `samples`, at least `step` [s] apart.
+    """A part of the traces to be played, around the largest power.
 
-    Over (row, roller, time), as 32-bit numbers: slip [m/s], roller_load [N] and power [W], summed over the interfaces,
-    at the instant; and angle [degrees] of the rollers at the first kept time over (row, roller), and travelled
-    [degrees] since then over (time). Where pockets were computed also cage_force [N], pocket_offset [m], and cage_lead
+    At most `samples`, at least `step` [s] apart, over (row, roller, time), as 32-bit numbers: slip
+    [m/s], roller_load [N] and power [W], summed
+    over the interfaces,
+    at the instant; and angle [degrees] of the rollers at the first kept time over (row, roller),
+    and travelled
+    [degrees] since then over (time). Where pockets were computed also cage_force [N], pocket_offset
+    [m], and cage_lead
     [degrees], by which a cage is ahead of pure rolling, over (row, time).
     """
-    angle, turned = position(result), np.degrees(travelled(result))
+    angle = position(result)
+    turned = np.degrees(travelled(result))
     every = slice(
         None, None, max(1, round(step / float(np.median(np.diff(result.time.values)))))
     )  # two samples at least
@@ -251,8 +274,6 @@ def scene(
             {"units": "degree", "long_name": "cage ahead of pure rolling"},
         )
     found["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
-    moved, about = (
-        turned[every][part],
-        {"units": "degree", "long_name": "angle travelled since the start"},
-    )
+    moved = turned[every][part]
+    about = {"units": "degree", "long_name": "angle travelled since the start"}
     return found.assign(travelled=("time", moved - moved[0], about))

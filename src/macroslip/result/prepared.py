@@ -1,4 +1,4 @@
-"""A case made ready once: loads at the bearing, motion of the ring, rollers, and the times that matter."""
+"""A case made ready once: loads at the bearing, motion of the ring, rollers, and times."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ from macroslip.roller.model import RollerModel, TableReport, body_force, ring_ge
 
 #: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
 _MOST_SAMPLES = 10_000_000
-#: Times that the ring is balanced again with the forces of skewed rollers. Of the largest load, 5e-5 is left then where spars
+#: Times that the ring is balanced again with the forces of skewed rollers. Of the largest load,
+#: 5e-5 is left then where spars
 #: press, 1e-3 where nothing but the stop holds rollers (14B and 24A, 20 s).
 _BALANCED = 3
 #: Tolerance for which tables are made where the integrator has a fixed step.
@@ -56,7 +57,9 @@ class Prepared:
 
     def drag_power(self) -> float:
         """Mean power of the lubricant's drag (24) on all rollers in the window [W]."""
-        motion, model, start = self.motion, self.model, self.edges[0]
+        motion = self.motion
+        model = self.model
+        start = self.edges[0]
         inside = (motion.time > start) & (motion.time < self.end)
         time = np.concatenate([[start], motion.time[inside], [self.end]])
         speed = np.abs(model.orbit_ratio * np.interp(time, motion.time, motion.shaft_speed))
@@ -65,7 +68,7 @@ class Prepared:
         return rollers * float(np.trapezoid(power, time)) / (self.end - start)
 
     def notes(self, tables: TableReport) -> dict[str, Any]:
-        """Attributes on films out of range, on contacts cut off at the roller's ends, and on the tables in use."""
+        """Attributes on films out of range, contacts cut off at the roller's ends, and tables."""
         case = self.case
         # Of some hundred samples.
         few = Motion(*(values[:: max(1, self.motion.time.size // 200)] for values in self.motion))
@@ -90,7 +93,8 @@ class Prepared:
 def prepare(case: Case) -> Prepared:
     """Make a case ready.
 
-    Raises InputError if a roller's load truncates its contact ellipse, or a law does not exist or breaks what laws have
+    Raises InputError if a roller's load truncates its contact ellipse, or a law does not exist or
+    breaks what laws have
     to fulfil.
     """
     loads = case.ring_loads
@@ -147,7 +151,8 @@ def prepare(case: Case) -> Prepared:
 
 def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> np.ndarray:
     """Start of the window and ends of the orbits completed in it [s]."""
-    time, speed = motion.time, motion.shaft_speed
+    time = motion.time
+    speed = motion.shaft_speed
     # A time that is known exactly stays as it is, and the end of an orbit there takes it over.
     known = np.union1d(time, [end])
     if case.window.start is not None:
@@ -158,7 +163,8 @@ def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> 
         time = np.concatenate([[start], time[late]])
     completed = merged_times(orbit_times(time, speed, orbit_ratio), known)
     completed = completed[completed <= end]
-    # The first orbit belongs to the rollers' start; of an event, what happens in it belongs to the event.
+    # The first orbit belongs to the rollers' start; of an event, what happens in it belongs to the
+    # event.
     opens_late = case.window.start is None and not case.loads.event
     start = completed[0] if opens_late and completed.size and completed[0] < end else time[0]
     return np.concatenate([[start], completed[completed > start]])

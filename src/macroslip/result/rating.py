@@ -20,7 +20,8 @@ _EVERY = 5
 def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, NDArray]:
     """Elastic load of every roller at every fifth sample of the ring balance between two times [s].
 
-    Returns m times [s] and loads [N] of shape (m, 2, rollers), by time, row and roller. Raises InputError as
+    Returns m times [s] and loads [N] of shape (m, 2, rollers), by time, row and roller. Raises
+    InputError as
     `macroslip.rating.roller_load_history`.
     """
     loads, found = roller_load_history(case.bearing, case.oil, case.ring_loads)
@@ -29,9 +30,10 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
 
 
 def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset:
-    """Rate the main bearing of a case over all of its loads: safety, lives, pressures, film, minimum load, spectra.
+    """Rate the main bearing of a case over all of its loads.
 
-    As `macroslip.rating.rate` with the contamination factor e_C [-]; the case's laws and window do not matter, since a
+    As `macroslip.rating.rate` with the contamination factor e_C [-]; the case's laws and window do
+    not matter, since a
     rating depends only on loads, speed and viscosity.
 
     Examples
@@ -46,9 +48,10 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
 
 
 def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:
-    """The result of a case with the variables of `macroslip.rating.rate`; as it is with `rating: false`.
+    """The result with the variables of `macroslip.rating.rate`; as it is with `rating: false`.
 
-    The attributes `rating_contamination` and `rating_film_law` are added. A bearing that lacks what a rating needs has
+    The attributes `rating_contamination` and `rating_film_law` are added. A bearing that lacks what
+    a rating needs has
     the reason in the attribute `rating_problem` instead.
     """
     if not case.rating:

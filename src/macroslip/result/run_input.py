@@ -19,7 +19,7 @@ from macroslip.roller.model import RollerModel, roller_model
 
 
 class RunInput:
-    """The input of a result: its `settings`, the case as the attribute `input` holds it, its bearing and its rollers."""
+    """The input of a result: its bearing, its rollers, and `settings`, its attribute `input`."""
 
     def __init__(self, settings: dict[str, Any], rows: list[str]):
         self.settings = settings

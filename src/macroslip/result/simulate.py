@@ -1,4 +1,4 @@
-"""From a case to its results: it is made ready once, then every roller on its own, or the whole bearing at once."""
+"""From a case to its results: every roller on its own, or the whole bearing at once."""
 
 from __future__ import annotations
 
@@ -41,15 +41,18 @@ def simulate(
     ----------
     case : Case
     threads : int, optional
-        Threads over rollers; the number of usable processors by default. Results do not depend on it.
+        Threads over rollers; the number of usable processors by default. Results do not depend on
+        it.
     progress : callable, optional
-        Called as progress(done, total) whenever rollers are done, and twice a second meanwhile; the rollers of a whole
+        Called as progress(done, total) whenever rollers are done, and twice a second meanwhile; the
+        rollers of a whole
         bearing are done together. An exception in it ends the simulation.
 
     Returns
     -------
     xarray.Dataset
-        See `macroslip.result.dataset`. A roller whose integration failed has a `status` other than 0 and NaN results.
+        See `macroslip.result.dataset`. A roller whose integration failed has a `status` other than
+        0 and NaN results.
 
     Raises
     ------
@@ -69,7 +72,10 @@ def simulate(
     ready = prepare(case)
     whole = case.dynamics == WHOLE_BEARING
     wanted = Wanted(
-        ready.edges, ready.highest_speed, ready.trace_time, case.contact_details and ready.model.curved,
+        ready.edges,
+        ready.highest_speed,
+        ready.trace_time,
+        case.contact_details and ready.model.curved,
         # Beside the steps of a whole bearing looks cost little.
         spacing=0.05 if whole else 1.0,
     )  # fmt: skip
@@ -91,11 +97,14 @@ def _imposed_orbits(
     ready: Prepared, wanted: Wanted, threads: int, progress: Callable | None, stop: threading.Event
 ) -> xr.Dataset:
     case = ready.case
-    numbers, names = case.roller_numbers, row_names(case.bearing)
+    numbers = case.roller_numbers
+    names = row_names(case.bearing)
     angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in names}
     left = [(row, number) for row in names for number in numbers]
     results: dict[tuple[str, int], Measured] = {}
-    total, report, own_motions = len(left), None, ready.own_motions
+    total = len(left)
+    report = None
+    own_motions = ready.own_motions
     with ThreadPoolExecutor(threads) as pool:
         for enlarged in range(_ENLARGED + 1):
             rollers, made = with_tables(ready.models, ready.box)
@@ -144,7 +153,8 @@ def _finished(pending: set, progress: Callable | None, done: int, total: int):
 
 
 def _problem(ready: Prepared, roller: Roller) -> Problem:
-    integrator, motion = ready.case.integrator, ready.motion
+    integrator = ready.case.integrator
+    motion = ready.motion
     if isinstance(integrator, Radau):
         limits = radau_limits(
             roller,
@@ -165,7 +175,8 @@ def _problem(ready: Prepared, roller: Roller) -> Problem:
 
 
 def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Event) -> Measured:
-    outcome, measures = Outcome(), RollerMeasures(row, start_angle)
+    outcome = Outcome()
+    measures = RollerMeasures(row, start_angle)
     for steps in steps_of(problem, start_angle, outcome):
         if stop.is_set():
             raise _InterruptedError
@@ -179,9 +190,14 @@ def _whole_bearing(
 ) -> xr.Dataset:
     case = ready.case
     bearing = whole_bearing(
-        case.bearing, case.oil, case.cage, tilt=case.drivetrain.tilt, gravity=case.gravity, drag=case.drag,
+        case.bearing,
+        case.oil,
+        case.cage,
+        tilt=case.drivetrain.tilt,
+        gravity=case.gravity,
+        drag=case.drag,
         laws=case.laws,
-    )  # fmt: skip
+    )
     count = bearing.places.size
     # All rollers are done together.
     together = progress and (lambda done, total: progress(done * count, total * count))
@@ -203,9 +219,11 @@ def _whole_bearing(
 
 
 def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
-    case, motion = ready.case, ready.motion
+    case = ready.case
+    motion = ready.motion
     assembly, report = assembled(bearing, ready.box)
-    count, names = case.bearing.rollers_per_row, row_names(case.bearing)
+    count = case.bearing.rollers_per_row
+    names = row_names(case.bearing)
     skews = skewing(case, ready.model.laws, ready.box)
     rows = {
         row: Row(
@@ -241,9 +259,14 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
             one.add(part.steps, place)
         memory = part.memory
         outcome = Outcome(
-            int(part.status), int(memory["steps"]), int(memory["rejections"]), int(memory["evaluations"]),
-            float(memory["unbalanced"]), float(memory["time"]), 0.0,
-        )  # fmt: skip
+            int(part.status),
+            int(memory["steps"]),
+            int(memory["rejections"]),
+            int(memory["evaluations"]),
+            float(memory["unbalanced"]),
+            float(memory["time"]),
+            0.0,
+        )
     for one in measures:
         one.finish()
     return outcome, dict(zip(chosen, measures, strict=True)), cages, report

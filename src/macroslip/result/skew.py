@@ -27,7 +27,8 @@ def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
     """How the rollers of both rows skew; empty without skew. `laws` are the downwind row's."""
     if case.laws.skew == "none":
         return {}
-    table, cage = skew_table(laws, case.bearing, box), case.cage
+    table = skew_table(laws, case.bearing, box)
+    cage = case.cage
     stop = pocket(case.bearing, cage.guidance, cage.gap, cage.skew_play)
     if cage.alignment == "none":
         stop = stop._replace(effective_radius=0.0)
@@ -42,7 +43,7 @@ def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
 def thrust_on_ring(
     case: Case, model: RollerModel, ring: RingGeometry, motion: Motion, box: Box
 ) -> np.ndarray:
-    """What the balance of the inner ring feels of skew at the samples of its motion [N], shape (n, 3); 0 after the window."""
+    """Force of skewed rollers on the inner ring at the samples of its motion [N], shape (n, 3)."""
     down, up = skewing(case, model.laws, box).values()
     count = motion.time.size
     if case.window.end is not None:

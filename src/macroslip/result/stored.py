@@ -1,6 +1,7 @@
-"""Results as netCDF files: written with a checksum for every block of numbers, and checked when they are read.
+"""Results as netCDF files, with a checksum for every block of numbers, checked when read.
 
-HDF5's Fletcher checksum is verified by every reader of the format: a flipped bit in a number is an error, not a wrong number.
+HDF5's Fletcher checksum is verified by every reader of the format: a flipped bit in a number is an
+error, not a wrong number.
 """
 
 from __future__ import annotations
@@ -43,7 +44,8 @@ def to_netcdf(result: xr.Dataset) -> bytes:
 def check_result(result: xr.Dataset, where: str) -> None:
     """Refuse a dataset that is no result, or not whole, or holds what none can hold.
 
-    Raises InputError naming the variable or attribute. The result is as read from the file `where`: of a run, or of a
+    Raises InputError naming the variable or attribute. The result is as read from the file `where`:
+    of a run, or of a
     study, which has everything over `case` too.
     """
     problem = next(
@@ -117,7 +119,8 @@ def _values(result: xr.Dataset) -> str:
         if angles.dtype.kind not in "fiu" or not (np.abs(angles) <= _LARGEST_ANGLE).all():
             return "start_angle holds no angles"
     for name, variable in result.variables.items():
-        # Where an integration failed its slip may be anything; and lives of the rating may be endless.
+        # Where an integration failed its slip may be anything; and lives of the rating may be
+        # endless.
         known = (
             (name in VARIABLES or name in result.coords)
             and name != "end_slip"

@@ -1,9 +1,13 @@
-"""Where on the raceways energy is dissipated: maps over the angle on the raceway and the place along the roller.
+"""Maps of the raceways: where energy is dissipated, over angle and place along the roller.
 
-The maps belong to the bearing, not to a roller: what all simulated rollers of a row leave at a place of the raceway. The
-outer raceway is at rest, so its angle is φ; the inner one turns, and its angle is counted on the ring, from where +X0
-was at the first sample. Energies are stored, in J, so that sums over a map are the energies of `simulate`; over
-`cell_area` they are energies per area. How often each sector was passed is stored beside them (`surface_passes`).
+The maps belong to the bearing, not to a roller: what all simulated rollers of a row leave at a
+place of the raceway. The
+outer raceway is at rest, so its angle is φ; the inner one turns, and its angle is counted on the
+ring, from where +X0
+was at the first sample. Energies are stored, in J, so that sums over a map are the energies of
+`simulate`; over
+`cell_area` they are energies per area. How often each sector was passed is stored beside them
+(`surface_passes`).
 """
 
 from __future__ import annotations
@@ -51,9 +55,15 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
         for one in (energy, density, asperities, work, passes, load, classes):
             one[number] = np.nan
     return {
-        "surface_energy": energy, "surface_power_density": density, "surface_asperity_energy": asperities,
-        "surface_work": work, "surface_passes": passes, "working_load": load, "film_slip_time": classes[..., 0], "film_slip_passes": classes[..., 1],
-    }  # fmt: skip
+        "surface_energy": energy,
+        "surface_power_density": density,
+        "surface_asperity_energy": asperities,
+        "surface_work": work,
+        "surface_passes": passes,
+        "working_load": load,
+        "film_slip_time": classes[..., 0],
+        "film_slip_passes": classes[..., 1],
+    }
 
 
 def coordinates(bearing: Bearing) -> dict[str, Any]:
@@ -65,7 +75,8 @@ def coordinates(bearing: Bearing) -> dict[str, Any]:
     }
     # The radius of a place from the bearing's axis changes along the roller.
     edges = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
-    middles, width = 0.5 * (edges[1:] + edges[:-1]), bearing.roller_length / STATIONS
+    middles = 0.5 * (edges[1:] + edges[:-1])
+    width = bearing.roller_length / STATIONS
     radii = (geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing))
     lean = math.sin(bearing.contact_angle)
     areas = [
@@ -95,16 +106,19 @@ def _classes(edges: tuple[float, ...]) -> list[str]:
 
 
 def even_energy(result: xr.Dataset) -> xr.DataArray:
-    """Frictional energy of the maps as if all sectors of a raceway had been passed equally often [J].
+    """Frictional energy of the maps as if all sectors had been passed equally often [J].
 
-    A few rollers, or a window of no whole number of orbits, pass some sectors of a raceway more often than others. The
-    energy per pass of a sector keeps its place; the sum over each raceway keeps its value. A sector without passes has
+    A few rollers, or a window of no whole number of orbits, pass some sectors of a raceway more
+    often than others. The
+    energy per pass of a sector keeps its place; the sum over each raceway keeps its value. A sector
+    without passes has
     none.
 
     Parameters
     ----------
     result : xarray.Dataset
-        With `surface_energy` and `surface_passes`; without the latter the energy is returned as it is.
+        With `surface_energy` and `surface_passes`; without the latter the energy is returned as it
+        is.
 
     Returns
     -------
@@ -123,9 +137,10 @@ def even_energy(result: xr.Dataset) -> xr.DataArray:
 
 
 def energy_density(result: xr.Dataset) -> xr.DataArray:
-    """Frictional energy per area of the raceways, e = ∫|τ v| dt [J/m²], over row, raceway, angle and station.
+    """Frictional energy per area, e = ∫|τ v| dt [J/m²], over row, raceway, angle and station.
 
-    Of a result with maps, InputError without, or from `macroslip.study.lifetime.weighted_maps`; all sectors count as
+    Of a result with maps, InputError without, or from `macroslip.study.lifetime.weighted_maps`; all
+    sectors count as
     passed equally often (`even_energy`).
     """
     _require_maps(result)
@@ -135,9 +150,10 @@ def energy_density(result: xr.Dataset) -> xr.DataArray:
 
 
 def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
-    """Frictional energy per area of a roller along its axis [J/m²], of both raceways, mean over its circumference.
+    """Frictional energy per area of a roller along its axis [J/m²], of both raceways.
 
-    Over row, station, slip_sign and film_regime; mean over the simulated rollers. InputError if the result has no maps.
+    Over row, station, slip_sign and film_regime; mean over the simulated rollers. InputError if the
+    result has no maps.
     """
     _require_maps(result)
     area = 2.0 * math.pi * geometry.roller_radius(bearing) * bearing.roller_length / STATIONS
@@ -148,10 +164,12 @@ def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
 
 
 def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> xr.DataArray:
-    """Share of a raceway's area, over row and raceway, on which a map exceeds a threshold of the user's own.
+    """Share of a raceway's area, over row and raceway, on which a map exceeds a threshold.
 
-    Of `surface_power_density` or `energy_density`, over angle and station, with `cell_area` and a threshold in the unit
-    of the map [W/m² or J/m²]. None is built in: no threshold of damage by frictional power or energy per area could be
+    Of `surface_power_density` or `energy_density`, over angle and station, with `cell_area` and a
+    threshold in the unit
+    of the map [W/m² or J/m²]. None is built in: no threshold of damage by frictional power or
+    energy per area could be
     traced to a primary source.
     """
     weight = (area + 0.0 * density).where(density.notnull())

@@ -1,4 +1,4 @@
-"""The one table of all variables that a result may hold: dimensions, units, meaning, and when they are there."""
+"""The table of all variables of a result: dimensions, units, meaning, and when they are there."""
 
 from __future__ import annotations
 
@@ -578,7 +578,8 @@ VARIABLES = {variable.name: variable for variable in _TABLE}
 CONTACT_DETAILS = tuple(one.name for one in _TABLE if one.when == DETAILS)
 #: Counts of an integrator.
 COUNTS = ("steps", "rejections", "force_evaluations")
-#: Extremes of an orbit, and of entries into the load zone, in the order of `macroslip.measures.details.EXTREMES`.
+#: Extremes of an orbit, and of entries into the load zone, in the order of
+#: `macroslip.measures.details.EXTREMES`.
 ORBIT_EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
 ENTRY_EXTREMES = tuple(
     f"entry_{name}"

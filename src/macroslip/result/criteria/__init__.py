@@ -1,4 +1,4 @@
-"""Criteria of damage: every module of this folder that has `CRITERIA`, a tuple of `Criterion`, adds its own."""
+"""Criteria of damage: each module of this folder with `CRITERIA`, a tuple, adds its own."""
 
 from __future__ import annotations
 

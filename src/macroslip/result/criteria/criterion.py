@@ -1,4 +1,4 @@
-"""What a criterion of damage is: its value, what that is compared with, how sure it is, and what a year makes of it."""
+"""What a criterion of damage is: value, reference, how sure it is, and what a year makes of it."""
 
 from __future__ import annotations
 
@@ -30,10 +30,12 @@ class Yearly:
     run_name: str  #: Name in a study
     run_unit: str
     run_meaning: str
-    #: The number over row, of the dataset of criteria and of the result; None where it is not known.
+    #: The number over row, of the dataset of criteria and of the result; None where it is not
+    #: known.
     of_run: Callable[[xr.Dataset, xr.Dataset], xr.DataArray | None]
     name: str  #: Name in a year
-    #: `sum`: run numbers are rates that a year adds up, of both rows; `max`: the same, of the worse row; `largest`: the
+    #: `sum`: run numbers are rates that a year adds up, of both rows; `max`: the same, of the worse
+    #: row; `largest`: the
     #: largest of any run and row counts.
     drawn: str
     year_unit: str  #: Of the number of a wind speed or event
@@ -54,7 +56,8 @@ class Criterion:
     unit: str
     #: Variables from which the value follows; none where the result lacks what they take.
     variables: Callable[[Evaluation], Variables]
-    #: The worst value of either row and any place, of the variables of all criteria [unit]; NaN where not known.
+    #: The worst value of either row and any place, of the variables of all criteria [unit]; NaN
+    #: where not known.
     value: Callable[[Mapping[str, np.ndarray]], float]
     #: Sentences on what is missing, of the evaluation and the variables of all criteria.
     missing: Callable[[Evaluation, Mapping[str, np.ndarray]], list[str]] | None = None

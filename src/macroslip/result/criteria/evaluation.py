@@ -1,4 +1,4 @@
-"""A result as criteria of damage see it: rates per second of a bearing with all its rollers, by place."""
+"""A result as criteria see it: rates per second of a bearing with all its rollers, by place."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Evaluation:
 
     @property
     def tells_of_year(self) -> bool:
-        """True if the window may go on for a year: it has a complete orbit, or is an event that is repeated."""
+        """True if a year may consist of the window: it has an orbit, or is an event."""
         is_event = bool(self.run_input.settings["loads"].get("event"))
         return self.result.sizes["orbit"] > 0 or is_event
 
@@ -78,7 +78,7 @@ class Evaluation:
         return criterion.reference if own is None else own.value
 
     def powers(self, name: str) -> np.ndarray:
-        """Energy of a map per second [W], of all rollers of a row, over row, raceway, angle and station."""
+        """Power of a map [W], of all rollers of a row, over row, raceway, angle and station."""
         energy = self.result[name]
         kinds = [kind for kind in ("slip_sign", "film_regime") if kind in energy.dims]
         energy = energy.sum(kinds, skipna=False).transpose("row", "raceway", "angle", "station")
@@ -87,8 +87,10 @@ class Evaluation:
     def profile(self, name: str) -> np.ndarray:
         """Power per area [W/m²] of a map over row, place and station.
 
-        The inner ring turns, so that of its sectors the mean counts. Of the outer ring it is the sector with the largest
-        value per pass, times the mean number of passes of all sectors: a few rollers, or orbits that are no whole number,
+        The inner ring turns, so that of its sectors the mean counts. Of the outer ring it is the
+        sector with the largest
+        value per pass, times the mean number of passes of all sectors: a few rollers, or orbits
+        that are no whole number,
         pass some sectors more often than others.
         """
         density = self.powers(name) / self._cell_area[:, :, None]
@@ -101,7 +103,7 @@ class Evaluation:
         return profile
 
     def _evenness(self) -> np.ndarray:
-        """Mean passes of the outer raceway's sectors over those of each, over row and angle; 0 without passes."""
+        """Mean passes of the outer sectors over those of each, over row and angle; 0 without."""
         passes = self.result.surface_passes.sel(raceway="outer").transpose("row", "angle").values
         mean = passes.mean(axis=1, keepdims=True)
         return np.divide(mean, passes, out=np.zeros_like(passes), where=passes > 0.0)
@@ -113,7 +115,7 @@ class Evaluation:
         return self.powers(name).sum(axis=2) / (self.bearing.rollers_per_row * area)
 
     def pass_rates(self) -> np.ndarray:
-        """Passes a second over a place of either ring and of a roller [1/s], of the complete orbits; NaN without one."""
+        """Passes a second over a place of rings and roller [1/s]; NaN without an orbit."""
         orbits = self.result.sizes["orbit"]
         rate = orbits / self.orbit_time() if orbits else math.nan
         outer_radius = geometry.outer_contact_radius(self.bearing)

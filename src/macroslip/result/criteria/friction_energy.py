@@ -8,7 +8,8 @@ from macroslip.result.criteria.evaluation import YEAR, Evaluation
 from macroslip.result.variables import described
 
 _TEST = friction_energy.ThrustTest()
-#: Least and largest e_a of the FE8 test [W/m²], and their mean, with which friction energy is compared.
+#: Least and largest e_a of the FE8 test [W/m²], and their mean, with which friction energy is
+#: compared.
 LEAST_POWER, LARGEST_POWER = _TEST.range()
 REFERENCE_POWER = 0.5 * (LEAST_POWER + LARGEST_POWER)
 _OVER = ("row", "place", "station")

@@ -14,7 +14,10 @@ from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, la
 from macroslip.result.criteria.evaluation import Evaluation
 from macroslip.result.variables import described
 
-_NO_THIN_FILMS = "No film under load was thinner than Λ = 3, so nothing is said of the sign of slip in thin films."
+_NO_THIN_FILMS = (
+    "No film under load was thinner than Λ = 3, so nothing is said of the sign of slip in thin "
+    "films."
+)
 _OVER = ("row", "raceway")
 #: Classes of Λ that lie below 1, and below 3.
 _BELOW_ONE = FILM_EDGES.index(1.0) + 1
@@ -75,7 +78,8 @@ CRITERIA = (
             Yearly(
                 run_name="mixed_film_time",
                 run_unit="1",
-                run_meaning="share of time of a roller under load with Lambda < 1, raceway with more",
+                run_meaning="share of time of a roller under load with Lambda < 1, "
+                "raceway with more",
                 of_run=_mixed_film_time,
                 name="mixed_time",
                 drawn="max",

@@ -13,7 +13,10 @@ from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, la
 from macroslip.result.criteria.evaluation import Evaluation
 from macroslip.result.variables import described
 
-_NO_ENTRIES = "No roller entered a load zone in a complete orbit of the window, so nothing is said of smearing."
+_NO_ENTRIES = (
+    "No roller entered a load zone in a complete orbit of the window, so nothing is said of "
+    "smearing."
+)
 _OVER = ("row", "raceway")
 
 
@@ -96,14 +99,16 @@ SLIDE_ROLL_RATIO = Criterion(
         Yearly(
             run_name="entry_rate",
             run_unit="1/s",
-            run_meaning="entries beyond the slip of a smearing rig, of all rollers of the row, at least",
+            run_meaning="entries beyond the slip of a smearing rig, of all rollers of the row, "
+            "at least",
             of_run=lambda criteria, _: _of_raceways(
                 "entry_slide_roll_ratio_beyond_least", criteria
             ),
             name="entries",
             drawn="sum",
             year_unit="1",
-            year_meaning="entries beyond the slip of a smearing rig, all rollers of the row, at least",
+            year_meaning="entries beyond the slip of a smearing rig, all rollers of the row, "
+            "at least",
             unit="1/year",
             meaning="entries beyond the slip of a smearing rig",
         ),

@@ -21,19 +21,23 @@ from macroslip.result.variables import described
 DESIGN_LIFE = 20.0
 #: Ages for which the worn profile is told [years].
 AGES = (1.0, 5.0, 20.0)
-#: Slips in the middle that are tried, in parts of the largest microslip, to find the profile of slip.
+#: Slips in the middle that are tried, in parts of the largest microslip, to find the profile of
+#: slip.
 _TRIED = 401
-#: Slices of a station while wear grows: at lines of pure rolling nothing wears, and what is left of them carries the load.
+#: Slices of a station while wear grows: at lines of pure rolling nothing wears, and what is left of
+#: them carries the load.
 _SLICES = 4
 #: Number of the depth of 10 µm, and of the middle coefficient k of a run.
 _TEN_MICROMETRES = wear.DEPTHS.index(1e-5)
 _MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
 _NO_WEAR = (
-    "Wear was not computed, since without asperities nothing touches: choose their law, laws: {asperities: masjedi-khonsari} "
+    "Wear was not computed, since without asperities nothing touches: choose their law, laws: "
+    "{asperities: masjedi-khonsari} "
     "or film-ratio, and a boundary_friction above 0 of the lubricant."
 )
 _LIGHT = (
-    "The load lay outside the range of the law of asperities for {rows} of the loaded time of raceways; there their share, "
+    "The load lay outside the range of the law of asperities for {rows} of the loaded time of "
+    "raceways; there their share, "
     "and so wear, is no more than the film ratio gives."
 )
 
@@ -85,9 +89,10 @@ def _variables(evaluation: Evaluation) -> Variables:
 
 
 def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.ndarray) -> wear.Worn:
-    """Wear of a row at the load that stands for it, as deep along the roller as its maps have it in the mean.
+    """Wear of a row at the load that stands for it, in the mean as deep as its maps have it.
 
-    `work` and `on_roller` are depth a second over k [W/m²] over place and station, and the roller's over raceway and
+    `work` and `on_roller` are depth a second over k [W/m²] over place and station, and the roller's
+    over raceway and
     station.
     """
     bearing = evaluation.bearing
@@ -111,13 +116,14 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
         mapped = result.surface_work.isel(raceway=i).sum("angle").values
         slip = slip_profile(law.shape, along, pressed, mapped, skew)
         total = (pressed * slip).sum() / _SLICES
-        ring, roller = work[i].sum() / total, on_roller[i].sum() / total
+        ring = work[i].sum() / total
+        roller = on_roller[i].sum() / total
         contacts.append(wear.Pressed(load, contour, stiffness, slip, ring, roller))
     return wear.grow((contacts[0], contacts[1]), width)
 
 
 def working_skew(row: xr.Dataset) -> float:
-    """Root of the mean square of a row's skew [rad], weighted by what a pass of the outer raceway's sectors works.
+    """Root of a row's mean square skew [rad], weighted by ∫ p |v| dt of a pass.
 
     The angle of that raceway is the orbit's.
     """
@@ -134,7 +140,7 @@ def working_skew(row: xr.Dataset) -> float:
 def slip_profile(
     shape: Any, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
 ) -> np.ndarray:
-    """|v| along the roller over the ring's speed [-]: skew, microslip, and the slip of the middle that fits ∫ p |v| dt best.
+    """|v| along the roller over the ring's speed [-], with the slip of the middle that fits best.
 
     Parameters
     ----------
@@ -174,7 +180,7 @@ def _years(variables: Mapping[str, np.ndarray]) -> float:
 
 
 def _missing(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
-    """Why there is no wear; and for how much of the loaded time the law of asperities was out of its range."""
+    """Why there is no wear, or how long the law of asperities was out of its range."""
     if evaluation.boundary_friction <= 0.0:
         return [_NO_WEAR]
     if "outside_asperity_range" not in evaluation.result:
