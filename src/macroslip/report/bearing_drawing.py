@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
     from macroslip.bearing import Bearing
 
-STEEL, ROLLER, LINE, SPHERE = "#e6e6e6", "#bcd3ea", "#1f5a96", "#b3261e"
+STEEL = "#e6e6e6"
+ROLLER = "#bcd3ea"
+LINE = "#1f5a96"
+SPHERE = "#b3261e"
 _MILLI = 1e3
 
 
@@ -60,51 +63,106 @@ def _outside(bearing: Bearing) -> float:
 
 
 def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
-    place = np.linspace(-half, half, 401)
+    station = np.linspace(-half, half, 401)
     sphere = _MILLI * bearing.outer_raceway_radius
-    raceway = np.sqrt(sphere**2 - place**2)
+    raceway = np.sqrt(sphere**2 - station**2)
     if bearing.outside_diameter is not None:
-        axes.fill_between(place, raceway, _outside(bearing), fc=STEEL, ec="black", lw=1.0)
+        axes.fill_between(station, raceway, _outside(bearing), fc=STEEL, ec="black", lw=1.0)
     if bearing.bore_diameter is not None:
         bore = 0.5 * _MILLI * bearing.bore_diameter
-        axes.fill_between(
-            place, bore, _inner_raceway(bearing, np.abs(place)), fc=STEEL, ec="black", lw=1.0
-        )
+        inner = _inner_raceway(bearing, np.abs(station))
+        axes.fill_between(station, bore, inner, fc=STEEL, ec="black", lw=1.0)
     turn = np.radians(np.linspace(-40, 40, 200))
     axes.plot(sphere * np.sin(turn), sphere * np.cos(turn), color=SPHERE, lw=0.8, ls=":")
 
 
-def _inner_raceway(bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+def _inner_raceway(bearing: Bearing, station: NDArray[np.float64]) -> NDArray[np.float64]:
     """Distance of the inner raceway from the axis [mm] at distances from the mid-plane [mm]."""
     contour = _MILLI * geometry.inner_raceway_contour_radius(bearing)
-    along, across = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     reach = contour - 0.5 * _MILLI * bearing.roller_diameter
-    centre = (
-        _MILLI * bearing.row_offset + reach * along,
-        _MILLI * bearing.pitch_radius + reach * across,
-    )
-    return centre[1] - np.sqrt(np.maximum(contour**2 - (place - centre[0]) ** 2, 0.0))
+    along = _MILLI * bearing.row_offset + reach * math.sin(bearing.contact_angle)
+    across = _MILLI * bearing.pitch_radius + reach * math.cos(bearing.contact_angle)
+    return across - np.sqrt(np.maximum(contour**2 - (station - along) ** 2, 0.0))
 
 
 def _roller(bearing: Bearing, side: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    contour, half = geometry.roller_contour_radius(bearing), 0.5 * bearing.roller_length
+    """Outline of a roller in the section [mm], along and across the bearing's axis."""
+    contour = geometry.roller_contour_radius(bearing)
+    half = 0.5 * bearing.roller_length
     along = np.linspace(-half, half, 101)
     radius = geometry.roller_radius(bearing) - contour + np.sqrt(contour**2 - along**2)
-    along, radius = np.concatenate([along, along[::-1]]), np.concatenate([radius, -radius[::-1]])
+    along = np.concatenate([along, along[::-1]])
+    radius = np.concatenate([radius, -radius[::-1]])
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    place = bearing.row_offset + along * cosine + radius * sine
-    return side * _MILLI * place, _MILLI * (bearing.pitch_radius - along * sine + radius * cosine)
+    station = bearing.row_offset + along * cosine + radius * sine
+    return side * _MILLI * station, _MILLI * (bearing.pitch_radius - along * sine + radius * cosine)
+
+
+class _Section(NamedTuple):
+    """Lengths of the section [mm] that dimensions refer to, and the contact angle's functions [1]."""
+
+    half: float  #: Of the bearing's width
+    offset: float  #: Of the row from the mid-plane
+    pitch: float
+    sphere: float
+    outside: float
+    radius: float  #: Of the roller
+    length: float  #: Half of the roller's
+    sine: float
+    cosine: float
+
+    @classmethod
+    def of(cls, bearing: Bearing, half: float) -> _Section:
+        """Those of a bearing."""
+        return cls(
+            half,
+            _MILLI * bearing.row_offset,
+            _MILLI * bearing.pitch_radius,
+            _MILLI * bearing.outer_raceway_radius,
+            _outside(bearing),
+            0.5 * _MILLI * bearing.roller_diameter,
+            0.5 * _MILLI * bearing.roller_length,
+            math.sin(bearing.contact_angle),
+            math.cos(bearing.contact_angle),
+        )
 
 
 def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
     """Arrows for lengths; name and value of every dimension beside the drawing, with a line to its place."""
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    z, y = _MILLI * bearing.row_offset, _MILLI * bearing.pitch_radius
-    sphere, outside = _MILLI * bearing.outer_raceway_radius, _outside(bearing)
-    r, length = 0.5 * _MILLI * bearing.roller_diameter, 0.5 * _MILLI * bearing.roller_length
-    middle, contact = 0.5 * bearing.contact_angle, math.sqrt(sphere**2 - z**2)
-    inner = float(_inner_raceway(bearing, np.array([z]))[0])
-    arrows = [
+    section = _Section.of(bearing, half)
+    arrows = _arrows(section)
+    labels = _labels(section, bearing)
+    if bearing.width is not None:
+        height = 1.03 * section.outside
+        arrows.append(((-half, height), (half, height), "black"))
+        labels.append(("width", -1, height, (-half, height)))
+    for key, share in (("bore_diameter", 0.75), ("outside_diameter", 0.95)):
+        diameter = getattr(bearing, key)
+        if diameter is not None:
+            end = 0.5 * _MILLI * diameter
+            arrows.append(((-share * half, 0), (-share * half, end), "black"))
+            height = (1.0 - share) * end + 0.02 * section.outside
+            labels.append((key, -1, height, (-share * half, (1.1 - share) * end)))
+    axes.plot([0, 0], [0, 1.04 * section.outside], color="black", lw=0.6, ls="-.")
+    axes.plot([section.offset] * 2, [0.70 * section.pitch, section.pitch], color=LINE, lw=0.6)
+    axes.plot([-1.1 * half, -section.offset], [section.pitch] * 2, color=LINE, lw=0.6)
+    turn = np.linspace(0, bearing.contact_angle, 30)
+    arc = 0.3 * section.sphere
+    axes.plot(arc * np.sin(turn), arc * np.cos(turn), color=SPHERE, lw=1.2)
+    for start, end, colour in arrows:
+        style = {"arrowstyle": "<->", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", end, start, arrowprops=style, zorder=5)
+    for key, side, height, to in labels:
+        text = f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})"
+        style = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": 9}
+        line = {"arrowstyle": "-", "color": "#777777", "lw": 0.6}
+        axes.annotate(text, to, (1.25 * side * half, height), arrowprops=line, zorder=6, **style)
+
+
+def _arrows(section: _Section) -> list[tuple[tuple[float, float], tuple[float, float], str]]:
+    """Start, end and colour of the arrows that every bearing has."""
+    half, z, y, sphere, _, r, length, sine, cosine = section
+    return [
         ((0, 0), (sphere * sine, sphere * cosine), SPHERE),
         ((0, 0.72 * y), (z, 0.72 * y), LINE),
         ((-1.08 * half, 0), (-1.08 * half, y), LINE),
@@ -115,8 +173,17 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
             LINE,
         ),
     ]
-    # Key, side and height of the words, and the place they belong to.
-    labels = [
+
+
+def _labels(
+    section: _Section, bearing: Bearing
+) -> list[tuple[str, int, float, tuple[float, float]]]:
+    """Key, side and height of the words that every bearing has, and the place they belong to."""
+    half, z, y, sphere, outside, r, length, sine, cosine = section
+    middle = 0.5 * bearing.contact_angle
+    contact = math.sqrt(sphere**2 - z**2)
+    inner = float(_inner_raceway(bearing, np.array([z]))[0])
+    return [
         ("outer_raceway_radius", 1, 0.42 * y, (0.45 * sphere * sine, 0.45 * sphere * cosine)),
         ("row_offset", 1, 0.66 * y, (0.8 * z, 0.72 * y)),
         ("contact_angle", 1, 0.2 * y, (0.3 * sphere * math.sin(middle), 0.3 * sphere)),
@@ -128,26 +195,3 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
         ("roller_length", -1, y - 1.1 * r, (-z - 0.6 * length, y - 0.6 * length * sine)),
         ("diametral_clearance", -1, 1.1 * outside, (-0.7 * z, contact)),
     ]
-    if bearing.width is not None:
-        arrows.append(((-half, 1.03 * outside), (half, 1.03 * outside), "black"))
-        labels.append(("width", -1, 1.03 * outside, (-half, 1.03 * outside)))
-    for key, share in (("bore_diameter", 0.75), ("outside_diameter", 0.95)):
-        if getattr(bearing, key) is not None:
-            end, place = 0.5 * _MILLI * getattr(bearing, key), share * half
-            arrows.append(((-place, 0), (-place, end), "black"))
-            labels.append(
-                (key, -1, (1.0 - share) * end + 0.02 * outside, (-place, (1.1 - share) * end))
-            )
-    axes.plot([0, 0], [0, 1.04 * outside], color="black", lw=0.6, ls="-.")
-    axes.plot([z, z], [0.70 * y, y], color=LINE, lw=0.6)
-    axes.plot([-1.1 * half, -z], [y, y], color=LINE, lw=0.6)
-    turn = np.linspace(0, bearing.contact_angle, 30)
-    axes.plot(0.3 * sphere * np.sin(turn), 0.3 * sphere * np.cos(turn), color=SPHERE, lw=1.2)
-    for start, end, colour in arrows:
-        style = {"arrowstyle": "<->", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", end, start, arrowprops=style, zorder=5)
-    for key, side, height, to in labels:
-        text = f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})"
-        style = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": 9}
-        line = {"arrowstyle": "-", "color": "#777777", "lw": 0.6}
-        axes.annotate(text, to, (1.25 * side * half, height), arrowprops=line, zorder=6, **style)

@@ -55,9 +55,12 @@ if TYPE_CHECKING:
 #: Wind speeds of a study that does not say which: Rayleigh with a mean of 10 m/s.
 CLASS_ONE = IEC_CLASSES["IEC I"]
 #: Variables of the summary whose largest values are shown, and how many of them.
-_WORST, _WORST_COUNT = ("energy_mean", "orbit_energy_max", "peak_power_max"), 5
+_WORST = ("energy_mean", "orbit_energy_max", "peak_power_max")
+_WORST_COUNT = 5
 #: Lines of a table, of the opening's, and runs that a figure can name.
-_MOST_LINES, _MOST_DESIGNS, _MOST_NAMES = 40, 8, 16
+_MOST_LINES = 40
+_MOST_DESIGNS = 8
+_MOST_NAMES = 16
 #: Pictures of the opening.
 _MOST_PICTURES = 4
 #: Variables of the summary in the opening, and the labels of their figures.
@@ -105,27 +108,18 @@ def study_page(
         The page.
     """
     text = words(_TEMPLATE)
-    # Points of a sample are no designs: they are pooled here, and told apart by their effects.
-    pooled = study.drop_vars(sampled_parameters(study))
-    chosen, field, width = weights_in_use(study, weights)
-    bins = {"field": field, "width": width}
-    try:
-        found = year(pooled, chosen, **bins)
-        note = coverage(found)
-    except InputError as problem:
-        chosen = None
-        found = year(pooled, None)
-        note = f"The weights cannot be used: {problem}"
-    table, unknown = designs(found)
-    names = design_names(found)
+    weighted = _weighted(study, weights, years)
+    table, unknown = designs(weighted.year)
+    notes = [weighted.note, *unknown]
+    names = design_names(weighted.year)
+    order = table.index.tolist()
     ranking = _ranking(study, weights)
-    weighted = _Weighted(pooled, chosen or CLASS_ONE, bins, _wind(chosen), years)
-    driver, effects_body, effect_pictures = _effects(study, chosen, bins)
-    lifetime, lifetime_pictures = _lifetime(weighted, table.index.tolist())
-    exceeding, exceedance_pictures = _exceedance(weighted, table.index.tolist())
+    driver, effects_body, effect_pictures = _effects(study, weighted)
+    lifetime, lifetime_pictures = _lifetime(weighted, order)
+    exceeding, exceedance_pictures = _exceedance(weighted, order)
     bodies = {
-        "designs": text.designs(_designs(table, names, _MOST_LINES), ranking, [note, *unknown]),
-        "year": text.year(note, _year(found, names)) if chosen is not None else "",
+        "designs": text.designs(_designs(table, names, _MOST_LINES), ranking, notes),
+        "year": text.year(weighted.note, _year(weighted.year, names)) if weighted.given else "",
         "effects": effects_body,
         "lifetime": lifetime,
         "exceedance": exceeding,
@@ -141,33 +135,51 @@ def study_page(
     answer = text.answer(
         {one.name: int((study.outcome.values == str(one)).sum()) for one in Outcome},
         ranking,
-        [note, *unknown],
+        notes,
         _extremes(study),
         driver,
         doubtful_result(study[[name for name in JUDGED if name in study]].median("case")),
     )
     pictures = [*effect_pictures[:1], *lifetime_pictures, *exceedance_pictures]
     most = _MOST_PICTURES - len(pictures)
-    pictures += _extreme_pictures(study, pooled, table.index.tolist(), most)
+    pictures += _extreme_pictures(study, weighted.study, order, most)
     opening = Opening(answer, pictures, table=_designs(table, names, _MOST_DESIGNS))
     return render(title, _subtitle(study, title), opening, parts)
 
 
 @dataclass(frozen=True, slots=True)
 class _Weighted:
-    """The runs of a study and how much each counts."""
+    """The runs of a study, how much each counts, and the year that follows."""
 
-    study: xr.Dataset
-    weights: Weights
+    study: xr.Dataset  #: Points of a sample are no designs: they are pooled
+    given: Weights | None  #: None where there are none, or they cannot be used
     bins: Mapping[str, Any]  #: Label of the loads that is sorted into bins, and their width
-    wind: Weibull | bool | None  #: None where it is that of `CLASS_ONE`, False where it is a list
+    year: xr.Dataset  #: From `macroslip.study.year.year`
+    note: str  #: What share of a year the cases cover, or why the weights cannot be used
     years: float  #: Lifetime [years]
 
+    @property
+    def weights(self) -> Weights:
+        """Those given, otherwise `CLASS_ONE`."""
+        return self.given or CLASS_ONE
 
-def _wind(weights: Weights | None) -> Weibull | bool | None:
-    """The distribution of the wind speed that a page names."""
-    wind = weights.wind if isinstance(weights, Year) else weights
-    return wind if wind is None or isinstance(wind, Weibull) else False
+    @property
+    def wind(self) -> Weibull | bool | None:
+        """The distribution of the wind speed that a page names; None for `CLASS_ONE`, False for a list."""
+        wind = self.given.wind if isinstance(self.given, Year) else self.given
+        return wind if wind is None or isinstance(wind, Weibull) else False
+
+
+def _weighted(study: xr.Dataset, weights: Weibull | Given | None, years: float) -> _Weighted:
+    pooled = study.drop_vars(sampled_parameters(study))
+    given, field, width = weights_in_use(study, weights)
+    bins = {"field": field, "width": width}
+    try:
+        found = year(pooled, given, **bins)
+    except InputError as problem:
+        note = f"The weights cannot be used: {problem}"
+        return _Weighted(pooled, None, bins, year(pooled, None), note, years)
+    return _Weighted(pooled, given, bins, found, coverage(found), years)
 
 
 def _lifetime(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
@@ -272,13 +284,13 @@ def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
 
 
 def _effects(
-    study: xr.Dataset, weights: Weights | None, bins: Mapping[str, Any]
+    study: xr.Dataset, weighted: _Weighted
 ) -> tuple[Markup | str, Markup | str, list[Picture]]:
     """Of a sample the parameter that moves the energy most in a sentence, the section, and its pictures."""
     text = words(_TEMPLATE)
     if not sampled_parameters(study):
         return "", "", []
-    found = effects(study, weights, **bins)
+    found = effects(study, weighted.given, **weighted.bins)
     if not found.sizes["quantity"]:
         return "", text.no_effects(), []
     table = Table(
