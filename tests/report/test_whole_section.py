@@ -1,6 +1,7 @@
 """The section on a bearing whose rollers and cages move together, and its moving picture."""
 
 import base64
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,11 +10,12 @@ from matplotlib.figure import Figure
 
 from macroslip import BearingLoads, Case, Laws, Traces, simulate
 from macroslip.bearing import Bearing
+from macroslip.report.answer import answer
 from macroslip.report.bearing_figures import plot_force_by_position, plot_residuals
 from macroslip.report.bearing_view import scene_data
 from macroslip.report.result_numbers import counterpart, is_whole
 from macroslip.report.results_page import results_page
-from macroslip.result.orbit import scene
+from macroslip.result.orbit import in_window, scene
 
 pytestmark = pytest.mark.slow
 
@@ -56,6 +58,24 @@ def test_numbers_stand_on_the_page(page, results):
         assert f'class="number">{energies[1]:.4g}</td>' in page
         assert f'class="number">{energies[1] / energies[0]:.4g}</td>' in page
     assert f'class="number">{float(coupled.largest_pocket_force.max()):.4g}</td>' in page
+
+
+def test_its_rows_are_told_by_its_own_motion(results):
+    coupled = results["coupled"]
+    window = in_window(coupled)
+    sentences = answer(coupled)
+    assert [one.partition(":")[0] for one in sentences] == ["Downwind row", "Upwind row"]
+    for row, sentence in zip(("downwind", "upwind"), sentences, strict=True):
+        one = window.sel(row=row)
+        ratio, pressed = (one.spin / one.spin_pure).values, one.roller_load.values > 0.0
+        told = [float(found) for found in re.findall(r"\d+\.?\d*", sentence)]
+        if pressed.any():
+            assert told[0] == pytest.approx(100.0 * pressed.mean(), rel=0.05)
+            assert told[1] == pytest.approx(abs(100.0 - 100.0 * ratio[pressed].mean()), rel=0.5)
+            assert told[2] == pytest.approx(100.0 * ratio[~pressed].min(), rel=0.05)
+        else:
+            quantiles = 100.0 * np.quantile(ratio, [0.05, 0.95])
+            assert "never loaded" in sentence and told == pytest.approx(quantiles, rel=0.05)
 
 
 def test_figures_show_what_the_result_holds(results):

@@ -1,7 +1,8 @@
 """Plots of a result in a notebook: `result.macroslip.plot.load_zone()`.
 
-Importing this module registers the accessor with xarray; `macroslip.simulate` and `macroslip.open_result` bring it.
-Pictures need matplotlib, which is imported when the first one is drawn.
+Importing this module registers the accessor with xarray; `macroslip.simulate` and
+`macroslip.open_result` bring it. Pictures need matplotlib, which is imported when the first one is
+drawn.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 
 def open_result(path: str | Path) -> xr.Dataset:
-    """Read a netCDF file that `macroslip run` wrote into memory; the result has `result.macroslip.plot`.
+    """Read a netCDF file that `macroslip run` wrote into memory, with `result.macroslip.plot`.
 
     Raises InputError if there is no such file, or it cannot be read.
     """
@@ -45,8 +46,8 @@ def open_result(path: str | Path) -> xr.Dataset:
 def read_results(path: Path) -> dict[str, xr.Dataset]:
     """The datasets of a netCDF file, or of all netCDF files in a folder, by the name of the file.
 
-    Subfolders are not searched. Raises InputError if there is no such path, the folder holds no netCDF file, or a file
-    cannot be read or holds no result.
+    Subfolders are not searched. Raises InputError if there is no such path, the folder holds no
+    netCDF file, or a file cannot be read or holds no result.
     """
     path = Path(path)
     if not path.exists():
@@ -91,7 +92,7 @@ class Macroslip:
         return Plot(self._result)
 
     def summary(self) -> pd.DataFrame:
-        """The headline values of the result, with units in the names; rows of the bearing are columns.
+        """The headline values of the result, units in the names, a column for each row.
 
         The model, oil and temperature stand in `attrs`.
         """
@@ -124,7 +125,7 @@ class Macroslip:
 
     @property
     def damage(self) -> xr.Dataset:
-        """Criteria of damage by slip, as `macroslip.result.damage.damage` gives them with its own coefficients."""
+        """Criteria of damage by slip, as `macroslip.result.damage.damage` gives them."""
         from macroslip.result.damage import damage
 
         return damage(self._result)
@@ -142,7 +143,8 @@ class Macroslip:
 
     def __repr__(self) -> str:
         rows = "; ".join(
-            f"{name} {energy} J a roller, lowest spin {spin} of pure rolling, {failed} rollers failed"
+            f"{name} {energy} J a roller, lowest spin {spin} of pure rolling, "
+            f"{failed} rollers failed"
             for name, energy, spin, failed in self._rows()
         )
         warning = (
@@ -163,7 +165,7 @@ class Macroslip:
 
 
 class Plot:
-    """Pictures of a result. Each takes axes to draw on, and makes a figure of its own without; it returns the axes.
+    """Pictures of a result, on axes of yours or in figures of their own; each returns its axes.
 
     A figure of its own has the program's style; on axes of yours the picture has yours.
     """
@@ -174,7 +176,7 @@ class Plot:
     def _new_axes(
         self, projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any
     ) -> Any:
-        """Axes in a new figure, which a notebook shows by itself, under the model, oil and temperature."""
+        """Axes in a new figure, which a notebook shows, under the model, oil and temperature."""
         try:
             from matplotlib import pyplot
         except ModuleNotFoundError:
@@ -216,7 +218,7 @@ class Plot:
         return self._drawn(axes, draw.plot_energy_by_interface, self._result.energy, legend={})
 
     def rollers(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
-        """Energy of every roller of a row (the downwind one by default), over the mean of the row."""
+        """Energy of every roller of a row, downwind by default, over the mean of the row."""
         return self._drawn(axes, draw.plot_roller_spread, self._result.energy, self._row(row))
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
@@ -226,7 +228,7 @@ class Plot:
     def spin(
         self, row: str | None = None, roller: int | None = None, *, axes: Axes | None = None
     ) -> Axes:
-        """Spin of a roller over time, with its spin in pure rolling; by default the upwind row's first. Needs traces."""
+        """Spin of a roller and in pure rolling, by default of the upwind row. Needs traces."""
         number = int(self._result.roller[0]) if roller is None else roller
         row = self._row(row, "upwind")
         return self._drawn(axes, draw.plot_spin_over_time, self._result, row, number)
@@ -238,7 +240,7 @@ class Plot:
         return self._drawn(axes, draw.plot_load_zone, load_zone(self._result), self._row(row))
 
     def orbit(self, row: str | None = None, *, axes: PolarAxes | None = None) -> PolarAxes:
-        """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
+        """Where on the orbit energy is dissipated, looking downwind; own axes must be polar.
 
         Needs traces that begin with the loads.
         """
@@ -254,25 +256,26 @@ class Plot:
         )
 
     def bearing(self, *, axes: Axes | None = None) -> Axes:
-        """All rows to scale, coloured by slip, at the moment of the largest power. Needs traces as `load_zone`."""
+        """All rows to scale, coloured by slip, at the moment of largest power. Needs traces."""
         from macroslip.result.orbit import still
 
         bearing = run_input(self._result).bearing
         return self._drawn(axes, draw.plot_bearing, still(self._result), bearing)
 
     def damage(self, *, axes: Axes | None = None) -> Axes:
-        """Criteria of damage side by side, each over what it is compared with. Needs details of the contacts."""
+        """Criteria of damage, each over its reference. Needs details of the contacts."""
         return self._drawn(axes, draw.plot_criteria, self._result.macroslip.damage)
 
     def wear(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
-        """Worn profile of the inner raceway, the outer raceway and the rollers of a row over the years."""
+        """Worn profile of the raceways and the rollers of a row over the years."""
         criteria = self._result.macroslip.damage
         return self._drawn(axes, draw.plot_worn_profile, criteria, self._row(row), legend={})
 
     def maps(self, quantity: str = "energy", *, axes: Sequence[Axes] | None = None) -> list[Axes]:
-        """Where the raceways suffer: energy, or with "power" the largest power, per area on each of the four.
+        """Energy, or with "power" the largest power, per area on each of the four raceways.
 
-        Needs a result of a model with microslip. Axes of your own are four: outer and inner raceway of each row.
+        Needs a result of a model with microslip. Axes of your own are four: outer and inner raceway
+        of each row.
         """
         from macroslip.result.surface_maps import energy_density
 
@@ -290,7 +293,7 @@ class Plot:
     def film_and_slip(
         self, row: str | None = None, quantity: str = "time", *, axes: Sequence[Axes] | None = None
     ) -> list[Axes]:
-        """Time under load, or "passes", by Λ and slide-roll ratio with its sign: what micropitting depends on.
+        """Time under load, or "passes", by Λ and slide-roll ratio with its sign.
 
         Needs details of the contacts. Axes of your own are two: inner and outer raceway.
         """
@@ -318,7 +321,7 @@ class Plot:
         panels: Sequence[tuple[Any, ...]],
         size: tuple[float, float],
     ) -> list[Axes]:
-        """The plot of each panel's data on the axes given, or on a new figure of a size [inches], two a line."""
+        """The plot of each panel's data on the axes given, or on new ones of a size [inches]."""
         if axes is None:
             with program_style():
                 new = self._new_axes(rows=len(panels) // 2, columns=2, figsize=size)

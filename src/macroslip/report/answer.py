@@ -1,4 +1,4 @@
-"""The answer of a result in whole sentences: load, slip and films of its rows, and the criterion nearest to its reference."""
+"""The answer of a result in whole sentences: load, slip, films, and the worst criterion."""
 
 from __future__ import annotations
 
@@ -15,11 +15,14 @@ from macroslip.measures.details import FILM_EDGES
 from macroslip.report.page import number
 from macroslip.result.orbit import in_window
 
-#: A row is said to skid if its rollers without load hardly ever come above this part of rolling speed.
+#: A row is said to skid if its rollers without load hardly ever come above this part of rolling
+#: speed.
 _SKIDS = 0.9
-#: Rollers whose speed differs by less than this part from rolling are said to turn at rolling speed.
+#: Rollers whose speed differs by less than this part from rolling are said to turn at rolling
+#: speed.
 _ROLLS = 0.01
-#: A row that is loaded for less than this part of the time is described by its rollers without load.
+#: A row that is loaded for less than this part of the time is described by its rollers without
+#: load.
 _HARDLY_LOADED = 0.01
 #: Films above this film ratio Λ are full.
 _FULL_FILM = 3.0
@@ -106,8 +109,8 @@ def row_sentence(slip: RowSlip) -> str:
 
     Examples
     --------
-    >>> row_sentence(RowSlip("downwind", 0.958, 0.206, 0.996, (0.26, 0.54)))
-    'Downwind row: loaded 96 % of the time; loaded rollers turn at rolling speed (0.4 % below it in the mean), between load zones they slow down to 21 % of it.'
+    >>> row_sentence(RowSlip("downwind", 0.96, 0.2, 0.99, None))
+    'Downwind row: loaded 96 % of the time; its rollers turn 1 % below rolling speed in the mean.'
     >>> row_sentence(RowSlip("upwind", 0.0007, 0.1, 0.78, (0.12, 0.28)))
     'Upwind row: loaded 0.07 % of the time; its rollers turn at 12 to 28 % of rolling speed: it skids.'
     """
@@ -131,7 +134,10 @@ def _load(share: float | None) -> str:
 def _turning(slip: RowSlip) -> str:
     """How fast the rollers turn, under load and without."""
     if slip.lowest is None and slip.under_load is None and slip.without_load is None:
-        return "the shaft stands still or hardly turns, so that there is no rolling speed to compare with"
+        return (
+            "the shaft stands still or hardly turns, "
+            "so that there is no rolling speed to compare with"
+        )
     if slip.under_load is None and slip.without_load is None:
         return f"its slowest roller {_slowest(slip.lowest)}"
     hardly_loaded = slip.under_load is None or (slip.loaded or 0.0) < _HARDLY_LOADED
@@ -141,7 +147,8 @@ def _turning(slip: RowSlip) -> str:
         speeds = low if low == high else f"{low} to {high}"
         return f"its rollers turn at {speeds} % of rolling speed{skids}"
     below = 100.0 * (1.0 - slip.under_load)
-    off = f"{number(abs(below), 1 if abs(below) < 1.0 else 2)} % {'below' if below >= 0.0 else 'above'}"
+    digits = 1 if abs(below) < 1.0 else 2
+    off = f"{number(abs(below), digits)} % {'below' if below >= 0.0 else 'above'}"
     rolls = abs(below) < 100.0 * _ROLLS
     speed = (
         f"at rolling speed ({off} it in the mean)" if rolls else f"{off} rolling speed in the mean"
@@ -169,7 +176,7 @@ def _slowing(slip: RowSlip) -> str:
 
 
 def _films(result: xr.Dataset) -> list[str]:
-    """Whether loaded contacts run on a full film; nothing where the result does not keep it, or nothing is loaded."""
+    """Whether loaded contacts run on a full film; nothing where that is not known."""
     if "film_slip_time" not in result:
         return []
     time = result.film_slip_time.transpose("row", "raceway", "film_class", "slip_class")
@@ -191,13 +198,13 @@ def _films(result: xr.Dataset) -> list[str]:
     if result.sizes["row"] > 1:
         where = f"{where} of the {worst.row.item()} row"
     return [
-        f"At {where} films are mixed (Λ below {_FULL_FILM:g}) for {number(100.0 * worst, 2)} % of the "
-        f"loaded time{thinnest}."
+        f"At {where} films are mixed (Λ below {_FULL_FILM:g}) for {number(100.0 * worst, 2)} % "
+        f"of the loaded time{thinnest}."
     ]
 
 
 def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
-    """The criterion of damage whose value is nearest to its reference, or furthest beyond, and the others beyond theirs."""
+    """The criterion nearest to its reference, or furthest beyond, and others beyond theirs."""
     judged = sorted(
         (line for line in criteria if np.isfinite(line["ratio"])), key=lambda line: -line["ratio"]
     )
@@ -225,7 +232,7 @@ def _name(line: Mapping[str, Any]) -> str:
 
 
 def _times(line: Mapping[str, Any]) -> str:
-    """A criterion's ratio to its reference in words; of a time, which is bad where it is short, the reference's to it.
+    """A criterion's ratio to its reference in words; of a time, which is bad if short, inverse.
 
     Examples
     --------

@@ -26,7 +26,7 @@ _MILLI = 1e3
 
 @program_style()
 def draw_bearing(bearing: Bearing) -> Figure:
-    """Draw the section of a bearing above its axis, all lengths in proportion, without the flanges of the inner ring.
+    """Draw the section of a bearing above its axis to scale, without flanges of the inner ring.
 
     Rings are drawn where bore, outside diameter and width are given.
     """
@@ -99,7 +99,7 @@ def _roller(bearing: Bearing, side: int) -> tuple[NDArray[np.float64], NDArray[n
 
 
 class _Section(NamedTuple):
-    """Lengths of the section [mm] that dimensions refer to, and the contact angle's functions [1]."""
+    """Lengths of the section [mm], and the contact angle's sine and cosine [1]."""
 
     half: float  #: Of the bearing's width
     offset: float  #: Of the row from the mid-plane
@@ -128,7 +128,7 @@ class _Section(NamedTuple):
 
 
 def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
-    """Arrows for lengths; name and value of every dimension beside the drawing, with a line to its place."""
+    """Arrows for lengths, and name and value of every dimension beside the drawing."""
     section = _Section.of(bearing, half)
     arrows = _arrows(section)
     labels = _labels(section, bearing)

@@ -1,7 +1,7 @@
-"""Figures of a result: where on the orbit energy goes, films, load zone, spread of the rollers, raceways, pockets.
+"""Figures of a result: energy over the orbit, films, load zone, rollers, raceways, pockets.
 
-Every function draws on the axes that it takes, and returns them. Angles count from the bottom along the orbit; polar
-axes look downwind, so that rollers rise on the left.
+Every function draws on the axes that it takes, and returns them. Angles count from the bottom along
+the orbit; polar axes look downwind, so that rollers rise on the left.
 """
 
 from __future__ import annotations
@@ -46,7 +46,8 @@ _PARTS = {
     "Λ < 1": ({"film_regime": "below 1"}, {"color": GREEN, "linestyle": ":"}),
 }
 #: What `plot_film_and_slip` shares out, by name, and the least share that has a colour [%].
-FILM_AND_SLIP, _LEAST_SHARE = {"time": "time under load", "passes": "passes"}, 0.01
+FILM_AND_SLIP = {"time": "time under load", "passes": "passes"}
+_LEAST_SHARE = 0.01
 #: Ratios of criteria are drawn from here on.
 _LEAST_RATIO = 1e-4
 _LOADS = {
@@ -59,8 +60,8 @@ _LOADS = {
 def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> PolarAxes:
     """Energy per orbit and degree of a row at each interface, on polar axes that look downwind.
 
-    Takes the array of `macroslip.result.orbit.energy_over_orbit` [J/degree]; drawn in mJ/degree. The legend
-    gives the energy per orbit of each interface.
+    Takes the array of `macroslip.result.orbit.energy_over_orbit` [J/degree]; drawn in mJ/degree.
+    The legend gives the energy per orbit of each interface.
     """
     from matplotlib.ticker import MaxNLocator
 
@@ -94,8 +95,8 @@ def _round(axes: PolarAxes, zero: str, quarters: Sequence[str], title: str) -> P
 def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     """Median film thickness of a row at each interface over the orbit, with the range of 5 to 95 %.
 
-    Takes `film_thickness` [m] and `film_parameter` [1] over (row, interface, quantile, angle). The right axis shows the
-    film parameter Λ, film thickness over composite roughness.
+    Takes `film_thickness` [m] and `film_parameter` [1] over (row, interface, quantile, angle). The
+    right axis shows the film parameter Λ, film thickness over composite roughness.
     """
     one = 1e6 * orbit.film_thickness.sel(row=row)
     angle = one.angle.values
@@ -205,7 +206,8 @@ def plot_roller_spread(axes: Axes, energy: xr.DataArray, row: str) -> Axes:
 def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
     """Share of loaded time outside the film formula's range, at each interface of both rows.
 
-    Takes `outside_film_range` of a result [–]; bars are means over the rollers, whiskers smallest and largest.
+    Takes `outside_film_range` of a result [–]; bars are means over the rollers, whiskers smallest
+    and largest.
     """
     for x, width, row, style in _row_bars(share):
         one = 1e2 * share.sel(row=row)
@@ -265,7 +267,7 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
 
 
 def plot_by_mechanism(axes: Axes, energy: xr.DataArray) -> Axes:
-    """Energy of a mean roller of each row by mechanism; takes `mechanism_energy` [J] of a result."""
+    """Energy of a mean roller of each row by mechanism, from `mechanism_energy` [J]."""
     mean = energy.mean("roller").sum("interface")
     for x, width, row, style in _row_bars(mean, "mechanism"):
         axes.barh(x, mean.sel(row=row).values, width, **style)
@@ -276,9 +278,19 @@ def plot_by_mechanism(axes: Axes, energy: xr.DataArray) -> Axes:
 
 
 def plot_spin_over_time(axes: Axes, result: xr.Dataset, row: str, roller: int) -> Axes:
-    """Spin speed of a roller [rad/s] over time, with its spin in pure rolling; where they part, the roller slips.
+    """Spin speed of a roller [rad/s] over time, with its spin in pure rolling.
 
-    Takes a result with traces.
+    Where they part, the roller slips.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    result : xarray.Dataset
+        With traces.
+    row : str
+        Name of the row.
+    roller : int
+        Number of the roller in its row.
     """
     if "time" not in result.dims:
         raise InputError(
@@ -313,11 +325,22 @@ def raceways(values: xr.DataArray) -> dict[str, xr.DataArray]:
 def plot_map(
     axes: Axes, values: xr.DataArray, units: str, title: str, *, difference: bool = False
 ) -> Axes:
-    """A raceway unrolled: place along the roller over the angle from the bottom, one map over (angle, station).
+    """A raceway unrolled: place along the roller over the angle from the bottom.
 
-    The colours of a difference have their middle at zero.
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    values : xarray.DataArray
+        Values in `units` over (angle [rad from +X0], station [m]).
+    units : str
+        Their unit, for the scale of colours.
+    title : str
+        Title of the map.
+    difference : bool, optional
+        Whether the colours have their middle at zero.
     """
-    # Angles count from +X0, which is a quarter of a turn past the bottom; the bottom is in the middle of the map.
+    # Angles count from +X0, which is a quarter of a turn past the bottom; the bottom is in the
+    # middle of the map.
     order = np.argsort((np.degrees(values.angle.values) + 270.0) % 360.0)
     place = 1e3 * values.station.values
     half = 0.5 * (place[1] - place[0])
@@ -331,10 +354,19 @@ def plot_map(
 
 
 def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str) -> Axes:
-    """Shares [%] of time under load, or of passes, by Λ and by slide-roll ratio with its sign, of one raceway.
+    """Shares [%] of time under load, or of passes, by Λ and by slide-roll ratio of one raceway.
 
-    Takes `film_slip_time` or `film_slip_passes` over (film_class, slip_class). Left of the middle the roller is the faster
-    surface, right of it the ring.
+    Left of the middle the roller is the faster surface, right of it the ring.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    amounts : xarray.DataArray
+        `film_slip_time` [s] or `film_slip_passes` [1] over (film_class, slip_class).
+    units : str
+        What is shared out: a value of `FILM_AND_SLIP`.
+    title : str
+        Row and raceway.
     """
     values = amounts.transpose("film_class", "slip_class").values
     shares = 100.0 * values / max(values.sum(), 1e-300)
@@ -380,7 +412,7 @@ def plot_along_roller(axes: Axes, density: xr.DataArray, row: str) -> Axes:
 
 
 def plot_load_duration(axes: Axes, result: xr.Dataset) -> Axes:
-    """Share of time in which each load of the bearing exceeds a value. Takes a result with a rating."""
+    """Share of time in which each load of the bearing exceeds a value, from its rating."""
     middle = 1e-3 * result.load_class_middle.values
     for load in result["load"].values.tolist():
         exceeded = np.cumsum(result.time_share.sel(load=load).values[::-1])[::-1]
@@ -390,7 +422,7 @@ def plot_load_duration(axes: Axes, result: xr.Dataset) -> Axes:
 
 
 def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> PolarAxes:
-    """Largest force of a spar [N] by place on the orbit, on a logarithmic radius; polar axes, looking downwind.
+    """Largest force of a spar [N] by place on the orbit, looking downwind; logarithmic.
 
     Takes a result of a whole bearing.
     """
@@ -409,7 +441,7 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
 
 
 def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
-    """Residuals of the balances of a whole bearing over time, each over all that has passed through by the end."""
+    """Residuals of a whole bearing's balances over time, over all that has passed through."""
     impulse = float(abs(result.book_inner_impulse).max()) or 1.0
     spent = float(abs(result.book_raceway_loss[-1])) + float(abs(result.pocket_loss[-1])) or 1.0
     for values, label, style in (
@@ -441,9 +473,10 @@ def plot_slip_over_orbit(axes: Axes, slip: xr.DataArray) -> Axes:
 
 
 def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
-    """Criteria of damage: value over reference as a dot with its uncertainty as a bar, logarithmic; grey without a reference.
+    """Criteria of damage: value over reference with its uncertainty; grey without a reference.
 
-    Takes the dataset of `macroslip.result.damage.damage`. A criterion that is passed lies right of 1.
+    Takes the dataset of `macroslip.result.damage.damage`. A criterion that is passed lies right of
+    1.
     """
     known = damage.isel(criterion=np.flatnonzero(damage.value.notnull()))
     ratio = np.clip(known.ratio.values, _LEAST_RATIO, None)
@@ -476,7 +509,7 @@ def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
 
 
 def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
-    """Depth of wear along the roller, of either raceway and the roller, over the years; a dataset of `damage` with wear."""
+    """Depth of wear along either raceway and the roller over the years, from `damage`."""
     if "worn_depth" not in damage:
         raise InputError("there is no wear", remedy=damage.attrs["not_kept"])
     depth = 1e6 * damage.worn_depth.sel(row=row)
@@ -500,7 +533,7 @@ def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
 def _row_bars(
     values: xr.DataArray, over: str = "interface"
 ) -> list[tuple[np.ndarray, float, str, dict[str, Any]]]:
-    """Of each row the places of its bars over a dimension, their width, its name, and a style that differs in grey."""
+    """Of each row the positions and width of its bars, its name, and its style."""
     rows = values.row.values.tolist()
     width = 0.8 / len(rows)
     places = np.arange(values.sizes[over])
@@ -557,7 +590,7 @@ def _heat_map(
 
 
 def plot_skew_over_orbit(axes: Axes, result: xr.Dataset) -> Axes:
-    """Mean skew of pressed rollers over the orbit, a line a row, and dashed what it adds to the power of one roller.
+    """Mean skew of pressed rollers over the orbit, and dashed the power that it adds.
 
     Takes a result with `skew_by_position` [rad] and `skew_power_by_position` [W].
     """

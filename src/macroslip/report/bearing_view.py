@@ -34,7 +34,7 @@ _COLOURS = 16
 
 
 def quantise(values: NDArray, low: float, high: float) -> bytes:
-    """Values between `low` and `high` as little-endian numbers of 16 bits, 0 to 65534; 65535 for NaN.
+    """Values from `low` to `high` as little-endian 16 bit numbers 0 to 65534; 65535 for NaN.
 
     Only values that are not above `low` become 0, so that a load of zero differs from a small one.
 
@@ -50,7 +50,7 @@ def quantise(values: NDArray, low: float, high: float) -> bytes:
 
 
 def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
-    """Plain data of a `macroslip.result.orbit.scene` for the page's script, which draws the bearing to scale.
+    """Plain data of a `macroslip.result.orbit.scene` for the script that draws the bearing.
 
     Geometry [mm], times [s], angles [degrees], and for each quantity its unit, range and codes.
     """
@@ -113,7 +113,7 @@ def _text(content: bytes) -> str:
 
 
 def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
-    """Places of the rollers in their pockets, drawn enlarged so that neighbouring pockets do not meet."""
+    """Places of the rollers in their pockets, enlarged so that pockets do not meet."""
     offsets = 1e3 * scene.pocket_offset.transpose("row", "roller", "time").values.astype(float)
     reach = float(np.nanmax(np.abs(offsets), initial=1e-6))
     free = 1e3 * (

@@ -1,4 +1,4 @@
-"""Results or designs of a study side by side: what differs in their input and their numbers, and which is better."""
+"""Results or designs of a study side by side: how input and numbers differ, which is better."""
 
 from __future__ import annotations
 
@@ -46,18 +46,22 @@ def compare(
     Parameters
     ----------
     *results : xarray.Dataset or path
-        Two results of `simulate` or more, or their files; or one study, from `open_study` or its folder.
+        Two results of `simulate` or more, or their files; or one study, from `open_study` or its
+        folder.
     by : str or sequence of str, optional
-        Of a study: the labels that distinguish designs, `bearing`; every bearing, lubricant, model and parameter if not
-        given. Runs that differ in other labels are pooled. Without weights in the study all its cases count alike.
+        Of a study: the labels that distinguish designs, `bearing`; every bearing, lubricant, model
+        and parameter if not given. Runs that differ in other labels are pooled. Without weights in
+        the study all its cases count alike.
 
     Returns
     -------
     pandas.DataFrame
-        A line a quantity and design: `quantity`, `units`, `design`, `value`, `difference [%]` from the first design, and
-        `low [%]` to `high [%]`, the 95 % range of the energy's difference by the scatter of the wind, which both designs
-        have in common; NaN where there is none. `attrs`: `notes`, what restricts the comparison; `inputs`, what differs, by
-        key and design; `ranking`, a sentence; `about`, the results by their titles, or the runs, model and oil of the study.
+        A line a quantity and design: `quantity`, `units`, `design`, `value`, `difference [%]` from
+        the first design, and `low [%]` to `high [%]`, the 95 % range of the energy's difference by
+        the scatter of the wind, which both designs have in common; NaN where there is none.
+        `attrs`: `notes`, what restricts the comparison; `inputs`, what differs, by key and design;
+        `ranking`, a sentence; `about`, the results by their titles, or the runs, model and oil of
+        the study.
 
     Raises
     ------
@@ -66,8 +70,9 @@ def compare(
 
     Notes
     -----
-    The range is that of Student's t for the mean of the differences: of up to ten pieces of the history between two results,
-    of the runs of a bin between two designs of a study. What the estimates among the inputs leave open is not in it.
+    The range is that of Student's t for the mean of the differences: of up to ten pieces of the
+    history between two results, of the runs of a bin between two designs of a study. What the
+    estimates among the inputs leave open is not in it.
     """
     opened = [_opened(result) for result in results]
     studies = [result for result in opened if "case" in result.dims]
@@ -136,7 +141,7 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 
 
 def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Values of nested sections by their keys with dots; of a sourced value, its number with its unit."""
+    """Values of nested sections by keys with dots; of a sourced value, number and unit."""
     if not isinstance(value, Mapping):
         yield key, value
     elif "value" in value and "tag" in value:
@@ -207,7 +212,7 @@ def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
 
 
 def _differences_of_pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray | None:
-    """Differences of power [J/h] in pieces of the same time and loads; None where orbits are not the same."""
+    """Differences of power [J/h] in pieces of the same time; None for different orbits."""
     pair = (first, other)
     if any("orbit_energy" not in result or result.sizes["orbit"] < 4 for result in pair):
         return None
@@ -235,7 +240,7 @@ def _differences_of_pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray |
 
 
 def _half_range(variance: float, freedom: int, base: float) -> float:
-    """Half of the 95 % range of a mean [% of the base]; NaN where nothing is known of its scatter, or the base is 0."""
+    """Half of the 95 % range of a mean [% of the base]; NaN if not known or the base is 0."""
     from scipy.stats import t
 
     if not freedom or not base:
@@ -278,7 +283,7 @@ def _table(
 def compare_designs(
     study: xr.Dataset, by: Sequence[str] | None = None, wind: Weibull | Given | None = None
 ) -> pd.DataFrame:
-    """Compare the designs of a study over a year, `wind` in place of that of its file; as `compare`."""
+    """Compare designs of a study over a year, `wind` in place of its file's; as `compare`."""
     weights, field, width = weights_in_use(study, wind)
     varied = _varied_labels(study)
     labels = _labels_of_designs(study, by, varied)
@@ -316,7 +321,7 @@ def _varied_labels(study: xr.Dataset) -> list[str]:
 def _labels_of_designs(
     study: xr.Dataset, by: Sequence[str] | None, varied: Sequence[str]
 ) -> list[str]:
-    """The labels that distinguish designs: those asked for, otherwise all that vary and are not sampled."""
+    """Labels of designs: those asked for, otherwise all that vary and are not sampled."""
     if not by:
         sampled = sampled_parameters(study)
         return [name for name in varied if name not in sampled]
@@ -331,7 +336,7 @@ def _labels_of_designs(
 
 
 def _parts(study: xr.Dataset, labels: Sequence[str]) -> dict[str, xr.Dataset]:
-    """The runs of each design by its name; other labels of designs are pooled, so that a part is one group."""
+    """The runs of each design by its name; its other labels are pooled into one group."""
     columns = {name: ("group", study[name].values, study[name].attrs) for name in labels}
     design = np.array(design_names(xr.Dataset(coords=columns)) if labels else [""])
     names = list(dict.fromkeys(design.tolist()))
@@ -354,7 +359,7 @@ def _parts(study: xr.Dataset, labels: Sequence[str]) -> dict[str, xr.Dataset]:
 def _design_notes(
     years: Mapping[str, xr.Dataset], parts: Mapping[str, xr.Dataset], pooled: Sequence[str]
 ) -> list[str]:
-    """What restricts the comparison of designs; `pooled` are labels of which a design has several values."""
+    """What restricts the comparison of designs; a design has several values of `pooled`."""
     notes = [coverage(next(iter(years.values())))]
     if pooled:
         notes.append(
@@ -398,7 +403,7 @@ def _year_numbers(found: xr.Dataset) -> dict[tuple[str, str], float]:
 
 
 def _power_differences(first: xr.Dataset, other: xr.Dataset) -> pd.Series:
-    """Differences of power [W] of both rows under the same loads, by loads; without those that only one of them has."""
+    """Differences of power [W] of both rows by loads, as far as both parts have them."""
     power, other_power = (
         (part.energy_mean / part.window_length)
         .sum("row", skipna=False)
@@ -413,12 +418,10 @@ def _power_differences(first: xr.Dataset, other: xr.Dataset) -> pd.Series:
 def _pooled_variance(
     differences: pd.Series, bin_of_loads: Mapping[str, int], share: np.ndarray
 ) -> tuple[float, int]:
-    """Variance of the mean of differences over a year, by their scatter in each bin, and its degrees of freedom."""
-    variance = 0.0
-    freedom = 0
-    bins = [bin_of_loads[str(name)] for name in differences.index]
-    for number, values in differences.groupby(bins):
-        if values.size > 1:
-            variance += share[int(number)] ** 2 * float(values.var()) / values.size  # pyright: ignore[reportArgumentType]
-            freedom += values.size - 1
-    return variance, freedom
+    """Variance of the mean difference over a year by scatter in bins; degrees of freedom."""
+    pieces = differences.groupby([bin_of_loads[str(name)] for name in differences.index])
+    size = pieces.size()
+    several = size > 1
+    weight = share[size.index.to_numpy(dtype=int)]
+    variance = (weight**2 * pieces.var() / size)[several].sum()
+    return float(variance), int((size - 1)[several].sum())

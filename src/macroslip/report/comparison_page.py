@@ -31,13 +31,15 @@ if TYPE_CHECKING:
 _TEMPLATE = "comparison.html"
 _RANGE = "In brackets: 95 % range by the scatter of the wind that they have in common"
 #: Inputs that a page names, letters of one, and designs that its heading names.
-_MOST_INPUTS, _LENGTH, _MOST_NAMED = 40, 60, 4
+_MOST_INPUTS = 40
+_LENGTH = 60
+_MOST_NAMED = 4
 
 
 def comparison_page(
     found: pd.DataFrame, results: Mapping[str, xr.Dataset] | None = None, *, title: str = ""
 ) -> str:
-    """A page on what `macroslip.compare` gives, with curves of the results by name; HTML in one piece."""
+    """A page on what `macroslip.compare` gives, with curves of the results by name."""
     results = results or {}
     text = words(_TEMPLATE)
     numbers, inputs = comparison_tables(found)
@@ -56,7 +58,7 @@ def comparison_page(
 
 
 def _exceedances(results: Mapping[str, xr.Dataset]) -> list[Picture]:
-    """How many orbits exceed an energy, and a power, with a curve of every result that has orbits."""
+    """How many orbits exceed an energy, and a power, a curve for each result with orbits."""
     values = {
         "energy of an orbit [J]": {
             name: result.orbit_energy.sum("interface")
@@ -83,7 +85,7 @@ def _exceedances(results: Mapping[str, xr.Dataset]) -> list[Picture]:
 
 
 def _maps(results: Mapping[str, xr.Dataset]) -> tuple[list[Picture], bool]:
-    """Of every raceway its map in each result, on one scale, and what each has more than the first, on another.
+    """Maps of every raceway in each result on one scale, and differences on another.
 
     With them, whether there are such differences.
     """
@@ -125,7 +127,7 @@ def _drawn_maps(
 
 
 def _plot_exceeded(axes: Axes, curves: Mapping[str, np.ndarray], label: str) -> Axes:
-    """Share of orbits whose value exceeds that of the axis, a curve a result; takes falling values."""
+    """Share of orbits that exceed a value, a curve for each result's falling values."""
     for k, (name, values) in enumerate(curves.items()):
         share = 100.0 * (np.arange(values.size) + 1.0) / values.size
         axes.plot(

@@ -1,4 +1,4 @@
-"""A load history in pictures: at the hub, on the main bearing, as a spectrum, and which rows it loads."""
+"""A load history in pictures: on the main bearing, as a spectrum, and which rows it loads."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def plot_direction(axes: Axes, loads: BearingLoads) -> Axes:
 
 
 def plot_spectrum(axes: Axes, loads: BearingLoads) -> Axes:
-    """Spectral density of radial load and thrust [kN²/Hz], with the mean speed of the shaft and its third harmonic."""
+    """Spectral density of radial load and thrust [kN²/Hz], with the shaft's 1P and 3P."""
     from scipy.signal import welch
 
     step = float(np.median(np.diff(loads.time)))
@@ -82,7 +82,18 @@ def plot_spectrum(axes: Axes, loads: BearingLoads) -> Axes:
 
 
 def plot_empty_row(axes: Axes, time: NDArray, carried: NDArray, share: float) -> Axes:
-    """Load that the rollers of the upwind row carry together [kN] over time; none while the row is empty."""
+    """Load that the rollers of the upwind row carry together [kN] over time.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    time : ndarray
+        Times [s].
+    carried : ndarray
+        Sum of the rollers' loads at these times [N].
+    share : float
+        Share of time in which the row is empty [1].
+    """
     axes.fill_between(time, carried / 1e3, color=BLUE, alpha=0.5, linewidth=0.0)
     axes.set_ylim(bottom=0.0)
     return finish(
@@ -95,7 +106,7 @@ def plot_empty_row(axes: Axes, time: NDArray, carried: NDArray, share: float) ->
 
 @program_style()
 def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
-    """All of it on one page; with times [s] and the load that the upwind row's rollers carry together then [N]."""
+    """All of it on one page; `carried` [N] is the load of the upwind row at times [s]."""
     figure, axes = new_figure(9.6, 9.6, 3, 2)
     plot_bearing_load(axes[0], loads)
     plot_shaft_speed(axes[1], loads)

@@ -1,4 +1,4 @@
-"""A page: sections whose words are in templates, as one HTML file that needs no network and no other file."""
+"""A page: sections from templates, as one HTML file that needs no network and no other file."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Opening:
-    """The first screen of a page: at most five paragraphs, the main one first, and at most four pictures."""
+    """The first screen of a page: at most five paragraphs and four pictures."""
 
     body: Markup
     pictures: Sequence[Picture]
@@ -91,9 +91,18 @@ def words(template: str) -> Any:
 def sections(
     template: str, bodies: Mapping[str, Any], *, suffix: str = "", group: str = ""
 ) -> list[Section]:
-    """Sections from bodies by name; titles and gists are in the dictionary `titles` of the template.
+    """Sections from bodies by name, with the titles and gists of the template.
 
-    A suffix is added to the names where a page shows several results.
+    Parameters
+    ----------
+    template : str
+        Name of the template; its dictionary `titles` has the titles and gists.
+    bodies : mapping
+        Body of each section by its name.
+    suffix : str, optional
+        Added to the names, where a page shows several results.
+    group : str, optional
+        Name of the group that the sections make, such as one of several results.
     """
     titles = words(template).titles
     return [
@@ -105,8 +114,18 @@ def sections(
 def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]) -> str:
     """One HTML page with style, script, pictures and data inside it, every text escaped.
 
-    The opening is always shown, under the name "answer"; sections are folded until links, a search in the page or
-    printing open them. A policy in the page lets only its own script run and forbids every request.
+    Parameters
+    ----------
+    title, subtitle : str
+        Heading, and what stands below it.
+    opening : Opening
+        Always shown, under the name "answer".
+    found : iterable of Section
+        Folded until links, a search in the page or printing open them.
+
+    Notes
+    -----
+    A policy in the page lets only its own script run and forbids every request.
     """
     files = resources.files("macroslip.report") / "templates"
     script = "".join(

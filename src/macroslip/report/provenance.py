@@ -1,4 +1,4 @@
-"""Where a page's numbers come from: program, machine, inputs, tolerances, how integrations ended, works cited."""
+"""Where a page's numbers come from: program, inputs, tolerances, statuses, works cited."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _lines(datasets: Mapping[str, xr.Dataset], attribute: str) -> list[str]:
 
 
 def _input_tables(given: Mapping[str, Mapping[str, Any]], part: str) -> list[Table]:
-    """A table of each different bearing or lubricant, or of each different rest of the input, and whose it is."""
+    """A table of each different bearing, lubricant or rest of the input, and whose it is."""
     found: dict[str, list[str]] = {}
     for name, settings in given.items():
         rest = {
@@ -125,10 +125,10 @@ def _text(value: Any) -> str:
 
 
 def bibtex(citations: Iterable[str]) -> str:
-    """BibTeX entries of the program and of the works cited, one each, as a result's attribute `citations` lists them.
+    """BibTeX entries of the program and of the works that a result's `citations` lists.
 
-    A work that is not known by its DOI or title becomes an entry of type `misc` with the citation as its note, and its
-    DOI if it has one.
+    A work that is not known by its DOI or title becomes an entry of type `misc` with the citation
+    as its note, and its DOI if it has one.
 
     Examples
     --------
@@ -164,9 +164,9 @@ def bibtex(citations: Iterable[str]) -> str:
 
 
 def _bibtex_entry(kind: str, key: str, fields: dict[str, str]) -> str:
-    # Braces of an unknown text would end the field.
-    lines = [
-        f"  {name} = {{{value if value.count('{') == value.count('}') else re.sub('[{}]', '', value)}}}"
-        for name, value in fields.items()
-    ]
+    lines = []
+    for name, value in fields.items():
+        # Braces of an unknown text would end the field.
+        closed = value.count("{") == value.count("}")
+        lines.append(f"  {name} = {{{value if closed else re.sub('[{}]', '', value)}}}")
     return f"@{kind}{{{key},\n" + ",\n".join(lines) + "\n}"

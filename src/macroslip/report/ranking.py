@@ -16,11 +16,12 @@ _MOST_NAMED = 4
 #: Ends of quantities of which more is better; of all others less is.
 _MORE_IS_BETTER = ("life", "static safety", "lowest spin over pure rolling")
 #: Numbers that differ by less than this are alike; lives beyond this many hours are, too.
-_ALIKE, _LONG_LIFE = 0.05, 500.0 * HOURS_A_YEAR
+_ALIKE = 0.05
+_LONG_LIFE = 500.0 * HOURS_A_YEAR
 
 
 def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
-    """Sentences on the energies of a comparison: which is least, what the others have more, and how sure that is.
+    """Sentences on the energies of a comparison: the least, the others, and how sure that is.
 
     Takes the table of `macroslip.compare`; the first sentence names the best.
     """
@@ -58,7 +59,7 @@ def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
 
 
 def _better_design(quantity: str, numbers: pd.DataFrame, best: str) -> str:
-    """The design with the best number of a quantity, if that is clearly better than that of `best`; empty otherwise."""
+    """The design with a clearly better number of a quantity than `best`; empty without one."""
     values = numbers.set_index("design")["value"].dropna()
     if best not in values.index:
         return ""
@@ -86,7 +87,7 @@ def _order(ranked: pd.DataFrame) -> str:
 
 
 def _differences(first: str, others: pd.DataFrame) -> list[str]:
-    """Sentences on the differences from the first design: those that are sure, within their scatter, or unknown."""
+    """Sentences on the differences from the first design, and how sure they are."""
     sentences = []
     within_scatter = []
     unsure = []

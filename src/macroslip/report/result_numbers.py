@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -9,79 +10,65 @@ import numpy as np
 import xarray as xr
 
 from macroslip.constants import HOURS_A_YEAR
-from macroslip.damage.micropitting import share_below
 from macroslip.imposed.status import Status
-from macroslip.measures.details import FILM_EDGES
 from macroslip.report.page import Table, number
 from macroslip.report.style import years
 from macroslip.result.run_input import stored_settings
 from macroslip.study.summary import RATING_VARIABLES
 
-#: Keys of a case in which a result on imposed orbits may differ from the coupled one it is compared with.
+#: Keys of a case in which a result on imposed orbits may differ from the coupled one it is compared
+#: with.
 _OWN_KEYS = ("dynamics", "cage", "traces", "rollers")
 #: Variables of a rating for the bearing as a whole, in the order of the table.
 _RATING = (
-    "static_safety", "equivalent_load", "fatigue_load_limit", "share_below_fatigue_load_limit", "minimum_load",
-    "share_below_minimum_load", "viscosity_ratio", "life_modification", "basic_life", "modified_life",
-)  # fmt: skip
+    "static_safety",
+    "equivalent_load",
+    "fatigue_load_limit",
+    "share_below_fatigue_load_limit",
+    "minimum_load",
+    "share_below_minimum_load",
+    "viscosity_ratio",
+    "life_modification",
+    "basic_life",
+    "modified_life",
+)
 
 
 def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
-    """The main numbers of each row of a result, or of a case of a study.
+    """The main numbers of each row of a result; None where one is not known.
 
-    Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface` with the largest
-    energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W], the median over the orbits; `spin`
-    [1], the lowest over pure rolling; `loaded` [%], share of time with load; `outside` and `mixed` [%], shares of
-    loaded time outside the film formula's range and with Λ below 3, of the raceway with more, and `outside_most` [%] of
-    any roller and interface; and how many `failed` of the `rollers`.
+    Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface`
+    with the largest energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W],
+    the median over the orbits; `spin` [1], the lowest over pure rolling; `outside` [%], the share of
+    loaded time outside the film formula's range, of the raceway with more, and `outside_most` [%]
+    of any roller and interface; and how many `failed` of the `rollers`.
     """
-    found = []
-    for name in result.row.values.tolist():
-        row = result.sel(row=name)
-        energy, parts = (
-            row.energy.sum("interface", skipna=False),
-            row.energy.mean("roller", skipna=False),
-        )
-        total = _known(energy.mean("roller", skipna=False))
-        orbits = row.get("peak_power", row.get("peak_power_max"))
-        peak = row.get("window_peak_power", orbits)
-        if orbits is not None and "interface" in orbits.dims:
-            orbits = orbits.max("interface")
-        loaded = row.get("loaded_share")
-        if loaded is None and "roller_load" in row:
-            loaded = (row.roller_load > 0.0).mean()
-        share = row.get("outside_film_range")
-        raceways = (
-            None if share is None else share.sel(interface=share.interface.isin(["inner", "outer"]))
-        )
-        thin = np.array(np.nan)
-        if "film_slip_time" in row:
-            amounts = row.film_slip_time.transpose("raceway", "film_class", "slip_class").values
-            thin = share_below(amounts, FILM_EDGES, 3.0)
-        found.append(
-            {
-                "name": name,
-                "energy": total,
-                "least": _known(energy.min("roller")),
-                "most": _known(energy.max("roller")),
-                "interface": str(parts.interface.values[int(np.argmax(parts.values))])
-                if total
-                else "",
-                "share": 100.0 * float(parts.max()) / total if total else None,
-                "peak": None if peak is None else _known(peak.max()),
-                "typical": None if orbits is None else _known(orbits.median()),
-                "spin": _known(row.min_spin_ratio.min()) if "min_spin_ratio" in row else None,
-                "loaded": None if loaded is None else _known(100.0 * loaded),
-                "outside": None
-                if raceways is None
-                else _known(100.0 * raceways.mean("roller").max()),
-                "outside_most": None if share is None else _known(100.0 * share.max()),
-                "mixed": 100.0 * float(np.nanmax(thin)) if np.isfinite(thin).any() else None,
-                "failed": int((row.status != 0).sum()),
-                "rollers": int(row.sizes["roller"]),
-            }
-        )
-    return found
+    return [_of_row(result.sel(row=name)) for name in result.row.values]
+
+
+def _of_row(row: xr.Dataset) -> dict[str, Any]:
+    unknown = xr.full_like(row.energy, np.nan)
+    energy = row.energy.sum("interface", skipna=False)
+    by_interface = row.energy.mean("roller", skipna=False)
+    total = _known(energy.mean(skipna=False))
+    peaks = row.get("peak_power", unknown)
+    outside = 100.0 * row.get("outside_film_range", unknown)
+    at_raceways = outside.sel(interface=outside.interface.isin(["inner", "outer"]))
+    return {
+        "name": row.row.item(),
+        "energy": total,
+        "least": _known(energy.min()),
+        "most": _known(energy.max()),
+        "interface": str(by_interface.idxmax().item()) if total else "",
+        "share": 100.0 * float(by_interface.max()) / total if total else None,
+        "peak": _known(row.get("window_peak_power", peaks).max()),
+        "typical": _known(peaks.max("interface").median()),
+        "spin": _known(row.get("min_spin_ratio", unknown).min()),
+        "outside": _known(at_raceways.mean("roller").max()),
+        "outside_most": _known(outside.max()),
+        "failed": int((row.status != 0).sum()),
+        "rollers": int(row.sizes["roller"]),
+    }
 
 
 def _known(value: xr.DataArray) -> float | None:
@@ -89,7 +76,7 @@ def _known(value: xr.DataArray) -> float | None:
 
 
 def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
-    """Largest frictional power of a result [W], with its row and interface; None where it holds none."""
+    """Largest frictional power of a result [W], with row and interface; None without one."""
     peak = result.get("window_peak_power", result.get("peak_power"))
     if peak is None or not bool(peak.notnull().any()):
         return None
@@ -102,7 +89,7 @@ def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
 
 
 def estimated_values(result: xr.Dataset) -> tuple[int, int]:
-    """How many values of bearing and lubricant are engineering estimates, and how many there are."""
+    """How many values of bearing and lubricant are engineering estimates, and of how many."""
     given = stored_settings(result)
     entries = [
         one for part in ("bearing", "lubricant") for one in dict(given.get(part) or {}).values()
@@ -193,39 +180,30 @@ def balances(result: xr.Dataset) -> dict[str, float]:
 
 
 def comparison_table(result: xr.Dataset, imposed: xr.Dataset) -> Table:
-    """Energy of friction at every interface beside the energy of the same case on imposed orbits."""
+    """Energy of friction at every interface beside that of the case on imposed orbits."""
+    before = imposed.energy.mean("roller")
+    now = result.energy.mean("roller")
+    ratio = now / before.where(before > 0.0)
     rows = []
-    for row in result.row.values.tolist():
-        for interface in result.interface.values.tolist():
-            before, now = (
-                float(one.energy.sel(row=row, interface=interface).mean("roller"))
-                for one in (imposed, result)
-            )
-            ratio = now / before if before > 0.0 else None
-            rows.append((row, interface, f"{before:.4g}", f"{now:.4g}", number(ratio)))
+    for row, interface in itertools.product(now.row.values, now.interface.values):
+        energies = [float(one.sel(row=row, interface=interface)) for one in (before, now)]
+        cells = [f"{energy:.4g}" for energy in energies]
+        rows.append((row, interface, *cells, number(ratio.sel(row=row, interface=interface))))
     return Table(("row", "interface", "imposed orbit [J]", "whole bearing [J]", "ratio"), rows)
 
 
 def pocket_table(result: xr.Dataset) -> Table:
     """Forces of the spars of a whole bearing."""
     span = result.attrs["window_end"] - result.attrs["window_start"]
+    largest = result.largest_pocket_force.max("roller")
+    mean = result.pocket_impulse.mean("roller") / span
+    contact = 100.0 * result.pocket_contact_time.mean("roller") / span
     rows = []
-    for row in result.row.values.tolist():
-        for side in result.side.values.tolist():
-            one = result.sel(row=row, side=side)
-            mean, contact = (
-                float(values.mean()) / span
-                for values in (one.pocket_impulse, one.pocket_contact_time)
-            )
-            rows.append(
-                (
-                    row,
-                    side,
-                    f"{float(one.largest_pocket_force.max()):.4g}",
-                    f"{mean:.4g}",
-                    f"{100 * contact:.3g}",
-                )
-            )
+    for row, side in itertools.product(result.row.values, result.side.values):
+        force, average, share = (
+            float(one.sel(row=row, side=side)) for one in (largest, mean, contact)
+        )
+        rows.append((row, side, f"{force:.4g}", f"{average:.4g}", f"{share:.3g}"))
     headings = (
         "row",
         "spar",
@@ -233,11 +211,8 @@ def pocket_table(result: xr.Dataset) -> Table:
         "mean force on a roller [N]",
         "time in contact [%]",
     )
-    return Table(
-        headings,
-        rows,
-        "Forces of the spars in the window; front is the spar ahead along the orbit.",
-    )
+    about = "Forces of the spars in the window; front is the spar ahead along the orbit."
+    return Table(headings, rows, about)
 
 
 def rating_tables(result: xr.Dataset) -> list[Table]:
@@ -267,9 +242,13 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
             ]
             raceways.append((f"{row}, {raceway}", *cells))
     headings = (
-        "row, raceway", "largest roller load [kN]", "largest pressure [GPa]", "film ratio Λ, median",
-        "Λ, 5 % of loaded rollers below", "reference life",
-    )  # fmt: skip
+        "row, raceway",
+        "largest roller load [kN]",
+        "largest pressure [GPa]",
+        "film ratio Λ, median",
+        "Λ, 5 % of loaded rollers below",
+        "reference life",
+    )
     exponents = result.wohler_exponent.values.tolist()
     ranges = [
         (
@@ -290,7 +269,7 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
 
 
 def rating_summary(study: xr.Dataset) -> Table | None:
-    """Least, median and largest of the rating's numbers over the runs of a study; None where none was rated."""
+    """Least, median and largest rating numbers of the runs of a study; None without any."""
     if "static_safety" not in study or not bool(study.static_safety.notnull().any()):
         return None
     rows = []
@@ -311,8 +290,10 @@ def rating_text(value: xr.DataArray) -> str:
 
     Examples
     --------
-    >>> rating_text(xr.DataArray(87660.0, attrs={"units": "h"})), rating_text(xr.DataArray(1.5e5, attrs={"units": "N"}))
-    ('10 years', '150 kN')
+    >>> rating_text(xr.DataArray(87660.0, attrs={"units": "h"}))
+    '10 years'
+    >>> rating_text(xr.DataArray(1.5e5, attrs={"units": "N"}))
+    '150 kN'
     """
     found, units = float(value), value.attrs.get("units", "")
     if not np.isfinite(found):
@@ -331,8 +312,8 @@ def usual_units(value: float, unit: str) -> str:
 
     Examples
     --------
-    >>> usual_units(7.17e4, "W/m2"), usual_units(2.26e12, "J/m2"), usual_units(0.05, "1"), usual_units(704.05, "year")
-    ('0.072 W/mm²', '2.3 MJ/mm²', '0.05', 'beyond 500 years')
+    >>> usual_units(7.17e4, "W/m2"), usual_units(2.26e12, "J/m2"), usual_units(704.05, "year")
+    ('0.072 W/mm²', '2.3 MJ/mm²', 'beyond 500 years')
     """
     if np.isnan(value):
         return "–"
@@ -348,7 +329,7 @@ def usual_units(value: float, unit: str) -> str:
 
 
 def criteria_table(lines: Sequence[Mapping[str, Any]]) -> Table:
-    """Criteria of damage from `macroslip.result.damage.lines`: value, reference, ratio, and the factor either way."""
+    """Criteria of damage from `macroslip.result.damage.lines`, with their factors either way."""
     rows = []
     for line in lines:
         value, reference = (usual_units(line[key], line["unit"]) for key in ("value", "reference"))
@@ -371,7 +352,8 @@ def how_sure(lines: Sequence[Mapping[str, Any]]) -> str:
 
     Examples
     --------
-    >>> how_sure([{"title": "wear: time", "how sure": "factor 10: k"}, {"title": "wear: depth", "how sure": "factor 10: k"}])
+    >>> both = [{"title": f"wear: {name}", "how sure": "factor 10: k"} for name in "ab"]
+    >>> how_sure(both)
     'factor 10: k (wear)'
     """
     mechanisms: dict[str, dict[str, None]] = {}
@@ -383,40 +365,32 @@ def how_sure(lines: Sequence[Mapping[str, Any]]) -> str:
 
 def by_raceway(values: xr.DataArray) -> list[tuple[str, str, float]]:
     """Row, raceway and largest value of every map."""
+    largest = values.max([dim for dim in values.dims if dim not in ("row", "raceway")])
     return [
-        (row, raceway, float(values.sel(row=row, raceway=raceway).max()))
-        for row in values.row.values.tolist()
-        for raceway in ("outer", "inner")
+        (row, raceway, float(largest.sel(row=row, raceway=raceway)))
+        for row, raceway in itertools.product(values.row.values.tolist(), ("outer", "inner"))
     ]
 
 
 def surface_shares(density: xr.DataArray) -> list[dict[str, Any]]:
     """Of each row that dissipates energy its parts with slip < 0 and with Λ < 1 [%]."""
-    found: list[dict[str, Any]] = []
-    for row in density.row.values.tolist():
-        one = density.sel(row=row)
-        total = float(one.sum())
-        if total > 0.0:
-            negative, thin = (
-                float(one.sel(part).sum())
-                for part in ({"slip_sign": "negative"}, {"film_regime": "below 1"})
-            )
-            found.append(
-                {"row": row, "negative": 100.0 * negative / total, "thin": 100.0 * thin / total}
-            )
-    return found
+    total = density.sum([dim for dim in density.dims if dim != "row"])
+    shares = 100.0 * density / total.where(total > 0.0)
+    return [
+        {
+            "row": row,
+            "negative": float(shares.sel(row=row, slip_sign="negative").sum()),
+            "thin": float(shares.sel(row=row, film_regime="below 1").sum()),
+        }
+        for row in total.row.values[total.values > 0.0].tolist()
+    ]
 
 
 def least_film_ratios(orbit: xr.Dataset) -> list[tuple[str, str, float]]:
     """Row, raceway and least median Λ over the orbit, where there is a film."""
-    middle = orbit.film_parameter.sel(quantile=0.5)
-    found = [
-        (row, interface, middle.sel(row=row, interface=interface).values)
-        for row in orbit.row.values.tolist()
-        for interface in ("inner", "outer")
-    ]
+    least = orbit.film_parameter.sel(quantile=0.5, interface=["inner", "outer"]).min("angle")
     return [
-        (row, interface, float(np.nanmin(one)))
-        for row, interface, one in found
-        if np.isfinite(one).any()
+        (row, interface, float(least.sel(row=row, interface=interface)))
+        for row, interface in itertools.product(least.row.values, least.interface.values)
+        if np.isfinite(least.sel(row=row, interface=interface))
     ]

@@ -28,15 +28,18 @@ if TYPE_CHECKING:
     import xarray as xr
     from markupsafe import Markup
 
-#: Results shown roller by roller, and with the bearing in motion, on one page; the table holds all of them.
-DETAILED, MOVING = 6, 3
+#: Results shown roller by roller, and with the bearing in motion, on one page; the table holds all
+#: of them.
+DETAILED = 6
+MOVING = 3
 #: Results that a subtitle names.
 _NAMED = 8
 _TEMPLATE = "result.html"
 _BEARING = "All rows of rollers, coloured by slip, at the moment of the largest frictional power"
 _PEAKS = "Share of orbits whose largest power exceeds a value"
 _ZONE = "Heat map of the roller load of the {} row over angle and time"
-#: Extremes of several results: key of `row_numbers`, label of the picture, and whether the least is meant.
+#: Extremes of several results: key of `row_numbers`, label of the picture, and whether the least is
+#: meant.
 _EXTREMES = (
     ("energy", "energy of a mean roller [J]", False),
     ("peak", "largest frictional power [W]", False),
@@ -57,10 +60,11 @@ class ShownResult:
 
 
 def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the rollers") -> str:
-    """A page on results of `macroslip.simulate` by name: HTML in one piece, every name and text in it escaped.
+    """A page on results of `macroslip.simulate` by name: HTML in one piece, all text escaped.
 
-    A result has `energy` [J] over (row, roller, interface) and `status` over (row, roller); variables beyond these, and
-    traces, add to the page. Raises InputError if there is no dataset, or one is no result.
+    A result has `energy` [J] over (row, roller, interface) and `status` over (row, roller);
+    variables beyond these, and traces, add to the page. Raises InputError if there is no dataset,
+    or one is no result.
     """
     if not results:
         raise InputError("there is no result to report on")
@@ -114,10 +118,10 @@ def _subtitle(result: xr.Dataset) -> str:
 
 
 def result_opening(shown: ShownResult) -> Opening:
-    """The opening for one result: the answer in sentences, then the pictures, then a line for every criterion of damage.
+    """The opening for one result: the answer in sentences, pictures, criteria of damage.
 
-    The pictures are the bearing coloured by slip, load zone, slip over the orbit and the criteria; where there are no
-    traces or no criteria, energies and peaks take their place.
+    The pictures are the bearing coloured by slip, load zone, slip over the orbit and the criteria;
+    where there are no traces or no criteria, energies and peaks take their place.
     """
     result = shown.result
     sentences = words("parts.html").sentences(
@@ -249,7 +253,7 @@ def _motion(shown: Mapping[str, ShownResult]) -> Markup | str:
 
 
 def _roller_bodies(shown: ShownResult) -> dict[str, Markup]:
-    """Bodies of the sections on all rollers: energy, power, load zone, films; pictures over the orbit need traces."""
+    """Bodies of the sections on all rollers: energy, power, load zone, films."""
     text = words(_TEMPLATE)
     result = shown.result
     bodies = {"energy": _energy(shown)}
@@ -344,7 +348,7 @@ def _further_bodies(shown: ShownResult, results: Mapping[str, xr.Dataset]) -> di
 
 
 def _damage(shown: ShownResult) -> Markup:
-    """The section from slip to damage: criteria, worn profiles, time by film ratio and slide-roll ratio."""
+    """From slip to damage: criteria, worn profiles, time by film and slide-roll ratio."""
     result = shown.result
     pictures = []
     if shown.criteria:
@@ -375,7 +379,7 @@ def _damage(shown: ShownResult) -> Markup:
 
 
 def map_pictures(energy: xr.DataArray, density: xr.DataArray) -> list[Any]:
-    """Maps of energy [J/m²] and largest power per area [W/m²], each kind on one scale, followed by their maxima."""
+    """Maps of energy [J/m²] and power [W/m²] per area, each followed by their maxima."""
     found: list[Any] = []
     for values, units in ((energy, "J/mm²"), (density, "W/mm²")):
         panels = {
@@ -387,7 +391,7 @@ def map_pictures(energy: xr.DataArray, density: xr.DataArray) -> list[Any]:
 
 
 def whole_body(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> Markup:
-    """Coupled motion of a whole bearing; a result on imposed orbits of the same case is compared."""
+    """Coupled motion of a whole bearing beside the same case on imposed orbits."""
     rows = result.row.values.tolist()
     cages = [
         {

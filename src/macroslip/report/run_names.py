@@ -21,7 +21,7 @@ INTERNAL = ("case", "run", "outcome", "reason", "key")
 
 
 def study_about(study: xr.Dataset) -> str:
-    """How many runs of which loads, bearings, lubricants and models a study has, and how warm their oil is."""
+    """How many runs of which loads, bearings, lubricants and models a study has."""
     parts = [f"{study.sizes['case']} runs"]
     several_models = any(str(name).startswith("laws.") for name in study.coords)
     for name, plural in SEVERAL.items():
@@ -40,7 +40,7 @@ def study_about(study: xr.Dataset) -> str:
 
 
 def _inlet_temperatures(study: xr.Dataset) -> list[str]:
-    """Lowest and highest temperature of the oil [°C], one if they are alike; none where it is not known."""
+    """Lowest and highest temperature of the oil [°C]; one if alike, none if unknown."""
     if "inlet_temperature" not in study:
         return []
     # Of one run of each lubricant and temperature; every run would open every result.
@@ -63,7 +63,7 @@ def situation(found: xr.Dataset, number: int) -> str:
 
 
 def case_names(study: xr.Dataset) -> list[str]:
-    """Name of the case of every run: the fields of its loads, `14 m/s, seed 2`, or its loads where these do not tell cases apart."""
+    """Name of the case of every run: fields that tell it apart, `14 m/s, seed 2`, or its loads."""
     not_of_loads = (*INTERNAL, *SEVERAL, "temperature")
     fields = [
         str(name)
@@ -87,7 +87,7 @@ def case_names(study: xr.Dataset) -> list[str]:
 
 
 def _speeds(study: xr.Dataset, fields: list[str]) -> list[str]:
-    """Wind speed of every run with its unit; empty where it is no field of the loads, or the same for all."""
+    """Wind speed of every run with its unit; empty if it is no field or the same for all."""
     if "wind_speed" not in fields or np.unique(study.wind_speed).size < 2:
         return [""] * study.sizes["case"]
     return [f"{speed:.12g} {study.wind_speed.attrs['units']}" for speed in study.wind_speed.values]

@@ -1,4 +1,4 @@
-"""Figures of several results: energy by wind speed, orbits above an energy or a power, effects, values by result.
+"""Figures of several results: energy by wind speed, exceedance, effects, values by result.
 
 Every function draws on the axes that it takes, and returns them.
 """
@@ -31,7 +31,7 @@ _NAME_LENGTH = 16
 def _curves(
     values: xr.DataArray, shown: Sequence[int]
 ) -> Iterator[tuple[xr.DataArray, dict[str, Any]]]:
-    """The curve of each row and design with its style: one design has a colour a row, several a colour each.
+    """The curve of each row and design with its style; several designs have a colour each.
 
     Names that are too long for a legend are numbers in the order of the designs.
     """
@@ -68,7 +68,15 @@ def plot_lifetime(axes: Axes, life: xr.Dataset, shown: Sequence[int]) -> Axes:
 def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[int]) -> Axes:
     """How many orbits a year of a roller exceed what `EXCEEDED` names, the designs overlaid.
 
-    Takes the dataset of `macroslip.study.exceedance.exceedance` and some of its groups.
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    curves : xarray.Dataset
+        From `macroslip.study.exceedance.exceedance`.
+    name : str
+        A curve of `EXCEEDED`.
+    shown : sequence of int
+        Groups of `curves` that are drawn.
     """
     for one, style in _curves(curves[name], shown):
         one = one[one.values > 0.0]
@@ -83,7 +91,7 @@ def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[i
 
 
 def plot_effects(axes: Axes, found: xr.Dataset, quantity: str) -> Axes:
-    """Main effects of sampled parameters on a quantity, with twice their standard error, the largest on top.
+    """Main effects of sampled parameters on a quantity with twice their standard error.
 
     Takes the dataset of `macroslip.study.effects.effects`.
     """
@@ -107,7 +115,15 @@ def plot_by_result(
 ) -> Axes:
     """A value of every result and row, over the results.
 
-    Takes values over (result, row); one that is missing is left out.
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    names, rows : sequence of str
+        Names of the results and of their rows.
+    values : ndarray
+        Values over (result, row); NaN where one is missing, which is left out.
+    label : str
+        Quantity and [unit].
     """
     places = np.arange(len(names))
     for k, row in enumerate(rows):

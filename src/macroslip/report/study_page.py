@@ -1,4 +1,4 @@
-"""The page on a study of many cases: designs ranked, a year, effects, lifetime, exceedance, worst cases, failures."""
+"""The page on a study: designs ranked, a year, effects, lifetime, exceedance, failures."""
 
 from __future__ import annotations
 
@@ -89,7 +89,8 @@ def study_page(
 ) -> str:
     """A page on a study: HTML in one piece, every name and text in it escaped.
 
-    Without any weights, designs are ranked over all cases alike, and lifetime and exceedance are those of `CLASS_ONE`.
+    Without any weights, designs are ranked over all cases alike, and lifetime and exceedance are
+    those of `CLASS_ONE`.
 
     Parameters
     ----------
@@ -165,7 +166,7 @@ class _Weighted:
 
     @property
     def wind(self) -> Weibull | bool | None:
-        """The distribution of the wind speed that a page names; None for `CLASS_ONE`, False for a list."""
+        """Distribution of the wind speed; None for `CLASS_ONE`, False for a list."""
         wind = self.given.wind if isinstance(self.given, Year) else self.given
         return wind if wind is None or isinstance(wind, Weibull) else False
 
@@ -201,7 +202,7 @@ def _lifetime(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[P
 
 
 def _exceedance(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
-    """The section on orbits a year above an energy and a power, and its pictures; groups in their order."""
+    """Section and pictures of orbits a year above an energy and a power."""
     text = words(_TEMPLATE)
     try:
         curves = exceedance(weighted.study, weighted.weights, **weighted.bins)
@@ -286,7 +287,7 @@ def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
 def _effects(
     study: xr.Dataset, weighted: _Weighted
 ) -> tuple[Markup | str, Markup | str, list[Picture]]:
-    """Of a sample the parameter that moves the energy most in a sentence, the section, and its pictures."""
+    """Of a sample what moves the energy most in a sentence, its section and pictures."""
     text = words(_TEMPLATE)
     if not sampled_parameters(study):
         return "", "", []
@@ -407,7 +408,7 @@ def _extremes(study: xr.Dataset) -> list[dict[str, Any]]:
 def _extreme_pictures(
     study: xr.Dataset, pooled: xr.Dataset, order: Sequence[int], most: int
 ) -> list[Picture]:
-    """At most so many pictures of `_EXTREMES` by run, with the number of its design where there are several."""
+    """Pictures of `_EXTREMES` by run, with the number of its design if there are several."""
     names = case_names(study)
     if len(order) > 1:
         groups = binned(pooled, None).group

@@ -1,4 +1,4 @@
-"""The look of figures and numbers: colours for the colour-blind, marks that differ in grey, numbers of three digits."""
+"""The look of figures and numbers: colours for the colour-blind, numbers of three digits."""
 
 from __future__ import annotations
 
@@ -22,7 +22,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: From Okabe and Ito's palette.
-BLACK, BLUE, ORANGE, GREEN, GREY = "#000000", "#0072B2", "#D55E00", "#009E73", "#6E6E6E"
+BLACK = "#000000"
+BLUE = "#0072B2"
+ORANGE = "#D55E00"
+GREEN = "#009E73"
+GREY = "#6E6E6E"
 
 _Styles = Mapping[str, Mapping[str, Any]]
 #: Line and marker of each row.
@@ -41,14 +45,16 @@ INTERFACE: _Styles = MappingProxyType(
         "cage": {"color": GREEN, "linestyle": "-."},
     }
 )
-#: Size of a picture [inches]: what a telephone held upright shows without making letters smaller than the text's; and
-#: size of a round one.
-WIDTH, HEIGHT = 4.2, 3.1
+#: Size of a picture [inches]: what a telephone held upright shows without making letters smaller
+#: than the text's; and size of a round one.
+WIDTH = 4.2
+HEIGHT = 3.1
 ROUND: Mapping[str, Any] = MappingProxyType({"height": 4.6, "polar": True})
 #: Options of `picture` in the opening of a page.
 OPENING: Mapping[str, Any] = MappingProxyType({"legend": "above"})
 #: Size of letters: labels and titles; numbers at the axes and legends.
-LABEL, SMALL = 11, 10
+LABEL = 11
+SMALL = 10
 
 
 def three_digits(value: float) -> str:
@@ -95,9 +101,10 @@ def scaled(largest: float, units: str) -> tuple[float, str]:
 
 @contextmanager
 def program_style() -> Iterator[None]:
-    """Context, or decorator, in which figures have the program's style, whatever the user's settings are.
+    """Context or decorator in which figures have the program's style, not the user's.
 
-    Matplotlib reads a file `matplotlibrc` of the current folder or the home: fonts, widths, and TeX that may be missing.
+    Matplotlib reads a file `matplotlibrc` of the current folder or the home: fonts, widths, and TeX
+    that may be missing.
     """
     import matplotlib.style
 
@@ -110,7 +117,7 @@ def program_style() -> Iterator[None]:
 def new_figure(
     width: float, height: float, rows: int = 1, columns: int = 1, **options: Any
 ) -> tuple[Figure, list]:
-    """A figure of the program's style with a grid of axes, row by row, without any global plotting state.
+    """A figure of the program's style with a grid of axes, row by row.
 
     Parameters
     ----------
@@ -136,7 +143,16 @@ def new_figure(
 
 
 def finish(axes: Axes, x_label: str, y_label: str, title: str = "") -> Axes:
-    """Label the axes and take away what carries no information."""
+    """Label the axes and take away what carries no information.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    x_label, y_label : str
+        Quantity and [unit].
+    title : str, optional
+        Left above the axes.
+    """
     axes.set_xlabel(x_label, fontsize=LABEL)
     axes.set_ylabel(y_label, fontsize=LABEL)
     if title:
@@ -159,7 +175,7 @@ def legend_above(figure: Figure, axes: Axes, **options: object) -> None:
 
 
 def log_ticks(axes: Axes, which: str = "y") -> Axes:
-    """A logarithmic axis, vertical or `which` is "x", with plain numbers at 1, 2 and 5 of every decade."""
+    """A logarithmic axis with plain numbers at 1, 2 and 5 of every decade."""
     axes.set(**{f"{which}scale": "log"})
     decade_ticks(axes.yaxis if which == "y" else axes.xaxis)
     return axes
@@ -187,12 +203,12 @@ def save(figure: Figure, folder: Path, name: str) -> list[str]:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A figure for a page: its data URI, its content for those who cannot see it, its size [px], as `picture` has it."""
+    """A figure for a page."""
 
-    source: str
-    words: str
-    width: int
-    height: int
+    source: str  #: Data URI
+    words: str  #: Content, for those who cannot see it
+    width: int  #: [px]
+    height: int  #: [px]
 
 
 def picture(plot: Callable[..., object], about: str, *data: Any, **options: Any) -> Picture:
@@ -204,9 +220,10 @@ def picture(plot: Callable[..., object], about: str, *data: Any, **options: Any)
         A plot function, called with the axes and `data`.
     about : str
         The content, for those who cannot see it.
+    *data
+        What the plot function takes beside the axes.
     **options
-        width, height : [inches]. polar : whether the axes are polar. legend : "" for none, "above", or "below" (one
-        entry a line).
+        As `compared` takes them.
     """
     return compared(plot, {about: data}, **options)[0]
 
@@ -221,9 +238,20 @@ def compared(
     polar: bool = False,
     legend: str = "",
 ) -> list[Picture]:
-    """Pictures that are compared, and so share their scales: colours of maps, otherwise the vertical or radial axis.
+    """Pictures that are compared, and so share the scale of colours or of their axis.
 
-    Takes the data of every panel by its content; the rest as `picture`.
+    Parameters
+    ----------
+    plot : callable
+        A plot function, called with the axes and the data of a panel.
+    panels : mapping
+        Data of every panel by its content, for those who cannot see it.
+    width, height : float, optional
+        Size of each [inches].
+    polar : bool, optional
+        Whether the axes are polar.
+    legend : str, optional
+        Empty for none, "above", or "below" with one entry a line.
     """
     drawn = [
         new_figure(width, height, subplot_kw={"projection": "polar" if polar else None})
@@ -262,7 +290,8 @@ def _svg(figure: Figure, axes: Axes, legend: str) -> str:
         figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=SMALL)
     content = io.BytesIO()
     figure.savefig(content, format="svg", metadata={"Date": None}, dpi=160)
-    # Without comments and metadata, which a page does not show, and outlines to a hundredth of a point.
+    # Without comments and metadata, which a page does not show, and outlines to a hundredth of a
+    # point.
     svg = re.sub(rb"<!--.*?-->|<metadata>.*?</metadata>", b"", content.getvalue(), flags=re.DOTALL)
     svg = re.sub(rb' d="[^"]*"', lambda outline: re.sub(rb"(\.\d\d)\d+", rb"\1", outline[0]), svg)
     encoded = base64.b64encode(re.sub(rb"\n\s*", b"\n", svg)).decode("ascii")
@@ -272,5 +301,19 @@ def _svg(figure: Figure, axes: Axes, legend: str) -> str:
 def row_pictures(
     plot: Callable[..., object], about: str, data: Any, rows: Sequence[str], **options: Any
 ) -> list[Picture]:
-    """The same picture of every row, on one scale; `about` has braces where the name of the row belongs."""
+    """The same picture of every row, on one scale.
+
+    Parameters
+    ----------
+    plot : callable
+        A plot function, called with the axes, `data` and the name of the row.
+    about : str
+        The content, with braces where the name of the row belongs.
+    data
+        Data of all rows.
+    rows : sequence of str
+        Names of the rows.
+    **options
+        As `compared` takes them.
+    """
     return compared(plot, {about.format(row): (data, row) for row in rows}, **options)

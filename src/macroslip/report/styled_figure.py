@@ -10,7 +10,7 @@ from macroslip.report.style import program_style
 
 
 class StyledFigure(Figure):
-    """Figure whose ticks, fonts and widths are the program's, also where a notebook draws it later."""
+    """Figure whose ticks, fonts and widths are the program's, whoever draws it."""
 
     def draw(self, renderer: Any) -> None:
         """Draw in the program's style: ticks and fonts are found only now."""
