@@ -83,7 +83,7 @@ def test_numbers_of_numpy_are_welcome():
         ),
         (
             lambda: Radau(tables=True),
-            "the key 'tables' inside integrator is gone. Contacts are always looked up in tables",
+            "the key 'tables' inside integrator is unknown. Allowed: tolerance, max_steps. Remove it.",
         ),
         (
             lambda: replace(Drivetrain(), tilt=5.0),

@@ -189,8 +189,8 @@ def reported(tmp_path):
         ),
         (
             LOADS + "integrator:\n  method: radau\n  tables: false\n",
-            "case.yaml, line 4: the key 'tables' inside integrator is gone. Contacts are always looked up in tables now; "
-            "remove the key.",
+            "case.yaml, line 4: the key 'tables' inside integrator is unknown. Allowed: method, tolerance, "
+            "max_steps. Remove it.",
         ),
         (
             LOADS + "integrator:\n  tolerance: 0.5\n",

@@ -143,6 +143,6 @@ def test_tables_are_no_choice_of_a_case(tmp_path):
     path = tmp_path / "case.yaml"
     path.write_text("loads: {bundled: 14B}\nintegrator: {tables: false}\n")
     with pytest.raises(
-        InputError, match=r"line 2: the key .tables. inside integrator is gone.*remove the key"
+        InputError, match=r"line 2: the key .tables. inside integrator is unknown.*Remove it"
     ):
         read_case(path)

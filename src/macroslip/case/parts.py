@@ -12,11 +12,7 @@ from macroslip.input.units import CONDUCTANCE, MASS, NUMBER, TEMPERATURE, TIME
 _Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0)]
 
 
-@input_section(
-    "integrator",
-    "error-controlled, implicit, in the slip",
-    gone={"tables": "Contacts are always looked up in tables now; remove the key."},
-)
+@input_section("integrator", "error-controlled, implicit, in the slip")
 class Radau:
     """The production integrator: Radau IIA in the slip, L-stable, order 5, error-controlled.
 

@@ -16,7 +16,15 @@ from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Form, Given, Quantity, Text
 from macroslip.input.files import Place, Source, parse, read_text, yaml_text
 from macroslip.input.messages import shown, together
-from macroslip.input.section import Field, Fields, Group, form_from, grouped, read_keys, read_value
+from macroslip.input.section import (
+    Field,
+    Fields,
+    Section,
+    form_from,
+    grouped,
+    read_keys,
+    read_value,
+)
 from macroslip.input.units import (
     NUMBER,
     Dimension,
@@ -118,7 +126,7 @@ class _Unit(Choice):
 
 
 @functools.cache
-def _entry(dimension: Dimension, whole: bool = False) -> Group:
+def _entry(dimension: Dimension, whole: bool = False) -> Section:
     """The section of an entry, `{value: 70, unit: mm, tag: E, note: "...", range: [66, 74]}`."""
     tags = f"{'; '.join(f'{tag}: {meaning}' for tag, meaning in TAGS.items())}. Leave it out for a value of your own."
     forms = {
@@ -128,7 +136,7 @@ def _entry(dimension: Dimension, whole: bool = False) -> Group:
         "note": Text("free text", may_be_empty=True, line=True),
         "range": _Range("lowest and highest value; four out of five lie between them"),
     }
-    return Group(
+    return Section(
         "", {key: Field(form, key in ("value", "unit"), False) for key, form in forms.items()}
     )
 
@@ -425,7 +433,7 @@ class Record:
             "$schema": "https://json-schema.org/draft/2020-12/schema",
             "title": f"{cls.noun} of macroslip",
         }
-        return about | Group("", _in_file(cls)).json()
+        return about | Section("", _in_file(cls)).json()
 
 
 @functools.cache

@@ -1,7 +1,8 @@
 """Sections of an input file as classes: the same class checks a section of a file and a call in Python.
 
-`@input_section` makes a frozen dataclass whose fields carry a form of `macroslip.input.fields` or are sections
-themselves. To add a key to a file is to add such a field: reader, messages and JSON Schema follow from it.
+`@input_section` makes a frozen dataclass whose fields carry a form of `macroslip.input.fields` or
+are sections themselves. To add a key to a file is to add such a field: reader, messages and JSON
+Schema follow from it.
 """
 
 from __future__ import annotations
@@ -35,25 +36,32 @@ Fields = Mapping[str, "Field"]
 
 
 class Field(NamedTuple):
-    """A key of a section; where it is optional, None leaves it open in Python."""
+    """Key of a section."""
 
     form: Form
     is_required: bool
-    is_optional: bool
+    is_optional: bool  #: True if None leaves it open in Python
     default: Any = None
-    remedy: str = "Add it."
+    remedy: str = "Add it."  #: Advice where it is missing
 
 
-class _Section(NamedTuple):
+class OrWord(NamedTuple):
+    """Annotation of a section that a word in the file switches off; it is None then."""
+
+    word: str
+
+
+class _Declared(NamedTuple):
+    """What `input_section` was told of a class."""
+
     about: str
-    fields: Fields
-    in_file: Fields
+    fields: Fields  #: Keys in Python
+    in_file: Fields  #: Keys in a file, those of a group in a section of their own
     one_of: tuple[str, ...]
-    gone: Mapping[str, str]
-    fill: Callable[..., None]
+    fill: Callable[..., None]  #: Initialiser of the dataclass, without checks
 
 
-_SECTIONS: dict[type, _Section] = {}
+_SECTIONS: dict[type, _Declared] = {}
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
@@ -63,7 +71,6 @@ def input_section(
     *,
     one_of: tuple[str, ...] = (),
     positional: bool = False,
-    gone: Mapping[str, str] | None = None,
     groups: Mapping[str, tuple[str, tuple[str, ...]]] | None = None,
 ) -> Callable[[type[Kind]], type[Kind]]:
     """Make a class a section of an input file: a frozen dataclass with checked fields.
@@ -77,22 +84,23 @@ def input_section(
     one_of : tuple of str
         Keys, exactly one of which has to be given.
     positional : bool
-        Whether a call in Python may leave out the names of the first arguments.
-    gone : mapping
-        Keys that there were, with a sentence on each.
+        True if a call in Python may leave out the names of the first arguments.
     groups : mapping
         Sections that only files have: by name the meaning of the section, and the fields in it.
+
+    Returns
+    -------
+    callable
+        Decorator of the class.
     """
-    given = dataclasses.replace(
-        PYTHON, place=Place(Source(), tuple(noun.split(".")) if noun else ())
-    )
+    keys = tuple(noun.split(".")) if noun else ()
+    given = dataclasses.replace(PYTHON, place=Place(Source(), keys))
 
     def decorate(kind: type[Kind]) -> type[Kind]:
         made: Any = dataclass(frozen=True, slots=True, kw_only=not positional)(kind)
         fields = _fields(made)
-        _SECTIONS[made] = _Section(
-            about, fields, grouped(fields, groups or {}), one_of, gone or {}, made.__init__
-        )
+        in_file = grouped(fields, groups or {})
+        _SECTIONS[made] = _Declared(about, fields, in_file, one_of, made.__init__)
 
         @functools.wraps(made.__init__)
         def initialise(self: Any, *first: Any, **values: Any) -> None:
@@ -108,14 +116,15 @@ def input_section(
 
 def _fields(kind: type) -> Fields:
     hints = get_type_hints(kind, vars(sys.modules[kind.__module__]), include_extras=True)
+    missing = dataclasses.MISSING
     return {
-        one.name: Field(
-            form_from(hints[one.name]),
-            one.default is dataclasses.MISSING and one.default_factory is dataclasses.MISSING,
-            type(None) in _kinds(hints[one.name]),
-            None if one.default is dataclasses.MISSING else one.default,
+        member.name: Field(
+            form_from(hints[member.name]),
+            is_required=member.default is missing and member.default_factory is missing,
+            is_optional=type(None) in _kinds(hints[member.name]),
+            default=None if member.default is missing else member.default,
         )
-        for one in dataclasses.fields(kind)
+        for member in dataclasses.fields(kind)
     }
 
 
@@ -125,53 +134,55 @@ def _kinds(annotation: Any) -> tuple[Any, ...]:
 
 
 def form_from(annotation: Any) -> Form:
-    """The form in an annotation: the form that it carries, or the section that it is."""
-    form = next(
-        (item for item in getattr(annotation, "__metadata__", ()) if isinstance(item, Form)), None
-    )
-    if form and not isinstance(form, OrWord):
-        return form
+    """Form in an annotation: the form that it carries, or the section that it is."""
+    metadata = getattr(annotation, "__metadata__", ())
+    carried = next((item for item in metadata if isinstance(item, Form)), None)
+    if carried is not None:
+        return carried
+    word = next((item.word for item in metadata if isinstance(item, OrWord)), "")
     (kind,) = (kind for kind in _kinds(annotation) if kind is not type(None))
-    section = Section(_SECTIONS[kind].about, _SECTIONS[kind].in_file, kind)
-    return OrWord(form.word, section) if form else section
+    declared = _SECTIONS[kind]
+    return Section(declared.about, declared.in_file, kind, word)
 
 
 def grouped(fields: Fields, groups: Mapping[str, tuple[str, tuple[str, ...]]]) -> Fields:
-    """The fields as a file has them: those of a group in a section of their own, which is read as a mapping.
+    """Fields as a file has them: those of a group in a section of their own, read as a mapping.
 
-    Inside a group its name, if a key begins with it, is left out: `second` in `out_of_round` is `out_of_round_second`.
+    Inside a group its name, if a key begins with it, is left out: `second` in `out_of_round` is
+    `out_of_round_second`.
     """
-    found: dict[str, Field] = {}
-    for key, one in fields.items():
+    result: dict[str, Field] = {}
+    for key, member in fields.items():
         name = next((name for name, (_, keys) in groups.items() if key in keys), "")
-        if name and name not in found:
-            inside = {inner.removeprefix(f"{name}_"): fields[inner] for inner in groups[name][1]}
-            found[name] = Field(Group(groups[name][0], inside), False, False)
-        elif not name:
-            found[key] = one
-    return found
+        if not name:
+            result[key] = member
+        elif name not in result:
+            about, keys = groups[name]
+            inside = {inner.removeprefix(f"{name}_"): fields[inner] for inner in keys}
+            result[name] = Field(Section(about, inside), is_required=False, is_optional=False)
+    return result
 
 
-def _fill(made: Any, values: Mapping[str, Any], given: Given) -> None:
-    known = _SECTIONS[type(made)]
-    found, problems = read_keys(
-        known.in_file if given.in_file else known.fields, values, given, known.gone
-    )
+def _fill(
+    made: Any, values: Mapping[str, Any], given: Given, other_keys: tuple[str, ...] = ()
+) -> None:
+    """Check the values of a section and give them to the object made of it."""
+    declared = _SECTIONS[type(made)]
+    fields = declared.in_file if given.in_file else declared.fields
+    checked, problems = read_keys(fields, values, given, other_keys)
     if problems:
         raise together(problems)
     try:
-        chosen = [key for key in known.one_of if found.get(key) is not None]
-        if known.one_of and len(chosen) != 1:
-            what = (
+        chosen = [key for key in declared.one_of if checked.get(key) is not None]
+        if declared.one_of and len(chosen) != 1:
+            raise InputError(
                 f"{' and '.join(chosen)} stand together"
                 if chosen
-                else "none of the keys it needs is there"
+                else "none of the keys it needs is there",
+                allowed=f"exactly one of {', '.join(declared.one_of)}",
+                remedy="Remove or comment out the others." if chosen else "Add one of them.",
             )
-            remedy = "Remove or comment out the others." if chosen else "Add one of them."
-            raise InputError(
-                what, allowed=f"exactly one of {', '.join(known.one_of)}", remedy=remedy
-            )
-        known.fill(made, **found)
+        declared.fill(made, **checked)
     except InputError as problem:
         if not given.place.keys:  # a class without a place names the places itself
             raise
@@ -179,51 +190,61 @@ def _fill(made: Any, values: Mapping[str, Any], given: Given) -> None:
 
 
 def read_keys(
-    fields: Fields,
-    data: Mapping[str, Any],
-    given: Given,
-    gone: Mapping[str, str] | None = None,
-    more: tuple[str, ...] = (),
+    fields: Fields, data: Mapping[str, Any], given: Given, other_keys: tuple[str, ...] = ()
 ) -> tuple[dict[str, Any], list[InputError]]:
-    """Read the values under the keys of a section as far as they are right; and everything that is wrong.
+    """Read the values under the keys of a section as far as they are right.
 
-    `gone` are keys that there were, with a sentence on each; `more` other keys that the section may have.
+    Parameters
+    ----------
+    fields : mapping
+        Keys of the section.
+    data : mapping
+        Its content.
+    given : Given
+        Place of the section, and how its values are given.
+    other_keys : tuple of str
+        Keys that the section may have as well, for the message about an unknown one.
+
+    Returns
+    -------
+    tuple
+        Values by key, and everything that is wrong.
     """
-    place, gone, found, problems = given.place, gone or {}, {}, []
+    place = given.place
+    values: dict[str, Any] = {}
+    problems: list[InputError] = []
     unknown = [key for key in data if key not in fields]
     for key in unknown:
         where = place.source.where(*place.keys, key)
-        if key in gone:
-            problem = InputError(
-                f"the key '{key}' inside {place.key} is gone", where=where, remedy=gone[key]
-            )
-        else:
-            problem = unknown_key(key, [*more, *fields], where=where, inside=place.key)
+        problem = unknown_key(key, [*other_keys, *fields], where=where, inside=place.key)
         problem.is_placed = True
         problems.append(problem)
     meant = {nearest(key, fields) for key in unknown}  # a misspelled key is not missing as well
     before = {
-        key: one.default for key, one in fields.items() if key not in data and not one.is_required
+        key: member.default
+        for key, member in fields.items()
+        if key not in data and not member.is_required
     }
-    for key, one in fields.items():
+    for key, member in fields.items():
         if key in data:
-            if data[key] is None and one.is_optional and not given.in_file:
-                found[key] = None
+            if data[key] is None and member.is_optional and not given.in_file:
+                values[key] = None
                 continue
             try:
-                before[key] = found[key] = read_value(one, data[key], given.inside(key, before))
+                values[key] = read_value(member, data[key], given.inside(key, before))
+                before[key] = values[key]
             except InputError as problem:
                 problems += parts_of(problem)
-        elif one.is_required and key not in meant:
-            what = f"'{key}' is missing ({one.form.about})"
-            problems.append(given.place.problem(what, one.form.form, one.remedy))
-    return found, problems
+        elif member.is_required and key not in meant:
+            what = f"'{key}' is missing ({member.form.about})"
+            problems.append(place.problem(what, member.form.form, member.remedy))
+    return values, problems
 
 
-def read_value(one: Field, value: Any, given: Given) -> Any:
+def read_value(member: Field, value: Any, given: Given) -> Any:
     """Read the value of a key; all that is wrong inside is raised with its place."""
     try:
-        return one.form.read(value, given)
+        return member.form.read(value, given)
     except InputError as problem:
         raise together(given.place.blamed(part) for part in parts_of(problem)) from None
 
@@ -232,106 +253,68 @@ def read_fields(
     kind: type, data: Mapping[str, Any], place: Place
 ) -> tuple[dict[str, Any], list[InputError]]:
     """Read a whole file as far as it is right, as `read_keys` does; `kind` is its section class."""
-    return read_keys(
-        fields_of(kind), data, dataclasses.replace(IN_FILE, place=place), _SECTIONS[kind].gone
-    )
+    return read_keys(fields_of(kind), data, dataclasses.replace(IN_FILE, place=place))
 
 
 @dataclass(frozen=True)
-class Group(Form):
-    """A section that only files have, read as a mapping."""
+class Section(Form):
+    """Section of keys: an object of a class, or a mapping where it has no class.
+
+    In Python an object of the class stands in its place. A word in its place switches it off.
+    """
 
     fields: Fields = field(default_factory=dict)
+    kind: type | None = None
+    word: str = ""
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
         """Accepted values, in words."""
-        return f"a section with the keys {', '.join(self.fields)}"
+        keys = f"a section with the keys {', '.join(self.fields)}"
+        return f"{self.word} or {keys}" if self.word else keys
 
     def read(self, value: Any, given: Given) -> Any:
-        """Read every key; none is there if all are commented out."""
-        found, problems = read_keys(self.fields, self._keys(value), given)
-        if problems:
-            raise together(problems)
-        return found
-
-    def _keys(self, value: Any) -> Mapping[str, Any]:
-        if value is not None and not isinstance(value, Mapping):
-            raise self.wrong(value)
-        return value or {}
-
-    def json(self) -> dict[str, Any]:
-        """An object with the keys."""
-        return {
-            "type": "object",
-            "properties": {
-                key: one.form.json() | {"description": one.form.about}
-                for key, one in self.fields.items()
-            },
-            "required": [key for key, one in self.fields.items() if one.is_required],
-            "additionalProperties": False,
-        }
-
-
-@dataclass(frozen=True)
-class Section(Group):
-    """A section of a class; in Python an object of it."""
-
-    kind: type = object
-
-    def read(self, value: Any, given: Given) -> Any:
-        """Read every key and make the object."""
-        if not given.in_file:
+        """Read every key and make the object, or a mapping; None for the word."""
+        if self.word and (value is None or (isinstance(value, str) and value == self.word)):
+            return None
+        if self.kind is not None and not given.in_file:
             if not isinstance(value, self.kind):
                 raise self.wrong(value, allowed=self.kind.__name__)
             return value
-        made = object.__new__(self.kind)
-        _fill(made, self._keys(value), given)
-        return made
-
-    def json(self) -> dict[str, Any]:
-        """An object with the keys, of some exactly one."""
-        one_of = _SECTIONS[self.kind].one_of
-        return super().json() | (
-            {"oneOf": [{"required": [key]} for key in one_of]} if one_of else {}
-        )
-
-
-@dataclass(frozen=True, init=False)
-class OrWord(Form):
-    """A section that a word in the file switches off."""
-
-    word: str
-    section: Form | None
-
-    def __init__(self, word: str, section: Form | None = None):
-        super().__init__(section.about if section else "")
-        object.__setattr__(self, "word", word)
-        object.__setattr__(self, "section", section)
-
-    @property
-    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """Accepted values, in words."""
-        return f"{self.word} or {self.section.form if self.section else ''}"
-
-    def read(self, value: Any, given: Given) -> Any:
-        """None for the word, the section otherwise."""
-        if value is None or self.section is None or (isinstance(value, str) and value == self.word):
-            return None
-        if given.in_file and not isinstance(value, Mapping):
+        if value is not None and not isinstance(value, Mapping):
             raise self.wrong(value)
-        return self.section.read(value, given)
+        content = value or {}  # None: all its keys are commented out
+        if self.kind is not None:
+            made = object.__new__(self.kind)
+            _fill(made, content, given)
+            return made
+        values, problems = read_keys(self.fields, content, given)
+        if problems:
+            raise together(problems)
+        return values
 
     def json(self) -> dict[str, Any]:
-        """The word, or the section."""
-        return {"anyOf": [{"const": self.word}, self.section.json() if self.section else {}]}
+        """Object with the keys, of some exactly one; or the word."""
+        schema: dict[str, Any] = {
+            "type": "object",
+            "properties": {
+                key: member.form.json() | {"description": member.form.about}
+                for key, member in self.fields.items()
+            },
+            "required": [key for key, member in self.fields.items() if member.is_required],
+            "additionalProperties": False,
+        }
+        if self.kind is not None and (one_of := _SECTIONS[self.kind].one_of):
+            schema["oneOf"] = [{"required": [key]} for key in one_of]
+        return {"anyOf": [{"const": self.word}, schema]} if self.word else schema
 
 
 @dataclass(frozen=True)
 class Variants(Form):
     """One of several sections, which a file chooses by the name under a key.
 
-    Where all names have one class, `presets` are the values that a name gives the keys that the file leaves out.
+    Where all names have one class, `presets` are the values that a name gives the keys that the
+    file leaves out.
     """
 
     key: str = ""
@@ -346,7 +329,7 @@ class Variants(Form):
         return f"a section with the keys {', '.join([self.key, *keys])}"
 
     def read(self, value: Any, given: Given) -> Any:
-        """The section of that name; in Python, an object of one of them."""
+        """Read the section of that name; in Python, an object of one of them."""
         kinds = dict.fromkeys(self.sections.values())
         if not given.in_file:
             if not isinstance(value, tuple(kinds)):
@@ -354,8 +337,9 @@ class Variants(Form):
             return value
         if value is not None and not isinstance(value, Mapping):
             raise self.wrong(value)
-        data = dict(value or {})
-        name, problems = data.pop(self.key, self.default), []
+        content = dict(value or {})
+        name = content.pop(self.key, self.default)
+        problems: list[InputError] = []
         try:
             Choice(self.about, lambda: list(self.sections)).read(name, given)
         except InputError as problem:
@@ -363,29 +347,29 @@ class Variants(Form):
             if len(kinds) > 1:
                 raise problems[0] from None
             name = self.default
-        kind = self.sections[name]
-        data = {**self.presets.get(name, {}), **data}
-        found, others = read_keys(fields_of(kind), data, given, _SECTIONS[kind].gone, (self.key,))
-        if problems or others:
-            raise together(problems + others)
-        made = object.__new__(kind)
-        _SECTIONS[kind].fill(made, **found)
+        made = object.__new__(self.sections[name])
+        try:
+            _fill(made, {**self.presets.get(name, {}), **content}, given, (self.key,))
+        except InputError as problem:
+            problems += parts_of(problem)
+        if problems:
+            raise together(problems)
         return made
 
     def json(self) -> dict[str, Any]:
         """One object a name."""
-        found = []
+        schemas = []
         for name, kind in self.sections.items():
             schema = form_from(kind).json()
             schema["properties"] = {self.key: {"const": name}, **schema["properties"]}
             schema["required"] += [] if name == self.default else [self.key]
-            found.append(schema)
-        return {"oneOf": found}
+            schemas.append(schema)
+        return {"oneOf": schemas}
 
 
 @dataclass(frozen=True, init=False)
 class Made(Form):
-    """An object of the program in Python; in a file, what a form reads and a builder makes the object of."""
+    """Object in Python; in a file, the section or the name it is built from."""
 
     kinds: tuple[type, ...]
     written: Form
@@ -401,7 +385,7 @@ class Made(Form):
         return self.written.form
 
     def read(self, value: Any, given: Given) -> Any:
-        """In a file by the form, in Python by its class."""
+        """Read a file by the form; in Python, check the class."""
         if given.in_file:
             return self.written.read(value, given)
         if not isinstance(value, self.kinds):
@@ -410,15 +394,16 @@ class Made(Form):
         return value
 
     def json(self) -> dict[str, Any]:
-        """The schema of the content of a file."""
+        """Schema of the content of a file."""
         return self.written.json()
 
 
 @dataclass(frozen=True)
 class MappingOf(Form):
-    """A mapping of names of the user's own to values of one kind, each of which is checked with its name.
+    """Mapping of names of the user's own to values of one kind, each checked with its name.
 
-    `item` is the annotation of a value, Any leaves it to `each`, which makes what the program uses of name and value.
+    `item` is the annotation of a value, Any leaves it to `each`, which makes what the program uses
+    of name and value.
     """
 
     form: str = "a section whose keys are names of your own"  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -431,34 +416,32 @@ class MappingOf(Form):
         names = isinstance(value, Mapping) and all(isinstance(name, str) and name for name in value)
         if not names or not (value or self.may_be_empty):
             raise self.wrong(value)
+        return dict(zip(value, read_all(value.items(), self._read_item, given), strict=True))
 
-        def one(key: str, item: Any, given: Given) -> Any:
-            check_no_zero_byte(key)
-            optional = item is None and type(None) in _kinds(
-                self.item
-            )  # as a call in Python may leave it open
-            checked = (
-                item if self.item is Any or optional else form_from(self.item).read(item, given)
-            )
-            return self.each(key, checked) if self.each else checked
-
-        return dict(zip(value, read_all(value.items(), one, given), strict=True))
+    def _read_item(self, name: str, value: Any, given: Given) -> Any:
+        check_no_zero_byte(name)
+        # A call in Python may leave an optional value open.
+        is_open = value is None and type(None) in _kinds(self.item)
+        if self.item is not Any and not is_open:
+            value = form_from(self.item).read(value, given)
+        return self.each(name, value) if self.each else value
 
 
 def read_all(
     items: Iterable[tuple[str, Any]], read: Callable[[str, Any, Given], Any], given: Given
 ) -> list[Any]:
-    """Read values by their keys; all that is wrong is raised together, each problem with its place."""
-    found, problems = [], []
+    """Read values by their keys; all that is wrong is raised together, each with its place."""
+    values = []
+    problems: list[InputError] = []
     for key, item in items:
         inner = given.inside(key)
         try:
-            found.append(read(key, item, inner))
+            values.append(read(key, item, inner))
         except InputError as problem:
             problems += [inner.place.blamed(part) for part in parts_of(problem)]
     if problems:
         raise together(problems)
-    return found
+    return values
 
 
 def fields_of(kind: type) -> Fields:
@@ -466,35 +449,37 @@ def fields_of(kind: type) -> Fields:
     return _SECTIONS[kind].in_file
 
 
-def form_of(one: Field) -> Form | None:
-    """The form of a plain value; None for a section."""
-    form = one.form.written if isinstance(one.form, Made) else one.form
-    return None if isinstance(form, Group | OrWord | Variants) else form
+def _form_in_file(member: Field) -> Form:
+    return member.form.written if isinstance(member.form, Made) else member.form
 
 
-def word_of(one: Field) -> str:
-    """The word that switches a section off; empty if there is none."""
-    return one.form.word if isinstance(one.form, OrWord) else ""
+def form_of(member: Field) -> Form | None:
+    """Form of a plain value; None for a section."""
+    form = _form_in_file(member)
+    return None if isinstance(form, Section | Variants) else form
+
+
+def word_of(member: Field) -> str:
+    """Word that switches a section off; empty if there is none."""
+    return member.form.word if isinstance(member.form, Section) else ""
 
 
 def keys_of(kind: type, prefix: str = "") -> Iterator[tuple[str, Field]]:
-    """Yield the full name, `loads.hub.force`, and the field of every key of a section and of those inside."""
+    """Yield full name, `loads.hub.force`, and field of every key of a section and those inside."""
     yield from _keys_inside(fields_of(kind), prefix)
 
 
 def _keys_inside(fields: Fields, prefix: str) -> Iterator[tuple[str, Field]]:
-    for key, one in fields.items():
-        yield prefix + key, one
-        form, name = one.form.written if isinstance(one.form, Made) else one.form, f"{prefix}{key}."
-        form = form.section if isinstance(form, OrWord) else form
+    for key, member in fields.items():
+        yield prefix + key, member
+        form = _form_in_file(member)
+        name = f"{prefix}{key}."
         if isinstance(form, Variants):
-            yield (
-                name + form.key,
-                Field(Choice(form.about, functools.partial(list, form.sections)), False, False),
-            )
+            choice = Choice(form.about, functools.partial(list, form.sections))
+            yield name + form.key, Field(choice, is_required=False, is_optional=False)
             for section in dict.fromkeys(form.sections.values()):
                 yield from keys_of(section, name)
-        elif isinstance(form, Group):
+        elif isinstance(form, Section):
             yield from _keys_inside(form.fields, name)
 
 
