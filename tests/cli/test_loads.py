@@ -192,6 +192,23 @@ def test_a_point_of_output_of_ones_own(macroslip):
     assert moved["reading"][-1] == "moments moved to the hub from 2 m behind it"
 
 
+def test_keys_of_the_case_for_its_own_file(folder, macroslip):
+    (folder / "own.outb").write_bytes((DATA / "sample14B.outb").read_bytes())
+    (folder / "case.yaml").write_text(
+        "loads: {file: own.outb, start: 70 s, hub_to_output: 2 m, shaft_speed: 12 rpm}\n"
+    )
+    own = inspected(macroslip, folder / "own.outb", "--case", "case.yaml")
+    moved = inspected(macroslip, folder / "own.outb", "--hub-to-output", "2 m")
+    assert own["statistics"]["my [kN m]"] == moved["statistics"]["my [kN m]"]
+    assert own["samples"] == 1201 and own["statistics"]["shaft speed [rpm]"]["std"] == 0.0
+    speed = inspected(
+        macroslip, folder / "own.outb", "--case", "case.yaml", "--shaft-speed", "13 rpm"
+    )
+    assert speed["statistics"]["shaft speed [rpm]"]["mean"] == pytest.approx(13.0)
+    other = inspected(macroslip, DATA / "sample14B.outb", "--case", "case.yaml")
+    assert not any("moved to the hub" in line for line in other["reading"])
+
+
 def test_an_option_without_a_unit_is_refused(macroslip):
     done = macroslip("loads", "inspect", DATA / "sample14B.outb", "--hub-to-bearing", "1.9")
     assert done.code == 2 and done.err.startswith(

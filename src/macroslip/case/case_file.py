@@ -83,6 +83,13 @@ def bearings_in(path: Path) -> tuple[str, ...]:
     )
 
 
+def load_source(path: Path) -> LoadSource:
+    """The section `loads` of a case file that is right."""
+    data, source = _content(path)
+    values, _ = read_fields(Case, {"loads": data["loads"]}, Place(source))
+    return values["loads"]
+
+
 def _content(path: Path) -> tuple[dict[Any, Any], Source]:
     remedy = "Write a case file that runs with: macroslip init"
     return parse(

@@ -87,7 +87,7 @@ def inspect(
     as_json: AsJson = False,
 ) -> None:
     """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
-    from macroslip.case.case_file import bearings_in, read_case
+    from macroslip.case.case_file import bearings_in, load_source, read_case
     from macroslip.input.units import ANGLE, LENGTH, MASS, SPEED
     from macroslip.loads import Drivetrain
     from macroslip.result.plausibility import doubtful_loads
@@ -99,10 +99,13 @@ def inspect(
             )
         require(PICTURE)
         check_new_file(output, force=force, inputs=[file, *([case] if case else [])])
-    options = {
+    options: dict[str, Any] = {
         "shaft_speed": si("--shaft-speed", shaft_speed, SPEED),
         "hub_to_output": si("--hub-to-output", hub_to_output, LENGTH),
+        "decimal": decimal or None,
+        "thousands": thousands or None,
     }
+    options = {name: value for name, value in options.items() if value is not None}
     own = {
         "hub_to_bearing": si("--hub-to-bearing", hub_to_bearing, LENGTH),
         "bearing_to_gearbox": si("--bearing-to-gearbox", bearing_to_gearbox, LENGTH),
@@ -115,8 +118,14 @@ def inspect(
     # The case file's drivetrain, or the default one, with single values replaced.
     own = {name: value for name, value in own.items() if value is not None}
     drivetrain = replace(base.drivetrain if base else Drivetrain(), **own)
-    marks = {"decimal": decimal, "thousands": thousands}
-    found, loads, bearing = _read(file, options, marks, drivetrain, bearings[1:])
+    if case:
+        source = load_source(case)
+        if source.file and file.exists() and file.samefile(case.parent / source.file):
+            whole = {
+                name: value for name, value in source.cut.items() if name not in ("start", "end")
+            }
+            options = whole | options
+    found, loads, bearing = _read(file, options, drivetrain, bearings[1:])
     doubts = doubtful_loads(loads, base.bearing if base else None)
     if as_json:
         print_json(found | {"doubtful": doubts})
@@ -137,8 +146,7 @@ command(loads, inspect)
 
 def _read(
     file: Path,
-    options: dict[str, float | None],
-    marks: dict[str, str],
+    options: dict[str, Any],
     drivetrain: Drivetrain,
     others: Sequence[str],
 ) -> tuple[dict[str, Any], HubLoads | BearingLoads, BearingLoads]:
@@ -146,15 +154,15 @@ def _read(
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
 
     if _holds_bearing_loads(file):
-        if any(value is not None for value in options.values()):
+        if not options.keys() <= {"decimal", "thousands"}:
             raise InputError(
                 "--shaft-speed and --hub-to-output are for hub loads",
                 where=str(file),
                 remedy="Write the speed into the table's column.",
             )
-        bearing = BearingLoads.read(file, **marks)
+        bearing = BearingLoads.read(file, **options)
         return _described(bearing, "load on the main bearing"), bearing, bearing
-    hub = HubLoads.read(file, **options, **marks)
+    hub = HubLoads.read(file, **options)
     bearing = main_bearing_load(hub, drivetrain)
     found = _described(hub, "hub loads in non-rotating shaft axes")
     found["reading"] = list(hub.reading)
