@@ -323,10 +323,8 @@ def test_numbers_that_are_not_in_the_file(tmp_path, truth, put, words):
         [("bea2 angle", "deg", "p1 angle")],
     ],
 )
-@pytest.mark.parametrize("gtsdf", [False, True])
-def test_other_channels_before_those_of_the_shaft(tmp_path, truth, others, gtsdf):
-    columns = _with_others(truth, *others)
-    path = _write_gtsdf(tmp_path, columns, False) if gtsdf else _write_sel(tmp_path, columns, False)
+def test_other_channels_before_those_of_the_shaft(tmp_path, truth, others):
+    path = _write_sel(tmp_path, _with_others(truth, *others), binary=False)
     _check(HubLoads.read(path), truth, 1e-5)
 
 
