@@ -47,13 +47,25 @@ def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float)
 def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> _Array:
     """Load per length of slices that press a roller like springs, w = c (δ − gap) ≥ 0 [N/m].
 
-    Of the gap of each slice where the roller just touches [m], its contour and what has worn; the
-    sum of the slices'
-    loads, not negative [N], from which δ follows; c [Pa]; and the width of a slice [m].
+    Parameters
+    ----------
+    gap : array_like, shape (n,)
+        Gap of each slice where the roller just touches [m]: its contour and what has worn.
+    load : float
+        Sum of the slices' loads [N], not negative, from which the approach δ follows.
+    stiffness : float
+        c [Pa].
+    width : float
+        Width of a slice [m].
 
-    Neighbours do not hold each other, as they do in a half-space: a groove narrower than the
-    contact is long loses its load a
-    little too fast. With c of `hertz_slices` the unworn contour carries Hertz' load per length.
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Notes
+    -----
+    Neighbours do not hold each other, as they do in a half-space: a groove narrower than the contact is long loses its
+    load a little too fast. With c of `hertz_slices` the unworn contour carries Hertz' load per length.
 
     Examples
     --------
@@ -63,9 +75,10 @@ def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> 
     gap = np.asarray(gap, float)
     rising = np.sort(gap)
     count = np.arange(1, gap.size + 1)
+    # The approach if only the slices up to each gap were pressed.
     approach = (load / (stiffness * width) + np.cumsum(rising)) / count
-    last = np.flatnonzero(approach > rising)
-    return stiffness * np.maximum(approach[last[-1] if last.size else 0] - gap, 0.0)
+    pressed = np.flatnonzero(approach > rising)
+    return stiffness * np.maximum(approach[pressed[-1] if pressed.size else 0] - gap, 0.0)
 
 
 def hertz_slices(load: float, half_length: float, curvature: float) -> float:
@@ -106,25 +119,37 @@ class Worn(NamedTuple):
         Infinite where it is not reached while the deepest of all wears by 2 mm.
         """
         deepest = self.depth.max(axis=-1)
-        return np.array([np.interp(depth, one, self.work, right=math.inf) for one in deepest.T])
+        return np.array([np.interp(depth, body, self.work, right=math.inf) for body in deepest.T])
 
     def depth_at(self, work: float) -> _Array:
         """Depth [m] of each body by slice at a k t; NaN beyond what was followed."""
         slices = self.depth.reshape(self.work.size, -1).T
-        found = [np.interp(work, self.work, one, right=math.nan) for one in slices]
-        return np.reshape(found, self.depth.shape[1:])
+        depths = [np.interp(work, self.work, depth, right=math.nan) for depth in slices]
+        return np.reshape(depths, self.depth.shape[1:])
 
 
 def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DEPTHS[-1]) -> Worn:
     """Wear of both raceways and the roller, with the pressure found anew after every `STEP`.
 
-    The roller wears in both contacts, and its worn profile counts in both. `width` is that of a
-    slice, `deepest` the
-    depth at which every body that wears is done [m].
+    dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves the lines of pure
+    rolling, it does not follow. The roller wears in both contacts, and its worn profile counts in both.
 
-    dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves
-    the lines of pure rolling, it
-    does not follow.
+    Parameters
+    ----------
+    contacts : tuple of Pressed
+        Inner and outer raceway contact.
+    width : float
+        Width of a slice [m].
+    deepest : float, optional
+        Depth at which every body that wears is done [m].
+
+    Returns
+    -------
+    Worn
+
+    References
+    ----------
+    Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448.
 
     Examples
     --------
@@ -136,24 +161,22 @@ def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DE
     depth = np.zeros((3, contacts[0].contour.size))
     work = [0.0]
     depths = [depth]
-    followed = 0.0
-    rings = np.array([bool(one.ring * one.load) for one in contacts])
-    wears = np.append(rings, any(one.roller * one.load for one in contacts))
+    rings = np.array([bool(contact.ring * contact.load) for contact in contacts])
+    wears = np.append(rings, any(contact.roller * contact.load for contact in contacts))
     while wears.any() and len(work) < _MOST_STEPS and (depth.max(axis=-1)[wears] < deepest).any():
         rate = np.zeros_like(depth)
-        for i, one in enumerate(contacts):
-            if one.load > 0.0:
-                power = (
-                    slice_loads(one.contour + depth[i] + depth[2], one.load, one.stiffness, width)
-                    * one.slip
-                )
-                rate[i] += one.ring * power
-                rate[2] += one.roller * power
+        for i, contact in enumerate(contacts):
+            if contact.load > 0.0:
+                gap = contact.contour + depth[i] + depth[2]
+                pressed = slice_loads(gap, contact.load, contact.stiffness, width)
+                power = pressed * contact.slip
+                rate[i] += contact.ring * power
+                rate[2] += contact.roller * power
         fastest = rate.max()
         if fastest <= 0.0:
             break
-        followed += STEP / fastest
-        depth = depth + rate * (STEP / fastest)
-        work.append(followed)
+        step = STEP / fastest
+        depth = depth + rate * step
+        work.append(work[-1] + step)
         depths.append(depth)
     return Worn(np.array(work), np.array(depths))

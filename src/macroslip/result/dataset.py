@@ -45,6 +45,7 @@ from macroslip.result.variables import (
     ORBIT_EXTREMES,
     VARIABLES,
     WHOLE_TRACES,
+    described,
     with_attributes,
 )
 from macroslip.roller.model import TableReport
@@ -60,7 +61,7 @@ _RADAU = (
     "doi:10.1007/978-3-642-05221-7"
 )
 _SDIRK = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068"
-_TIME = {"units": "s", "long_name": "time"}
+_TIME = described("s", "time")
 #: Counts of an integrator by name of the variable, and their fields of an `Outcome`.
 _COUNTS = dict(zip(COUNTS, ("steps", "rejections", "evaluations"), strict=True))
 
@@ -315,44 +316,53 @@ def _contact_details(table: Table) -> dict[str, np.ndarray]:
 
 def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
     places = (np.arange(SECTORS) + 0.5) * (2.0 * np.pi / SECTORS)
-    return "position", places, {"units": "rad", "long_name": "place on the orbit, from +X0"}
+    return "position", places, described("rad", "place on the orbit, from +X0")
 
 
 def roller_coordinates(
     case: Case, edges: np.ndarray, *, curved: bool, raceways: bool
 ) -> dict[str, Any]:
-    """Rows, rollers, interfaces and orbits; places and mechanisms where contacts have them."""
+    """Rows, rollers, interfaces and orbits; places and mechanisms where contacts have them.
+
+    Parameters
+    ----------
+    case : Case
+    edges : ndarray, shape (orbits + 1,)
+        Start of the window and ends of its complete orbits [s].
+    curved : bool
+        True if slip may vary along the roller, or asperities touch.
+    raceways : bool
+        True if variables distinguish raceways.
+
+    Returns
+    -------
+    dict
+        Coordinates as xarray takes them.
+    """
     numbers = list(case.roller_numbers)
-    angles = np.array(
-        [
-            initial_angles(row, case.bearing.rollers_per_row)[numbers]
-            for row in row_names(case.bearing)
-        ]
-    )
-    about = {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"}
-    found: dict[str, Any] = {
-        "row": list(row_names(case.bearing)),
-        "roller": (
-            "roller",
-            numbers,
-            {"units": "1", "long_name": "number of the roller in its row"},
-        ),
+    rows = row_names(case.bearing)
+    angles = [initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in rows]
+    about_angle = described("rad", "position at the first sample, from +X0 towards +Y0")
+    coordinates: dict[str, Any] = {
+        "row": list(rows),
+        "roller": ("roller", numbers, described("1", "number of the roller in its row")),
         "interface": list(INTERFACES),
         "orbit": (
             "orbit",
             np.arange(edges.size - 1),
-            {"units": "1", "long_name": "complete orbit in the window"},
+            described("1", "complete orbit in the window"),
         ),
-        "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
-        "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
-        "start_angle": (("row", "roller"), angles, about),
+        "orbit_start": ("orbit", edges[:-1], described("s", "start of the orbit")),
+        "orbit_end": ("orbit", edges[1:], described("s", "end of the orbit")),
+        "start_angle": (("row", "roller"), np.array(angles), about_angle),
     }
     if raceways:
-        found["raceway"] = list(INTERFACES[:2])
+        coordinates["raceway"] = list(INTERFACES[:2])
     if curved:
-        found["mechanism"] = list(MECHANISMS)
+        coordinates["mechanism"] = list(MECHANISMS)
     if curved and case.contact_details:
         middles = ((np.arange(STATIONS) + 0.5) / STATIONS - 0.5) * case.bearing.roller_length
-        about = {"units": "m", "long_name": "place along the roller's axis z'"}
-        found |= {"station": ("station", middles, about), **surface_maps.coordinates(case.bearing)}
-    return found
+        about_station = described("m", "place along the roller's axis z'")
+        coordinates["station"] = ("station", middles, about_station)
+        coordinates |= surface_maps.coordinates(case.bearing)
+    return coordinates

@@ -154,9 +154,20 @@ def over_orbit(
 ) -> xr.DataArray:
     """Quantiles of a traced quantity over all rollers and times, by sector of the orbit.
 
-    Of values over (row, roller, time, interface) and angles [degrees] over (row, roller, time) come
-    quantiles over
-    (row, interface, quantile, angle), NaN where a sector holds no value.
+    Parameters
+    ----------
+    values : xarray.DataArray
+        Over (row, roller, time, interface).
+    angle : xarray.DataArray
+        Of the rollers [degrees] over (row, roller, time).
+    quantiles : tuple of float, optional
+    sectors : int, optional
+        Sectors of the orbit.
+
+    Returns
+    -------
+    xarray.DataArray
+        Over (row, interface, quantile, angle); NaN where a sector holds no value.
     """
     found = np.full(
         (values.sizes["row"], values.sizes["interface"], len(quantiles), sectors), np.nan
@@ -195,9 +206,8 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
         time=slice(None, None, max(1, math.ceil(window.sizes["time"] / _QUANTILE_SAMPLES)))
     )
     angle = position(result).sel(time=traced.time)
-    thickness = orbit["film_thickness"] = over_orbit(
-        traced.film_thickness.transpose(*_ORDER, "interface"), angle
-    )
+    thickness = over_orbit(traced.film_thickness.transpose(*_ORDER, "interface"), angle)
+    orbit["film_thickness"] = thickness
     with np.errstate(invalid="ignore", divide="ignore"):
         slip = (1.0 - traced.spin / traced.spin_pure).expand_dims(interface=["raceways"], axis=-1)
     orbit["slip"] = over_orbit(slip, angle).isel(interface=0, drop=True)

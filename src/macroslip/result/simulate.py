@@ -106,7 +106,7 @@ def _imposed_orbits(
     report = None
     own_motions = ready.own_motions
     with ThreadPoolExecutor(threads) as pool:
-        for enlarged in range(_ENLARGED + 1):
+        for enlargement in range(_ENLARGED + 1):
             rollers, made = with_tables(ready.models, ready.box)
             report = report or made
             problems = {row: _problem(ready, rollers[row]) for row in names}
@@ -116,16 +116,15 @@ def _imposed_orbits(
                 for row in names
             }
 
-            def run(
-                row: str, number: int, problems: dict = problems, rows: dict = rows
-            ) -> Measured:
+            futures = {}
+            for row, number in left:
                 problem = problems[row]
                 if own_motions:
                     place = names.index(row) * case.bearing.rollers_per_row + number
                     problem = replace(problem, motion=own_motions[place])
-                return _roller(problem, rows[row], float(angles[row][number]), stop)
-
-            futures = {pool.submit(run, row, number): (row, number) for row, number in left}
+                start_angle = float(angles[row][number])
+                future = pool.submit(_roller, problem, rows[row], start_angle, stop)
+                futures[future] = (row, number)
             try:
                 for future in _finished(set(futures), progress, total - len(left), total):
                     results[futures[future]] = future.result()
@@ -134,7 +133,7 @@ def _imposed_orbits(
                 pool.shutdown(cancel_futures=True)
                 raise
             left = [job for job, one in results.items() if one.outcome.status == OUTSIDE_TABLES]
-            if not left or enlarged == _ENLARGED:
+            if not left or enlargement == _ENLARGED:
                 break
             ready = replace(ready, box=larger(ready.box))
     return to_dataset(ready, wanted, results, report or TableReport(0.0, 0.0, 0, 0.0))

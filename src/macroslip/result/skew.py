@@ -43,41 +43,71 @@ def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
 def thrust_on_ring(
     case: Case, model: RollerModel, ring: RingGeometry, motion: Motion, box: Box
 ) -> np.ndarray:
-    """Force of skewed rollers on the inner ring at the samples of its motion [N], shape (n, 3)."""
+    """Force of skewed rollers on the inner ring, which its balance feels.
+
+    Parameters
+    ----------
+    case : Case
+    model : RollerModel
+        A roller of the downwind row.
+    ring : RingGeometry
+        Geometry of the inner ring's balance.
+    motion : Motion
+        Motion of the inner ring, of n samples.
+    box : Box
+        States that the tables of the contacts hold.
+
+    Returns
+    -------
+    ndarray, shape (n, 3)
+        Force at the samples [N]; 0 after the window.
+    """
     down, up = skewing(case, model.laws, box).values()
     count = motion.time.size
     if case.window.end is not None:
         count = min(int(np.searchsorted(motion.time, case.window.end)) + 1, count)
-    found = np.zeros((motion.time.size, 3))
-    part = Motion(*(values[:count] for values in motion))
-    found[:count] = thrust(down.table, (down.guide, up.guide), ring, model, part)
-    return found
+    force = np.zeros((motion.time.size, 3))
+    part = Motion(*(samples[:count] for samples in motion))
+    force[:count] = thrust(down.table, (down.guide, up.guide), ring, model, part)
+    return force
 
 
 def values(
     case: Case, table: list[list[SkewMeasures]], failed: np.ndarray, span: float
 ) -> dict[str, np.ndarray]:
-    """Variables beside traces, of measures by row and roller, for a window of `span` [s]."""
-    energy = np.array([[one.energy for one in line] for line in table])
-    residual, ends = (
-        np.array([[getattr(one, name) for one in line] for line in table])
-        for name in ("residual", "stop_energy")
-    )
-    energy[failed] = residual[failed] = ends[failed] = np.nan
-    sums = np.array([[one.by_place for one in line] for line in table])
-    sums[failed] = np.nan
-    total = np.nansum(sums, axis=1)
+    """Variables of skew beside its traces.
+
+    Parameters
+    ----------
+    case : Case
+    table : list of list of SkewMeasures
+        Measures by row and roller.
+    failed : ndarray of bool, shape (rows, rollers)
+        Rollers that failed; their values are NaN and left out of means.
+    span : float
+        Length of the window [s].
+
+    Returns
+    -------
+    dict
+        Arrays by the name of the variable.
+    """
+
+    def of_rollers(name: str) -> np.ndarray:
+        gathered = np.array([[getattr(one, name) for one in row] for row in table])
+        gathered[failed] = np.nan
+        return gathered
+
+    total = np.nansum(of_rollers("by_place"), axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         means = total[..., 1:] / total[..., :1]
         share = case.bearing.rollers_per_row / (~failed).sum(axis=1)
     impulse = total[..., 1 + BY_PLACE.index("axial_force_by_position")].sum(axis=1)
-    thrust = np.where(
-        failed.all(axis=1), np.nan, impulse * share / span * math.cos(case.bearing.contact_angle)
-    )
-    found = {
-        "skew_energy": energy,
-        "skew_residual": residual,
-        "stop_energy": ends,
-        "frictional_thrust": thrust,
+    mean_thrust = impulse * share / span * math.cos(case.bearing.contact_angle)
+    return {
+        "skew_energy": of_rollers("energy"),
+        "skew_residual": of_rollers("residual"),
+        "stop_energy": of_rollers("stop_energy"),
+        "frictional_thrust": np.where(failed.all(axis=1), np.nan, mean_thrust),
+        **dict(zip(BY_PLACE, np.moveaxis(means, -1, 0), strict=True)),
     }
-    return found | dict(zip(BY_PLACE, np.moveaxis(means, -1, 0), strict=True))

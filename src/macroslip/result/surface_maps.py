@@ -35,35 +35,30 @@ from macroslip.measures.details import (
 
 def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Maps of the rows; NaN for a row with a roller that failed, whose part is missing."""
-    energy = np.array([sum(record.surface_energy for record in line) for line in records])
-    density = np.array(
-        [np.max([record.surface_density for record in line], axis=0) for line in records]
-    )
-    asperities, work, passes, load, classes = (
-        np.array([sum(getattr(record, name) for record in line) for line in records])
-        for name in (
-            "surface_asperities",
-            "surface_work",
-            "surface_passes",
-            "working_load",
-            "film_slip",
-        )
-    )
+
+    def total(name: str) -> np.ndarray:
+        sums = [sum(getattr(record, name) for record in row) for row in records]
+        return np.array(sums, dtype=float)
+
+    density = [np.max([record.surface_density for record in row], axis=0) for row in records]
+    weighted_load = total("working_load")
+    classes = total("film_slip")
     with np.errstate(invalid="ignore", divide="ignore"):
-        load = load[..., 0] / load[..., 1]
-    for number in np.flatnonzero(failed.any(axis=1)):
-        for one in (energy, density, asperities, work, passes, load, classes):
-            one[number] = np.nan
-    return {
-        "surface_energy": energy,
-        "surface_power_density": density,
-        "surface_asperity_energy": asperities,
-        "surface_work": work,
-        "surface_passes": passes,
+        load = weighted_load[..., 0] / weighted_load[..., 1]
+    maps = {
+        "surface_energy": total("surface_energy"),
+        "surface_power_density": np.array(density),
+        "surface_asperity_energy": total("surface_asperities"),
+        "surface_work": total("surface_work"),
+        "surface_passes": total("surface_passes"),
         "working_load": load,
         "film_slip_time": classes[..., 0],
         "film_slip_passes": classes[..., 1],
     }
+    for row in np.flatnonzero(failed.any(axis=1)):
+        for of_rows in maps.values():
+            of_rows[row] = np.nan
+    return maps
 
 
 def coordinates(bearing: Bearing) -> dict[str, Any]:
