@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from macroslip.bearing.geometry import ROWS
-from macroslip.files import write_durably
+from macroslip.storage.files import write_durably
 from macroslip.study.run import Session
 from macroslip.study.store import Outcome, case_path, checksum, layout, to_bytes, write_summary
 from macroslip.study.study_file import Study, study_of

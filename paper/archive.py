@@ -19,7 +19,7 @@ from pathlib import Path
 
 import macroslip
 from macroslip.errors import InputError
-from macroslip.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file
 from paper.reproduce import REPORT, SUMMARY
 
 ROOT = Path(__file__).parents[1]

@@ -11,7 +11,7 @@ import numba
 from numba.extending import register_jitable
 
 from macroslip.errors import MacroslipError
-from macroslip.kernel_cache import kernel_folder
+from macroslip.storage.kernels import kernel_folder
 
 #: Options of everything that is compiled; division by zero gives inf or NaN as in NumPy. Nothing that is compiled so is called
 #: from C, and an entry for that would be a twelfth of the work.

@@ -13,7 +13,7 @@ from types import CodeType
 from typing import NamedTuple
 
 from macroslip.errors import InputError
-from macroslip.files import check_regular
+from macroslip.storage.files import check_regular
 
 _ALLOWED = (
     "a Python file that registers film or traction laws, as macroslip init --example laws writes"

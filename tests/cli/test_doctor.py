@@ -21,20 +21,20 @@ def test_versions_kernels_and_commands(macroslip):
 
 
 def test_what_the_folder_of_kernels_holds(macroslip, tmp_path, monkeypatch):
-    from macroslip import kernel_cache
+    from macroslip.storage import cache
 
     # A folder of the test's own: other processes may be compiling into the one in use.
     (tmp_path / "part").mkdir()
     (tmp_path / "part" / "a.nbc").write_bytes(bytes(2_000_000))
-    monkeypatch.setattr(kernel_cache, "kernel_folder", lambda laws="": tmp_path)
-    kernels = json.loads(macroslip("doctor", "--json").out)["kernels"]
-    assert kernels == {"folder": str(tmp_path), "files": 1, "megabytes": 2.0}
+    monkeypatch.setattr(cache, "cache_folder", lambda: tmp_path)
+    caches = json.loads(macroslip("doctor", "--json").out)["caches"]
+    assert caches == {"folder": str(tmp_path), "files": 1, "megabytes": 2.0}
 
 
 def test_no_folder_for_kernels_is_said(macroslip, monkeypatch):
-    from macroslip import kernel_cache
+    from macroslip.storage import cache
 
-    monkeypatch.setattr(kernel_cache, "kernel_folder", lambda laws="": None)
+    monkeypatch.setattr(cache, "cache_folder", lambda: None)
     assert "NO FOLDER CAN BE WRITTEN" in macroslip("doctor").out
 
 
@@ -43,7 +43,7 @@ def test_the_same_for_people(macroslip):
     for word in (
         f"macroslip {package.__version__}",
         "numba",
-        "kernels",
+        "caches",
         "macroslip report",
         "ready",
     ):

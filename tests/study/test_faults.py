@@ -11,7 +11,8 @@ from contextlib import closing
 import numpy as np
 import pytest
 
-from macroslip import InputError, MacroslipError, files, open_study, run_study
+from macroslip import InputError, MacroslipError, open_study, run_study
+from macroslip.storage import files
 from macroslip.study.study_file import study_of
 
 pytestmark = pytest.mark.slow

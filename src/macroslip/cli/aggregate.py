@@ -9,7 +9,7 @@ import typer
 
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError, safe_text
-from macroslip.files import check_not_input, check_regular
+from macroslip.storage.files import check_not_input, check_regular
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -11,7 +11,7 @@ from macroslip.cli.failure import command
 from macroslip.cli.needs import PICTURE, require
 from macroslip.cli.printing import print_json, print_table
 from macroslip.errors import InputError
-from macroslip.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing

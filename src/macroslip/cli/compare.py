@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.needs import FIGURES, require
-from macroslip.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file
 
 PAGE = "comparison.html"
 

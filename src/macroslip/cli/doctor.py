@@ -1,4 +1,4 @@
-"""`macroslip doctor`: installed packages, the folder of compiled kernels, and commands that lack a package."""
+"""`macroslip doctor`: packages, the folder of kernels and tables, commands that lack a package."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ _OF_THE_MACHINE = ("python", "system", "processor", "cores")
 def doctor(
     as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
-    """Show versions, the folder of compiled kernels, processors, and packages missing for a command."""
+    """Show versions, the folder of kernels and tables, and packages missing for a command."""
     import macroslip
     from macroslip.cli.needs import COMMANDS, missing_packages
-    from macroslip.kernel_cache import kernel_folder
     from macroslip.machine import machine
+    from macroslip.storage.cache import cache_folder
 
-    folder = kernel_folder()
+    folder = cache_folder()
     sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()] if folder else []
     lacking = {command: missing_packages(need) for command, need in COMMANDS.items()}
     found = {
         "version": macroslip.__version__,
         "machine": {name: value for name, value in machine().items() if name in _OF_THE_MACHINE},
-        "kernels": {
+        "caches": {
             "folder": str(folder) if folder else None,
             "files": len(sizes),
             "megabytes": sum(sizes) / 1e6,
@@ -50,7 +50,7 @@ def doctor(
     rows = [[name, str(found["machine"][name])] for name in _OF_THE_MACHINE]
     stored = f"{folder}, {sum(sizes) / 1e6:.3g} MB in {len(sizes)} files"
     rows.append(
-        ["kernels", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"]
+        ["caches", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"]
     )
     print_table(f"macroslip {found['version']}", [("", False), ("", False)], rows)
     typer.echo()

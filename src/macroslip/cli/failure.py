@@ -15,7 +15,7 @@ import typer
 
 from macroslip.cli.printing import print_json
 from macroslip.errors import InputError, MacroslipError, legible
-from macroslip.files import SHORTER
+from macroslip.storage.files import SHORTER
 
 INTERNAL_ERROR = 1
 BAD_INPUT = 2

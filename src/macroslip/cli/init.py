@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from macroslip.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file
 
 
 class Example(StrEnum):

@@ -15,7 +15,7 @@ from macroslip.cli.failure import command, to_stderr
 from macroslip.cli.needs import PICTURE, require
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError
-from macroslip.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,7 +11,7 @@ from macroslip.cli.compare import compare
 from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
 from macroslip.cli.needs import FIGURES, require
 from macroslip.errors import InputError
-from macroslip.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file
 
 PAGE = "report.html"
 _TITLE = "Slip of the rollers"

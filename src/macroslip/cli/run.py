@@ -17,8 +17,8 @@ from macroslip.cli.printing import number, print_json, print_table
 from macroslip.cli.progress import command_progress
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.errors import InputError
-from macroslip.files import check_new_file, new_file
 from macroslip.report.style import years
+from macroslip.storage.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -18,8 +18,8 @@ from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
-from macroslip.contact.table_store import remembered, stored, table_key
 from macroslip.contact.traction import chord_table
+from macroslip.storage.tables import remembered, stored, table_key
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of w^(1/4) for the
 #: fastest speed of the box of 1 m/s.

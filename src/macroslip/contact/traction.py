@@ -28,10 +28,10 @@ from scipy.ndimage import map_coordinates
 
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.spline import axis, spline_coefficients
-from macroslip.contact.table_store import stored, table_key
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
 from macroslip.lubricant.temperature import ROELANDS_PRESSURE, roelands_index
+from macroslip.storage.tables import stored, table_key
 
 NEWTONIAN, LIMITING_SHEAR, EYRING = 0, 1, 2
 #: Numbers of the rheologies by the names that case files use.

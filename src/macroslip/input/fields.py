@@ -14,7 +14,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from macroslip.errors import InputError
-from macroslip.files import check_no_zero_byte
 from macroslip.input.files import Place, Source
 from macroslip.input.messages import shown, unknown_name
 from macroslip.input.units import (
@@ -29,6 +28,7 @@ from macroslip.input.units import (
     parse_quantity,
     quantity_pattern,
 )
+from macroslip.storage.files import check_no_zero_byte
 
 #: Largest whole number of a field.
 _MOST = 10**15

@@ -18,8 +18,8 @@ from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEv
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
 from macroslip.errors import InputError
-from macroslip.files import SPECIAL, is_special
 from macroslip.input.messages import shown
+from macroslip.storage.files import SPECIAL, is_special
 
 # A bearing file has 6 kB, 250 nodes and 2 levels. Some thousand nodes parse in a second; YAML without bounds can
 # describe a file of any size in a few lines.

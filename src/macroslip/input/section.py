@@ -26,10 +26,10 @@ from typing import (
 )
 
 from macroslip.errors import InputError
-from macroslip.files import check_no_zero_byte
 from macroslip.input.fields import IN_FILE, PYTHON, Choice, Form, Given
 from macroslip.input.files import Place, Source
 from macroslip.input.messages import nearest, parts_of, together, unknown_key
+from macroslip.storage.files import check_no_zero_byte
 
 Kind = TypeVar("Kind")
 Fields = Mapping[str, "Field"]

@@ -438,7 +438,7 @@ def _read_gtsdf(path: Path) -> _Output:
     """Output in the format gtsdf, whose time is no channel."""
     import h5py
 
-    from macroslip.hdf5_file import check_hdf5
+    from macroslip.storage.hdf5 import check_hdf5
 
     check_hdf5([path], _AGAIN)
     try:

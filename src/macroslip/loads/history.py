@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from macroslip.errors import InputError
-from macroslip.files import reading
 from macroslip.input.units import is_finite_number
 from macroslip.loads.bladed import read_bladed
 from macroslip.loads.bundled import bundled_case
@@ -23,6 +22,7 @@ from macroslip.loads.openfast import read_openfast
 from macroslip.loads.source_file import DAMAGED, RPM, moment_at_hub, source_file
 from macroslip.loads.table import read_bearing_table, read_hub_table
 from macroslip.overview import html_overview
+from macroslip.storage.files import reading
 
 GAP_FACTOR = 1.5
 """A step longer than this many median steps is a gap: something between two samples was lost."""

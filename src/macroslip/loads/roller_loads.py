@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
-from macroslip.files import reading
 from macroslip.loads.csv_text import csv_number_format
 from macroslip.loads.history import BearingLoads, History, cut
 from macroslip.loads.source_file import DAMAGED, RPM, source_file
 from macroslip.loads.table import open_table
+from macroslip.storage.files import reading
 
 ROW_NAMES = ("downwind", "upwind")
 COLUMNS = ("time_s", "shaft_speed_rpm", "row", "angle_deg", "load_N")

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from macroslip.errors import InputError, legible
-from macroslip.files import check_regular
+from macroslip.storage.files import check_regular
 
 #: Advice for a file that no reader understands.
 DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it holds."

@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 from macroslip.errors import InputError, MacroslipError
-from macroslip.files import check_regular
-from macroslip.hdf5_file import check_hdf5
 from macroslip.overview import html_overview
 from macroslip.report import bearing_figures as draw
 from macroslip.report.page import number
@@ -23,6 +21,7 @@ from macroslip.report.result_numbers import row_numbers
 from macroslip.report.style import SMALL, program_style
 from macroslip.result.run_input import run_input
 from macroslip.result.stored import REMEDY, check_result
+from macroslip.storage.files import check_regular
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -65,7 +64,6 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
         )
     for file in files:
         check_regular(file, REMEDY)
-    check_hdf5(files, REMEDY)
     found = {}
     for file in files:
         try:

@@ -24,6 +24,7 @@ from macroslip.result.heat_balance import case_at_balance
 from macroslip.result.prepared import Prepared, prepare
 from macroslip.result.skew import skewing
 from macroslip.roller.model import Roller, TableReport, with_tables
+from macroslip.storage.kernels import keep_kernels
 from macroslip.whole import sdirk
 from macroslip.whole.model import whole_bearing
 from macroslip.whole.model import with_tables as assembled
@@ -87,6 +88,8 @@ def simulate(
         # An interrupt, say: rollers under way look at this after every buffer of steps.
         stop.set()
         raise
+    finally:
+        keep_kernels()
 
 
 class _InterruptedError(Exception):

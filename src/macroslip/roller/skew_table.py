@@ -18,9 +18,9 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import cell_of
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients, splines_in_cube
 from macroslip.contact.table import Box, contact_parts
-from macroslip.contact.table_store import remembered, stored, table_key
 from macroslip.errors import MacroslipError
 from macroslip.roller.skew import LARGEST_SKEW, Equilibrium, Pocket, equilibrium, raceways
+from macroslip.storage.tables import remembered, stored, table_key
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from macroslip.files import write_durably
+from macroslip.storage.files import write_durably
 from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst

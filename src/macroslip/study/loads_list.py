@@ -9,8 +9,8 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from macroslip.errors import InputError, safe_text
-from macroslip.files import check_regular
 from macroslip.loads.bundled import bundled_cases, bundled_labels
+from macroslip.storage.files import check_regular
 
 #: Names that labels of the user's own would hide.
 RESERVED = (

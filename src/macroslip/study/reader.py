@@ -20,9 +20,9 @@ from xarray.core import (
 )  # the documented interface for arrays of a backend, in spite of its name
 
 from macroslip.bearing.geometry import ROWS
-from macroslip.files import MANIFEST, reading
 from macroslip.result.variables import described
-from macroslip.study.store import DATABASE, REMEDY, read_manifest, read_result, read_runs
+from macroslip.storage.files import MANIFEST, reading
+from macroslip.study.store import DAMAGED, DATABASE, REMEDY, read_manifest, read_result, read_runs
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 
 #: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so samples are counted.
@@ -63,6 +63,11 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     """
     directory = Path(directory).absolute()
     manifest, runs = _read(directory)
+    with reading(directory, REMEDY):
+        return _dataset(directory, manifest, runs)
+
+
+def _dataset(directory: Path, manifest: Mapping[str, Any], runs: pd.DataFrame) -> xr.Dataset:
     labels = {"run": ("1", "name of the run")} | manifest["labels"]
     labels |= {name: ("1", f"{name} of the run") for name in ("outcome", "reason", "key")}
     coordinates = {
@@ -106,7 +111,7 @@ def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dat
 def _read(directory: Path) -> tuple[dict[str, Any], pd.DataFrame]:
     with reading(directory, REMEDY):
         manifest, _ = read_manifest(directory)
-    with reading(directory / DATABASE, REMEDY):
+    with reading(directory / DATABASE, DAMAGED):
         return manifest, read_runs(directory)
 
 

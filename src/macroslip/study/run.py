@@ -20,9 +20,9 @@ import macroslip
 from macroslip.bearing.geometry import ROWS
 from macroslip.case.case import WHOLE_BEARING
 from macroslip.errors import InputError, MacroslipError, safe_text
-from macroslip.files import LOG, make_folder
 from macroslip.machine import usable_processors
 from macroslip.result.heat_balance import next_temperature
+from macroslip.storage.files import LOG, make_folder
 from macroslip.study import store
 from macroslip.study.reader import open_study
 from macroslip.study.settings import RECORDS
@@ -231,6 +231,8 @@ def run_study(
             )
             remedy = f"{_KEPT} Make room, or get the right to write there, and go on with --resume."
             raise MacroslipError(f"{where}: nothing can be stored ({why}). {remedy}") from error
+        except sqlite3.DatabaseError as error:
+            raise store.damaged_database(directory, error) from None
         return session.ended
 
 

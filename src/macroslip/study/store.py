@@ -12,13 +12,14 @@ import hashlib
 import io
 import itertools
 import json
-import marshal
+import math
 import os
 import platform
 import sqlite3
+import struct
 import time
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from enum import StrEnum
 from pathlib import Path
@@ -30,7 +31,7 @@ import xarray as xr
 from filelock import FileLock, Timeout
 
 from macroslip.errors import InputError, MacroslipError
-from macroslip.files import (
+from macroslip.storage.files import (
     DATABASE,
     LOCK,
     MANIFEST,
@@ -42,15 +43,14 @@ from macroslip.files import (
 )
 from macroslip.study.summary import NUMBERS
 
-FORMAT = 3
+FORMAT = 4
 CASES = "cases"
 #: Folder of the runs by which the temperature of a study is found; a study of its own.
 BALANCE_RUNS = "balance"
 _FILES = (*STUDY_FILES, f"{DATABASE}-wal", f"{DATABASE}-shm")
-_EARLIER = "journal.jsonl"
 #: Advice for a damaged manifest or a damaged database.
 REMEDY = "Write it again with macroslip study STUDY.yaml -o DIR --resume; results are kept."
-_DAMAGED = (
+DAMAGED = (
     "Put back a copy of it, or remove it and go on with --resume: then all runs are computed again."
 )
 _GONE = "Put back a copy of it, or go on with --resume: then all runs are computed again."
@@ -59,7 +59,8 @@ _NO_RUNS = "Begin it again with macroslip study STUDY.yaml -o DIR --resume."
 _EMPTY = "variables_without_values"
 #: Columns of a run that is not done, and their values then.
 TEXTS = {"outcome": "missing", "reason": "", "key": "", "detail": "", "layout": ""}
-_COLUMNS = ["key", "outcome", "reason", "detail", "layout", *NUMBERS, "crc"]
+_TEXT_COLUMNS = ("key", "outcome", "reason", "detail", "layout")
+_COLUMNS = [*_TEXT_COLUMNS, *NUMBERS, "crc"]
 _BATCH = 20_000
 
 
@@ -82,19 +83,18 @@ class Outcome(StrEnum):
 class Database:
     """The runs of a study and their results, open for writing by the process that holds the lock.
 
-    Raises InputError if the database is damaged.
+    Methods raise sqlite3.OperationalError if the system refuses to write, and another
+    sqlite3.DatabaseError if the database is damaged, as `damaged_database` reports it.
     """
 
     def __init__(self, directory: Path):
         self._path = path = directory / DATABASE
         self._db = sqlite3.connect(path, isolation_level=None)
+        self._db.text_factory = _text
         try:
             self._db.execute("PRAGMA journal_mode = WAL")
             self._db.execute("PRAGMA synchronous = FULL")
             self._db.execute("PRAGMA cache_size = -65536")
-            found = self._db.execute("PRAGMA quick_check(1)").fetchone()[0]
-            if found != "ok":
-                raise sqlite3.DatabaseError(found)
             # Results of a version with other numbers have other keys, so that they are never asked for again.
             columns = [row[1] for row in self._db.execute("PRAGMA table_info(results)")]
             with self._transaction():
@@ -106,14 +106,9 @@ class Database:
                     )
                     self._db.execute(f"CREATE TABLE results ({texts}, {numbers}, crc INTEGER)")
             self._file = path.stat()
-        except sqlite3.OperationalError:  # a full disk, or no right to write
+        except sqlite3.DatabaseError:
             self.close()
             raise
-        except sqlite3.DatabaseError as error:
-            self.close()
-            raise InputError(
-                f"the database is damaged ({error})", where=str(path), remedy=_DAMAGED
-            ) from None
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
@@ -158,7 +153,7 @@ class Database:
                 'CREATE TABLE runs ("case" INTEGER PRIMARY KEY, run TEXT UNIQUE, labels TEXT, crc INTEGER, key TEXT, '
                 "outcome TEXT, reason TEXT)"
             )
-            rows = ((case, *pair, _crc(*pair)) for case, pair in enumerate(texts))
+            rows = ((case, *pair, _crc(pair)) for case, pair in enumerate(texts))
             self._db.executemany(
                 'INSERT INTO runs ("case", run, labels, crc) VALUES (?, ?, ?, ?)', rows
             )
@@ -167,10 +162,9 @@ class Database:
                 "WHERE earlier.run = runs.run"
             )
             self._db.execute("DROP TABLE earlier")
-            damaged = [
-                row[0] for row in self._db.execute("SELECT * FROM results") if not _sound(row)
-            ]
-            self._db.executemany("DELETE FROM results WHERE key IS ?", [(key,) for key in damaged])
+            rows = self._db.execute("SELECT rowid, * FROM results")
+            damaged = [(number,) for number, *row in rows if not _is_sound(row)]
+            self._db.executemany("DELETE FROM results WHERE rowid = ?", damaged)
         return len(damaged)
 
     def results(self) -> int:
@@ -200,18 +194,15 @@ class Database:
         with self._transaction():
             for entry in entries:
                 if "detail" in entry and "outcome" in entry:
-                    texts = [
-                        entry[name] for name in ("key", "outcome", "reason", "detail", "layout")
-                    ]
+                    texts = [str(entry[name]) for name in _TEXT_COLUMNS]
                     # Adding nothing makes a negative zero positive, as the database keeps it.
-                    values = [float(entry["values"][name]) + 0.0 for name in NUMBERS]
+                    numbers = [float(entry["values"][name]) + 0.0 for name in NUMBERS]
                     row = (
-                        *map(str, texts),
-                        *(None if value != value else value for value in values),
+                        *texts,
+                        *(None if math.isnan(number) else number for number in numbers),
+                        _crc(texts, numbers),
                     )
-                    self._db.execute(
-                        f"INSERT OR REPLACE INTO results VALUES (?{places})", (*row, _crc(*row))
-                    )
+                    self._db.execute(f"INSERT OR REPLACE INTO results VALUES (?{places})", row)
                 ended = entry if entry.get("outcome") == Outcome.FAILED else {}
                 changed = (
                     entry.get("key"),
@@ -224,13 +215,31 @@ class Database:
                 )
 
 
-def _crc(*values: Any) -> int:
+def damaged_database(directory: Path, error: sqlite3.DatabaseError) -> InputError:
+    """The problem of a damaged database."""
+    return InputError(
+        f"the database is damaged ({error})", where=str(directory / DATABASE), remedy=DAMAGED
+    )
+
+
+def _text(content: bytes) -> str:
+    """A text of the database; one that was damaged is another text, which its checksum tells."""
+    return content.decode(errors="replace")
+
+
+def _crc(texts: Sequence[str], numbers: Sequence[float] = ()) -> int:
     """Checksum of a row, by which one that was changed on the disk is found."""
-    return zlib.crc32(marshal.dumps(values, 2))  # in version 2 equal values have equal bytes
+    return zlib.crc32("\0".join(texts).encode() + struct.pack(f"<{len(numbers)}d", *numbers))
 
 
-def _sound(row: tuple[Any, ...]) -> bool:
-    return _crc(*row[:-1]) == row[-1]
+def _is_sound(row: Sequence[Any]) -> bool:
+    """True if a row of results is as it was recorded."""
+    texts = row[: len(_TEXT_COLUMNS)]
+    numbers = [math.nan if number is None else number for number in row[len(_TEXT_COLUMNS) : -1]]
+    try:
+        return _crc(texts, numbers) == row[-1]
+    except (TypeError, struct.error):  # a text in place of a number, or the other way round
+        return False
 
 
 def read_runs(directory: Path) -> pd.DataFrame:
@@ -245,6 +254,7 @@ def read_runs(directory: Path) -> pd.DataFrame:
         raise InputError("the database is not there", where=str(path), remedy=_GONE)
     frames = []
     with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as db:
+        db.text_factory = _text
         if [row[1] for row in db.execute("PRAGMA table_info(results)")] != _COLUMNS:
             raise _other_version(directory, "with other numbers")
         if not list(db.execute("SELECT 1 FROM sqlite_schema WHERE name = 'runs'")):
@@ -254,7 +264,7 @@ def read_runs(directory: Path) -> pd.DataFrame:
             'LEFT JOIN results ON results.key = runs.key AND runs.outcome IS NULL ORDER BY "case"'
         )
         for rows in iter(lambda: cursor.fetchmany(_BATCH), []):
-            if any(_crc(*row[:2]) != row[2] for row in rows):
+            if any(_crc(row[:2]) != row[2] for row in rows):
                 raise InputError("the list of runs is damaged", where=str(path), remedy=REMEDY)
             labels = pd.DataFrame([{"run": row[0], **json.loads(row[1])} for row in rows])
             found = pd.DataFrame(list(map(_line, rows)), columns=[*TEXTS, *NUMBERS])
@@ -271,7 +281,7 @@ def _line(row: tuple[Any, ...]) -> tuple[Any, ...]:
         return (outcome, reason, key or "", "", "", *numbers)
     if result[0] is None:
         return (*TEXTS.values(), *numbers)
-    if not _sound(result):
+    if not _is_sound(result):
         return (
             *(TEXTS | {"reason": "its row in the database is damaged"}).values(),
             *[None] * len(numbers),
@@ -401,20 +411,15 @@ def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:
 
 def write_manifest(directory: Path, manifest: dict[str, Any]) -> str:
     """Write the manifest durably; gives its checksum, by which workers verify that they read the same."""
-    manifest = {"format": FORMAT, **manifest}
-    content = _manifest_content(manifest | {"checksum": checksum(_manifest_content(manifest))})
+    content = json.dumps({"format": FORMAT, **manifest}, indent=1, ensure_ascii=False).encode()
     write_durably(directory / MANIFEST, content)
     return checksum(content)
-
-
-def _manifest_content(manifest: dict[str, Any]) -> bytes:
-    return json.dumps(manifest, indent=1, ensure_ascii=False).encode()
 
 
 def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
     """The manifest and its checksum.
 
-    Raises InputError if the folder holds no study, one of another format, or a manifest that was changed on the disk.
+    Raises InputError if the folder holds no study, one of another format, or no whole manifest.
     """
     path = directory / MANIFEST
     check_parts(directory)
@@ -433,10 +438,6 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
         ) from None
     if found != FORMAT:
         raise _other_version(directory, found)
-    if manifest.pop("checksum", "") != checksum(_manifest_content(manifest)):
-        raise InputError(
-            "the manifest is damaged: its checksum has changed", where=str(path), remedy=REMEDY
-        )
     return manifest, checksum(content)
 
 
@@ -478,8 +479,6 @@ def check_folder(directory: Path, *, resume: bool) -> None:
         raise InputError("it is not a folder", where=where, remedy="Name a folder, new or empty.")
     check_parts(directory)
     names = {path.name for path in directory.iterdir()}
-    if _EARLIER in names:
-        raise _other_version(directory, 1)
     if names & {MANIFEST, DATABASE}:
         if not resume:
             remedy = "Go on with it by --resume, or choose another folder."

@@ -19,11 +19,11 @@ from macroslip.case.case import Case
 from macroslip.case.parts import Traces, Window
 from macroslip.contact.registry import own_laws
 from macroslip.errors import InputError, MacroslipError
-from macroslip.files import make_folder, write_durably
-from macroslip.fingerprint import KERNEL_PARTS, RESULT_PARTS, fingerprint
 from macroslip.imposed.status import Status
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.loads.source_file import without_folders
+from macroslip.storage.files import make_folder, write_durably
+from macroslip.storage.fingerprint import fingerprint
 from macroslip.study.settings import RECORDS, Setting, read_loads, template
 from macroslip.study.store import (
     Outcome,
@@ -37,8 +37,6 @@ from macroslip.study.store import (
 from macroslip.study.study_file import Study
 from macroslip.study.summary import COMPONENTS, RANGE_EDGES, load_cycles, summary_values
 
-#: Parts that only use results elsewhere, and decide what a study stores.
-_STORED_PARTS = ("damage", "study/summary")
 #: Variables that are stored whatever is to be kept: which rollers failed, and how.
 ALWAYS_KEPT = ("status", "end_time", "end_slip")
 #: Runs that are tried for an estimate, and the time of each that is simulated [s]; half of it as well, for the slope.
@@ -53,8 +51,7 @@ class StoreError(MacroslipError):
 
 def program() -> str:
     """Hash of the program as far as results depend on it: its sources, and registered laws of the user's own."""
-    parts = fingerprint(*KERNEL_PARTS, *RESULT_PARTS, *_STORED_PARTS)
-    return hashlib.sha256("\0".join([parts, *own_laws()]).encode()).hexdigest()
+    return hashlib.sha256("\0".join([fingerprint(), *own_laws()]).encode()).hexdigest()
 
 
 def case_key(case: Case, options: Mapping[str, Any]) -> str:

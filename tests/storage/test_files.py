@@ -5,7 +5,8 @@ import threading
 
 import pytest
 
-from macroslip import InputError, files
+from macroslip import InputError
+from macroslip.storage import files
 
 
 def test_a_file_that_the_output_is_made_from_is_kept_even_with_force(tmp_path):

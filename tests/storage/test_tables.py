@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from macroslip import Bearing, Laws, Lubricant
-from macroslip.contact import table_store as store
 from macroslip.contact.laws import prepare
 from macroslip.contact.look_up import TRACTION
 from macroslip.contact.table import Tables, table_box, write_traction
+from macroslip.storage import cache
+from macroslip.storage import tables as store
 
 
 @pytest.fixture
@@ -21,7 +22,7 @@ def place(tmp_path, monkeypatch):
     """An empty store on the disk, and no tables in memory."""
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     forget(monkeypatch)
-    return store.folder()
+    return cache.cache_folder()
 
 
 class Maker:
@@ -34,7 +35,7 @@ class Maker:
 
 
 def forget(monkeypatch):
-    monkeypatch.setattr(store, "_in_memory", store.OrderedDict())
+    monkeypatch.setattr(store, "_in_memory", store.LRUCache(1e9, getsizeof=store._size))
 
 
 def test_a_table_is_found_on_the_disk(place, monkeypatch):
@@ -54,7 +55,7 @@ def test_a_table_is_found_on_the_disk(place, monkeypatch):
 def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
     make = Maker()
     store.stored("ab12", make)
-    path = place / "ab12.table"
+    path = place / "ab12.cache"
     path.write_bytes(damage(path.read_bytes()))
     forget(monkeypatch)
     store.stored("ab12", make)
@@ -63,19 +64,11 @@ def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
     assert make.count == 2
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes on this system")
-def test_a_pipe_under_the_name_of_a_table_does_not_hang(place):
-    place.mkdir(parents=True)
-    os.mkfifo(place / "pipe.table")
-    (values,) = store.stored("pipe", lambda: [np.arange(3.0)])
-    assert values.tolist() == [0.0, 1.0, 2.0]
-
-
 def test_files_that_were_exchanged_are_made_again(place, monkeypatch):
     make = Maker()
     for key in ("ab12", "cd34"):
         store.stored(key, make)
-    one, other = place / "ab12.table", place / "cd34.table"
+    one, other = place / "ab12.cache", place / "cd34.cache"
     one.rename(place / "aside")
     other.rename(one)
     (place / "aside").rename(other)
@@ -88,7 +81,7 @@ def test_files_that_were_exchanged_are_made_again(place, monkeypatch):
 @pytest.mark.slow
 def test_processes_that_write_one_table_find_it_whole(place):
     code = (
-        "import time, numpy as np\nfrom macroslip.contact import table_store as store\n"
+        "import time, numpy as np\nfrom macroslip.storage import tables as store\n"
         "made = store.stored('ab12', lambda: (time.sleep(0.2), [np.arange(1e5)])[1])\n"
         "print(int(made[0].sum()))"
     )
@@ -96,8 +89,8 @@ def test_processes_that_write_one_table_find_it_whole(place):
         subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) for _ in range(4)
     ]
     assert {process.communicate(timeout=60)[0] for process in started} == {b"4999950000\n"}
-    assert [path.name for path in place.iterdir() if path.suffix != ".lock"] == ["ab12.table"]
-    assert store._read(place / "ab12.table")[0].size == 10**5
+    assert [path.name for path in place.glob("*.cache")] == ["ab12.cache"]
+    assert store._arrays(cache.read_cache("ab12"))[0].size == 10**5
 
 
 def test_a_place_that_is_no_folder_leaves_tables_in_memory(tmp_path, monkeypatch):
@@ -114,13 +107,25 @@ def test_without_a_home_folder_nothing_is_written(tmp_path, monkeypatch):
     forget(monkeypatch)
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setattr(
-        store, "user_cache_path", lambda *args, **kwargs: Path("~/.cache/macroslip")
-    )
-    with pytest.raises(RuntimeError):
-        store.folder()
+    monkeypatch.setattr(cache, "user_cache_path", lambda *_, **__: Path("~/.cache/macroslip"))
+    monkeypatch.setattr(cache.tempfile, "gettempdir", lambda: str(tmp_path / "temporary"))
+    (tmp_path / "temporary").mkdir()
+    own = cache.cache_folder()
+    assert own.parent == tmp_path / "temporary" and own.stat().st_mode & 0o077 == 0
     assert store.stored("ab78", Maker())[0].size == 1000
-    assert not list(tmp_path.iterdir())
+    own.chmod(0o770)  # others might put programs into it
+    assert cache.cache_folder() is None
+    assert store.stored("ab79", Maker())[0].size == 1000
+    assert [path.name for path in tmp_path.iterdir()] == ["temporary"]
+    assert [path.name for path in own.iterdir()] == ["ab78.cache"]
+
+
+@pytest.mark.parametrize("kind", ["pipe", "folder"])
+@pytest.mark.timeout(60)
+def test_what_is_no_file_under_the_name_of_a_table_is_passed_by(place, kind):
+    path = place / "ab12.cache"
+    os.mkfifo(path) if kind == "pipe" else path.mkdir()
+    assert store.stored("ab12", Maker())[0].size == 1000
 
 
 def test_threads_make_a_table_once(place):
@@ -134,10 +139,10 @@ def test_threads_make_a_table_once(place):
 
 
 def test_the_store_is_bounded(place, monkeypatch):
-    monkeypatch.setattr(store, "_MOST_BYTES", 30_000)
+    monkeypatch.setattr(cache, "_MOST_BYTES", 30_000)
     for number in range(8):
         store.stored(f"{number:04}", Maker())
-    files = list(place.glob("*.table"))
+    files = list(place.glob("*.cache"))
     assert 1 <= len(files) <= 3 and sum(path.stat().st_size for path in files) <= 30_000
 
 
@@ -170,7 +175,7 @@ def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
 
     first = made()
     # Not the oil's table of stresses, which a process makes once.
-    sheets = [path for path in place.glob("*.table") if path.stat().st_size < 500_000]
+    sheets = [path for path in place.glob("*.cache") if path.stat().st_size < 500_000]
     assert len(sheets) >= 5
     sizes = [path.stat().st_size for path in sheets]
     for path, size in zip(sheets, sizes, strict=True):
@@ -191,5 +196,5 @@ def test_cases_share_their_sheets(place, monkeypatch):
     counts = []
     for box in (slower, faster):
         write_traction(np.zeros(1, TRACTION)[0], Tables(), contact, box)
-        counts.append(len(list(place.glob("*.table"))))
+        counts.append(len(list(place.glob("*.cache"))))
     assert counts[1] - counts[0] < 4
