@@ -26,7 +26,10 @@ STUDY_FILES = MANIFEST, DATABASE, SUMMARY, LOG, LOCK = (
 
 
 def write_durably(path: Path, content: bytes) -> None:
-    """Write a file in one step: when this returns it is on the disk; until then, or if the system refuses, the old one is."""
+    """Write a file in one step: when this returns it is on the disk.
+
+    Until then, or if the system refuses, the old one is.
+    """
     make_folder(path.parent)
     temporary = unfinished(path)
     try:
@@ -54,7 +57,10 @@ def flush(descriptor: int) -> None:
 
 
 def flush_folder(folder: Path) -> None:
-    """The same for the names in a folder; systems without such a thing, as Windows, keep them by themselves."""
+    """The same for the names in a folder.
+
+    Systems without such a thing, as Windows, keep them by themselves.
+    """
     if os.name == "posix":
         descriptor = os.open(folder, os.O_RDONLY)
         try:
@@ -85,7 +91,10 @@ def check_regular(path: Path, remedy: str) -> None:
 
 
 def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
-    """Refuse to replace a file that the output is made from, by whatever name; those that do not exist are passed over."""
+    """Refuse to replace a file that the output is made from, by whatever name.
+
+    Those that do not exist are passed over.
+    """
     if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
         what = "this is a file that the output is made from"
         raise InputError(what, where=str(path), remedy="Choose another name; it would be lost.")
@@ -94,8 +103,8 @@ def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
 def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> None:
     """Refuse a file that cannot be made, before anything is computed for it.
 
-    That is an input that it is made from, part of a study, no regular file, a file that exists unless `force` is set, and a
-    name in a folder that is missing or cannot be written to.
+    That is an input that it is made from, part of a study, no regular file, a file that exists
+    unless `force` is set, and a name in a folder that is missing or cannot be written to.
     """
     folder, where = path.parent, str(path)
     check_no_zero_byte(where)
@@ -135,10 +144,13 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
 
 @contextmanager
 def new_file(path: Path, *, force: bool) -> Iterator[Path]:
-    """Give a temporary path to write to; it takes its proper name when the block is left without an error.
+    """Give a temporary path to write to.
 
-    The path is in the same folder, so that the change of name is one step; it is removed if the block fails. InputError if
-    the system refuses to write, or if a file has appeared meanwhile, which is kept without `force`.
+    It takes its proper name when the block is left without an error.
+
+    The path is in the same folder, so that the change of name is one step; it is removed if the
+    block fails. InputError if the system refuses to write, or if a file has appeared meanwhile,
+    which is kept without `force`.
     """
     temporary = unfinished(path)
     try:

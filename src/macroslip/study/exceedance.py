@@ -27,17 +27,20 @@ def exceedance(
 
         n(x) = 1 year · Σ_b p_b N_b(> x) / t_b
 
-    with the probability p_b of bin b, the number N_b(> x) of its orbits above x, over all runs, rollers of the row and
-    complete orbits, and the time t_b that these took, over the same; of an event, the whole of its window.
+    with the probability p_b of bin b, the number N_b(> x) of its orbits above x, over all runs,
+    rollers of the row and complete orbits, and the time t_b that these took, over the same; of an
+    event, the whole of its window.
 
-    Results are read one after the other and counted by classes, so that memory does not grow with the study. Raises
-    InputError if a label or a probability is wrong, or a stored result is damaged.
+    Results are read one after the other and counted by classes, so that memory does not grow with
+    the study. Raises InputError if a label or a probability is wrong, or a stored result is
+    damaged.
 
-    Over (group, row, threshold) there are `energy_orbits` and `power_orbits` [1/year], orbits a year of one roller
-    whose energy (all interfaces) or peak power (largest at any interface) exceeds the threshold [J or W]; over (group,
-    row) `orbits` [1/year], all of them, NaN where a bin of some weight has no result; `runs` and `left_out` over
-    (group, bin). Thresholds that all orbits exceed, and those that none does, are left out but for the nearest.
-    Arguments are those of `macroslip.study.lifetime.lifetime_energy`.
+    Over (group, row, threshold) there are `energy_orbits` and `power_orbits` [1/year], orbits a
+    year of one roller whose energy (all interfaces) or peak power (largest at any interface)
+    exceeds the threshold [J or W]; over (group, row) `orbits` [1/year], all of them, NaN where a
+    bin of some weight has no result; `runs` and `left_out` over (group, bin). Thresholds that all
+    orbits exceed, and those that none does, are left out but for the nearest. Arguments are those
+    of `macroslip.study.lifetime.lifetime_energy`.
     """
     missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
     if missing:
@@ -109,10 +112,10 @@ def load_spectrum(
 
         n = T Σ_b p_b (1/N_b) Σ_{c in b} n_c / t_c
 
-    as in `macroslip.study.lifetime.lifetime_energy`, with the cycles n_c and the length t_c of each load history.
-    Raises InputError if a label or a probability is wrong, or the study has not counted cycles. `cycles` [1] are over
-    (group, component, load_range), NaN where a bin of some weight has no result. Ranges below the smallest and above
-    the largest that occur are left out.
+    as in `macroslip.study.lifetime.lifetime_energy`, with the cycles n_c and the length t_c of each
+    load history. Raises InputError if a label or a probability is wrong, or the study has not
+    counted cycles. `cycles` [1] are over (group, component, load_range), NaN where a bin of some
+    weight has no result. Ranges below the smallest and above the largest that occur are left out.
     """
     if "load_cycles" not in study:
         remedy = "Set `cycles: true` in the study file and run it again."

@@ -27,15 +27,17 @@ def lifetime_energy(
 
         E = T Σ_b p_b P_b,    P_b = (1/N_b) Σ_{c in b} E_c / t_c
 
-    with the lifetime T, the probability p_b of bin b, the energy E_c (`energy_mean`) of its N_b runs and the length t_c
-    of their windows. An event is a bin of its own, whose p_b is the share of time that its rate gives it, and wind
-    speeds share the rest. Time outside the bins contributes nothing; `covered` is the share of all time in the bins.
-    Raises InputError if a label, a probability or the lifetime is wrong.
+    with the lifetime T, the probability p_b of bin b, the energy E_c (`energy_mean`) of its N_b
+    runs and the length t_c of their windows. An event is a bin of its own, whose p_b is the share
+    of time that its rate gives it, and wind speeds share the rest. Time outside the bins
+    contributes nothing; `covered` is the share of all time in the bins. Raises InputError if a
+    label, a probability or the lifetime is wrong.
 
-    Over (group, row) there is `lifetime_energy` [J], NaN where a bin has no run; over (group, bin, row) `power` [W] and
-    `bin_energy` [J], the bin's part of the sum; over (group, bin) `runs`, those that were used, and `left_out`, those
-    that failed or are missing; over bin `probability`; and `covered`, their sum. T is in years of 365.25 days, above 0;
-    `field`, `width` and `by` are those of `macroslip.study.weights.binned`.
+    Over (group, row) there is `lifetime_energy` [J], NaN where a bin has no run; over (group, bin,
+    row) `power` [W] and `bin_energy` [J], the bin's part of the sum; over (group, bin) `runs`,
+    those that were used, and `left_out`, those that failed or are missing; over bin `probability`;
+    and `covered`, their sum. T is in years of 365.25 days, above 0; `field`, `width` and `by` are
+    those of `macroslip.study.weights.binned`.
 
     Examples
     --------
@@ -74,10 +76,11 @@ def percentiles(
 ) -> xr.Dataset:  # fmt: skip
     """Spread of the runs in each bin, which differ in their seeds.
 
-    Over (group, bin, row, quantile), linear between runs (`numpy.quantile`): `power` [W], energy of a roller per time,
-    `orbit_energy_mean` [J], `peak_power_mean` and `peak_power_max` [W], `lowest_spin_ratio` [1]; and `runs`, over (group,
-    bin). Runs without a value are left out. Arguments are those of `lifetime_energy`; quantiles are from 0 to 1. Raises
-    InputError if a label or a quantile is wrong.
+    Over (group, bin, row, quantile), linear between runs (`numpy.quantile`): `power` [W], energy of
+    a roller per time, `orbit_energy_mean` [J], `peak_power_mean` and `peak_power_max` [W],
+    `lowest_spin_ratio` [1]; and `runs`, over (group, bin). Runs without a value are left out.
+    Arguments are those of `lifetime_energy`; quantiles are from 0 to 1. Raises InputError if a
+    label or a quantile is wrong.
     """
     if not quantiles or not all(0.0 <= quantile <= 1.0 for quantile in quantiles):
         raise InputError(f"the quantiles are {list(quantiles)!r}", allowed="numbers from 0 to 1")
@@ -120,9 +123,10 @@ def worst(
 ) -> xr.Dataset:
     """The runs and rows with the largest values of a variable of the summary.
 
-    Raises InputError if there is no such variable. The variables of the summary and all labels are over `rank` from 1;
-    `row` is a coordinate of it. Runs without a value are left out. `variable` is any over case and row, `count` above
-    0; `smallest` takes the smallest ones instead, as for `lowest_spin_ratio`.
+    Raises InputError if there is no such variable. The variables of the summary and all labels are
+    over `rank` from 1; `row` is a coordinate of it. Runs without a value are left out. `variable`
+    is any over case and row, `count` above 0; `smallest` takes the smallest ones instead, as for
+    `lowest_spin_ratio`.
     """
     names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
     if variable not in names:
@@ -152,13 +156,14 @@ def weighted_maps(
 ) -> xr.Dataset:  # fmt: skip
     """Frictional energy at the places of the raceways over a lifetime, and the largest power per area of all cases.
 
-    As `lifetime_energy`, at every place and for every sign of slip and film regime, as if all sectors of a raceway had
-    been passed equally often. Raises InputError if a label, a probability or the lifetime is wrong, or the study has no
-    maps.
+    As `lifetime_energy`, at every place and for every sign of slip and film regime, as if all
+    sectors of a raceway had been passed equally often. Raises InputError if a label, a probability
+    or the lifetime is wrong, or the study has no maps.
 
-    `surface_energy` [J] and `surface_power_density` [W/m²] are over group and their dimensions in a result, beside
-    `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete run. In which place the inner ring is
-    when a case begins is by chance, so its map is spread evenly over the angle.
+    `surface_energy` [J] and `surface_power_density` [W/m²] are over group and their dimensions in a
+    result, beside `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete
+    run. In which place the inner ring is when a case begins is by chance, so its map is spread
+    evenly over the angle.
     """
     kept = ("surface_energy", "surface_passes", "surface_power_density")
     if not all(name in study for name in kept):

@@ -17,7 +17,8 @@ RESERVED = (
     "case", "row", "roller", "interface", "orbit", "sample", "time", "run", "key", "loads", "file", "bearing",
     "lubricant", "model", "outcome", "reason",
 )  # fmt: skip
-#: Largest whole number that a float holds exactly; larger ones would change on the way into a result.
+#: Largest whole number that a float holds exactly; larger ones would change on the way into a
+#: result.
 _LARGEST = 2**53
 _BUNDLED_UNITS = {"wind_speed": "m/s"}
 _KINDS: dict[str, tuple[str, Callable[[str], Any]]] = {
@@ -56,9 +57,9 @@ class LoadList:
 class Pattern:
     """A path with fields and wildcards, to find files by and to read values from their names.
 
-    Raises InputError if a field has another form. Fields are `{name}` (text without slash), `{name:d}` (whole number)
-    and `{name:g}` (number); wildcards are `*`, `?` and `**/`. A field that occurs twice must have the same value in
-    both places.
+    Raises InputError if a field has another form. Fields are `{name}` (text without slash),
+    `{name:d}` (whole number) and `{name:g}` (number); wildcards are `*`, `?` and `**/`. A field
+    that occurs twice must have the same value in both places.
 
     Examples
     --------
@@ -105,8 +106,8 @@ class Pattern:
     def files(self, folder: Path) -> tuple[list[tuple[str, dict[str, Any]]], list[str]]:
         """Find the files of a folder, in which a relative pattern starts: paths with fields, sorted, relative if it is.
 
-        Second come files that the wildcards find but whose fields cannot be read, as `{seed:d}` from a name with `seedA`.
-        Raises InputError if the pattern names a folder.
+        Second come files that the wildcards find but whose fields cannot be read, as `{seed:d}`
+        from a name with `seedA`. Raises InputError if the pattern names a folder.
         """
         pure = PurePosixPath(self._glob)
         base = Path(pure.anchor)
@@ -137,8 +138,8 @@ def load_list(
 ) -> LoadList:  # fmt: skip
     """The load histories that the section `loads` of a study file names, whose keys are the arguments.
 
-    Raises InputError if there is none, a table cannot be read, or a field has a name that is taken or a value that
-    cannot be stored.
+    Raises InputError if there is none, a table cannot be read, or a field has a name that is taken
+    or a value that cannot be stored.
     """
     source = "bundled" if bundled else "bearing_file" if kind == "main-bearing" else "file"
     remarks: list[str] = []

@@ -25,7 +25,8 @@ from macroslip.storage.files import MANIFEST, reading
 from macroslip.study.store import DAMAGED, DATABASE, REMEDY, read_manifest, read_result, read_runs
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 
-#: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so samples are counted.
+#: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so
+#: samples are counted.
 _RAGGED = {"orbit": "orbit", "time": "sample"}
 
 
@@ -37,8 +38,9 @@ def is_study(path: Path) -> bool:
 def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     """Open all results of a study, also while it is being computed.
 
-    Labels and summary are read at once. Everything else is read, and its checksum compared, when its values are
-    accessed; select cases first, or `.chunk({"case": 50})` with dask, where all together would not fit into memory.
+    Labels and summary are read at once. Everything else is read, and its checksum compared, when
+    its values are accessed; select cases first, or `.chunk({"case": 50})` with dask, where all
+    together would not fit into memory.
 
     Parameters
     ----------
@@ -48,18 +50,19 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`. Coordinates
-        over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters that vary
-        under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
-        case and row, and the variables of `simulate`, all of them as floats. Missing values are NaN: a run
-        that failed or is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time`
-        over (case, sample).
+        Over `case`, one a run of the study in its order, and the dimensions of the results of
+        `simulate`. Coordinates over `case`: `run`, `loads`, the fields of the loads, `bearing`,
+        `lubricant`, `model`, the parameters that vary under their keys, `outcome`, `reason` and
+        `key`. Variables: the summary of `macroslip.study.summary`, over case and row, and the
+        variables of `simulate`, all of them as floats. Missing values are NaN: a run that failed or
+        is missing, orbits and rollers that others have more of. Traces are over `sample`, with
+        `time` over (case, sample).
 
     Raises
     ------
     InputError
-        If the folder holds no study, or a damaged one; and when values are accessed, if a stored result is gone or
-        damaged.
+        If the folder holds no study, or a damaged one; and when values are accessed, if a stored
+        result is gone or damaged.
     """
     directory = Path(directory).absolute()
     manifest, runs = _read(directory)
@@ -97,9 +100,9 @@ def _dataset(directory: Path, manifest: Mapping[str, Any], runs: pd.DataFrame) -
 def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dataset]]:
     """Yield the stored results of a study one by one, whole and with their attributes.
 
-    Raises InputError if the folder holds no study, or a stored result is gone or damaged. Each comes with the number of
-    its run, the `case` of `open_study`; runs without a result are left out. `directory` is a folder that `macroslip
-    study` or `run_study` has written.
+    Raises InputError if the folder holds no study, or a stored result is gone or damaged. Each
+    comes with the number of its run, the `case` of `open_study`; runs without a result are left
+    out. `directory` is a folder that `macroslip study` or `run_study` has written.
     """
     directory = Path(directory).absolute()
     _, runs = _read(directory)
@@ -116,7 +119,10 @@ def _read(directory: Path) -> tuple[dict[str, Any], pd.DataFrame]:
 
 
 def _column(runs: pd.DataFrame, name: str) -> np.ndarray:
-    """A column of all runs: numbers as they are, with NaN where there is none; anything else as text, empty for none."""
+    """A column of all runs: numbers as they are, with NaN where there is none.
+
+    Anything else as text, empty for none.
+    """
     column = runs[name] if name in runs else pd.Series([""] * len(runs))
     if column.dtype.kind in "iufb":
         return column.to_numpy()
@@ -182,7 +188,10 @@ class _Shared:
 
 
 class _Stacked(BackendArray):
-    """One variable of all results, with the cases as first dimension; a result is read when a value of it is accessed."""
+    """One variable of all results, with the cases as first dimension.
+
+    A result is read when a value of it is accessed.
+    """
 
     def __init__(self, shared: _Shared, name: str, dims: tuple[str, ...]):
         self._shared, self._name, self._dims = shared, name, dims

@@ -42,10 +42,11 @@ from macroslip.study.workers import (
 _TOLD = 1000
 #: Time between lines about progress in the log [s], and time over which the rate is taken [s].
 _LOG_EVERY, _SPAN = 60.0, 600.0
-#: Rollers of a run for each thread up to which as many runs as threads are computed at once: what comes before and after
-#: the rollers uses one thread, and takes as long as some of them.
+#: Rollers of a run for each thread up to which as many runs as threads are computed at once: what
+#: comes before and after the rollers uses one thread, and takes as long as some of them.
 _FEW_ROLLERS = 4
-#: Digits of a temperature [K]: enough, and the same on every machine, so that a resumed study finds its runs again.
+#: Digits of a temperature [K]: enough, and the same on every machine, so that a resumed study finds
+#: its runs again.
 _DIGITS = 3
 _KEPT = "Nothing that was reported done is lost."
 
@@ -76,7 +77,10 @@ class Progress:
 
     @property
     def rate(self) -> float:
-        """Runs computed a second, over the last ten minutes; those that were there already tell nothing of the rest."""
+        """Runs computed a second, over the last ten minutes.
+
+        Those that were there already tell nothing of the rest.
+        """
         now = time.monotonic()
         while len(self._marks) > 1 and now - self._marks[0][0] > _SPAN:
             self._marks.popleft()
@@ -132,7 +136,8 @@ class Ended:
     """How a study ended."""
 
     progress: Progress  #: Counts and time
-    #: Labels, outcome and reason of runs that failed, or whose rollers did: the first thousand, sorted by loads.
+    #: Labels, outcome and reason of runs that failed, or whose rollers did: the first thousand,
+    #: sorted by loads.
     failures: list[tuple[dict[str, Any], str, str]] = field(default_factory=list)
     stopped: bool = False  #: Whether `strict` stopped it before its end
 
@@ -150,26 +155,29 @@ def run_study(
 ) -> Ended:
     """Compute all runs of a study whose results are not there yet.
 
-    Without `workers` and `scheduler` the runs are computed in this process: one after the other, or several at once
-    where a run has few rollers or is of the whole bearing. Results do not depend on these arguments.
+    Without `workers` and `scheduler` the runs are computed in this process: one after the other, or
+    several at once where a run has few rollers or is of the whole bearing. Results do not depend on
+    these arguments.
 
     Parameters
     ----------
     study : Study or path
         From `read_study` or `study_of`, or the path of a study file.
     directory : path
-        Folder for the results: new, empty, or with `resume` the folder of an earlier run of a study.
+        Folder for the results: new, empty, or with `resume` the folder of an earlier run of a
+        study.
     workers : int, optional
-        Worker processes to start on this machine. Each imports the script that calls this function, so that the call
-        belongs below `if __name__ == "__main__":`.
+        Worker processes to start on this machine. Each imports the script that calls this function,
+        so that the call belongs below `if __name__ == "__main__":`.
     scheduler : str, optional
-        Address of a Dask scheduler that runs; its workers have to see `directory` and the load files under the same
-        paths, and need the same version of macroslip.
+        Address of a Dask scheduler that runs; its workers have to see `directory` and the load
+        files under the same paths, and need the same version of macroslip.
     threads : int, optional
-        Threads over the rollers of a case. By default all usable processors, shared between `workers`; 1 with
-        `scheduler`.
+        Threads over the rollers of a case. By default all usable processors, shared between
+        `workers`; 1 with `scheduler`.
     resume : bool
-        Go on where an earlier run ended. Runs whose input has changed are computed again, others never.
+        Go on where an earlier run ended. Runs whose input has changed are computed again, others
+        never.
     strict : bool
         Stop at the first run that fails, or whose rollers do.
     progress : callable, optional
@@ -183,10 +191,11 @@ def run_study(
     Raises
     ------
     InputError
-        If the study, the folder or the address is wrong, or another process is at work in the folder.
+        If the study, the folder or the address is wrong, or another process is at work in the
+        folder.
     MacroslipError
-        If results cannot be stored (a full disk), the scheduler is gone, or a worker has another version. What was
-        reported done stays done.
+        If results cannot be stored (a full disk), the scheduler is gone, or a worker has another
+        version. What was reported done stays done.
     """
     if workers is not None and scheduler is not None:
         remedy = "Give one of them: start workers, or use others."
@@ -252,7 +261,10 @@ class Session:
         return self.ended.progress
 
     def note(self, text: str) -> None:
-        """Add a line with date and time (UTC) to the log; further lines of the text are indented below it."""
+        """Add a line with date and time (UTC) to the log.
+
+        Further lines of the text are indented below it.
+        """
         now = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
         first, *others = text.splitlines() or [""]
         lines = [f"{now} {safe_text(first)}", *(f"    {safe_text(other)}" for other in others)]
@@ -404,7 +416,10 @@ class Session:
         return False
 
     def _record(self, entries: list[tuple[Run, dict[str, Any]]]) -> int:
-        """Enter finished runs in the database, and only then in log and counts; gives the number of failures."""
+        """Enter finished runs in the database, and only then in log and counts.
+
+        Gives the number of failures.
+        """
         changed, told = [], []
         for run, result in entries:
             if "outcome" in result:
@@ -460,12 +475,14 @@ def study_at_balance(
 ) -> Study:
     """The study at the temperature at which mean friction power = conductance (T − ambient), of each group of runs.
 
-    Ten minutes of wind do not change the temperature of a bearing whose time constant is hours; the mean power
-    Σ w_k P_k of all load histories does, with w_k from `Study.weights`, together 1. All are simulated at the surroundings'
-    temperature, 30 K above, and then at the balance found so far, three to five times.
+    Ten minutes of wind do not change the temperature of a bearing whose time constant is hours; the
+    mean power Σ w_k P_k of all load histories does, with w_k from `Study.weights`, together 1. All
+    are simulated at the surroundings' temperature, 30 K above, and then at the balance found so
+    far, three to five times.
 
-    The runs on the way are computed by compute(study, directory) in a folder of their own. Raises InputError if there is no
-    balance, and MacroslipError if a run fails, so that the mean is not known.
+    The runs on the way are computed by compute(study, directory) in a folder of their own. Raises
+    InputError if there is no balance, and MacroslipError if a run fails, so that the mean is not
+    known.
     """
     loads = study.loads.loads
     shares = study.weights.of(loads) if study.weights else [1.0 / len(loads)] * len(loads)

@@ -55,7 +55,8 @@ _MOST_POINTS = 10_000_000
 class Setting:
     """One value in place of the base case's."""
 
-    #: Key of the case file, as `drivetrain.tilt`, or `bearing.` or `lubricant.` and the key of one of its values.
+    #: Key of the case file, as `drivetrain.tilt`, or `bearing.` or `lubricant.` and the key of one
+    #: of its values.
     key: str
     value: Any  #: Number, text, truth value or list
     unit: str = ""  #: Unit of a quantity, or empty
@@ -82,7 +83,9 @@ class Setting:
         }
 
     def checked(self) -> Setting:
-        """The setting, if key, form and unit are right; whether it is in range is checked with the case.
+        """The setting, if key, form and unit are right.
+
+        Whether it is in range is checked with the case.
 
         Raises InputError otherwise.
         """
@@ -140,12 +143,18 @@ class Setting:
 
 
 def _field_key(key: str) -> str:
-    """The field of a record's key; of one inside a section, `out_of_round.second`, `out_of_round_second`."""
+    """The field of a record's key.
+
+    Of one inside a section, `out_of_round.second`, `out_of_round_second`.
+    """
     return key.replace(".", "_")
 
 
 def with_settings(mapping: Mapping[str, Any], settings: Sequence[Setting]) -> dict[str, Any]:
-    """The mapping of a case file with other values; bearing's and lubricant's values are left to `replaced`."""
+    """The mapping of a case file with other values.
+
+    Bearing's and lubricant's values are left to `replaced`.
+    """
     result = dict(mapping)
     for setting in settings:
         *sections, last = setting.key.split(".")
@@ -188,7 +197,10 @@ def replaced(record: Record, settings: Sequence[Setting]) -> Record:
 
 @functools.cache
 def _settable() -> dict[str, list[Field]]:
-    """Fields by the full name of a key, `drivetrain.tilt`; several where sections exclude each other."""
+    """Fields by the full name of a key, `drivetrain.tilt`.
+
+    Several where sections exclude each other.
+    """
     found: dict[str, list[Field]] = {}
     for key, field in keys_of(Case):
         if form_of(field) or word_of(field):
@@ -207,9 +219,10 @@ def template(
 ) -> tuple[Case, dict[str, Any]]:
     """A case with everything but its loads, and how to read them.
 
-    The base case is the mapping of a case file, of `loads` only `CUT_KEYS`; settings and records stand
-    in place of its values. Details of contacts are recorded only where variables to keep are among them. Source and folder are where
-    the mapping was written and where relative paths start. Raises InputError if anything but the loads is wrong.
+    The base case is the mapping of a case file, of `loads` only `CUT_KEYS`; settings and records
+    stand in place of its values. Details of contacts are recorded only where variables to keep are
+    among them. Source and folder are where the mapping was written and where relative paths start.
+    Raises InputError if anything but the loads is wrong.
     """
     cut: dict[str, Any] = {}
 
@@ -301,7 +314,10 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
 
 @input_section("sample", "seeded sample of a box of parameters")
 class Sample:
-    """Seeded sample of a box of parameters, of `scipy.stats.qmc`; a range that is None is the range in the record's file."""
+    """Seeded sample of a box of parameters, of `scipy.stats.qmc`.
+
+    A range that is None is the range in the record's file.
+    """
 
     method: Annotated[str, Choice("how to sample", lambda: METHODS)] = "latin-hypercube"
     count: Annotated[int, Whole("number of points; a power of 2 for sobol", 1, _MOST_POINTS)]
@@ -369,7 +385,8 @@ class Sample:
         positions = kind(len(self.ranges), rng=np.random.default_rng(self.seed)).random(self.count)
         return [
             [
-                # Twelve digits are more than the accuracy of any parameter, and the same on every machine.
+                # Twelve digits are more than the accuracy of any parameter, and the same on every
+                # machine.
                 Setting(key, float(f"{interval.at(float(position)):.12g}"), interval.unit)
                 for (key, interval), position in zip(intervals.items(), point, strict=True)
             ]

@@ -1,8 +1,8 @@
 """The folder of a study: manifest, database, results, tables, log and lock.
 
-Results lie in `cases/`, each in a netCDF file named by the key of its case. A result counts once the database has its row
-with the checksum of its file. SQLite writes to a log first (WAL) and flushes it at every commit, so a row is whole or absent
-whatever ends the process.
+Results lie in `cases/`, each in a netCDF file named by the key of its case. A result counts once
+the database has its row with the checksum of its file. SQLite writes to a log first (WAL) and
+flushes it at every commit, so a row is whole or absent whatever ends the process.
 """
 
 from __future__ import annotations
@@ -95,7 +95,8 @@ class Database:
             self._db.execute("PRAGMA journal_mode = WAL")
             self._db.execute("PRAGMA synchronous = FULL")
             self._db.execute("PRAGMA cache_size = -65536")
-            # Results of a version with other numbers have other keys, so that they are never asked for again.
+            # Results of a version with other numbers have other keys, so that they are never asked
+            # for again.
             columns = [row[1] for row in self._db.execute("PRAGMA table_info(results)")]
             with self._transaction():
                 if columns != _COLUMNS:
@@ -139,7 +140,9 @@ class Database:
             self._db.close()
 
     def begin(self, runs: Iterable[tuple[str, Mapping[str, Any]]]) -> int:
-        """Replace the list of runs, each with its name and labels; outcomes of runs that stay are kept.
+        """Replace the list of runs, each with its name and labels.
+
+        Outcomes of runs that stay are kept.
 
         Rows of results that were damaged are removed; gives their number.
         """
@@ -186,8 +189,9 @@ class Database:
     def record(self, entries: Iterable[Mapping[str, Any]]) -> None:
         """Record what runs ended with, in one transaction: when this returns it is on the disk.
 
-        Entries are as from `macroslip.study.work.work`; without `outcome` a run has the result of its key, which is there. If
-        the system refuses, none of them is recorded, and sqlite3.Error is raised; MacroslipError if the file is gone.
+        Entries are as from `macroslip.study.work.work`; without `outcome` a run has the result of
+        its key, which is there. If the system refuses, none of them is recorded, and sqlite3.Error
+        is raised; MacroslipError if the file is gone.
         """
         self.check_there()
         places = ", ?" * (len(NUMBERS) + 5)
@@ -245,9 +249,9 @@ def _is_sound(row: Sequence[Any]) -> bool:
 def read_runs(directory: Path) -> pd.DataFrame:
     """The runs of a study in their order, as far as they are recorded, while others may be recorded.
 
-    The columns are `run`, the labels, the texts of `TEXTS` and the numbers of the summary, NaN where there is none. A row
-    that was changed on the disk counts as not done. Raises InputError if the list of runs was changed on the disk, or
-    there is no database.
+    The columns are `run`, the labels, the texts of `TEXTS` and the numbers of the summary, NaN
+    where there is none. A row that was changed on the disk counts as not done. Raises InputError if
+    the list of runs was changed on the disk, or there is no database.
     """
     path = directory / DATABASE
     if not path.exists():
@@ -327,8 +331,9 @@ def claim_path(path: Path, session: str) -> Path:
 def to_bytes(result: xr.Dataset) -> bytes:
     """A dataset as the content of a netCDF file: classic format with 64-bit offsets.
 
-    HDF5 takes 75 ms for a result of this size, this format 2 ms. It has no 64-bit integers: those that need them become
-    floats. A dimension of length zero would be taken for one that can grow, so such variables are described in an attribute.
+    HDF5 takes 75 ms for a result of this size, this format 2 ms. It has no 64-bit integers: those
+    that need them become floats. A dimension of length zero would be taken for one that can grow,
+    so such variables are described in an attribute.
     """
     large = {
         name: variable.astype(float)
@@ -372,8 +377,8 @@ def checksum(content: bytes) -> str:
 def layout(result: xr.Dataset) -> str:
     """Layout of a result that a reader needs before it opens the file, as JSON.
 
-    `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and `variables`, a hash of names,
-    dimensions and types.
+    `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and
+    `variables`, a hash of names, dimensions and types.
     """
     variables = sorted(
         (str(name), *map(str, one.dims), one.dtype.str) for name, one in result.variables.items()
@@ -410,7 +415,10 @@ def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:
 
 
 def write_manifest(directory: Path, manifest: dict[str, Any]) -> str:
-    """Write the manifest durably; gives its checksum, by which workers verify that they read the same."""
+    """Write the manifest durably.
+
+    Gives its checksum, by which workers verify that they read the same.
+    """
     content = json.dumps({"format": FORMAT, **manifest}, indent=1, ensure_ascii=False).encode()
     write_durably(directory / MANIFEST, content)
     return checksum(content)
@@ -469,8 +477,8 @@ def check_parts(directory: Path) -> None:
 def check_folder(directory: Path, *, resume: bool) -> None:
     """Refuse a folder that a study cannot begin in.
 
-    Raises InputError if it is a file, holds other things or a study of another version, or holds a study and `resume`
-    is not set.
+    Raises InputError if it is a file, holds other things or a study of another version, or holds a
+    study and `resume` is not set.
     """
     where = str(directory)
     if not directory.exists():
@@ -505,7 +513,8 @@ def remove_unfinished(directory: Path) -> int:
 def locked(directory: Path) -> Iterator[None]:
     """Hold a folder for the length of the block, by a lock of the system that ends with the process.
 
-    Raises InputError if another process holds it; the message names it, its machine, and since when.
+    Raises InputError if another process holds it; the message names it, its machine, and since
+    when.
     """
     path = directory / LOCK
     try:

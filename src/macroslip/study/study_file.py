@@ -1,4 +1,7 @@
-"""A study, and its file: the keys, and from them the runs; all that is wrong with a file is reported together."""
+"""A study, and its file: the keys, and from them the runs.
+
+All that is wrong with a file is reported together.
+"""
 
 from __future__ import annotations
 
@@ -85,7 +88,10 @@ class Run:
 
 @dataclass(frozen=True)
 class Study:
-    """A study: load histories × bearings × lubricants × models × parameters; content of a study file, checked."""
+    """A study: load histories × bearings × lubricants × models × parameters.
+
+    Content of a study file, checked.
+    """
 
     title: str
     #: Where relative paths of load files start.
@@ -100,12 +106,14 @@ class Study:
     #: Settings of every combination of parameters, and units of the parameters by key.
     variations: Sequence[Sequence[Setting]]
     parameters: Mapping[str, str]
-    #: Whether to count cycles of the bearing's load, and which variables of a result to store; None: all.
+    #: Whether to count cycles of the bearing's load, and which variables of a result to store;
+    #: None: all.
     cycles: bool = False
     keep: Sequence[str] | None = None
     #: The study file as plain data.
     content: Mapping[str, Any] = field(default_factory=dict)
-    #: How the bearing loses its heat, if the temperature is to balance, and what each load history counts in that.
+    #: How the bearing loses its heat, if the temperature is to balance, and what each load history
+    #: counts in that.
     heat: Heat | None = None
     weights: Weighting | None = None
     #: Temperature [K] of the oil by `Run.group`, once it is balanced.
@@ -131,10 +139,11 @@ class Study:
     def mixed_runs(self) -> Iterator[Run]:
         """Yield the runs, those with the same loads together, so that any stretch of them is a sample of the whole.
 
-        Load files come sorted by wind speed, and rough wind takes several times as long as calm wind: in their own
-        order the rate so far would not hold for the rest.
+        Load files come sorted by wind speed, and rough wind takes several times as long as calm
+        wind: in their own order the rate so far would not hold for the rest.
         """
-        # Multiples of the golden ratio are spread evenly over [0, 1), so that neighbours by them lie far apart.
+        # Multiples of the golden ratio are spread evenly over [0, 1), so that neighbours by them
+        # lie far apart.
         order = sorted(range(len(self.loads.loads)), key=lambda number: number * _GOLDEN % 1.0)
         return self._runs([self.loads.loads[number] for number in order])
 
@@ -191,7 +200,10 @@ class BaseCase(Form):
     form = f"the keys of a case file, of loads only {', '.join(CUT_KEYS)}"
 
     def read(self, value: Any, given: Any) -> dict[str, Any]:
-        """Check that the loads are left to the study; None: every key of the section is commented out."""
+        """Check that the loads are left to the study.
+
+        None: every key of the section is commented out.
+        """
         loads = (
             {} if value is None else value.get("loads", {}) if isinstance(value, Mapping) else None
         )
@@ -378,12 +390,14 @@ def read_study(path: str | PathLike[str]) -> Study:
     Parameters
     ----------
     path : path
-        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
+        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its
+        own folder.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
+        If the file cannot be read, or anything in it is wrong: all problems together, each with
+        file, line and key.
     """
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
@@ -401,8 +415,8 @@ def read_study(path: str | PathLike[str]) -> Study:
 def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> Study:
     """A study from the content of a study file as plain data.
 
-    Raises InputError as `read_study`, without file and line. The content is as `yaml` would read it; relative paths
-    start at `folder`.
+    Raises InputError as `read_study`, without file and line. The content is as `yaml` would read
+    it; relative paths start at `folder`.
 
     Examples
     --------
@@ -571,7 +585,10 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
 def _parameters(
     variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]
 ) -> dict[str, str]:
-    """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
+    """Units of all parameters.
+
+    Each is varied in one place only, or it would not be clear which value holds.
+    """
     axes: dict[str, Any] = dict(
         variations.grid or {}
     )  # lists of settings, which the reader has made of the axes

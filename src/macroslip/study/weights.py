@@ -34,12 +34,14 @@ _SHAPE = Quantity("shape of the Weibull distribution", NUMBER, 0.0, above=True)
 
 @input_section("weights.wind.weibull", "Weibull distribution of the wind speed", positional=True)
 class Weibull:
-    """Weibull distribution of the wind speed, of scale A > 0 [m/s] and shape k > 0 [1]; k = 2 is a Rayleigh distribution.
+    """Weibull distribution of the wind speed, of scale A > 0 [m/s] and shape k > 0 [1].
+
+    K = 2 is a Rayleigh distribution.
 
     Raises InputError for values that are not above 0.
 
-    F(v) = 1 − exp(−(v/A)^k), and a bin from a to b has the probability F(b) − F(a): IEC 61400-12-1 and every handbook
-    of wind energy.
+    F(v) = 1 − exp(−(v/A)^k), and a bin from a to b has the probability F(b) − F(a): IEC 61400-12-1
+    and every handbook of wind energy.
 
     Examples
     --------
@@ -63,7 +65,10 @@ class Weibull:
 
 @dataclass(frozen=True)
 class Given:
-    """Probability of each bin by its centre [unit of the field]; 0 or above, together at most 1, else InputError."""
+    """Probability of each bin by its centre [unit of the field].
+
+    0 or above, together at most 1, else InputError.
+    """
 
     probabilities: Mapping[float, float]
 
@@ -92,15 +97,18 @@ class Given:
         )
 
 
-#: Wind speeds of the classes of IEC 61400-1: Rayleigh distributions with a mean of 0.2 times the reference wind speed,
-#: 50, 42.5 and 37.5 m/s.
+#: Wind speeds of the classes of IEC 61400-1: Rayleigh distributions with a mean of 0.2 times the
+#: reference wind speed, 50, 42.5 and 37.5 m/s.
 IEC_CLASSES = {f"IEC {name}": Weibull(scale=0.2 * speed / math.gamma(1.5), shape=2.0) for name, speed in
                (("I", 50.0), ("II", 42.5), ("III", 37.5))}  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Rate:
-    """How often an event happens in a year, or for how many hours of it; InputError for numbers below 0."""
+    """How often an event happens in a year, or for how many hours of it.
+
+    InputError for numbers below 0.
+    """
 
     number: float
     in_hours: bool = (
@@ -134,7 +142,10 @@ class Rate:
 
 @dataclass(frozen=True)
 class Year:
-    """A year of wind speeds and events. Events take their time first; the distribution of the wind speed holds for the rest."""
+    """A year of wind speeds and events. Events take their time first.
+
+    The distribution of the wind speed holds for the rest.
+    """
 
     wind: Weibull | Given
     events: Mapping[str, Rate] = field(
@@ -184,7 +195,10 @@ _RATES = MappingOf(
     "what each load history counts in a year: wind speeds, which the histories of a bin share, and events",
 )
 class Weighting:
-    """How much each load history counts. Scale and shape beside `field` are read as those of `wind.weibull`."""
+    """How much each load history counts.
+
+    Scale and shape beside `field` are read as those of `wind.weibull`.
+    """
 
     field: Annotated[str, Text("label of the loads to sort into bins")] = "wind_speed"
     width: Annotated[
@@ -219,8 +233,9 @@ class Weighting:
     def of(self, loads: Sequence[Load]) -> list[float]:
         """Weight of each load history in the mean friction power [1], together 1.
 
-        Events count by the hours that they take; those that are given by their number, seconds each, count nothing. Raises
-        InputError if loads have no such label, it is no number, an event is unknown, or no wind speed has any probability.
+        Events count by the hours that they take; those that are given by their number, seconds
+        each, count nothing. Raises InputError if loads have no such label, it is no number, an
+        event is unknown, or no wind speed has any probability.
 
         Examples
         --------
@@ -286,7 +301,9 @@ def stored_weighting(study: xr.Dataset) -> Weighting | None:
 
 
 def bin_numbers(values: ArrayLike, width: float) -> np.ndarray:
-    """Number of the bin of each value; bin k reaches from (k − ½) to (k + ½) widths, its lower edge included.
+    """Number of the bin of each value.
+
+    Bin k reaches from (k − ½) to (k + ½) widths, its lower edge included.
 
     Examples
     --------
@@ -300,10 +317,12 @@ def bin_numbers(values: ArrayLike, width: float) -> np.ndarray:
 class Bins:
     """Wind speeds in bins, each event in one of its own behind them."""
 
-    #: Middles, shape (bins,), in the unit of the field, as the width; NaN for events, and for one bin of all runs.
+    #: Middles, shape (bins,), in the unit of the field, as the width; NaN for events, and for one
+    #: bin of all runs.
     centres: np.ndarray
     width: float
-    #: Name of the event, shape (bins,), empty for bins of wind speeds; and how long its record is [s].
+    #: Name of the event, shape (bins,), empty for bins of wind speeds; and how long its record is
+    #: [s].
     events: np.ndarray
     lengths: np.ndarray
     #: Bin of each value, shape (values,).
@@ -313,7 +332,10 @@ class Bins:
     def of(
         cls, values: ArrayLike, events: Sequence[str], width: float, lengths: Mapping[str, float]
     ) -> Bins:
-        """Sort values into bins, those of events by the event; `lengths` are those of the events' records [s]."""
+        """Sort values into bins, those of events by the event.
+
+        `lengths` are those of the events' records [s].
+        """
         named = np.asarray(events, dtype=object)
         calm = named == ""
         numbers, inside = np.unique(
@@ -337,7 +359,8 @@ class Bins:
     def probabilities(self, weights: Weights) -> np.ndarray:
         """Share of all time of each bin, shape (bins,).
 
-        Raises InputError if an event is unknown, events take more than all time, or no wind speed has any probability.
+        Raises InputError if an event is unknown, events take more than all time, or no wind speed
+        has any probability.
         """
         year = weights if isinstance(weights, Year) else Year(weights)
         known = [name for name in self.events if name]
@@ -361,7 +384,8 @@ class Bins:
         wind = np.array(
             [year.wind.probability(float(one), self.width) for one in self.centres[windy]]
         )
-        # What the wind speeds share has to be a probability that sums in floating-point numbers can still tell from 0.
+        # What the wind speeds share has to be a probability that sums in floating-point numbers can
+        # still tell from 0.
         if wind.size and not wind.sum() > _LEAST:
             first, last = self.centres[windy][[0, -1]]
             raise InputError(
@@ -405,10 +429,13 @@ class Binning(Bins):
         return found
 
     def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Mean of the values of each run in each cell, over runs without NaN; numbers of these and of the others.
+        """Mean of the values of each run in each cell, over runs without NaN.
 
-        Values are taken one run after the other, so that a large study need not fit into memory. Means have the shape
-        (groups, bins, ...), NaN in a cell without runs, and both numbers (groups, bins).
+        Numbers of these and of the others.
+
+        Values are taken one run after the other, so that a large study need not fit into memory.
+        Means have the shape (groups, bins, ...), NaN in a cell without runs, and both numbers
+        (groups, bins).
         """
         shape = len(self.groups), self.centres.size
         used, left_out = np.zeros(shape), np.zeros(shape)
@@ -428,7 +455,10 @@ class Binning(Bins):
 
 
 def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
-    """Sum of values (groups, bins, ...) over bins by their probability; a bin of no weight may be NaN."""
+    """Sum of values (groups, bins, ...) over bins by their probability.
+
+    A bin of no weight may be NaN.
+    """
     some = probability > 0.0
     return np.tensordot(probability[some], values[:, some], axes=(0, 1))
 
@@ -438,11 +468,12 @@ def binned(
 ) -> Binning:
     """Sort the runs of a study into groups and bins.
 
-    A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group
-    has one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are
-    named in `by`. Raises InputError if there is no such label, or it is no number. `field` is the label to sort by, a
-    number, or None: then one bin holds all runs. `width` is that of a bin [unit of the field], above 0, and `by` names
-    further labels that separate groups: `turbulence`.
+    A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of
+    their own. A group has one bearing, lubricant, model and set of parameters; other labels, such
+    as seeds, are pooled unless they are named in `by`. Raises InputError if there is no such label,
+    or it is no number. `field` is the label to sort by, a number, or None: then one bin holds all
+    runs. `width` is that of a bin [unit of the field], above 0, and `by` names further labels that
+    separate groups: `turbulence`.
     """
     labels = [
         str(name)
@@ -479,7 +510,8 @@ def binned(
     return Binning(
         **vars(bins),
         groups=labels_of_runs.drop_duplicates(ignore_index=True),
-        # A parameter that a run leaves as it is in the base case is NaN, and the same in all such runs.
+        # A parameter that a run leaves as it is in the base case is NaN, and the same in all such
+        # runs.
         group=labels_of_runs.groupby(separate, sort=False, dropna=False).ngroup().to_numpy(),
         field=field,
     )

@@ -39,7 +39,8 @@ from macroslip.study.summary import COMPONENTS, RANGE_EDGES, load_cycles, summar
 
 #: Variables that are stored whatever is to be kept: which rollers failed, and how.
 ALWAYS_KEPT = ("status", "end_time", "end_slip")
-#: Runs that are tried for an estimate, and the time of each that is simulated [s]; half of it as well, for the slope.
+#: Runs that are tried for an estimate, and the time of each that is simulated [s]; half of it as
+#: well, for the slope.
 _LOOKED_AT, _STRETCH = 3, 60.0
 #: A run in database and tables [bytes], and counts of cycles in a result [bytes].
 _RECORD_BYTES, _CYCLES_BYTES = 2500, 8 * (len(COMPONENTS) + 1) * RANGE_EDGES.size
@@ -57,7 +58,8 @@ def program() -> str:
 def case_key(case: Case, options: Mapping[str, Any]) -> str:
     """Hash of the full input of a case, of the program, and of all that is stored beyond the result of `simulate`.
 
-    Only the numbers of the loads enter, not their source: a file may be moved, renamed or converted.
+    Only the numbers of the loads enter, not their source: a file may be moved, renamed or
+    converted.
 
     Examples
     --------
@@ -81,14 +83,16 @@ def work(
 
     Raises StoreError if the result cannot be stored: the disk is full, for example.
 
-    The record is for the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `layout`,
-    `values`; and `program`, by which the study verifies that a worker runs the same version. With `found` true nothing
-    was computed: a result of that key is there, and the database decides whether it is sound. With `waits` true nothing
-    was done: another run of this session has the same key and is under way.
+    The record is for the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the
+    result), `layout`, `values`; and `program`, by which the study verifies that a worker runs the
+    same version. With `found` true nothing was computed: a result of that key is there, and the
+    database decides whether it is sound. With `waits` true nothing was done: another run of this
+    session has the same key and is under way.
 
-    A task is plain data: `directory`, `setup` (checksum of its manifest), `session` (a name that no other has), `run`
-    (name), `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
-    compute even if a result is there. `progress` is as for `macroslip.simulate`; an exception in it ends the run.
+    A task is plain data: `directory`, `setup` (checksum of its manifest), `session` (a name that no
+    other has), `run` (name), `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit),
+    `threads`, and `again`: whether to compute even if a result is there. `progress` is as for
+    `macroslip.simulate`; an exception in it ends the run.
     """
     started = time.perf_counter()
     record: dict[str, Any] = {"run": task["run"], "program": program()}
@@ -138,7 +142,8 @@ def work(
 def _claimed(claim: Path, run: str) -> bool:
     """Claim a key for a run, so that no other run of this session computes it too.
 
-    A run whose worker has died finds its own claim and goes on. Raises StoreError if nothing can be written.
+    A run whose worker has died finds its own claim and goes on. Raises StoreError if nothing can be
+    written.
     """
     try:
         make_folder(claim.parent)
@@ -157,7 +162,10 @@ def _claimed(claim: Path, run: str) -> bool:
 def work_several(
     tasks: list[dict[str, Any]], progress: Callable[[int, int], None] | None = None
 ) -> list[dict[str, Any]]:
-    """Do runs one after the other; after one that cannot be stored, whose `stop` has the reason, no other is begun."""
+    """Do runs one after the other.
+
+    After one that cannot be stored, whose `stop` has the reason, no other is begun.
+    """
     found: list[dict[str, Any]] = []
     for task in tasks:
         try:
@@ -205,7 +213,10 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
 def _loads(
     session: str, source: str, path: str, cut: tuple[tuple[str, float], ...]
 ) -> HubLoads | BearingLoads:
-    """Read a load history; runs with the same one follow each other. A session does not notice that a file changes."""
+    """Read a load history; runs with the same one follow each other.
+
+    A session does not notice that a file changes.
+    """
     return read_loads(source, path, dict(cut))
 
 
@@ -260,8 +271,9 @@ class StudyEstimate:
 def estimate_study(study: Study) -> StudyEstimate:
     """Begin a few runs, spread over the study, and scale time and size to all of them.
 
-    Each is simulated for 30 and for 60 s of its loads, with one thread; what grows is scaled to its whole length. Loads
-    of other lengths, and parameters that change the work, are not accounted for. The first use of the kernels is left out.
+    Each is simulated for 30 and for 60 s of its loads, with one thread; what grows is scaled to its
+    whole length. Loads of other lengths, and parameters that change the work, are not accounted
+    for. The first use of the kernels is left out.
     """
     from macroslip.result.plausibility import doubtful_loads
 

@@ -46,8 +46,8 @@ _NO_GUARD = (
 )
 #: Tasks in flight for each thread of a worker elsewhere: one under way, one waiting.
 _AHEAD = 2
-#: Tasks a second given to one scheduler and one client, which can do some five times as many; longest time until a
-#: scheduler responds, and time between looks at who has joined [s].
+#: Tasks a second given to one scheduler and one client, which can do some five times as many;
+#: longest time until a scheduler responds, and time between looks at who has joined [s].
 _TASKS_PER_SECOND, _ANSWER, _LOOK = 100.0, 20.0, 1.0
 _GONE = "the scheduler is gone. Nothing that was reported done is lost; go on with --resume."
 
@@ -55,8 +55,9 @@ _GONE = "the scheduler is gone. Nothing that was reported done is lost; go on wi
 class ThisProcess:
     """Several runs at once in threads of this process, or one after the other in the thread that waits.
 
-    All workers have `free_places`, how many more runs they take now; `submit`, to begin at most as many; and `wait`, until
-    something is done: runs with their results, nothing when nothing is under way.
+    All workers have `free_places`, how many more runs they take now; `submit`, to begin at most as
+    many; and `wait`, until something is done: runs with their results, nothing when nothing is
+    under way.
     """
 
     def __init__(self, count: int):
@@ -105,7 +106,10 @@ def end_in_worker() -> None:
 
 
 class Processes:
-    """Processes of this machine, each a pool of its own, so that a death concerns one run only; `note` writes to the log."""
+    """Processes of this machine, each a pool of its own, so that a death concerns one run only.
+
+    `note` writes to the log.
+    """
 
     def __init__(self, count: int, note: Callable[[str], None]):
         self._note = note
@@ -161,7 +165,8 @@ class Processes:
         return found
 
     def _another(self, seat: _Seat) -> _Seat:
-        # Without a main guard a process ends by itself as it starts; whoever kills one leaves a signal instead.
+        # Without a main guard a process ends by itself as it starts; whoever kills one leaves a
+        # signal instead.
         started = (
             seat.ready.done() and not seat.ready.cancelled() and seat.ready.exception() is None
         )
@@ -185,7 +190,8 @@ class _Seat:
     def has_ended_itself(self) -> bool:
         """Whether the process, which has died, is known to have left by a failure of its own and not by a signal."""
         end = time.monotonic() + _PATIENCE
-        # The pool's own thread waits for the process too; until it has noted the exit code, there is none here.
+        # The pool's own thread waits for the process too; until it has noted the exit code, there
+        # is none here.
         while (
             self._process is not None and self._process.exitcode is None and time.monotonic() < end
         ):
@@ -271,7 +277,8 @@ def dask_workers(scheduler: str, note: Callable[[str], None]) -> Iterator[Dask]:
     # The study itself reports the important part of Dask's own messages.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
-        # Not Dask's default: that is the user's own, and whatever they compute meanwhile would come here.
+        # Not Dask's default: that is the user's own, and whatever they compute meanwhile would come
+        # here.
         client = Client(scheduler, timeout=_ANSWER, set_as_default=False)
     except OSError:
         raise MacroslipError(_GONE) from None
@@ -280,7 +287,10 @@ def dask_workers(scheduler: str, note: Callable[[str], None]) -> Iterator[Dask]:
 
 
 class Dask:
-    """The workers of a Dask scheduler, as many as there are at any moment; `note` writes to the log."""
+    """The workers of a Dask scheduler, as many as there are at any moment.
+
+    `note` writes to the log.
+    """
 
     def __init__(self, client: Any, note: Callable[[str], None]):
         self._client, self._note = client, note
@@ -305,7 +315,10 @@ class Dask:
             self._under_way[self._pool.submit(work_several, part)] = part
 
     def wait(self) -> Done:
-        """Wait until something is done; raises MacroslipError if the scheduler is gone or a worker cannot work."""
+        """Wait until something is done.
+
+        Raises MacroslipError if the scheduler is gone or a worker cannot work.
+        """
         from distributed import KilledWorker
 
         found: Done = []
@@ -334,7 +347,10 @@ class Dask:
         return found
 
     def _look(self) -> int:
-        """Number of threads of all workers, looked up from time to time; notes the workers that have joined and left."""
+        """Number of threads of all workers, looked up from time to time.
+
+        Notes the workers that have joined and left.
+        """
         if time.monotonic() - self._looked > _LOOK:
             threads = self._client.nthreads()
             names = set(threads)
