@@ -24,8 +24,9 @@ import numpy as np
 
 from macroslip.bearing.geometry import ROWS
 from macroslip.storage.files import write_durably
+from macroslip.study.database import Outcome, write_summary
+from macroslip.study.result_files import case_path, checksum, layout, to_bytes
 from macroslip.study.run import Session
-from macroslip.study.store import Outcome, case_path, checksum, layout, to_bytes, write_summary
 from macroslip.study.study_file import Study, study_of
 from macroslip.study.summary import NUMBERS
 

@@ -29,7 +29,8 @@ import numpy as np
 
 from macroslip import open_study, run_study
 from macroslip.loads import bundled_cases
-from macroslip.study.store import DATABASE, case_path, checksum
+from macroslip.storage.files import DATABASE
+from macroslip.study.result_files import case_path, checksum
 from macroslip.study.study_file import study_of
 
 #: Time between looks at the memory [s].

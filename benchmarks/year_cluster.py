@@ -22,7 +22,7 @@ import psutil
 
 from benchmarks.soak import WORKERS, looked_through, resident, started, waited_for, workers_of
 from macroslip import open_study
-from macroslip.study.store import DATABASE
+from macroslip.storage.files import DATABASE
 
 
 def content(seconds: float, rollers: list[int], designs: int, samples: int) -> dict[str, Any]:

@@ -14,8 +14,8 @@ import xarray as xr
 from macroslip import Case, HubLoads, InputError, Laws, MacroslipError, open_study, run_study
 from macroslip.bearing.geometry import ROWS
 from macroslip.result.rating import roller_load_series
+from macroslip.study.database import Outcome
 from macroslip.study.reader import stored_results
-from macroslip.study.store import Outcome
 from macroslip.study.study_file import Study
 from paper.values import sample_points
 

@@ -12,8 +12,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from macroslip import open_study
+from macroslip.study.database import Outcome
 from macroslip.study.effects import rank_correlations
-from macroslip.study.store import Outcome
 from paper.studies import between_rows, put
 from paper.values import VALUES, sample_places
 from paper.verdicts import ABOUT, DOMINANT

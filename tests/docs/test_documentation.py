@@ -21,9 +21,9 @@ from macroslip.case.parts import INTEGRATORS
 from macroslip.imposed.status import Status
 from macroslip.input.fields import Choice
 from macroslip.input.section import fields_of, form_of, keys_of
+from macroslip.study.database import Outcome
 from macroslip.study.export import tables
 from macroslip.study.settings import METHODS, SCALES
-from macroslip.study.store import Outcome
 from macroslip.study.study_file import KINDS, StudyFile, study_of
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 from macroslip.study.weights import Weibull

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from benchmarks.large_study import study, write_study
 from macroslip import InputError
+from macroslip.storage.files import DATABASE, MANIFEST, SUMMARY
 from macroslip.study.export import tables
 from macroslip.study.reader import open_study, stored_results
-from macroslip.study.store import DATABASE, MANIFEST, SUMMARY
 from macroslip.study.weights import Weibull
 from tests.fuzz.mutations import damaged
 from tests.fuzz.oracle import app_of, ends_well, examples

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from macroslip.storage.files import DATABASE
+from macroslip.study.result_files import case_path, checksum
 from macroslip.study.run import run_study
-from macroslip.study.store import DATABASE, case_path, checksum
 
 #: Runs a study from a file of its arguments, and writes a line for every run that is reported done.
 SCRIPT = """

@@ -5,7 +5,7 @@ import pytest
 
 from macroslip import BearingLoads, Case, Laws, open_study, run_study, simulate
 from macroslip.study import reader as module
-from macroslip.study.store import from_bytes, to_bytes
+from macroslip.study.result_files import from_bytes, to_bytes
 from macroslip.study.study_file import study_of
 
 pytestmark = pytest.mark.slow

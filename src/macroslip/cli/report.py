@@ -55,7 +55,9 @@ def report(
     if len(paths) > 1:
         return compare(paths, output=output, title=title or "", force=force, quiet=quiet)
     from macroslip.report.study_page import study_page
-    from macroslip.study.store import CASES, Outcome, parts
+    from macroslip.study.database import Outcome
+    from macroslip.study.result_files import CASES
+    from macroslip.study.store import parts
     from macroslip.study.weights import Weibull
 
     output = output or (results if results.is_dir() else results.parent) / PAGE

@@ -15,10 +15,11 @@ from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.printing import plain_console, print_json, print_table
 from macroslip.errors import InputError, safe_text
-from macroslip.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file
 
 if TYPE_CHECKING:
-    from macroslip.study.run import Ended, Progress
+    from macroslip.study.progress import Progress
+    from macroslip.study.run import Ended
     from macroslip.study.study_file import Study
 
 #: Failures that are listed; the log and the summary have all.
@@ -139,8 +140,8 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
     from rich.filesize import decimal
 
     from macroslip.machine import usable_processors
-    from macroslip.study.run import duration
-    from macroslip.study.work import estimate_study
+    from macroslip.study.estimate import estimate_study
+    from macroslip.study.progress import duration
 
     found = estimate_study(checked)
     parts = [
@@ -185,8 +186,8 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
         yield None
         return
     from rich.console import Console
-    from rich.progress import BarColumn, TextColumn
-    from rich.progress import Progress as Bar
+
+    from macroslip.progress import PREPARING, bar_with_time_left
 
     console = Console(stderr=True)
     if not console.is_terminal:
@@ -200,17 +201,19 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
 
         yield line
         return
-    with Bar(
-        BarColumn(20), TextColumn("{task.description}"), console=console, transient=True
-    ) as bar:
-        task = bar.add_task("beginning (the first run of all compiles)", total=None)
+    with bar_with_time_left(console) as bar:
+        task = bar.add_task(PREPARING, total=None)
+        # Runs that were there already tell nothing of the time for the rest.
         yield lambda progress: bar.update(
-            task, description=progress.short, total=progress.total, completed=progress.done
+            task,
+            description=f"{progress.unchanged} unchanged, {progress.failed} failed",
+            total=progress.total - progress.unchanged,
+            completed=progress.done - progress.unchanged,
         )
 
 
 def _summary(ended: Ended, output: Path, as_json: bool) -> None:
-    from macroslip.study.run import duration
+    from macroslip.study.progress import duration
 
     counts = ended.progress
     left = counts.total - counts.done

@@ -31,11 +31,11 @@ from macroslip.report.study_figures import (
 from macroslip.report.style import OPENING, Picture, picture, scaled
 from macroslip.result.plausibility import JUDGED, doubtful_result
 from macroslip.result.surface_maps import energy_density
+from macroslip.study.database import Outcome
 from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance
 from macroslip.study.export import as_table
 from macroslip.study.lifetime import lifetime_energy, weighted_maps, worst
-from macroslip.study.store import Outcome
 from macroslip.study.weights import (
     IEC_CLASSES,
     Given,

@@ -11,10 +11,10 @@ import pandas as pd
 import xarray as xr
 
 from macroslip.storage.files import write_durably
+from macroslip.study.database import Outcome
 from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
-from macroslip.study.store import Outcome
 from macroslip.study.weights import Weights
 from macroslip.study.year import DESIGN_COLUMNS, EXPONENTS, LARGEST, LIVES, SUMS, designs, year
 

@@ -21,8 +21,10 @@ from xarray.core import (
 
 from macroslip.bearing.geometry import ROWS
 from macroslip.result.variables import described
-from macroslip.storage.files import MANIFEST, reading
-from macroslip.study.store import DAMAGED, DATABASE, REMEDY, read_manifest, read_result, read_runs
+from macroslip.storage.files import DATABASE, MANIFEST, reading
+from macroslip.study.database import DAMAGED, read_runs
+from macroslip.study.result_files import read_result
+from macroslip.study.store import REMEDY, read_manifest
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 
 #: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so

@@ -9,14 +9,13 @@ import time
 import traceback
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from macroslip.case.case import Case
-from macroslip.case.parts import Traces, Window
 from macroslip.contact.registry import own_laws
 from macroslip.errors import InputError, MacroslipError
 from macroslip.imposed.status import Status
@@ -24,26 +23,14 @@ from macroslip.loads import BearingLoads, HubLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.storage.files import make_folder, write_durably
 from macroslip.storage.fingerprint import fingerprint
+from macroslip.study.database import Outcome
+from macroslip.study.result_files import case_path, checksum, claim_path, layout, to_bytes
 from macroslip.study.settings import RECORDS, Setting, read_loads, template
-from macroslip.study.store import (
-    Outcome,
-    case_path,
-    checksum,
-    claim_path,
-    layout,
-    read_manifest,
-    to_bytes,
-)
-from macroslip.study.study_file import Study
-from macroslip.study.summary import COMPONENTS, RANGE_EDGES, load_cycles, summary_values
+from macroslip.study.store import read_manifest
+from macroslip.study.summary import load_cycles, summary_values
 
 #: Variables that are stored whatever is to be kept: which rollers failed, and how.
 ALWAYS_KEPT = ("status", "end_time", "end_slip")
-#: Runs that are tried for an estimate, and the time of each that is simulated [s]; half of it as
-#: well, for the slope.
-_LOOKED_AT, _STRETCH = 3, 60.0
-#: A run in database and tables [bytes], and counts of cycles in a result [bytes].
-_RECORD_BYTES, _CYCLES_BYTES = 2500, 8 * (len(COMPONENTS) + 1) * RANGE_EDGES.size
 
 
 class StoreError(MacroslipError):
@@ -251,83 +238,3 @@ def _failed_rollers(result: xr.Dataset) -> str:
         f"{len(failed)} of {result.status.size} rollers failed; "
         f"roller {int(first.roller)} of the {first.row.item()} row at t = {ended:.6g} s: {Status(int(first)).sentence}"
     )
-
-
-@dataclass(frozen=True)
-class StudyEstimate:
-    """Time and disk of a study, from `looked_at` of its runs; without any the numbers are NaN."""
-
-    runs: int
-    looked_at: int
-    #: Length of one load history, mean of those [s].
-    simulated_seconds: float
-    #: Computing time of all runs on one processor [s], and size on the disk [bytes].
-    seconds: float
-    bytes: float
-    #: Why others of those could not be begun.
-    problems: tuple[str, ...]
-
-
-def estimate_study(study: Study) -> StudyEstimate:
-    """Begin a few runs, spread over the study, and scale time and size to all of them.
-
-    Each is simulated for 30 and for 60 s of its loads, with one thread; what grows is scaled to its
-    whole length. Loads of other lengths, and parameters that change the work, are not accounted
-    for. The first use of the kernels is left out.
-    """
-    from macroslip.result.plausibility import doubtful_loads
-
-    found, problems = [], []
-    chosen = {round(part * (len(study) - 1) / (_LOOKED_AT - 1)) for part in range(_LOOKED_AT)}
-    for run in (run for number, run in enumerate(study.runs()) if number in chosen):
-        try:
-            case, cut = study.case_of(run)
-            case = replace(case, loads=read_loads(study.loads.source, study.place(run.load), cut))
-            problems += [
-                f"{case.loads.source}: doubtful: {one}"
-                for one in doubtful_loads(case.loads, case.bearing)
-            ]
-            if not found:
-                _measured(case, 1.0)  # compiles
-            first, last = float(case.loads.time[0]), float(case.loads.time[-1])
-            length = last - first if case.window.end is None else case.window.end - first
-            stretch = min(_STRETCH, length)
-            (short_time, short_size), (seconds, size) = (
-                _measured(case, 0.5 * stretch),
-                _measured(case, stretch),
-            )
-        except InputError as problem:
-            problems.append(str(problem))
-            continue
-        more = (length - stretch) / (0.5 * stretch)
-        found.append(
-            (
-                length,
-                seconds + more * max(seconds - short_time, 0.0),
-                size + more * max(size - short_size, 0),
-            )
-        )
-    count, runs = len(found), len(study)
-    mean = (
-        [sum(column) / count for column in zip(*found, strict=True)]
-        if found
-        else [float("nan")] * 3
-    )
-    others = _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
-    return StudyEstimate(
-        runs, count, mean[0], runs * mean[1], runs * (mean[2] + others), tuple(problems)
-    )
-
-
-def _measured(case: Case, length: float) -> tuple[float, int]:
-    """Time [s] and size [bytes] of the first part of a case."""
-    from macroslip.result.rating import with_rating
-    from macroslip.result.simulate import simulate
-
-    first, last = float(case.loads.time[0]), float(case.loads.time[-1])
-    end = min(max(first + length, float(case.loads.time[1])), last)  # at least two samples
-    traces = Traces(step=case.traces.step) if case.traces else None
-    part = replace(case, loads=case.loads.window(None, end), window=Window(), traces=traces)
-    started = time.perf_counter()
-    result = with_rating(simulate(part, threads=1), part)
-    return time.perf_counter() - started, len(to_bytes(result))

@@ -31,7 +31,7 @@ from typing import Any
 
 from macroslip.errors import InputError, MacroslipError
 from macroslip.machine import process_environment
-from macroslip.study.store import Outcome
+from macroslip.study.database import Outcome
 from macroslip.study.work import work_several
 
 Task = dict[str, Any]

@@ -1,0 +1,78 @@
+"""The temperature at which the friction of all load histories of a study is what a bearing loses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from macroslip.errors import MacroslipError
+from macroslip.result.heat_balance import next_temperature
+from macroslip.study.reader import open_study
+from macroslip.study.study_file import Study
+
+#: Digits of a temperature [K]: enough, and the same on every machine, so that a resumed study finds
+#: its runs again.
+_DIGITS = 3
+
+
+def study_at_balance(
+    study: Study, directory: Path, compute: Callable[[Study, Path], None]
+) -> Study:
+    """The study at the temperature at which mean friction power = conductance (T − ambient), of each group of runs.
+
+    Ten minutes of wind do not change the temperature of a bearing whose time constant is hours; the
+    mean power Σ w_k P_k of all load histories does, with w_k from `Study.weights`, together 1. All
+    are simulated at the surroundings' temperature, 30 K above, and then at the balance found so
+    far, three to five times.
+
+    The runs on the way are computed by compute(study, directory) in a folder of their own. Raises
+    InputError if there is no balance, and MacroslipError if a run fails, so that the mean is not
+    known.
+    """
+    loads = study.loads.loads
+    shares = study.weights.of(loads) if study.weights else [1.0 / len(loads)] * len(loads)
+    weights = dict(zip((load.name for load in loads), shares, strict=True))
+    cases = {
+        run.group: study.case_of(run)[0]
+        for run in {run.group: run for run in study.runs()}.values()
+    }
+    known: dict[str, dict[float, float]] = {group: {} for group in cases}
+    while True:
+        found = {group: next_temperature(known[group], cases[group]) for group in cases}
+        if all(settled for _, settled in found.values()):
+            temperatures = {group: round(at, _DIGITS) for group, (at, _) in found.items()}
+            return replace(study, heat=None, weights=None, temperatures=temperatures)
+        # A group that has settled keeps the nearest temperature that is there already.
+        chosen = {
+            group: min(known[group], key=lambda place, at=at: abs(place - at)) if settled else at
+            for group, (at, settled) in found.items()
+        }
+        trial = replace(
+            study,
+            case={**study.case, "rating": False, "traces": "none"},
+            keep=[],
+            cycles=False,
+            heat=None,
+            weights=None,
+            temperatures={group: round(at, _DIGITS) for group, at in chosen.items()},
+        )
+        compute(trial, directory)
+        for group, power in _mean_powers(trial, directory, weights).items():
+            known[group][chosen[group]] = power
+
+
+def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for run, power in zip(
+        study.runs(), open_study(directory).friction_power.values.tolist(), strict=True
+    ):
+        if not np.isfinite(power):
+            raise MacroslipError(
+                f"the friction power of the bearing under the loads {run.load.name} is not known, because the run "
+                "failed: give the base case a temperature in place of balance"
+            )
+        found[run.group] = found.get(run.group, 0.0) + weights[run.load.name] * power
+    return found
