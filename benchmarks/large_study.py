@@ -24,6 +24,7 @@ import numpy as np
 
 from macroslip.bearing.geometry import ROWS
 from macroslip.storage.files import write_durably
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.database import Outcome, write_summary
 from macroslip.study.result_files import case_path, checksum, layout, to_bytes
 from macroslip.study.run import Session
@@ -102,7 +103,8 @@ def aggregate_it(directory: Path) -> None:
     from macroslip.study.weights import Weibull
 
     found = tables(
-        open_study(directory), Weibull(9.5, 2.0), years=20.0, field="wind_speed", width=2.0, by=()
+        open_study(directory),
+        Aggregation(Weibull(9.5, 2.0), years=20.0, field="wind_speed", width=2.0, by=()),
     )
     write_tables(found, directory.parent / "tables", "parquet")
 

@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 
 from macroslip import open_study
 from macroslip.report.style import BLUE, GREEN, GREY, ORANGE, finish, log_ticks, new_figure
-from macroslip.study.weights import weights_in_use
+from macroslip.study.aggregation import aggregation_in_use
 from macroslip.study.year import coverage, year
 
 #: Of energy and entries both rows count, of wear the row and place with most.
@@ -38,8 +38,7 @@ MODELS = {"straight rollers": {"marker": "o", "mfc": "white"}, "skewed rollers":
 def of_a_year(folder: str) -> tuple[xr.Dataset, xr.DataArray, np.ndarray]:
     """The year of a study; energy [J], wear [m] and entries over (quantity, group, bin); names of the bins."""
     study = open_study(folder)
-    weights, field, width = weights_in_use(study)
-    found = year(study, weights, field=field, width=width)
+    found = year(study, aggregation_in_use(study))
     worse = found.wear.sum("bin", skipna=False).fillna(0.0).idxmax("row")
     # Entries are counted by orbits, of which idling and parked rotors complete none.
     entries = found.entries.where(~found.event.isin(["idle-6", "idle-25", "parked-12"]), 0.0)

@@ -21,6 +21,7 @@ from macroslip.case.parts import INTEGRATORS
 from macroslip.imposed.status import Status
 from macroslip.input.fields import Choice
 from macroslip.input.section import fields_of, form_of, keys_of
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.database import Outcome
 from macroslip.study.export import tables
 from macroslip.study.settings import METHODS, SCALES
@@ -89,7 +90,7 @@ def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
     }
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
-    found = tables(opened, Weibull(9.0, 2.0))
+    found = tables(opened, Aggregation(Weibull(9.0, 2.0)))
     files = [
         f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()
     ]

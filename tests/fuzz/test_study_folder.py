@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from benchmarks.large_study import study, write_study
 from macroslip import InputError
 from macroslip.storage.files import DATABASE, MANIFEST, SUMMARY
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.export import tables
 from macroslip.study.reader import open_study, stored_results
 from macroslip.study.weights import Weibull
@@ -33,7 +34,7 @@ def contents(folder):
 def _tables(path):
     """All tables, and the first stored result."""
     found = open_study(path)
-    assert set(tables(found, Weibull(9.5, 2.0))) >= {"cases", "lifetime"}
+    assert set(tables(found, Aggregation(Weibull(9.5, 2.0)))) >= {"cases", "lifetime"}
     next(stored_results(path), None)
 
 

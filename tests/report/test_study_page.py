@@ -9,6 +9,7 @@ import xarray as xr
 
 from macroslip import open_study, run_study
 from macroslip.report.study_page import CLASS_ONE, _without_folders, run_names, study_page
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.lifetime import lifetime_energy, worst
 from macroslip.study.reader import is_study
 from macroslip.study.study_file import study_of
@@ -96,7 +97,7 @@ def in_full(energy):
 
 
 def test_lifetime_energy_is_that_of_the_function(page, study):
-    life = lifetime_energy(study, CLASS_ONE)
+    life = lifetime_energy(study, Aggregation(CLASS_ONE))
     for row in ("downwind", "upwind"):
         assert in_full(life.lifetime_energy.isel(group=0).sel(row=row)) in section(page, "lifetime")
     assert f"{100.0 * float(life.covered):.0f} % of all time" in page
@@ -115,7 +116,9 @@ def test_weights_of_ones_own(study):
     own = Weibull(9.0, 2.2)
     page = study_page(study, title="x", weights=own)
     assert "scale 9 m/s and shape 2.2" in page
-    life = lifetime_energy(study, own).lifetime_energy.isel(group=0).sel(row="downwind")
+    life = (
+        lifetime_energy(study, Aggregation(own)).lifetime_energy.isel(group=0).sel(row="downwind")
+    )
     assert in_full(life) in section(page, "lifetime")
 
 

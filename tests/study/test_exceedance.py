@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, InputError, open_study, run_study
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.exceedance import THRESHOLDS, exceedance, load_spectrum
 from macroslip.study.export import tables, write_tables
 from macroslip.study.study_file import study_of
@@ -31,7 +32,7 @@ def study(tmp_path_factory):
 
 
 def test_curves_count_orbits(study):
-    found = exceedance(study, WEIGHTS).isel(group=0)
+    found = exceedance(study, Aggregation(WEIGHTS)).isel(group=0)
     good = study.isel(case=[0, 2, 4])
     for name, values in (
         ("energy_orbits", good.orbit_energy.sum("interface", skipna=False)),
@@ -54,7 +55,7 @@ def test_curves_count_orbits(study):
 
 
 def test_curves_fall_from_all_orbits_to_none(study):
-    found = exceedance(study, WEIGHTS).isel(group=0)
+    found = exceedance(study, Aggregation(WEIGHTS)).isel(group=0)
     for name in ("energy_orbits", "power_orbits"):
         assert (np.diff(found[name]) <= 0.0).all()
     assert (found.energy_orbits.isel(threshold=-1) == 0.0).all() and (
@@ -70,18 +71,18 @@ def test_curves_fall_from_all_orbits_to_none(study):
 
 
 def test_a_group_without_results_has_no_curve(study):
-    found = exceedance(study, WEIGHTS)
+    found = exceedance(study, Aggregation(WEIGHTS))
     assert found.sizes["group"] == 2 and np.isnan(found.energy_orbits.isel(group=1)).all()
     assert found.left_out.values.tolist() == [[0, 0], [2, 1]]
 
 
 def test_spectrum_is_the_weighted_sum_of_what_was_counted(study):
-    found = load_spectrum(study, WEIGHTS, years=3.0).isel(group=0)
+    found = load_spectrum(study, Aggregation(WEIGHTS, years=3.0)).isel(group=0)
     cycles = study.load_cycles.isel(case=[0, 2, 4]).sel(load_range=found.load_range).values / 40.0
     expected = 3.0 * YEAR * (0.6 * cycles[:2].mean(axis=0) + 0.3 * cycles[2])
     np.testing.assert_allclose(found.cycles, expected, rtol=1e-9)
     with pytest.raises(InputError, match="has not counted cycles"):
-        load_spectrum(study.drop_vars("load_cycles"), WEIGHTS)
+        load_spectrum(study.drop_vars("load_cycles"), Aggregation(WEIGHTS))
 
 
 @pytest.mark.parametrize(("amplitude", "number"), [(1e3, 3), (70e3, 25)])
@@ -121,7 +122,7 @@ def test_cycles_against_the_example_of_the_standard():
 def test_tables_are_written_with_units(study, tmp_path, form):
     import pandas as pd
 
-    found = tables(study, Weibull(9.0, 2.0))
+    found = tables(study, Aggregation(Weibull(9.0, 2.0)))
     written = write_tables(found, tmp_path, form)
     assert {path.stem for path in written} == {
         "cases",
@@ -153,7 +154,9 @@ def test_text_that_a_spreadsheet_would_run_is_harmless_in_csv(tmp_path, study):
     names = study.loads.values.copy()
     names[0] = '=HYPERLINK("x")'
     write_tables(
-        tables(study.assign_coords(loads=("case", names, {"units": "1"})), None), tmp_path, "csv"
+        tables(study.assign_coords(loads=("case", names, {"units": "1"})), Aggregation()),
+        tmp_path,
+        "csv",
     )
     text = (tmp_path / "cases.csv").read_text()
     assert "'=HYPERLINK" in text and ",=HYPER" not in text and ',"=HYPER' not in text

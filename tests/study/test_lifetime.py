@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import InputError
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
 from macroslip.study.loads_list import Load
 from macroslip.study.summary import ROW_VARIABLES
@@ -37,7 +38,7 @@ def study(energy=(600.0, 1200.0, 1800.0, 60.0, 60.0, 6.0, 6.0)):
 
 
 def test_lifetime_energy_is_the_weighted_sum():
-    found = lifetime_energy(study(), Given({12.0: 0.5, 14.0: 0.25}), years=2.0)
+    found = lifetime_energy(study(), Aggregation(Given({12.0: 0.5, 14.0: 0.25}), years=2.0))
     first, second = found.isel(group=0), found.isel(group=1)
     assert float(first["bearing.diametral_clearance"]) == 0.0
     seconds = 2.0 * YEAR
@@ -60,12 +61,12 @@ def test_weibull_bins_cover_all_speeds(scale, shape, width):
 
 def test_a_run_without_a_result_is_left_out_and_reported():
     broken = study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, np.nan))
-    found = lifetime_energy(broken, Given({12.0: 0.5, 14.0: 0.25}))
+    found = lifetime_energy(broken, Aggregation(Given({12.0: 0.5, 14.0: 0.25})))
     assert found.left_out.values.tolist() == [[1, 0], [0, 1]]
     assert float(found.power.isel(group=0).sel(bin=12.0, row="downwind")) == 2.0
     # A bin without any run gives no number, unless it has no weight.
     assert np.isnan(found.lifetime_energy.isel(group=1)).all()
-    without = lifetime_energy(broken, Given({12.0: 0.5, 14.0: 0.0}))
+    without = lifetime_energy(broken, Aggregation(Given({12.0: 0.5, 14.0: 0.0})))
     assert np.isfinite(without.lifetime_energy).all()
 
 
@@ -127,12 +128,18 @@ def test_a_bin_reaches_half_its_width_to_either_side():
         (lambda: binned(study(), "bearing", 2.0), "not a number"),
         (lambda: binned(study(), "wind_speed", 0.0), "width of the bins"),
         (
-            lambda: lifetime_energy(study(), Given({12.0: 1.0})),
+            lambda: lifetime_energy(study(), Aggregation(Given({12.0: 1.0}))),
             "no probability is given for the bin at 14",
         ),
-        (lambda: lifetime_energy(study(), Given({12.0: 1.0, 14.0: 0.5})), "together at most 1"),
-        (lambda: lifetime_energy(study(), Weibull(0.0, 2.0)), "scale"),
-        (lambda: lifetime_energy(study(), Weibull(9.0, 2.0), years=-1.0), "lifetime is -1"),
+        (
+            lambda: lifetime_energy(study(), Aggregation(Given({12.0: 1.0, 14.0: 0.5}))),
+            "together at most 1",
+        ),
+        (lambda: lifetime_energy(study(), Aggregation(Weibull(0.0, 2.0))), "scale"),
+        (
+            lambda: lifetime_energy(study(), Aggregation(Weibull(9.0, 2.0), years=-1.0)),
+            "lifetime is -1",
+        ),
         (lambda: percentiles(study(), quantiles=[2.0]), "quantiles"),
         (lambda: worst(study(), "nothing"), "no variable 'nothing'"),
         (lambda: worst(study(), count=0), "count is 0"),

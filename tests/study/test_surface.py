@@ -6,6 +6,7 @@ import pytest
 from macroslip import InputError, open_study, run_study
 from macroslip.report.study_page import CLASS_ONE
 from macroslip.result.surface_maps import energy_density
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.lifetime import lifetime_energy, weighted_maps
 from macroslip.study.study_file import study_of
 from macroslip.study.weights import Given
@@ -30,18 +31,20 @@ def study(tmp_path_factory):
 
 
 def test_sums_are_the_lifetime_energy_of_the_raceways(study):
-    maps = weighted_maps(study, CLASS_ONE, years=20.0)
+    maps = weighted_maps(study, Aggregation(CLASS_ONE, years=20.0))
     found = maps.surface_energy.sum(
         ("raceway", "angle", "station", "slip_sign", "film_regime")
     ).isel(group=0)
     # One roller a row is simulated, so the mean over rollers is that roller; the cage is no raceway.
     raceways = study.assign(energy_mean=study.energy_inner + study.energy_outer)
-    expected = lifetime_energy(raceways, CLASS_ONE, years=20.0).lifetime_energy.isel(group=0)
+    expected = lifetime_energy(raceways, Aggregation(CLASS_ONE, years=20.0)).lifetime_energy.isel(
+        group=0
+    )
     np.testing.assert_allclose(found.values, expected.values, rtol=1e-9)
 
 
 def test_one_bin_that_is_always_there_is_the_mean_of_its_cases(study):
-    maps = weighted_maps(study, Given({12.0: 0.0, 18.0: 1.0}), years=1.0)
+    maps = weighted_maps(study, Aggregation(Given({12.0: 0.0, 18.0: 1.0}), years=1.0))
     outer = study.isel(case=[1, 2]).sel(raceway="outer")
     per_pass = outer.surface_energy / outer.surface_passes.where(outer.surface_passes > 0.0, 1.0)
     kinds = ("angle", "station", "slip_sign", "film_regime")
@@ -54,7 +57,7 @@ def test_one_bin_that_is_always_there_is_the_mean_of_its_cases(study):
 
 
 def test_the_inner_ring_is_alike_all_round_and_the_outer_one_is_not(study):
-    maps = weighted_maps(study, CLASS_ONE)
+    maps = weighted_maps(study, Aggregation(CLASS_ONE))
     along = energy_density(maps).isel(group=0).sel(row="downwind")
     inner, outer = along.sel(raceway="inner"), along.sel(raceway="outer")
     assert float((inner.max("angle") - inner.min("angle")).max()) == 0.0
@@ -71,4 +74,4 @@ def test_a_study_of_the_paper_has_no_maps(tmp_path):
     }
     run_study(study_of(content), tmp_path / "out")
     with pytest.raises(InputError, match="no maps of the raceways.*model: physical"):
-        weighted_maps(open_study(tmp_path / "out"), CLASS_ONE)
+        weighted_maps(open_study(tmp_path / "out"), Aggregation(CLASS_ONE))

@@ -8,6 +8,7 @@ import xarray as xr
 from scipy.stats import weibull_min
 
 from macroslip import InputError, open_study, run_study
+from macroslip.study.aggregation import Aggregation, aggregation_in_use
 from macroslip.study.lifetime import lifetime_energy
 from macroslip.study.loads_list import Load
 from macroslip.study.study_file import study_of
@@ -21,7 +22,6 @@ from macroslip.study.weights import (
     bin_numbers,
     binned,
     stored_weighting,
-    weights_in_use,
 )
 from macroslip.study.year import EXPONENTS, LIVES, coverage, year
 
@@ -63,7 +63,7 @@ def test_all_rollers_of_events_are_computed(tmp_path):
 
 
 def test_events_take_their_time_and_wind_speeds_the_rest():
-    found = year(study(), YEARLY)
+    found = year(study(), Aggregation(YEARLY))
     starts, idle = 300.0 * 100.0, 400.0 * HOUR
     windy = 0.5 * (YEAR - starts - idle)
     np.testing.assert_allclose(found.hours * HOUR, [windy, starts, idle], rtol=1e-12)
@@ -77,7 +77,7 @@ def test_events_take_their_time_and_wind_speeds_the_rest():
     np.testing.assert_allclose(
         found.per_hour.isel(group=0).sel(row="upwind"), 2.0 * HOUR * np.array([1.5, 3.0, 0.25])
     )
-    life = lifetime_energy(study(), YEARLY, years=2.0)
+    life = lifetime_energy(study(), Aggregation(YEARLY, years=2.0))
     np.testing.assert_allclose(life.lifetime_energy, 2.0 * found.total, rtol=1e-12)
     # 8.33 h of starts, 400 h of idling, and half of the 8357.7 h that are left of 8766 h.
     expected = "The cases cover 52 % of a year: 4179 h of wind speeds and 408 h of events, whose supervisor is assumed."
@@ -85,7 +85,7 @@ def test_events_take_their_time_and_wind_speeds_the_rest():
 
 
 def test_lives_accumulate_by_damage_and_loads_by_their_power():
-    found = year(study(), YEARLY)
+    found = year(study(), Aggregation(YEARLY))
     share = found.hours.values / found.hours.values.sum()
     np.testing.assert_allclose(
         1.0 / found.basic_life.item(), share[0] / 2e4 + share[1] / 1e4, rtol=1e-12
@@ -93,21 +93,27 @@ def test_lives_accumulate_by_damage_and_loads_by_their_power():
     expected = (share[0] * 3e5**4 + share[1] * 4e5**4) ** 0.25
     np.testing.assert_allclose(found.damage_equivalent_load_4.item(), expected, rtol=1e-12)
     # A life that is not known is not passed over.
-    assert np.isnan(year(study(life=(2e4, 2e4, np.nan, np.inf)), YEARLY).basic_life.item())
+    assert np.isnan(
+        year(study(life=(2e4, 2e4, np.nan, np.inf)), Aggregation(YEARLY)).basic_life.item()
+    )
 
 
 def test_scatter_is_that_of_runs_in_a_bin():
-    found = year(study().isel(case=slice(2)), Given({12.0: 1.0}))
+    found = year(study().isel(case=slice(2)), Aggregation(Given({12.0: 1.0})))
     # 1 and 2 W: s = 0.707 W, over the root of two, in 1.5 W.
     np.testing.assert_allclose(found.scatter, 0.5 / 1.5, rtol=1e-12)
-    assert np.isnan(year(study().isel(case=[0, 2, 3]), Given({12.0: 1.0})).scatter).all()
+    assert np.isnan(
+        year(study().isel(case=[0, 2, 3]), Aggregation(Given({12.0: 1.0}))).scatter
+    ).all()
 
 
 def test_an_event_without_a_result_makes_the_year_unknown_only_if_it_counts():
     gone = study(energy=(600.0, 1200.0, np.nan, 50.0))
     gone["window_length"][2] = np.nan
-    assert np.isnan(year(gone, YEARLY).total).all()
-    assert np.isfinite(year(gone, Year(YEARLY.wind, {"idle-6": Rate(1.0)})).total).all()
+    assert np.isnan(year(gone, Aggregation(YEARLY)).total).all()
+    assert np.isfinite(
+        year(gone, Aggregation(Year(YEARLY.wind, {"idle-6": Rate(1.0)}))).total
+    ).all()
 
 
 def test_bins_hold_what_their_probability_says():
@@ -155,10 +161,10 @@ def test_weights_of_a_study_file():
 def test_the_weights_of_the_file_are_used_by_all_and_an_option_replaces_the_wind():
     stored = xr.Dataset(attrs={"study": json.dumps({"weights": WEIGHTS | {"width": 1.0}})})
     assert stored_weighting(stored).year == of_file(WEIGHTS).weights.year
-    assert weights_in_use(stored) == (of_file(WEIGHTS).weights.year, "wind_speed", 1.0)
-    used, _, _ = weights_in_use(stored, Weibull(9.0, 2.0))
+    assert aggregation_in_use(stored) == Aggregation(of_file(WEIGHTS).weights.year, width=1.0)
+    used = aggregation_in_use(stored, Weibull(9.0, 2.0)).weights
     assert used.wind == Weibull(9.0, 2.0) and used.events["start-8"] == Rate(300.0)
-    assert weights_in_use(xr.Dataset()) == (None, "wind_speed", 2.0)
+    assert aggregation_in_use(xr.Dataset()) == Aggregation()
 
 
 def test_the_balance_of_heat_counts_events_by_their_hours():
@@ -236,7 +242,7 @@ def test_weights_that_underflow_are_refused_where_results_are_weighted():
     with pytest.raises(
         InputError, match="the wind speeds from 12 to 12 have no probability at all"
     ):
-        lifetime_energy(study(), Weibull(0.001, 2.0))
+        lifetime_energy(study(), Aggregation(Weibull(0.001, 2.0)))
 
 
 def test_events_are_in_no_bin_of_wind_speeds():

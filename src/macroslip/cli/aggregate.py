@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -63,21 +64,22 @@ def aggregate(
     ] = False,
 ) -> None:
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
+    from macroslip.study.aggregation import aggregation_in_use
     from macroslip.study.export import FORMATS, tables, write_tables
     from macroslip.study.reader import open_study
-    from macroslip.study.weights import weights_in_use
     from macroslip.study.year import coverage, year
 
     if form not in FORMATS:
         raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
     study = open_study(directory)
-    weights, own_field, own_width = weights_in_use(study, _weights(weibull, probabilities))
-    bins = {
-        "field": field or own_field,
-        "width": own_width if width is None else width,
-        "by": by or (),
-    }
-    found = tables(study, weights, years=years, **bins)
+    stored = aggregation_in_use(study, _weights(weibull, probabilities), years)
+    aggregation = replace(
+        stored,
+        field=field or stored.field,
+        width=stored.width if width is None else width,
+        by=by or (),
+    )
+    found = tables(study, aggregation)
     for name in found:
         check_not_input(output / f"{name}.{form}", [probabilities] if probabilities else [])
     written = write_tables(found, output, form)
@@ -89,7 +91,7 @@ def aggregate(
         return
     if "lifetime" in found:
         _lifetime(found["lifetime"], years)
-        typer.echo(coverage(year(study, weights, **bins)))
+        typer.echo(coverage(year(study, aggregation)))
     for path in written:
         typer.echo(f"written: {path}")
 

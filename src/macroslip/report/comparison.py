@@ -19,9 +19,10 @@ from macroslip.report.result_numbers import estimated_values
 from macroslip.report.run_names import study_about
 from macroslip.result.plausibility import doubtful_result
 from macroslip.result.run_input import stored_settings
+from macroslip.study.aggregation import aggregation_in_use
 from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
-from macroslip.study.weights import YEAR, Given, Weibull, binned, weights_in_use
+from macroslip.study.weights import YEAR, Given, Weibull, binned
 from macroslip.study.year import DESIGN_COLUMNS, LIVES, coverage, design_names, designs, year
 
 #: Pieces of a history whose differences are taken as independent of each other, at most.
@@ -284,16 +285,16 @@ def compare_designs(
     study: xr.Dataset, by: Sequence[str] | None = None, wind: Weibull | Given | None = None
 ) -> pd.DataFrame:
     """Compare designs of a study over a year, `wind` in place of its file's; as `compare`."""
-    weights, field, width = weights_in_use(study, wind)
+    aggregation = aggregation_in_use(study, wind)
     varied = _varied_labels(study)
     labels = _labels_of_designs(study, by, varied)
     parts = _parts(study, labels)
-    years = {name: year(part, weights, field=field, width=width) for name, part in parts.items()}
+    years = {name: year(part, aggregation) for name, part in parts.items()}
     numbers = {name: _year_numbers(found) for name, found in years.items()}
     first, *others = parts
     total = numbers[first][ENERGY, "J/year"]
-    bins = binned(parts[first], field if weights is not None else None, width)
-    share = bins.probabilities(weights)
+    bins = aggregation.bins(parts[first])
+    share = bins.probabilities(aggregation.weights)
     bin_of_loads = dict(zip(parts[first].loads.values.tolist(), bins.bin.tolist(), strict=False))
     ranges = {}
     for name in others:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,6 +31,7 @@ from macroslip.report.study_figures import (
 from macroslip.report.style import OPENING, Picture, picture, scaled
 from macroslip.result.plausibility import JUDGED, doubtful_result
 from macroslip.result.surface_maps import energy_density
+from macroslip.study.aggregation import Aggregation, aggregation_in_use
 from macroslip.study.database import Outcome
 from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance
@@ -40,10 +41,8 @@ from macroslip.study.weights import (
     IEC_CLASSES,
     Given,
     Weibull,
-    Weights,
     Year,
     binned,
-    weights_in_use,
 )
 from macroslip.study.year import DESIGN_COLUMNS, coverage, design_names, designs, year
 
@@ -120,7 +119,9 @@ def study_page(
     exceeding, exceedance_pictures = _exceedance(weighted, order)
     bodies = {
         "designs": text.designs(_designs(table, names, _MOST_LINES), ranking, notes),
-        "year": text.year(weighted.note, _year(weighted.year, names)) if weighted.given else "",
+        "year": text.year(weighted.note, _year(weighted.year, names))
+        if weighted.given.weights
+        else "",
         "effects": effects_body,
         "lifetime": lifetime,
         "exceedance": exceeding,
@@ -153,43 +154,40 @@ class _Weighted:
     """The runs of a study, how much each counts, and the year that follows."""
 
     study: xr.Dataset  #: Points of a sample are no designs: they are pooled
-    given: Weights | None  #: None where there are none, or they cannot be used
-    bins: Mapping[str, Any]  #: Label of the loads that is sorted into bins, and their width
+    given: Aggregation  #: Without weights where there are none, or they cannot be used
     year: xr.Dataset  #: From `macroslip.study.year.year`
     note: str  #: What share of a year the cases cover, or why the weights cannot be used
-    years: float  #: Lifetime [years]
 
     @property
-    def weights(self) -> Weights:
-        """Those given, otherwise `CLASS_ONE`."""
-        return self.given or CLASS_ONE
+    def aggregation(self) -> Aggregation:
+        """The one given, with `CLASS_ONE` where it has no weights."""
+        return replace(self.given, weights=self.given.weights or CLASS_ONE)
 
     @property
     def wind(self) -> Weibull | bool | None:
         """Distribution of the wind speed; None for `CLASS_ONE`, False for a list."""
-        wind = self.given.wind if isinstance(self.given, Year) else self.given
+        weights = self.given.weights
+        wind = weights.wind if isinstance(weights, Year) else weights
         return wind if wind is None or isinstance(wind, Weibull) else False
 
 
 def _weighted(study: xr.Dataset, weights: Weibull | Given | None, years: float) -> _Weighted:
     pooled = study.drop_vars(sampled_parameters(study))
-    given, field, width = weights_in_use(study, weights)
-    bins = {"field": field, "width": width}
+    given = aggregation_in_use(study, weights, years)
     try:
-        found = year(pooled, given, **bins)
+        of_year = year(pooled, given)
     except InputError as problem:
         note = f"The weights cannot be used: {problem}"
-        return _Weighted(pooled, None, bins, year(pooled, None), note, years)
-    return _Weighted(pooled, given, bins, found, coverage(found), years)
+        given = replace(given, weights=None)
+        return _Weighted(pooled, given, year(pooled, given), note)
+    return _Weighted(pooled, given, of_year, coverage(of_year))
 
 
 def _lifetime(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
     """The section on lifetime energy, and its picture; groups in their order."""
     text = words(_TEMPLATE)
     try:
-        life = lifetime_energy(
-            weighted.study, weighted.weights, years=weighted.years, **weighted.bins
-        )
+        life = lifetime_energy(weighted.study, weighted.aggregation)
     except InputError as problem:
         return text.no_lifetime(str(problem)), []
     pictures = []
@@ -198,14 +196,14 @@ def _lifetime(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[P
         pictures = [picture(plot_lifetime, about, life, shown, **OPENING)]
     energies = _table(as_table(life, ["lifetime_energy"]), "Lifetime energy")
     covered = 100.0 * float(life.covered)
-    return text.lifetime(weighted.years, weighted.wind, covered, energies, pictures), pictures
+    return text.lifetime(weighted.given.years, weighted.wind, covered, energies, pictures), pictures
 
 
 def _exceedance(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
     """Section and pictures of orbits a year above an energy and a power."""
     text = words(_TEMPLATE)
     try:
-        curves = exceedance(weighted.study, weighted.weights, **weighted.bins)
+        curves = exceedance(weighted.study, weighted.aggregation)
     except InputError as problem:
         return text.no_exceedance(str(problem)), []
     shown = drawable(curves.power_orbits, order)
@@ -291,7 +289,7 @@ def _effects(
     text = words(_TEMPLATE)
     if not sampled_parameters(study):
         return "", "", []
-    found = effects(study, weighted.given, **weighted.bins)
+    found = effects(study, weighted.given)
     if not found.sizes["quantity"]:
         return "", text.no_effects(), []
     table = Table(
@@ -441,15 +439,13 @@ def _surface(weighted: _Weighted) -> Markup | str:
         return ""
     text = words(_TEMPLATE)
     try:
-        maps = weighted_maps(
-            weighted.study, weighted.weights, years=weighted.years, **weighted.bins
-        ).isel(group=0)
+        maps = weighted_maps(weighted.study, weighted.aggregation).isel(group=0)
     except InputError as problem:
         return text.no_maps(str(problem))
     labels = ", ".join(
         str(maps[name].item()) for name in ("bearing", "lubricant", "model") if name in maps.coords
     )
-    of = f"in {weighted.years:g} years, of the simulated rollers, {labels}"
+    of = f"in {weighted.given.years:g} years, of the simulated rollers, {labels}"
     return text.turned() + words("result.html").surface(
         *map_pictures(energy_density(maps), maps.surface_power_density), of
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from macroslip.errors import InputError
 from macroslip.result.variables import described
-from macroslip.study.weights import Weights
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.year import DESIGN_COLUMNS, LIVES, designs, year
 
 #: Quantiles of a quantity over the sample, and points below which nothing is said.
@@ -70,13 +71,7 @@ def sampled_parameters(study: xr.Dataset) -> list[str]:
     return [str(key) for key in ranges if key in study.coords]
 
 
-def effects(
-    study: xr.Dataset,
-    weights: Weights | None = None,
-    *,
-    field: str = "wind_speed",
-    width: float = 2.0,
-) -> xr.Dataset:
+def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.Dataset:
     """How the criteria and lives of a year change with each sampled parameter.
 
     Raises InputError if the study has no sample, or a label or a weight is wrong.
@@ -85,7 +80,7 @@ def effects(
     the lower half, in parts of the mean [1], its standard error `main_effect_error`, Spearman's `rank_correlation` and
     its `probability` by chance; over (quantity, quantile) `range`, in the coordinate `units`; and `points` of the
     sample. Where bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean over the
-    sample in each. Arguments are those of `macroslip.study.year.year`.
+    sample in each.
 
     Points without a value are left out, and quantities with fewer than four. An effect beside a standard error of its size
     is none.
@@ -95,7 +90,7 @@ def effects(
         raise InputError(
             "the study has no sample", allowed="studies with variations: {sample: ...}"
         )
-    found = year(study, weights, field=field, width=width)
+    found = year(study, replace(aggregation, by=()))
     table, _ = designs(found)
     labels = [
         str(name)

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
 from macroslip.result.variables import described
-from macroslip.study.weights import YEAR, Weights, binned, weighted
+from macroslip.study.aggregation import Aggregation
+from macroslip.study.weights import YEAR, Binning, weighted
 
 #: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
 THRESHOLDS = np.logspace(-9.0, 9.0, 721)
 
 
-def exceedance(
-    study: xr.Dataset,
-    weights: Weights,
-    *,
-    field: str = "wind_speed",
-    width: float = 2.0,
-    by: Sequence[str] = (),
-) -> xr.Dataset:
+def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """How many orbits a year of one roller exceed an energy, and a peak power.
 
         n(x) = 1 year · Σ_b p_b N_b(> x) / t_b
@@ -39,75 +33,100 @@ def exceedance(
     year of one roller whose energy (all interfaces) or peak power (largest at any interface)
     exceeds the threshold [J or W]; over (group, row) `orbits` [1/year], all of them, NaN where a
     bin of some weight has no result; `runs` and `left_out` over (group, bin). Thresholds that all
-    orbits exceed, and those that none does, are left out but for the nearest. Arguments are those
-    of `macroslip.study.lifetime.lifetime_energy`.
+    orbits exceed, and those that none does, are left out but for the nearest.
     """
     missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
     if missing:
         what = f"the results hold no {' and no '.join(missing)}"
         remedy = "Add them to keep in the study file, and go on with --resume."
         raise InputError(what, allowed="a study with results that keep them", remedy=remedy)
-    bins = binned(study, field, width, by)
-    shape = (len(bins.groups), bins.centres.size, study.sizes["row"])
-    counts = np.zeros((2, *shape, THRESHOLDS.size))
-    orbits, seconds = np.zeros(shape), np.zeros(shape)
-    used, left_out = np.zeros(shape[:2]), np.zeros(shape[:2])
-    for case in range(study.sizes["case"]):
-        cell = bins.group[case], bins.bin[case]
-        event = bool(bins.events[bins.bin[case]])
-        complete = event or study.orbits.values[case] > 0
-        if not np.isfinite(study.energy_mean.values[case]).all() or not complete:
-            left_out[cell] += 1
-            continue
-        used[cell] += 1
-        one = study.isel(case=case)
-        dims = ("row", "roller", "orbit")
-        energy = one.orbit_energy.sum("interface", skipna=False).transpose(*dims).values
-        power = one.peak_power.max("interface", skipna=False).transpose(*dims).values
-        length = (one.orbit_end - one.orbit_start).values
-        for row in range(shape[2]):
-            present = np.isfinite(energy[row])
-            for kind, values in enumerate((energy, power)):
-                above = np.sort(values[row][present])
-                counts[kind][*cell, row] += present.sum() - np.searchsorted(
-                    above, THRESHOLDS, side="right"
-                )
-            orbits[*cell, row] += present.sum()
-            # An event has all of its record for the orbits that it completes, which may be none.
-            alone = float(one.window_length) * max(present.any(axis=-1).sum(), 1)
-            seconds[*cell, row] += (
-                alone if event else np.broadcast_to(length, present.shape)[present].sum()
-            )
-    weight = bins.probabilities(weights)
+    bins = aggregation.bins(study)
+    counted = _counted(study, bins)
+    weight = bins.probabilities(aggregation.weights)
     with np.errstate(invalid="ignore", divide="ignore"):
-        found = np.stack(
-            [YEAR * weighted(values / seconds[..., None], weight) for values in counts]
-        )
-        every = YEAR * weighted(orbits / seconds, weight)
+        rates = [
+            YEAR * weighted(above / counted.seconds[..., None], weight) for above in counted.above
+        ]
+        all_orbits = YEAR * weighted(counted.orbits / counted.seconds, weight)
         # Thresholds that some orbits exceed and some do not, and one more at either end.
-        some = (found > 0.0) & (found < every[None, ..., None] * (1.0 - 1e-12))
-    kept = _span(some.any(axis=(0, 1, 2)))
-    dims = ("group", "row", "threshold")
+        most = all_orbits[..., None] * (1.0 - 1e-12)
+        some = [((rate > 0.0) & (rate < most)).any(axis=(0, 1)) for rate in rates]
+    kept = _span(np.logical_or(*some))
+    energy_orbits, power_orbits = (rate[..., kept] for rate in rates)
+    over_bins = ("group", "bin")
+    over_thresholds = ("group", "row", "threshold")
+    about_energy = described("1/year", "orbits whose energy exceeds it")
+    about_power = described("1/year", "orbits whose peak power exceeds it")
+    about_rest = described("1", "runs without a result, or without an orbit")
+    about_thresholds = described("J or W", "energy [J] or power [W]")
     return xr.Dataset(
         {
-            "energy_orbits": (dims, found[0][..., kept], described("1/year", "orbits whose energy exceeds it")),
-            "power_orbits": (dims, found[1][..., kept], described("1/year", "orbits whose peak power exceeds it")),
-            "orbits": (dims[:2], every, described("1/year", "orbits of a roller")),
-            "runs": (("group", "bin"), used, described("1", "runs that were counted")),
-            "left_out": (("group", "bin"), left_out, described("1", "runs without a result, or without an orbit")),
+            "energy_orbits": (over_thresholds, energy_orbits, about_energy),
+            "power_orbits": (over_thresholds, power_orbits, about_power),
+            "orbits": (("group", "row"), all_orbits, described("1/year", "orbits of a roller")),
+            "runs": (over_bins, counted.used, described("1", "runs that were counted")),
+            "left_out": (over_bins, counted.left_out, about_rest),
         },
-        bins.coordinates(study) | {
-            "row": study.row,
-            "threshold": ("threshold", THRESHOLDS[kept], described("J or W", "energy [J] or power [W]")),
-        },
+        bins.coordinates(study)
+        | {"row": study.row, "threshold": ("threshold", THRESHOLDS[kept], about_thresholds)},
         {"title": f"Exceedance per orbit: {study.attrs.get('title', '')}"},
-    )  # fmt: skip
+    )
 
 
-def load_spectrum(
-    study: xr.Dataset, weights: Weights, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
-    by: Sequence[str] = (),
-) -> xr.Dataset:  # fmt: skip
+class _Counted(NamedTuple):
+    """Orbits by group and bin."""
+
+    above: np.ndarray  #: Orbits above each threshold, (energy or power, group, bin, row, threshold)
+    orbits: np.ndarray  #: All orbits, (group, bin, row)
+    seconds: np.ndarray  #: Time that they took [s], (group, bin, row)
+    used: np.ndarray  #: Runs that were counted, (group, bin)
+    left_out: np.ndarray  #: Runs without a result, or without an orbit, (group, bin)
+
+
+def _counted(study: xr.Dataset, bins: Binning) -> _Counted:
+    """Count the orbits of each run by what they exceed."""
+    cells = (len(bins.groups), bins.centres.size)
+    rows = study.sizes["row"]
+    counted = _Counted(
+        above=np.zeros((2, *cells, rows, THRESHOLDS.size)),
+        orbits=np.zeros((*cells, rows)),
+        seconds=np.zeros((*cells, rows)),
+        used=np.zeros(cells),
+        left_out=np.zeros(cells),
+    )
+    for case in range(study.sizes["case"]):
+        cell = (bins.group[case], bins.bin[case])
+        is_event = bool(bins.events[bins.bin[case]])
+        is_known = np.isfinite(study.energy_mean.values[case]).all()
+        if is_known and (is_event or study.orbits.values[case] > 0):
+            counted.used[cell] += 1
+            _count_run(counted, cell, study.isel(case=case), is_event)
+        else:
+            counted.left_out[cell] += 1
+    return counted
+
+
+def _count_run(counted: _Counted, cell: tuple[int, int], run: xr.Dataset, is_event: bool) -> None:
+    """Add the orbits of one run, and the time that they took."""
+    dims = ("row", "roller", "orbit")
+    energy = run.orbit_energy.sum("interface", skipna=False).transpose(*dims).values
+    power = run.peak_power.max("interface", skipna=False).transpose(*dims).values
+    length = (run.orbit_end - run.orbit_start).values
+    for row, present in enumerate(np.isfinite(energy)):
+        number = present.sum()
+        for above, values in zip(counted.above, (energy, power), strict=True):
+            ordered = np.sort(values[row][present])
+            above[(*cell, row)] += number - np.searchsorted(ordered, THRESHOLDS, side="right")
+        counted.orbits[(*cell, row)] += number
+        if is_event:
+            # It has all of its record for the orbits that it completes, which may be none.
+            seconds = float(run.window_length) * max(present.any(axis=-1).sum(), 1)
+        else:
+            seconds = np.broadcast_to(length, present.shape)[present].sum()
+        counted.seconds[(*cell, row)] += seconds
+
+
+def load_spectrum(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """Cycles of the bearing's load in a lifetime by their range, of a study that counts cycles.
 
         n = T Σ_b p_b (1/N_b) Σ_{c in b} n_c / t_c
@@ -120,13 +139,14 @@ def load_spectrum(
     if "load_cycles" not in study:
         remedy = "Set `cycles: true` in the study file and run it again."
         raise InputError("the study has not counted cycles", remedy=remedy)
-    bins = binned(study, field, width, by)
+    years = aggregation.years
+    bins = aggregation.bins(study)
     lengths = study.loads_length.values
     rates = (
         study.load_cycles.isel(case=case).values / lengths[case]
         for case in range(study.sizes["case"])
     )
-    cycles = years * YEAR * weighted(bins.means(rates)[0], bins.probabilities(weights))
+    cycles = years * YEAR * weighted(bins.means(rates)[0], bins.probabilities(aggregation.weights))
     kept = _span(np.nan_to_num(cycles).any(axis=(0, 1)))
     about = described("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(

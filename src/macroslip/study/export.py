@@ -11,11 +11,11 @@ import pandas as pd
 import xarray as xr
 
 from macroslip.storage.files import write_durably
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.database import Outcome
 from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
-from macroslip.study.weights import Weights
 from macroslip.study.year import DESIGN_COLUMNS, EXPONENTS, LARGEST, LIVES, SUMS, designs, year
 
 FORMATS = ("csv", "parquet")
@@ -41,15 +41,12 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     return frame
 
 
-def tables(
-    study: xr.Dataset, weights: Weights | None, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
-    by: Sequence[str] = (),
-) -> dict[str, pd.DataFrame]:  # fmt: skip
+def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFrame]:
     """All tables of a study by name; docs/studies.md lists their columns.
 
     Without weights there are `cases`, `failures`, `worst`, `percentiles`, `designs` and, of a sample, `effects`; with
     them also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where results keep its variables, and, if the study
-    counts cycles, `cycles`. Arguments are those of `macroslip.study.lifetime.lifetime_energy`.
+    counts cycles, `cycles`.
     """
     summary = study.drop_vars(
         [name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}]
@@ -63,9 +60,9 @@ def tables(
     failed = summary.isel(case=np.flatnonzero(summary.outcome.values != str(Outcome.COMPLETED)))
     found["failures"] = failed.drop_vars([*failed.data_vars, "row"]).to_dataframe().reset_index()
     found["worst"] = as_table(worst(study), by_row)
-    spread = percentiles(study, field=field, width=width, by=by)
+    spread = percentiles(study, aggregation)
     found["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
-    whole = year(study, weights, field=field, width=width, by=by)
+    whole = year(study, aggregation)
     units = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
         LIVES, "h"
     )
@@ -74,25 +71,23 @@ def tables(
         columns={name: f"{name} [{unit}]" for name, unit in units.items() if unit != "1"}
     )
     if sampled_parameters(study):
-        drivers = effects(study, weights, field=field, width=width)
+        drivers = effects(study, aggregation)
         found["effects"] = as_table(
             drivers, [name for name, one in drivers.items() if "parameter" in one.dims]
         )
-    if weights is None:
+    if aggregation.weights is None:
         return found
     by_bin = ["hours", "runs", "energy", "per_hour", *LARGEST, *SUMS]
     found["year"] = as_table(whole, [name for name in by_bin if name in whole])
     found["lives"] = as_table(whole, [*LIVES, *(f"damage_equivalent_load_{m}" for m in EXPONENTS)])
-    life = lifetime_energy(study, weights, years=years, field=field, width=width, by=by)
+    life = lifetime_energy(study, aggregation)
     found["lifetime"] = as_table(life, ["lifetime_energy", "covered"])
     found["bins"] = as_table(life, ["power", "bin_energy", "probability", "runs", "left_out"])
     if {"orbit_energy", "peak_power"} <= set(study.data_vars):
-        curves = exceedance(study, weights, field=field, width=width, by=by)
+        curves = exceedance(study, aggregation)
         found["exceedance"] = as_table(curves, ["energy_orbits", "power_orbits"])
     if "load_cycles" in study:
-        found["cycles"] = as_table(
-            load_spectrum(study, weights, years=years, field=field, width=width, by=by), ["cycles"]
-        )
+        found["cycles"] = as_table(load_spectrum(study, aggregation), ["cycles"])
     return found
 
 

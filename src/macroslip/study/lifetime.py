@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,17 +11,15 @@ import xarray as xr
 from macroslip.errors import InputError
 from macroslip.result.surface_maps import even_energy
 from macroslip.result.variables import described
-from macroslip.study.weights import YEAR, Weights, binned, weighted
+from macroslip.study.aggregation import Aggregation
+from macroslip.study.weights import YEAR, binned, weighted
 from macroslip.study.year import year
 
 #: Variables over the places of the raceways in a result.
 _PLACES = ("row", "raceway", "angle", "station")
 
 
-def lifetime_energy(
-    study: xr.Dataset, weights: Weights, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
-    by: Sequence[str] = (),
-) -> xr.Dataset:  # fmt: skip
+def lifetime_energy(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """Frictional energy of a roller over a lifetime, mean over the rollers of a row.
 
         E = T Σ_b p_b P_b,    P_b = (1/N_b) Σ_{c in b} E_c / t_c
@@ -31,60 +28,59 @@ def lifetime_energy(
     runs and the length t_c of their windows. An event is a bin of its own, whose p_b is the share
     of time that its rate gives it, and wind speeds share the rest. Time outside the bins
     contributes nothing; `covered` is the share of all time in the bins. Raises InputError if a
-    label, a probability or the lifetime is wrong.
+    label or a probability is wrong.
 
     Over (group, row) there is `lifetime_energy` [J], NaN where a bin has no run; over (group, bin,
     row) `power` [W] and `bin_energy` [J], the bin's part of the sum; over (group, bin) `runs`,
     those that were used, and `left_out`, those that failed or are missing; over bin `probability`;
-    and `covered`, their sum. T is in years of 365.25 days, above 0; `field`, `width` and `by` are
-    those of `macroslip.study.weights.binned`.
+    and `covered`, their sum.
 
     Examples
     --------
     One bin that is always there, at 3 W for 20 years:
 
     >>> from macroslip.study.weights import Given
-    >>> one = {name: ("case", ["-"]) for name in ("bearing", "lubricant", "model")}
-    >>> study = xr.Dataset({"energy_mean": (("case", "row"), [[1800.0, 1800.0]]), "window_length": ("case", [600.0])},
-    ...                    one | {"wind_speed": ("case", [12.0], {"units": "m/s"}), "row": ["downwind", "upwind"]})
-    >>> found = lifetime_energy(study, Given({12.0: 1.0}))
-    >>> f"{float(found.lifetime_energy[0, 0]):.4g} J"
+    >>> labels = {name: ("case", ["-"]) for name in ("bearing", "lubricant", "model")}
+    >>> labels["wind_speed"] = ("case", [12.0], {"units": "m/s"})
+    >>> summary = {"energy_mean": (("case", "row"), [[1800.0]]), "window_length": ("case", [600.0])}
+    >>> study = xr.Dataset(summary, labels | {"row": ["downwind"]})
+    >>> life = lifetime_energy(study, Aggregation(Given({12.0: 1.0}), years=20.0))
+    >>> f"{float(life.lifetime_energy[0, 0]):.4g} J"
     '1.893e+09 J'
     """
-    _check_years(years)
-    found = year(study, weights, field=field, width=width, by=by)
+    years = aggregation.years
+    of_year = year(study, aggregation)
     about = f"energy dissipated by a roller in {years:g} years, mean over the rollers of the row"
+    probability = of_year.hours * 3600.0 / YEAR
     data = {
-        "lifetime_energy": (years * found.total).assign_attrs(described("J", about)),
-        "bin_energy": (years * found.energy).assign_attrs(described("J", "part of the bin in it")),
-        "power": (found.per_hour / 3600.0).assign_attrs(
+        "lifetime_energy": (years * of_year.total).assign_attrs(described("J", about)),
+        "bin_energy": (years * of_year.energy).assign_attrs(described("J", "part of the bin")),
+        "power": (of_year.per_hour / 3600.0).assign_attrs(
             described("W", "energy of a roller per time, mean over runs")
         ),
-        "probability": (found.hours * 3600.0 / YEAR).assign_attrs(
-            described("1", "share of time in the bin")
-        ),
+        "probability": probability.assign_attrs(described("1", "share of time in the bin")),
     }
     title = f"Lifetime energy: {study.attrs.get('title', '')}"
-    return (
-        found[["runs", "left_out", "covered"]].assign(data).assign_attrs(title=title, years=years)
-    )
+    counts = of_year[["runs", "left_out", "covered"]]
+    return counts.assign(data).assign_attrs(title=title, years=years)
 
 
 def percentiles(
-    study: xr.Dataset, *, quantiles: Sequence[float] = (0.05, 0.5, 0.95), field: str = "wind_speed", width: float = 2.0,
-    by: Sequence[str] = (),
-) -> xr.Dataset:  # fmt: skip
+    study: xr.Dataset,
+    aggregation: Aggregation = Aggregation(),
+    quantiles: Sequence[float] = (0.05, 0.5, 0.95),
+) -> xr.Dataset:
     """Spread of the runs in each bin, which differ in their seeds.
 
     Over (group, bin, row, quantile), linear between runs (`numpy.quantile`): `power` [W], energy of
     a roller per time, `orbit_energy_mean` [J], `peak_power_mean` and `peak_power_max` [W],
     `lowest_spin_ratio` [1]; and `runs`, over (group, bin). Runs without a value are left out.
-    Arguments are those of `lifetime_energy`; quantiles are from 0 to 1. Raises InputError if a
-    label or a quantile is wrong.
+    Quantiles are from 0 to 1; weights and lifetime have no effect. Raises InputError if a label or
+    a quantile is wrong.
     """
     if not quantiles or not all(0.0 <= quantile <= 1.0 for quantile in quantiles):
         raise InputError(f"the quantiles are {list(quantiles)!r}", allowed="numbers from 0 to 1")
-    bins = binned(study, field, width, by)
+    bins = binned(study, aggregation.field, aggregation.width, aggregation.by)
     names = ("orbit_energy_mean", "peak_power_mean", "peak_power_max", "lowest_spin_ratio")
     power = (study.energy_mean / study.window_length).transpose("case", "row")
     wanted = {
@@ -150,15 +146,12 @@ def worst(
     )
 
 
-def weighted_maps(
-    study: xr.Dataset, weights: Weights, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
-    by: Sequence[str] = (),
-) -> xr.Dataset:  # fmt: skip
+def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """Frictional energy at the places of the raceways over a lifetime, and the largest power per area of all cases.
 
     As `lifetime_energy`, at every place and for every sign of slip and film regime, as if all
-    sectors of a raceway had been passed equally often. Raises InputError if a label, a probability
-    or the lifetime is wrong, or the study has no maps.
+    sectors of a raceway had been passed equally often. Raises InputError if a label or a
+    probability is wrong, or the study has no maps.
 
     `surface_energy` [J] and `surface_power_density` [W/m²] are over group and their dimensions in a
     result, beside `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete
@@ -173,8 +166,8 @@ def weighted_maps(
             remedy="Write laws: {model: physical} and contact_details: true in the case, and leave keep out or add all "
             "three to it.",
         )
-    _check_years(years)
-    bins = binned(study, field, width, by)
+    years = aggregation.years
+    bins = aggregation.bins(study)
     dims = (*_PLACES, "slip_sign", "film_regime")
     largest = np.zeros((len(bins.groups), *(study.sizes[dim] for dim in _PLACES)))
 
@@ -187,7 +180,7 @@ def weighted_maps(
                 largest[group] = np.maximum(largest[group], density)
             yield energy / float(one.window_length)
 
-    found = years * YEAR * weighted(bins.means(rates())[0], bins.probabilities(weights))
+    found = years * YEAR * weighted(bins.means(rates())[0], bins.probabilities(aggregation.weights))
     inner = study.raceway.values.tolist().index("inner")
     found[:, :, inner] = found[:, :, inner].mean(axis=2, keepdims=True)
     largest[:, :, inner] = largest[:, :, inner].max(axis=2, keepdims=True)
@@ -206,11 +199,6 @@ def weighted_maps(
         | {"cell_area": _area(study)},
         {"title": f"Maps of the raceways: {study.attrs.get('title', '')}", "years": years},
     )
-
-
-def _check_years(years: float) -> None:
-    if not (math.isfinite(years) and years > 0.0):
-        raise InputError(f"the lifetime is {years!r} years", allowed="a number above 0")
 
 
 def _area(study: xr.Dataset) -> xr.DataArray:

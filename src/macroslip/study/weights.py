@@ -6,7 +6,7 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import numpy as np
@@ -282,16 +282,6 @@ class Weighting:
             values.append(number)
         events = [load.event for load in loads]
         return Bins.of(values, events, self.width, dict.fromkeys(events, 0.0) | dict(lengths))
-
-
-def weights_in_use(
-    study: xr.Dataset, wind: Weibull | Given | None = None
-) -> tuple[Weights | None, str, float]:
-    """The weights of a study, field and width of its bins: those of its file, with another `wind` in place of its own."""
-    stored = stored_weighting(study)
-    if stored is None:
-        return wind, "wind_speed", 2.0
-    return (replace(stored.year, wind=wind) if wind else stored.year), stored.field, stored.width
 
 
 def stored_weighting(study: xr.Dataset) -> Weighting | None:

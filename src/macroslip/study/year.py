@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,7 +11,8 @@ import xarray as xr
 from macroslip.loads.bundled import EVENTS
 from macroslip.result.criteria import YEARLY
 from macroslip.result.variables import described
-from macroslip.study.weights import CHOICES, YEAR, Weights, binned, weighted
+from macroslip.study.aggregation import Aggregation
+from macroslip.study.weights import CHOICES, YEAR, Binning, weighted
 
 #: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
 LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
@@ -48,122 +48,119 @@ DESIGN_COLUMNS = {
 }
 
 
-def year(
-    study: xr.Dataset,
-    weights: Weights | None,
-    *,
-    field: str = "wind_speed",
-    width: float = 2.0,
-    by: Sequence[str] = (),
-) -> xr.Dataset:
-    """What a year does to each design of a study; without weights all cases count alike, in one bin.
+def year(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
+    """What a year does to each design of a study.
 
-    Lives accumulate by the rule of Palmgren and Miner, 1/L = Σ p_b/L_b, and ranges of damage-equivalent loads, which
-    are at 1 Hz, by S = (Σ p_b S_b^m)^(1/m), both with p_b as share of the time that the cases cover. Raises InputError
-    if a label or a weight is wrong.
+    Without weights all runs count alike, in one bin; the lifetime has no effect. Lives accumulate
+    by the rule of Palmgren and Miner, 1/L = Σ p_b/L_b, and ranges of damage-equivalent loads, which
+    are at 1 Hz, by S = (Σ p_b S_b^m)^(1/m), both with p_b as share of the time that the cases
+    cover. Raises InputError if a label or a weight is wrong.
 
-    Over (group, bin) there are `runs` in the means and `left_out`, those that failed or are missing; over bin `hours`
-    of a year [h]. Over (group, bin, row): `energy` of a mean roller in a year [J], `per_hour` [J], `peak` and
-    `entry_slip`, the largest power [W] and slide-roll ratio at an entry [1] of any run, and the sums of `SUMS`, as far
-    as the results kept what they need; worst places of different bins are added, so `wear` and `pressure_slip` are
-    upper bounds. Over (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the scatter
-    of runs that share a bin; NaN where no bin has two. Over group: the lives [h] and damage-equivalent loads [N]; NaN
-    where a bin of some weight has none. `covered` [1]. Arguments are those of
-    `macroslip.study.lifetime.lifetime_energy`.
+    Over (group, bin) there are `runs` in the means and `left_out`, those that failed or are
+    missing; over bin `hours` of a year [h]. Over (group, bin, row): `energy` of a mean roller in a
+    year [J], `per_hour` [J], `peak` and `entry_slip`, the largest power [W] and slide-roll ratio at
+    an entry [1] of any run, and the sums of `SUMS`, as far as the results kept what they need;
+    worst places of different bins are added, so `wear` and `pressure_slip` are upper bounds. Over
+    (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the
+    scatter of runs that share a bin; NaN where no bin has two. Over group: the lives [h] and
+    damage-equivalent loads [N]; NaN where a bin of some weight has none. `covered` [1].
 
     Examples
     --------
     Half a year with a life of 10 000 h and half with 30 000 h, both on the way to failure:
 
     >>> from macroslip.study.weights import Given
-    >>> two = {name: ("case", ["-", "-"]) for name in ("bearing", "lubricant", "model")}
-    >>> rows = {"energy_mean": (("case", "row"), [[600.0], [1200.0]]), "basic_life": ("case", [1e4, 3e4])}
-    >>> study = xr.Dataset(rows | {"window_length": ("case", [600.0, 600.0])},
-    ...                    two | {"wind_speed": ("case", [8.0, 12.0], {"units": "m/s"}), "row": ["downwind"]})
-    >>> found = year(study, Given({8.0: 0.5, 12.0: 0.5}))
-    >>> found.basic_life.item(), f"{found.total.item():.5g} J"
+    >>> summary = {"energy_mean": (("case", "row"), [[600.0], [1200.0]]),
+    ...            "basic_life": ("case", [1e4, 3e4]), "window_length": ("case", [600.0, 600.0])}
+    >>> labels = {name: ("case", ["-", "-"]) for name in ("bearing", "lubricant", "model")}
+    >>> labels["wind_speed"] = ("case", [8.0, 12.0], {"units": "m/s"})
+    >>> study = xr.Dataset(summary, labels | {"row": ["downwind"]})
+    >>> of_year = year(study, Aggregation(Given({8.0: 0.5, 12.0: 0.5})))
+    >>> of_year.basic_life.item(), f"{of_year.total.item():.5g} J"
     (15000.0, '4.7336e+07 J')
     """
-    bins = binned(study, None if weights is None else field, width, by)
-    share = bins.probabilities(weights)
+    bins = aggregation.bins(study)
+    share = bins.probabilities(aggregation.weights)
+    data = _energies(study, bins, share) | _criteria(study, bins, share)
+    data |= _lives(study, bins, share / share.sum())
+    data["hours"] = ("bin", share * YEAR / 3600.0, described("h", "time in a year"))
+    data["covered"] = ((), share.sum(), described("1", "share of the year in the cases"))
+    coordinates = bins.coordinates(study) | {"row": study.row}
+    return xr.Dataset(data, coordinates, {"weighted": int(aggregation.weights is not None)})
+
+
+def _by_row(study: xr.Dataset, name: str) -> np.ndarray:
+    return study[name].transpose("case", "row").values
+
+
+def _in_a_year(rates: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Sums over a year of rates (group, bin, row); a bin of no weight needs no run."""
     weight = share[:, None]
+    with np.errstate(invalid="ignore"):
+        return np.where(weight > 0.0, YEAR * weight * rates, 0.0)
 
-    def in_a_year(rates: np.ndarray) -> np.ndarray:
-        # A bin of no weight needs no run.
-        with np.errstate(invalid="ignore"):
-            return np.where(weight > 0.0, YEAR * weight * rates, 0.0)
 
-    def by_row(name: str) -> np.ndarray:
-        return study[name].transpose("case", "row").values
-
-    power = by_row("energy_mean") / study.window_length.values[:, None]
+def _energies(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any]:
+    """Energies of a mean roller with their scatter, and numbers of runs."""
+    power = _by_row(study, "energy_mean") / study.window_length.values[:, None]
     mean, runs, left_out = bins.means(power)
     square, _, _ = bins.means(power**2)
-    energy = in_a_year(mean)
-    several = np.asarray(runs > 1)[:, :, None]
+    energy = _in_a_year(mean, share)
+    total = energy.sum(axis=1)
+    several = (runs > 1)[:, :, None]
     with np.errstate(invalid="ignore", divide="ignore"):
         # Variance of a mean of n runs: s²/n, with s² = n/(n − 1) (<P²> − <P>²).
-        variance = np.where(
-            several, np.maximum(square - mean**2, 0.0) / (runs - 1.0)[:, :, None], 0.0
-        )
-        scatter = np.sqrt(
-            (np.where(several, YEAR * weight, 0.0) ** 2 * variance).sum(axis=1)
-        ) / energy.sum(axis=1)
-    scatter[~np.any(several & (weight > 0.0), axis=1)[:, 0]] = np.nan
-    dims = ("group", "bin", "row")
-    data: dict[str, Any] = {
-        "hours": ("bin", share * YEAR / 3600.0, described("h", "time in a year")),
-        "runs": (dims[:2], runs, described("1", "runs of the means")),
-        "left_out": (dims[:2], left_out, described("1", "runs without a result for all rollers")),
-        "energy": (dims, energy, described("J", "energy of a mean roller in a year")),
-        "per_hour": (
-            dims,
-            3600.0 * mean,
-            described("J", "energy of a mean roller in an hour of it"),
-        ),
-        "total": (
-            ("group", "row"),
-            energy.sum(axis=1),
-            described("J", "energy of a mean roller in a year"),
-        ),
-        "scatter": (
-            ("group", "row"),
-            scatter,
-            described("1", "standard error of it by the scatter of runs in a bin"),
-        ),
-        "covered": ((), share.sum(), described("1", "share of the year in the cases")),
+        variance = np.maximum(square - mean**2, 0.0) / (runs - 1.0)[:, :, None]
+        of_total = np.where(several, (YEAR * share[:, None]) ** 2 * variance, 0.0).sum(axis=1)
+        scatter = np.sqrt(of_total) / total
+    scatter[~np.any(several & (share[:, None] > 0.0), axis=1)[:, 0]] = np.nan
+    cells = ("group", "bin")
+    about_hour = described("J", "energy of a mean roller in an hour of it")
+    about_energy = described("J", "energy of a mean roller in a year")
+    about_scatter = described("1", "standard error of it by the scatter of runs in a bin")
+    about_left_out = described("1", "runs without a result for all rollers")
+    return {
+        "runs": (cells, runs, described("1", "runs of the means")),
+        "left_out": (cells, left_out, about_left_out),
+        "energy": ((*cells, "row"), energy, about_energy),
+        "per_hour": ((*cells, "row"), 3600.0 * mean, about_hour),
+        "total": (("group", "row"), total, about_energy),
+        "scatter": (("group", "row"), scatter, about_scatter),
     }
+
+
+def _criteria(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any]:
+    """Sums of criteria over a year, and the largest values of any run."""
+    data: dict[str, Any] = {}
+    dims = ("group", "bin", "row")
     for name, (variable, units, about) in LARGEST.items():
         if variable in study:
-            largest = np.full(mean.shape, np.nan)
-            for cell, value in zip(
-                zip(bins.group, bins.bin, strict=True), by_row(variable), strict=True
-            ):
-                largest[cell] = np.fmax(largest[cell], value)
+            largest = np.full((len(bins.groups), share.size, study.sizes["row"]), np.nan)
+            np.fmax.at(largest, (bins.group, bins.bin), _by_row(study, variable))
             data[name] = (dims, largest, described(units, about))
-    for name, (rate, units, about) in SUMS.items():
-        if rate in study:
-            data[name] = (
-                dims,
-                in_a_year(bins.means(by_row(rate))[0]),
-                described(units, f"{about}: in a year"),
-            )
-    known = share / share.sum()
-    for name in (one for one in LIVES if one in study):
-        with np.errstate(divide="ignore"):
-            damage = weighted(bins.means(1.0 / study[name].values)[0], known)
-            data[name] = (
-                "group",
-                1.0 / damage,
-                described("h", f"{name.replace('_', ' ')}, by Palmgren and Miner"),
-            )
+    for name, (variable, units, about) in SUMS.items():
+        if variable in study:
+            rates = bins.means(_by_row(study, variable))[0]
+            data[name] = (dims, _in_a_year(rates, share), described(units, f"{about}: in a year"))
+    return data
+
+
+def _lives(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any]:
+    """Lives by Palmgren and Miner and damage-equivalent loads, by shares of the time covered."""
+    data: dict[str, Any] = {}
+    for name in LIVES:
+        if name in study:
+            with np.errstate(divide="ignore"):
+                damage = weighted(bins.means(1.0 / study[name].values)[0], share)
+                about = f"{name.replace('_', ' ')}, by Palmgren and Miner"
+                data[name] = ("group", 1.0 / damage, described("h", about))
     for exponent in EXPONENTS:
-        if (name := f"damage_equivalent_load_{exponent}") in study:
-            raised = weighted(bins.means(study[name].values ** exponent)[0], known)
+        name = f"damage_equivalent_load_{exponent}"
+        if name in study:
+            raised = weighted(bins.means(study[name].values ** exponent)[0], share)
             about = f"range of the damage-equivalent radial load at 1 Hz, exponent {exponent}"
             data[name] = ("group", raised ** (1.0 / exponent), described("N", about))
-    coordinates = bins.coordinates(study) | {"row": study.row}
-    return xr.Dataset(data, coordinates, {"weighted": int(weights is not None)})
+    return data
 
 
 def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:

@@ -1,0 +1,47 @@
+"""How the runs of a study are drawn together over a lifetime."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import xarray as xr
+
+from macroslip.errors import InputError
+from macroslip.study.weights import Binning, Given, Weibull, Weights, binned, stored_weighting
+
+
+@dataclass(frozen=True)
+class Aggregation:
+    """How the runs of a study are drawn together over a lifetime.
+
+    Raises InputError if the lifetime is not above 0.
+    """
+
+    weights: Weights | None = None  #: What a year consists of; None: all runs count alike
+    years: float = 20.0  #: Lifetime, years of 365.25 days, above 0
+    field: str = "wind_speed"  #: Label by which runs are sorted into bins, a number
+    width: float = 2.0  #: Width of a bin, in the unit of the field, above 0
+    by: Sequence[str] = ()  #: Further labels that separate groups, as `turbulence`
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.years) and self.years > 0.0):
+            what = f"the lifetime is {self.years!r} years"
+            raise InputError(what, allowed="a number above 0")
+
+    def bins(self, study: xr.Dataset) -> Binning:
+        """Runs by group and bin, as `macroslip.study.weights.binned`; in one bin without weights."""
+        field = None if self.weights is None else self.field
+        return binned(study, field, self.width, self.by)
+
+
+def aggregation_in_use(
+    study: xr.Dataset, wind: Weibull | Given | None = None, years: float = 20.0
+) -> Aggregation:
+    """Weights, field and width of the study's file, with another `wind` in place of its own."""
+    stored = stored_weighting(study)
+    if stored is None:
+        return Aggregation(wind, years)
+    weights = replace(stored.year, wind=wind) if wind else stored.year
+    return Aggregation(weights, years, stored.field, stored.width)
