@@ -7,6 +7,7 @@ import pytest
 
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads
+from macroslip.loads.openfast import gauge_distance, read_channels
 
 
 def _split_text(path):
@@ -429,6 +430,36 @@ def test_text_with_hardly_any_lines(tmp_path, sample_out, lines):
     assert (
         "not an OpenFAST text output" in message if lines < 9 else "at least 2 samples" in message
     )
+
+
+def test_genuine_moments_at_the_strain_gauge_are_those_at_the_hub_when_moved(tmp_path, sample_out):
+    """The model has ShftGagL = 0.99 m; OpenFAST computes both moments."""
+    gauge = _selection(sample_out, lambda name: name[:6] != "LSSTip")
+    read = HubLoads.read(_write_text(tmp_path / "a.out", *gauge), hub_to_output=0.99)
+    plain = HubLoads.read(sample_out)
+    # Four digits of moments up to 1 MN m.
+    assert np.abs(read.moment - plain.moment).max() <= 1.1e3
+    assert gauge_distance(read_channels(sample_out)) == pytest.approx(0.99, abs=1e-5)
+
+
+def test_a_rotor_downwind_of_the_tower_shows_in_its_strain_gauge(tmp_path, sample_out):
+    """There the gauge is upwind of the hub, so that its moment is my − d fz, mz + d fy."""
+    head, names, units, rows = _selection(sample_out, lambda name: True, rows=50)
+    plain = HubLoads.read(sample_out).window(60, 62.45)
+    for row, force, moment in zip(rows, plain.force, plain.moment, strict=True):
+        row[names.index("LSSGagMys")] = f"{(moment[1] - 0.99 * force[2]) / 1e3:.4E}"
+        row[names.index("LSSGagMzs")] = f"{(moment[2] + 0.99 * force[1]) / 1e3:.4E}"
+    path = _write_text(tmp_path / "a.out", head, names, units, rows)
+    _message(path, "0.99 m upwind of the hub", "the rotor is downwind of the tower")
+    # A moment in another unit than it says is no distance.
+    wrong = [
+        {"LSSGagMys": "(N-m)"}.get(name, unit) for name, unit in zip(names, units, strict=True)
+    ]
+    assert gauge_distance(read_channels(_write_text(path, head, names, wrong, rows))) is None
+    # What nobody takes may hold anything.
+    rows[0][names.index("LSSGagMys")] = "**********"
+    read = HubLoads.read(_write_text(tmp_path / "a.out", head, names, units, rows))
+    assert np.array_equal(read.moment, plain.moment)
 
 
 @pytest.mark.parametrize("distance", [-2.0, 20.1, np.nan, np.inf])

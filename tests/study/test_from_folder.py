@@ -1,5 +1,6 @@
 """A study file made from a folder of OpenFAST output."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -99,6 +100,18 @@ def test_files_of_other_kinds_are_left_out_and_named(tmp_path):
     first, second = sorted(remarks)
     assert first.startswith("8mps.MD.out is left out: of the channels needed, RotSpeed, LSShftFxa")
     assert second.startswith("cut.outb is left out: the file is cut off")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="names are bytes on Unix")
+def test_what_is_no_file_and_names_that_are_no_text(tmp_path):
+    _output(tmp_path / "runs" / "8mps.out")
+    (tmp_path / "runs" / "folder.outb").mkdir()
+    os.mkfifo(tmp_path / "runs" / "pipe.outb")
+    (tmp_path / "runs" / "lost.out").symlink_to(tmp_path / "absent")
+    content = (tmp_path / "runs" / "8mps.out").read_bytes()
+    Path(os.fsdecode(os.fsencode(tmp_path) + b"/runs/\xff9mps.out")).write_bytes(content)
+    labels, (remark,) = _labels(tmp_path / "runs")
+    assert list(labels) == ["8mps.out"] and "9mps.out is left out: 'utf-8' codec" in remark
 
 
 def test_folders_with_names_that_mean_something_in_yaml(tmp_path):

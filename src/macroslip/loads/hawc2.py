@@ -67,7 +67,7 @@ _NOT_THE_SHAFT = r"^dll|mbdy|pitch|yaw|blade|teeter|filter|reference|error"
 _SHAFT_BEARING = ("shaft_rot", "shaft|rotor|drive", r"^bea(ring)?[13]\b", "")
 #: Labels of the node at the hub's end of the shaft, and of a node that is none.
 _THE_HUB = "hub|rotor cent(er|re)"
-_NOT_THE_HUB = r"bearing|gear|generator|tower|yaw|nacelle|rear|\bmb\d?\b"
+_NOT_THE_HUB = r"bearing|gear|generator|tower|yaw|nacelle|rear|\bmb\d?\b|\bbrg"
 
 
 class _Channel(NamedTuple):

@@ -26,6 +26,7 @@ The official reader, openfast_io, reads a binary file once it is sure that the f
 from __future__ import annotations
 
 import io
+import math
 import re
 import struct
 from collections.abc import Mapping
@@ -99,6 +100,10 @@ _MEANING = {
     "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating",
 }
 _AGAIN = "Copy the file again, or run OpenFAST again."
+#: Distance of a strain gauge from the hub [m] that is none: text has four digits.
+_SHORT = 0.05
+#: Part of the squares of a change of moments that the distance may leave unexplained.
+_SAME_CHANGE = 0.01
 #: Lines of a text file among which that of the names is searched.
 _LONGEST_HEAD = 100
 _INVALID = (
@@ -139,6 +144,31 @@ def read_channels(path: Path) -> Channels:
     return _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)
 
 
+def gauge_distance(channels: Channels) -> float | None:
+    """Distance [m] of the shaft's strain gauge behind the hub, None without moments at both.
+
+    Between both the moment changes by d x̂ × F, with which d is fitted by least squares. It is
+    OpenFAST's ShftGagL, negative for a rotor downwind of the tower. None as well if the change is
+    another one, as with a channel in another unit than it says.
+    """
+    # What these channels hold must not matter to loads that are read from others.
+    others = Channels(channels.names, channels.units, channels.samples, channels.where)
+    try:
+        fy, fz = others.across(_SHEAR, _ROTATING_SHEAR, FORCE)
+        hub_y, hub_z = others.across(_BENDING, _ROTATING_BENDING, MOMENT)
+        gauge_y, gauge_z = others.across(_GAUGE_BENDING, _ROTATING_GAUGE_BENDING, MOMENT)
+    except InputError:
+        return None
+    if others.missing:
+        return None
+    across = np.concatenate([fz, -fy])
+    change = np.concatenate([gauge_y - hub_y, gauge_z - hub_z])
+    squares = across @ across
+    distance = float(change @ across / squares) if squares > 0.0 else math.nan
+    rest = change - distance * across
+    return distance if rest @ rest < _SAME_CHANGE * (change @ change) else None
+
+
 def is_load_channel(name: str) -> bool:
     """True if loads at the hub may be read from a channel of this name, or from its negative."""
     name = name.lower()
@@ -169,6 +199,15 @@ def loads_from_channels(channels: Channels, *, speed_needed: bool, at_hub: bool 
     channels.raise_if_missing()
     if not channels.has_all(_SHEAR):
         _check_weight(*shear, channels.where)
+    distance = gauge_distance(channels)
+    if distance is not None and distance < -_SHORT:
+        raise InputError(
+            f"the strain gauge on the shaft is {-distance:.3g} m upwind of the hub by the moments "
+            "at both: the rotor is downwind of the tower",
+            where=channels.where,
+            allowed="rotors upwind of the tower",
+            remedy="The statics of the shaft hold for those; give loads on the bearing instead.",
+        )
     return loads | {
         "force": np.column_stack([thrust, *shear]),
         "moment": np.column_stack([torque, *bending]),

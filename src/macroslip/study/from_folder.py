@@ -11,8 +11,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from macroslip.errors import InputError, safe_text
+from macroslip.files import reading
 from macroslip.loads.openfast import loads_from_channels, mean_wind_speed, read_channels
+from macroslip.loads.source_file import DAMAGED
 
 _OUTPUT = (".outb", ".out")
 #: Wind speed in a name: 11.4mps, 12ms, U8, ws_10, wind_speed=6.5; p may stand for the point.
@@ -65,7 +69,9 @@ def study_of_folder(folder: Path, study: Path) -> FolderStudy:
     """
     if not folder.is_dir():
         raise InputError("there is no such folder", where=str(folder), remedy="Check the path.")
-    paths = sorted(path for path in folder.rglob("*") if path.suffix.lower() in _OUTPUT)
+    paths = sorted(
+        path for path in folder.rglob("*") if path.suffix.lower() in _OUTPUT and path.is_file()
+    )
     binary = {path.with_suffix("") for path in paths if path.suffix.lower() == ".outb"}
     rows: list[dict[str, str | float]] = []
     remarks: list[str] = []
@@ -76,14 +82,14 @@ def study_of_folder(folder: Path, study: Path) -> FolderStudy:
         name = path.relative_to(folder).as_posix()
         try:
             name.encode()
-            channels = read_channels(path)
-            loads = loads_from_channels(channels, speed_needed=True)
-            mean = mean_wind_speed(channels)
-        except UnicodeEncodeError:
-            remarks.append(f"{safe_text(name)} is left out: its name is not UTF-8")
-            continue
-        except InputError as problem:
-            remarks.append(f"{safe_text(name)} is left out: {problem.what}")
+            # Numbers that are not finite are reported when the study reads the file.
+            with reading(path, DAMAGED), np.errstate(all="ignore"):
+                channels = read_channels(path)
+                loads = loads_from_channels(channels, speed_needed=True)
+                mean = mean_wind_speed(channels)
+        except (InputError, OSError, UnicodeEncodeError) as problem:
+            reason = problem.what if isinstance(problem, InputError) else str(problem)
+            remarks.append(f"{safe_text(name)} is left out: {safe_text(reason)}")
             continue
         starts.append(float(loads["time"][0]))
         row: dict[str, str | float] = {
