@@ -121,28 +121,17 @@ def test_ratios_that_the_page_on_the_study_quotes(pages):
 
 
 def test_the_readme_quotes_what_the_case_that_init_writes_gives():
-    from dataclasses import replace
+    from macroslip import read_case, simulate
+    from macroslip.cli.run import with_motion
+    from macroslip.report.answer import answer
+    from macroslip.result.damage import lines
+    from macroslip.result.rating import with_rating
 
-    from macroslip import Traces, read_case, simulate
-
-    case = read_case(ROOT / "src" / "macroslip" / "cli" / "case_template.yaml")
-    case = replace(case, traces=Traces(step=0.02), contact_details=False)
-
-    def mean_spin(result):
-        inside = result.sel(
-            time=slice(*(result.attrs[f"window_{end}"] for end in ("start", "end")))
-        )
-        return (inside.spin / inside.spin_pure).mean(("roller", "time"))
-
-    found, full = simulate(case), simulate(replace(case, oil_supply="flooded"))
-    power = found.energy.sum("interface").mean("roller") / (
-        found.attrs["window_end"] - found.attrs["window_start"]
-    )
-    loaded = 100.0 * (found.roller_load > 0.0).mean(("roller", "time"))
-    words = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
-    assert (
-        f"loaded for {loaded[0]:.0f} % of the time, slide by {power[0]:.1f} W each, and slow down to "
-        f"{found.min_spin_ratio[0].min():.2f} of pure rolling at the least; upwind they carry nothing and turn at "
-        f"{mean_spin(found)[1]:.2f} of it on average, {found.min_spin_ratio[1].min():.2f} at the least; with full inlets at "
-        f"{mean_spin(full)[1]:.2f} on average."
-    ) in words
+    case = with_motion(read_case(ROOT / "src" / "macroslip" / "cli" / "case_template.yaml"))
+    result = with_rating(simulate(case), case)
+    criteria, _ = lines(result)
+    sentences = answer(result, criteria)
+    assert len(sentences) == 4
+    assert "\n".join(sentences) in (ROOT / "README.md").read_text(encoding="utf-8")
+    first_run = (ROOT / "docs" / "first-run.md").read_text(encoding="utf-8")
+    assert "\n".join(sentences[:3]) in first_run

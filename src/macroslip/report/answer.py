@@ -133,46 +133,45 @@ def _load(share: float | None) -> str:
 
 def _turning(slip: RowSlip) -> str:
     """How fast the rollers turn, under load and without."""
-    if slip.lowest is None and slip.under_load is None and slip.without_load is None:
-        return (
-            "the shaft stands still or hardly turns, "
-            "so that there is no rolling speed to compare with"
-        )
-    if slip.under_load is None and slip.without_load is None:
-        return f"its slowest roller {_slowest(slip.lowest)}"
     hardly_loaded = slip.under_load is None or (slip.loaded or 0.0) < _HARDLY_LOADED
     if hardly_loaded and slip.without_load is not None:
         low, high = (number(100.0 * ratio, 2) for ratio in slip.without_load)
         skids = ": it skids" if slip.without_load[1] < _SKIDS else ""
         speeds = low if low == high else f"{low} to {high}"
         return f"its rollers turn at {speeds} % of rolling speed{skids}"
+    if slip.under_load is None:
+        return _slowest(slip.lowest)
     below = 100.0 * (1.0 - slip.under_load)
     digits = 1 if abs(below) < 1.0 else 2
     off = f"{number(abs(below), digits)} % {'below' if below >= 0.0 else 'above'}"
-    rolls = abs(below) < 100.0 * _ROLLS
-    speed = (
-        f"at rolling speed ({off} it in the mean)" if rolls else f"{off} rolling speed in the mean"
-    )
+    speed = f"{off} rolling speed in the mean"
+    if abs(below) < 100.0 * _ROLLS:
+        speed = f"at rolling speed ({off} it in the mean)"
     if slip.without_load is None:
         return f"its rollers turn {speed}"
-    return f"loaded rollers turn {speed}, between load zones they {_slowing(slip)}"
-
-
-def _slowest(lowest: float) -> str:
-    """What the slowest roller does."""
-    if lowest < 0.0:
-        return f"turns backwards, at up to {number(-100.0 * lowest, 2)} % of rolling speed"
-    return f"falls to {number(100.0 * lowest, 2)} % of rolling speed"
-
-
-def _slowing(slip: RowSlip) -> str:
-    """What rollers do without load."""
     lowest = slip.without_load[0] if slip.lowest is None else slip.lowest
+    return f"loaded rollers turn {speed}, between load zones they {_slowing(lowest)}"
+
+
+def _slowest(lowest: float | None) -> str:
+    """What the slowest roller does, where no traces tell more."""
+    if lowest is None:
+        return (
+            "the shaft stands still or hardly turns, "
+            "so that there is no rolling speed to compare with"
+        )
+    percent = number(100.0 * abs(lowest), 2)
     if lowest < 0.0:
-        return f"even turn backwards, at up to {number(-100.0 * lowest, 2)} % of it"
-    return (
-        f"{'keep' if lowest > 1.0 - _ROLLS else 'slow down to'} {number(100.0 * lowest, 2)} % of it"
-    )
+        return f"its slowest roller turns backwards, at up to {percent} % of rolling speed"
+    return f"its slowest roller falls to {percent} % of rolling speed"
+
+
+def _slowing(lowest: float) -> str:
+    """What rollers do without load."""
+    percent = number(100.0 * abs(lowest), 2)
+    if lowest < 0.0:
+        return f"even turn backwards, at up to {percent} % of it"
+    return f"{'keep' if lowest > 1.0 - _ROLLS else 'slow down to'} {percent} % of it"
 
 
 def _films(result: xr.Dataset) -> list[str]:

@@ -197,7 +197,7 @@ def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
     """Headline numbers of a result by quantity and unit."""
     hours = (result.attrs["window_end"] - result.attrs["window_start"]) / 3600.0
     energy = result.energy.sum("interface", skipna=False).mean("roller", skipna=False) / hours
-    peak = result.get("window_peak_power", result.get("peak_power"))
+    peak = result["window_peak_power" if "window_peak_power" in result else "peak_power"]
     numbers = {(ENERGY, "J/h"): float(energy.sum(skipna=False))}
     for row in result.row.values.tolist():
         spin = result.min_spin_ratio.sel(row=row).min(skipna=False)

@@ -25,12 +25,12 @@ def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
 
     Takes the table of `macroslip.compare`; the first sentence names the best.
     """
-    energies = comparison[comparison["quantity"] == ENERGY].rename(
+    energies = comparison.loc[comparison["quantity"] == ENERGY].rename(
         columns={"difference [%]": "change", "low [%]": "low", "high [%]": "high"}
     )
     is_known = np.isfinite(energies["value"])
     unknown = ", ".join(energies["design"][~is_known])
-    known = energies[is_known].sort_values("value", kind="stable")
+    known = energies.loc[is_known].sort_values("value", kind="stable")
     if len(known) < 2:
         return [f"The designs cannot be ranked: the energy of {unknown} is not known."]
     if known["value"].iloc[0] == known["value"].iloc[-1]:
@@ -66,9 +66,9 @@ def _better_design(quantity: str, numbers: pd.DataFrame, best: str) -> str:
     if quantity.partition(",")[0].endswith(_MORE_IS_BETTER):
         if quantity.endswith("life"):
             values = values.clip(upper=_LONG_LIFE)
-        is_better = values.max() > (1.0 + _ALIKE) * values[best]
+        is_better = float(values.max()) > (1.0 + _ALIKE) * float(values[best])
         return str(values.idxmax()) if is_better else ""
-    is_better = values.min() < (1.0 - _ALIKE) * values[best]
+    is_better = float(values.min()) < (1.0 - _ALIKE) * float(values[best])
     return str(values.idxmin()) if is_better else ""
 
 

@@ -268,9 +268,9 @@ def _shown(name: str, value: float) -> str:
 def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
     """The first designs of `macroslip.study.year.designs`, which have the least energy."""
     columns = [name for name in _SHOWN if name in table]
-    shown = table.head(most)
+    shown = table.loc[:, columns].head(most)
     rows = []
-    for rank, (group, values) in enumerate(shown[columns].to_dict("index").items(), start=1):
+    for rank, (group, values) in enumerate(shown.to_dict("index").items(), start=1):
         name = names[int(group)]
         cells = (_shown(column, float(value)) for column, value in values.items())
         rows.append((f"{rank} {name}" if name else "the study", *cells))
