@@ -139,7 +139,7 @@ def _imposed_orbits(
             if not left or enlargement == _ENLARGED:
                 break
             ready = replace(ready, box=larger(ready.box))
-    return to_dataset(ready, wanted, results, report or TableReport(0.0, 0.0, 0, 0.0))
+    return to_dataset(ready, wanted, results, report or TableReport(0.0, 0.0, 0))
 
 
 def _finished(pending: set, progress: Callable | None, done: int, total: int):
