@@ -24,7 +24,8 @@ def main() -> None:
         for name in ("stdout", "stderr"):
             stream = getattr(sys, name)
             if isinstance(stream, io.TextIOWrapper):
-                # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
+                # Output to a file or a pipe is encoded by Windows in a way that lacks most
+                # characters.
                 stream.reconfigure(errors="backslashreplace")
                 if os.name == "posix" and not stream.isatty():
                     patient = io.TextIOWrapper(
@@ -43,7 +44,8 @@ def main() -> None:
             warnings.simplefilter("ignore", RuntimeWarning)
         from macroslip.machine import safe_path
 
-        # Processes that are started here and get their path from this one do not get the current folder either.
+        # Processes that are started here and get their path from this one do not get the current
+        # folder either.
         sys.path[:] = safe_path(sys.path)
         from macroslip.cli.commands import app
 

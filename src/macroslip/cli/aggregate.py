@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from macroslip.cli.options import AsJson, By, Quiet, Weibull
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError, safe_text
 from macroslip.storage.files import check_not_input, check_regular
@@ -31,12 +32,7 @@ def aggregate(
             help="The folder for the tables; those of the same names are replaced.",
         ),
     ],
-    weibull: Annotated[
-        tuple[float, float] | None,
-        typer.Option(
-            help="Scale [m/s] and shape of the distribution of the wind speed, in place of the study file's."
-        ),
-    ] = None,
+    weibull: Weibull = None,
     probabilities: Annotated[
         Path | None,
         typer.Option(help="CSV table with the columns bin and probability, instead of --weibull."),
@@ -51,17 +47,10 @@ def aggregate(
     width: Annotated[
         float | None, typer.Option(help="Width of a bin [unit of the label]; else 2.")
     ] = None,
-    by: Annotated[
-        list[str] | None,
-        typer.Option(help="A further label to keep apart; may be given several times."),
-    ] = None,
+    by: By = None,
     form: Annotated[str, typer.Option("--format", help="csv or parquet.")] = "csv",
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the lifetime table and the files as JSON.")
-    ] = False,
-    quiet: Annotated[
-        bool, typer.Option("--quiet", help="Show nothing but errors, each on one line.")
-    ] = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
 ) -> None:
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
     from macroslip.study.aggregation import aggregation_in_use

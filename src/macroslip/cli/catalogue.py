@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, overload
 
 import typer
 
 from macroslip.cli.failure import command
 from macroslip.cli.needs import PICTURE, require
+from macroslip.cli.options import AsJson, Force
 from macroslip.cli.printing import print_json, print_table
 from macroslip.errors import InputError
 from macroslip.storage.files import check_new_file, new_file
@@ -22,9 +23,15 @@ if TYPE_CHECKING:
 _BASE = "skf-240-600-bc"
 _DRAWINGS = (".svg", ".pdf", ".png")
 
-AsJson = Annotated[bool, typer.Option("--json", help="Print it as JSON.")]
-Force = Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")]
 NameOrFile = Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")]
+
+
+@overload
+def si(option: str, text: str, dimension: Dimension) -> float: ...
+
+
+@overload
+def si(option: str, text: str | None, dimension: Dimension) -> float | None: ...
 
 
 def si(option: str, text: str | None, dimension: Dimension) -> float | None:
@@ -188,8 +195,9 @@ def _estimate_bearing(
 ) -> None:
     """Estimate the inside of a bearing from its maker's page, and write a bearing file.
 
-    Dimensions that the page leaves open are sampled within usual proportions. The file holds the median of every inner
-    dimension and the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
+    Dimensions that the page leaves open are sampled within usual proportions. The file holds the
+    median of every inner dimension and the range in which four out of five samples lie. It is an
+    estimate, not the maker's drawing.
     """
     from macroslip.bearing.estimate import MakersPage, estimate_bearing
     from macroslip.input.units import FORCE, LENGTH, MASS
@@ -253,7 +261,8 @@ def _numbers(found: EstimatedBearing) -> dict[str, Any]:
     from macroslip import Bearing
     from macroslip.bearing.load_ratings import dynamic_load_rating
 
-    bearing, ratio = found.bearing, None
+    bearing = found.bearing
+    ratio = None
     published = bearing.dynamic_load_rating
     if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
         roller = (bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length)
@@ -338,14 +347,12 @@ def _estimate_lubricant(
     force: Force = False,
 ) -> None:
     """Write a lubricant file from two viscosities and the base oil; estimates have the tag E and a range."""
-    from macroslip.input.units import KINEMATIC_VISCOSITY as VISCOSITY
-    from macroslip.input.units import parse_quantity
+    from macroslip.input.units import KINEMATIC_VISCOSITY
     from macroslip.lubricant.estimate import estimate_lubricant
 
-    at_40, at_100 = (
-        parse_quantity(text, VISCOSITY, key) for text, key in ((v40, "--v40"), (v100, "--v100"))
-    )
-    oil = estimate_lubricant(VISCOSITY.to_si(*at_40), VISCOSITY.to_si(*at_100), base, name)
+    at_40 = si("--v40", v40, KINEMATIC_VISCOSITY)
+    at_100 = si("--v100", v100, KINEMATIC_VISCOSITY)
+    oil = estimate_lubricant(at_40, at_100, base, name)
     if output is None:
         typer.echo(oil.as_yaml(), nl=False)
         return
@@ -354,7 +361,8 @@ def _estimate_lubricant(
     typer.echo(f"written: {output}\nshow it: macroslip lubricant show {output}")
 
 
-bearing, lubricant = _catalogue("bearing"), _catalogue("lubricant")
+bearing = _catalogue("bearing")
+lubricant = _catalogue("lubricant")
 command(bearing, _estimate_bearing, "estimate")
 command(bearing, _init, "init")
 command(bearing, _draw, "draw")

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.needs import FIGURES, require
+from macroslip.cli.options import AsJson, By, Force, Quiet
 from macroslip.storage.files import check_new_file, new_file
 
 PAGE = "comparison.html"
@@ -20,12 +21,7 @@ def compare(
             help="Two files that `macroslip run` wrote, or more; or the folder of one study."
         ),
     ],
-    by: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Of a study: a label that distinguishes designs, bearing; may be given several times."
-        ),
-    ] = None,
+    by: By = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -33,11 +29,9 @@ def compare(
         ),
     ] = None,
     title: Annotated[str, typer.Option("--title", help="Heading of the page.")] = "",
-    force: Annotated[bool, typer.Option("--force", help="Replace the page if it exists.")] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print numbers, notes and ranking as JSON.")
-    ] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
+    force: Force = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
 ) -> None:
     """Compare results, or the designs of a study: what differs, the numbers side by side, and which is better."""
     require(FIGURES)

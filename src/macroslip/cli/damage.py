@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from macroslip.cli.options import AsJson
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def damage(
             help="Threshold of your own, 'entry_flash_temperature=120 K, our rig'. Repeatable."
         ),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Criteria of damage by slip: smearing, friction energy, micropitting, wear, each with what it is compared with."""
     from macroslip.cli.catalogue import si

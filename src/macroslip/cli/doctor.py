@@ -5,17 +5,18 @@ from __future__ import annotations
 import importlib.metadata
 import re
 from collections.abc import Iterator
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
+from macroslip.cli.options import AsJson
 from macroslip.cli.printing import print_json, print_table
 
 _OF_THE_MACHINE = ("python", "system", "processor", "cores")
 
 
 def doctor(
-    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Show versions, the folder of kernels and tables, and packages missing for a command."""
     import macroslip

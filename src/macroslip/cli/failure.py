@@ -24,7 +24,8 @@ INTERRUPTED = 130
 CASES_FAILED = ROLLERS_FAILED
 #: Beginning of the message of dask about a file of settings that it cannot read.
 _OF_DASK = "A dask config file at "
-#: Time after which a lost interrupt is raised again [s]: the finalizer or callback has ended by then.
+#: Time after which a lost interrupt is raised again [s]: the finalizer or callback has ended by
+#: then.
 _AGAIN = 0.05
 MEMORY = "Use shorter loads, fewer rollers or no traces."
 

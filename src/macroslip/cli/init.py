@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from macroslip.cli.options import Force
 from macroslip.storage.files import check_new_file, new_file
 
 
@@ -22,7 +23,8 @@ class Example(StrEnum):
     LAWS = "laws"
 
 
-#: The files of each example: the first takes the name that the user gives, the others are written beside it.
+#: The files of each example: the first takes the name that the user gives, the others are written
+#: beside it.
 _FILES = {
     Example.CASE: ("macroslip.cli/case_template.yaml",),
     Example.STUDY: ("examples/study.yaml",),
@@ -52,7 +54,7 @@ def init(
             help="What to write; `laws` also writes own_film.py and own_law.py beside the file."
         ),
     ] = Example.CASE,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+    force: Force = False,
 ) -> None:
     """Write a case file with every key explained, or another example."""
     first, *others = _FILES[example]
@@ -74,7 +76,8 @@ def _text(name: str) -> str:
     package, _, inside = name.partition("/")
     if package != "examples":
         return resources.files(package).joinpath(inside).read_text(encoding="utf-8")
-    # A wheel has the examples beside this module; a clone has them at its root, where people look for them.
+    # A wheel has the examples beside this module; a clone has them at its root, where people look
+    # for them.
     here = Path(__file__)
     folder = here.with_name("examples")
     return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_text(

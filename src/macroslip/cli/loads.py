@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.catalogue import AsJson, si
+from macroslip.cli.catalogue import si
 from macroslip.cli.failure import command, to_stderr
 from macroslip.cli.needs import PICTURE, require
+from macroslip.cli.options import AsJson, Force
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError
 from macroslip.storage.files import check_new_file, new_file
@@ -81,9 +82,7 @@ def inspect(
         Path | None,
         typer.Option("--output", "-o", help="A picture of the loads to write: .png, .svg or .pdf."),
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help="Replace the picture if it exists.")
-    ] = False,
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""

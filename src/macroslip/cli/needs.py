@@ -47,7 +47,8 @@ def missing_packages(need: Need) -> list[str]:
 def require(*needs: Need) -> None:
     """Refuse a use of the program whose packages are not all installed, or whose figures cannot be drawn.
 
-    Raises MacroslipError with the packages and the line that installs them, or with what keeps Matplotlib from starting.
+    Raises MacroslipError with the packages and the line that installs them, or with what keeps
+    Matplotlib from starting.
     """
     for need in needs:
         if lacking := ", ".join(missing_packages(need)):

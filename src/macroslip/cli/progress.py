@@ -14,8 +14,8 @@ DELAY = 1.0
 def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | None]:
     """Show a bar on standard error while the block runs, if that is a terminal and it takes more than a moment.
 
-    Gives a function to be called as `report(label, done, total)`, each label with a bar of its own; None if it is quiet or
-    nothing is shown.
+    Gives a function to be called as `report(label, done, total)`, each label with a bar of its own;
+    None if it is quiet or nothing is shown.
     """
     from rich.console import Console
 

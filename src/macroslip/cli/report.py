@@ -10,6 +10,7 @@ import typer
 from macroslip.cli.compare import compare
 from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
 from macroslip.cli.needs import FIGURES, require
+from macroslip.cli.options import Force, Quiet, Weibull
 from macroslip.errors import InputError
 from macroslip.storage.files import check_new_file, new_file
 
@@ -35,14 +36,9 @@ def report(
         str | None,
         typer.Option("--title", help="Heading of the page; the title of a study if not given."),
     ] = None,
-    weibull: Annotated[
-        tuple[float, float] | None,
-        typer.Option(
-            help="Of a study: scale [m/s] and shape of the distribution of the wind speed."
-        ),
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace the page if it exists.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
+    weibull: Weibull = None,
+    force: Force = False,
+    quiet: Quiet = False,
 ) -> None:
     """Make one self-contained HTML page on results."""
     require(FIGURES)

@@ -13,6 +13,7 @@ import typer
 
 from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
+from macroslip.cli.options import AsJson, Force, Quiet, Threads
 from macroslip.cli.printing import plain_console, print_json, print_table
 from macroslip.errors import InputError, safe_text
 from macroslip.storage.files import check_new_file, new_file
@@ -44,9 +45,7 @@ def study(
     scheduler: Annotated[
         str | None, typer.Option(help="Use the workers of this Dask scheduler.")
     ] = None,
-    threads: Annotated[
-        int | None, typer.Option(min=1, help="Threads over the rollers of a case.")
-    ] = None,
+    threads: Threads = None,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on where an earlier run ended.")
     ] = False,
@@ -58,21 +57,15 @@ def study(
         ),
     ] = False,
     strict: Annotated[bool, typer.Option("--strict", help="Stop at the first failure.")] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the summary, or the dry run, as JSON.")
-    ] = False,
-    quiet: Annotated[
-        bool, typer.Option("--quiet", help="Show failures only, each error on one line.")
-    ] = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
     from_folder: Annotated[
         Path | None,
         typer.Option(
             help="Write the study file for all OpenFAST output in this folder; compute nothing."
         ),
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help="With --from-folder, replace the file if it exists.")
-    ] = False,
+    force: Force = False,
 ) -> None:
     """Compute all cases of a study; a failed one does not stop it."""
     if from_folder is not None:

@@ -1,7 +1,8 @@
 """Checked fields: the form of a value in a file and in Python, declared once as the annotation of a field.
 
-`tilt: Annotated[float, Quantity("shaft tilt", ANGLE, -0.3, 0.3)]`. In a file a quantity is text with its unit; in Python
-it is a number in SI units. Range, message and JSON Schema follow from the same declaration, in sections and records.
+`tilt: Annotated[float, Quantity("shaft tilt", ANGLE, -0.3, 0.3)]`. In a file a quantity is text
+with its unit; in Python it is a number in SI units. Range, message and JSON Schema follow from the
+same declaration, in sections and records.
 """
 
 from __future__ import annotations
@@ -53,7 +54,8 @@ class Given:
     ranges: bool = True
     #: Values of the fields before it in the same section.
     before: Mapping[str, Any] = field(default_factory=dict)
-    #: For a record, whose values are in SI whatever was written: number with unit, and unit, as written, by key.
+    #: For a record, whose values are in SI whatever was written: number with unit, and unit, as
+    #: written, by key.
     written: Mapping[str, tuple[str, str]] | None = None
 
     def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Given:
@@ -61,7 +63,9 @@ class Given:
         return Given(self.place.inside(key), self.in_file, self.ranges, before or {}, self.written)
 
 
-PYTHON, IN_FILE, FORM_ONLY = Given(), Given(in_file=True), Given(in_file=True, ranges=False)
+PYTHON = Given()
+IN_FILE = Given(in_file=True)
+FORM_ONLY = Given(in_file=True, ranges=False)
 
 
 @dataclass(frozen=True)
@@ -120,7 +124,8 @@ class Quantity(Form):
                 number, unit = parse_quantity(value, self.dimension)
             except InputError as problem:
                 raise InputError(problem.what, allowed=self.form, remedy=problem.remedy) from None
-            si_value, written = self.dimension.to_si(float(number), unit), str(value)
+            si_value = self.dimension.to_si(float(number), unit)
+            written = str(value)
         else:
             si_value = self._number(value, given)
             written, unit = (given.written or {}).get(given.place.key, (f"{si_value!r}", unit))
@@ -172,11 +177,9 @@ class Quantity(Form):
         >>> Quantity("ratio", NUMBER, 0.9, 1.0, above=True, below=True).range_text()
         'above 0.9 and below 1'
         """
-        ends, unit = (self.lowest, self.highest), unit or self.dimension.si_unit
-        texts = [self.dimension.text(end, unit) if math.isfinite(end) else "" for end in ends]  # pyright: ignore[reportArgumentType]
-        low, high = (
-            re.sub(r"e([+-])0*", lambda found: f"e{found[1].strip('+')}", end) for end in texts
-        )
+        unit = unit or self.dimension.si_unit
+        low = self._end_text(self.lowest, unit)
+        high = self._end_text(self.highest, unit)
         if not high:
             return f"a number {'above' if self.above else 'from'} {low}"
         low = low.partition(" ")[0]
@@ -185,6 +188,13 @@ class Quantity(Form):
         else:
             text = f"above {low}, up to {high}" if self.above else f"{low} to {high}"
         return f"{'a whole number, ' if self.whole else ''}{text}{self.note}"
+
+    def _end_text(self, end: Any, unit: str) -> str:
+        """End of the range [SI] in a unit; empty if it is infinite."""
+        if not math.isfinite(end):
+            return ""
+        text = self.dimension.text(end, unit)
+        return re.sub(r"e([+-])0*", lambda match: f"e{match[1].strip('+')}", text)
 
     def json(self) -> dict[str, Any]:
         """Text of the form number and unit, or a word; a plain number where there is no unit."""

@@ -21,8 +21,8 @@ from macroslip.errors import InputError
 from macroslip.input.messages import shown
 from macroslip.storage.files import SPECIAL, is_special
 
-# A bearing file has 6 kB, 250 nodes and 2 levels. Some thousand nodes parse in a second; YAML without bounds can
-# describe a file of any size in a few lines.
+# A bearing file has 6 kB, 250 nodes and 2 levels. Some thousand nodes parse in a second; YAML
+# without bounds can describe a file of any size in a few lines.
 MOST_BYTES = 200_000
 MOST_NODES = 10_000
 MOST_LEVELS = 20
@@ -94,8 +94,8 @@ def read_text(
 ) -> str:
     """Read a text file that a user has named, whatever the name leads to: a pipe or a device would never end.
 
-    Raises InputError if it cannot be read, in the words given, such as "the case file cannot be read"; if it is no
-    regular file, is longer than `MOST_BYTES`, or is not UTF-8.
+    Raises InputError if it cannot be read, in the words given, such as "the case file cannot be
+    read"; if it is no regular file, is longer than `MOST_BYTES`, or is not UTF-8.
     """
 
     def unreadable(reason: str) -> InputError:
@@ -132,8 +132,9 @@ def parse(
 ) -> tuple[dict[Any, Any], Source]:
     """Parse the text of an input file.
 
-    Gives plain Python data and the line of every key. Raises InputError if the text is not YAML, a key is given twice, the
-    file is not one mapping, for which `remedy` is the advice, or it is too long or too deep.
+    Gives plain Python data and the line of every key. Raises InputError if the text is not YAML, a
+    key is given twice, the file is not one mapping, for which `remedy` is the advice, or it is too
+    long or too deep.
     """
 
     def not_yaml(problem: str, where: str) -> InputError:
@@ -150,9 +151,11 @@ def parse(
     except MarkedYAMLError as error:
         where = f"{file}, line {error.problem_mark.line + 1}" if error.problem_mark else file
         if isinstance(error, DuplicateKeyError):
-            what, allowed = str(error.problem).split(" with value ")[0], "every key once"
             raise InputError(
-                what, where=where, allowed=allowed, remedy="Delete one of the two."
+                str(error.problem).split(" with value ")[0],
+                where=where,
+                allowed="every key once",
+                remedy="Delete one of the two.",
             ) from None
         raise not_yaml(
             " ".join(str(part) for part in (error.context, error.problem) if part), where
@@ -162,7 +165,8 @@ def parse(
     except TypeError:  # a key cannot be looked up
         raise not_yaml("a key is a mapping of mappings", file) from None
     if not isinstance(data, CommentedMap):
-        # Not its content: the file may be another one than was meant, and nothing for others to see.
+        # Not its content: the file may be another one than was meant, and nothing for others to
+        # see.
         what = f"the file holds {_KINDS.get(type(data), 'text or a number')}"
         raise InputError(what, where=file, allowed="a mapping of keys to entries", remedy=remedy)
     return _plain(data), Source(file, dict(_lines(data)))
@@ -247,7 +251,8 @@ def yaml_text(entries: Mapping[str, Any], header: str, explained: Mapping[str, s
         if isinstance(entry, Mapping):
             entry = CommentedMap({name: _quoted(name, value) for name, value in entry.items()})
             entry.fa.set_flow_style()
-        writer, out = YAML(typ="rt", pure=True), StringIO()
+        writer = YAML(typ="rt", pure=True)
+        out = StringIO()
         writer.width = 2**30  # never wrap
         writer.default_flow_style = False
         writer.dump(CommentedMap({key: _quoted(key, entry)}), out)

@@ -10,8 +10,10 @@ from typing import Any
 
 from macroslip.errors import InputError
 
-#: Problems that one message lists, and letters after which it lists no more.
-MOST_PROBLEMS, MOST_LETTERS = 20, 12_000
+#: Problems that one message lists.
+MOST_PROBLEMS = 20
+#: Letters after which it lists no more.
+MOST_LETTERS = 12_000
 
 
 def shown(value: object) -> str:
@@ -59,7 +61,8 @@ def unknown_key(
 ) -> InputError:
     """The error for a key that does not exist, with the closest key that does.
 
-    `where` is file and line, `inside` the key of the section that contains it, empty at the top level.
+    `where` is file and line, `inside` the key of the section that contains it, empty at the top
+    level.
 
     Examples
     --------

@@ -61,8 +61,8 @@ class Provenance:
     unit: str  #: Unit as written
     tag: str = "U"  #: One of `TAGS`
     note: str = ""  #: Free text
-    #: Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
-    #: nothing is known of its scatter.
+    #: Values that the quantity may have as well, lowest and highest [unit]: four out of five lie
+    #: between them. None if nothing is known of its scatter.
     range: tuple[float, float] | None = None
 
     def as_entry(self) -> dict[str, Any]:
@@ -120,8 +120,11 @@ class _Unit(Choice):
 
     def read(self, value: Any, given: Given) -> str:
         if self.names() == ["1"] and value != "1":
-            what, remedy = f"{shown(value)} does not exist", "Write it with its quotes."
-            raise InputError(what, allowed='"1"', remedy=remedy)
+            raise InputError(
+                f"{shown(value)} does not exist",
+                allowed='"1"',
+                remedy="Write it with its quotes.",
+            )
         return super().read(value, given)
 
 
@@ -145,13 +148,15 @@ def _entry(dimension: Dimension, whole: bool = False) -> Section:
 class _Entry(Form):
     """A quantity in a catalogue file, read as its provenance; whether the value is in its range is checked later.
 
-    It is text of number and unit, a plain number where the quantity has no unit, or a mapping as `_entry` has it.
+    It is text of number and unit, a plain number where the quantity has no unit, or a mapping as
+    `_entry` has it.
     """
 
     quantity: Quantity
 
     def read(self, value: Any, given: Given) -> Provenance:
-        dimension, key = self.quantity.dimension, given.place.keys[-1]
+        dimension = self.quantity.dimension
+        key = given.place.keys[-1]
         if isinstance(value, str):
             return Provenance(*parse_quantity(value, dimension))
         if dimension is NUMBER and is_finite_number(value):
@@ -186,15 +191,17 @@ def read_entry(
 class Record:
     """A named set of quantities that can be read from a catalogue file or built from SI numbers.
 
-    A subclass declares every quantity as `Annotated[float, Quantity(...)]` with its range in SI, and keeps its shipped
-    files in the folder `catalogue` of its own package. Raises InputError if a value is missing, unknown, no finite
-    number, out of its range, or inconsistent with the others. All such problems are reported together.
+    A subclass declares every quantity as `Annotated[float, Quantity(...)]` with its range in SI,
+    and keeps its shipped files in the folder `catalogue` of its own package. Raises InputError if a
+    value is missing, unknown, no finite number, out of its range, or inconsistent with the others.
+    All such problems are reported together.
     """
 
     noun: ClassVar[str] = "record"
     # Quantities that may be left out of a file because they follow from others, and those others.
     sources: ClassVar[Mapping[str, tuple[str, ...]]] = {}
-    # Sections that files have: their meaning; the key `second` inside `out_of_round` is the field `out_of_round_second`.
+    # Sections that files have: their meaning; the key `second` inside `out_of_round` is the field
+    # `out_of_round_second`.
     sections: ClassVar[Mapping[str, str]] = {}
     name: str
     title: str
@@ -212,7 +219,8 @@ class Record:
         source: Source,
         derived: frozenset[str] = frozenset(),
     ) -> None:
-        fields, kinds = fields_of(type(self)), dimensions(type(self))
+        fields = fields_of(type(self))
+        kinds = dimensions(type(self))
         units = {key: kinds[key].si_unit for key in values if key in kinds}
         written = {key: (with_unit(values[key], unit), unit) for key, unit in units.items()}
         written |= {key: (origin.written, origin.unit) for key, origin in provenance.items()}
@@ -298,10 +306,12 @@ class Record:
     def read(cls, source: str | PathLike[str]) -> Self:
         """Read a shipped record or a file of the user's, to SI units.
 
-        Raises InputError if there is no such file or name, or the content is wrong; the message names file, line and
-        key. `source` is a name from `catalogue()`, which wins over a file of the same name, or the path of a YAML file.
+        Raises InputError if there is no such file or name, or the content is wrong; the message
+        names file, line and key. `source` is a name from `catalogue()`, which wins over a file of
+        the same name, or the path of a YAML file.
         """
-        name, names = fspath(source), cls.catalogue()
+        name = fspath(source)
+        names = cls.catalogue()
         if name in names:
             return _shipped_record(cls, name)
         text = read_text(
@@ -318,11 +328,16 @@ class Record:
 
         `source` says where it was written, for messages.
         """
-        source, fields = source or Source(), _in_file(cls)
+        source = source or Source()
+        fields = _in_file(cls)
         if entries and not entries.keys() & fields.keys():
             # Another kind of file: its keys may be private and are left out of the message.
-            what, remedy = f"none of its keys is one of a {cls.noun}", f"Name a {cls.noun} file."
-            raise InputError(what, where=source.file, allowed=", ".join(fields), remedy=remedy)
+            raise InputError(
+                f"none of its keys is one of a {cls.noun}",
+                where=source.file,
+                allowed=", ".join(fields),
+                remedy=f"Name a {cls.noun} file.",
+            )
         # What is missing is told later: it may follow from what is there.
         optional = {key: one._replace(is_required=False) for key, one in fields.items()}
         found, problems = read_keys(optional, entries, Given(Place(source), in_file=True))
@@ -360,7 +375,7 @@ class Record:
         >>> bearing.require("mass", purpose="the cage")  # doctest: +ELLIPSIS
         Traceback (most recent call last):
             ...
-        macroslip.errors.InputError: bearing mine: it has no mass, which the cage needs. Allowed: ...
+        macroslip.errors.InputError: bearing mine: it has no mass, which the cage needs. ...
         """
         missing = [key for key in keys if getattr(self, key) is None]
         if missing:
@@ -379,10 +394,11 @@ class Record:
     def as_dict(self) -> dict[str, Any]:
         """Give the record in the form of a catalogue file, with plain numbers and text only.
 
-        Quantities without a value, and those that follow from others, are left out. `from_dict` makes an equal record
-        of it.
+        Quantities without a value, and those that follow from others, are left out. `from_dict`
+        makes an equal record of it.
         """
-        origins, kinds = self.provenance, dimensions(type(self))
+        origins = self.provenance
+        kinds = dimensions(type(self))
         given = [key for key in fields_of(type(self)) if key in origins or key not in kinds]
         given = [key for key in given if key not in self._derived]
         return self._nested(
@@ -442,7 +458,8 @@ def fields_of(record: type[Record]) -> Fields:
     found = {}
     for key, hint in get_type_hints(record, include_extras=True).items():
         if hasattr(hint, "__metadata__"):
-            required, others = not hasattr(record, key), " and ".join(record.sources.get(key, ()))
+            required = not hasattr(record, key)
+            others = " and ".join(record.sources.get(key, ()))
             remedy = (
                 f"Add it, or the figures of a data sheet from which it follows: {others}."
                 if others

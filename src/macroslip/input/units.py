@@ -1,6 +1,7 @@
 """Units of files and options, their conversion to SI, and quantities written as text: "75 mm".
 
-A value is converted as the decimal number that was typed and rounded once, so 70 mm is exactly the float 0.07.
+A value is converted as the decimal number that was typed and rounded once, so 70 mm is exactly the
+float 0.07.
 """
 
 from __future__ import annotations
@@ -193,7 +194,8 @@ def parse_quantity(
             f"{what} is {shown(given)}, which {why}", where=where, allowed=allowed, remedy=remedy
         )
 
-    # The text after the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
+    # The text after the number must not be more of it; a unit may begin with a digit, as 1/GPa
+    # does.
     match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,]|$)\s*(?P<unit>.*?)\s*", text)
     if match is None:
         example = f"Write {with_unit(1, dimension.si_unit)}, for example."

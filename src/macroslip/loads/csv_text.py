@@ -1,8 +1,9 @@
 """Tables of text (CSV) as different programs write them: encoding, header, separator, number format.
 
 Encoding: UTF-8, UTF-16 with its mark, or else Latin-1. Above the header may stand comment lines
-(``#`` or ``%``), blank lines and the line ``sep=;``; below it a line of units. Columns are separated
-by commas, semicolons or tabs. The columns that are asked for have to be numbers, others need not.
+(``#`` or ``%``), blank lines and the line ``sep=;``; below it a line of units. Columns are
+separated by commas, semicolons or tabs. The columns that are asked for have to be numbers, others
+need not.
 """
 
 from __future__ import annotations
@@ -106,7 +107,8 @@ class CsvTable:
             if (cell := _first(column, f"{re.escape(mark)}.*")) is not None
         }
         if len(examples) == 2:
-            (name, cell), (other_name, other_cell) = examples["."], examples[","]
+            name, cell = examples["."]
+            other_name, other_cell = examples[","]
             raise self._ambiguous(
                 f"column {name} holds '{cell}' with a point and "
                 f"column {other_name} holds '{other_cell}' with a comma",
@@ -192,7 +194,7 @@ def _remedy(wrong: str) -> str:
 
 
 def _first(column: pa.ChunkedArray, pattern: str, *, matches: bool = True) -> str | None:
-    """First cell with a part that the pattern finds or, with `matches=False`, that it is not all of."""
+    """First cell that is of the pattern, or with `matches=False` that is not."""
     import pyarrow.compute as pc
 
     whole = pattern if pattern.endswith(".*") else f"^(?:{pattern})$"
@@ -228,7 +230,8 @@ def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
         second_row = _cells(below_units.lstrip("\n").partition("\n")[0], separator)
         if len(cells) <= len(names) and any(map(_is_number, second_row)):
             names = [*map(_with_unit, names, cells), *names[len(cells) :]]
-            rows, cells = below_units, second_row
+            rows = below_units
+            cells = second_row
     if cells:
         names = _fitted(names, cells)
     return CsvTable(
@@ -261,8 +264,8 @@ def _is_number(cell: str) -> bool:
 def _with_unit(name: str, unit: str) -> str:
     """Name of a column with the unit below it, unless the name has this unit already."""
     unit = unit.strip("[]() ")
-    plain_name, plain_unit = (re.sub(r"[\W_]", "", text) for text in (name, unit))
-    return name if plain_name.endswith(plain_unit) else f"{name} [{unit}]"
+    plain_unit = re.sub(r"[\W_]", "", unit)
+    return name if re.sub(r"[\W_]", "", name).endswith(plain_unit) else f"{name} [{unit}]"
 
 
 def _fitted(names: list[str], row: list[str]) -> list[str]:
