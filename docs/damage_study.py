@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from macroslip import Bearing, Case, HubLoads, Laws, bundled_cases, simulate
+from macroslip.constants import YEAR
 from macroslip.result.criteria import CRITERIA
-from macroslip.result.criteria.evaluation import YEAR
 from macroslip.result.damage import damage
 
 ROLLERS = [0, 9, 18]

@@ -3,8 +3,16 @@
 #: Acceleration of free fall [m/s²].
 GRAVITY = 9.81
 
-#: 0 °C [K], and hours of a mean year.
-ZERO_CELSIUS, HOURS_A_YEAR = 273.15, 8766.0
+#: 0 °C [K].
+ZERO_CELSIUS = 273.15
+
+#: A mean year of 365.25 days [s].
+YEAR = 365.25 * 86400.0
+#: The same [h].
+HOURS_A_YEAR = YEAR / 3600.0
+
+#: Sectors into which maps divide the orbit of a roller and the circumference of a raceway, of 5° each.
+SECTORS = 72
 
 #: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip and asperities; no
 #: traction law of one's own may have it.

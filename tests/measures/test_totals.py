@@ -11,8 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import Laws
+from macroslip.constants import SECTORS
 from macroslip.measures import details as looks
-from macroslip.measures.details import SECTORS, Looker, new_details, prepare
+from macroslip.measures.details import Looker, new_details, prepare
 from macroslip.measures.roller import RollerMeasures, Row, Wanted
 from macroslip.measures.totals import (
     END,

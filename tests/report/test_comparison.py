@@ -7,11 +7,11 @@ import pytest
 import xarray as xr
 
 from macroslip import InputError, compare
+from macroslip.constants import YEAR
 from macroslip.report import bearing_figures
 from macroslip.report.comparison import ENERGY, compare_results
 from macroslip.report.comparison_page import comparison_page
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.weights import YEAR
 
 SECONDS = 360.0
 

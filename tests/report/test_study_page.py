@@ -8,12 +8,13 @@ import pytest
 import xarray as xr
 
 from macroslip import open_study, run_study
+from macroslip.constants import YEAR
 from macroslip.report.study_page import CLASS_ONE, _without_folders, run_names, study_page
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.lifetime import lifetime_energy, worst
 from macroslip.study.reader import is_study
 from macroslip.study.study_file import study_of
-from macroslip.study.weights import YEAR, Weibull
+from macroslip.study.weights import Weibull
 
 pytestmark = pytest.mark.slow
 

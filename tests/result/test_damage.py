@@ -11,8 +11,9 @@ import pytest
 
 from macroslip import Bearing, BearingLoads, Case, HubLoads, InputError, Laws, Window, simulate
 from macroslip.bearing import geometry
+from macroslip.constants import YEAR
 from macroslip.result.criteria.criterion import Threshold
-from macroslip.result.criteria.evaluation import PLACES, YEAR
+from macroslip.result.criteria.evaluation import PLACES
 from macroslip.result.damage import damage, lines
 from macroslip.result.stored import to_netcdf
 from macroslip.result.surface_maps import energy_density

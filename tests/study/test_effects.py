@@ -9,12 +9,13 @@ import xarray as xr
 from scipy.stats import qmc
 
 from macroslip import BearingLoads, Case, InputError, Laws, compare, simulate
+from macroslip.constants import YEAR
 from macroslip.result.criteria.friction_energy import REFERENCE_POWER
 from macroslip.result.damage import damage
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.effects import effects, main_effects, rank_correlations, sampled_parameters
 from macroslip.study.summary import damage_values
-from macroslip.study.weights import YEAR, Given, Rate, Year
+from macroslip.study.weights import BinProbabilities, Rate, Year
 from macroslip.study.year import design_names, designs, year
 
 POINTS = qmc.Sobol(2, rng=np.random.default_rng(0)).random(32)
@@ -118,7 +119,9 @@ def of_year():
 
 
 def test_designs_of_a_year_by_hand():
-    weights = Year(Given({12.0: 0.5}), {"parked-12": Rate(87.66, in_hours=True)})  # 1 % of a year
+    weights = Year(
+        BinProbabilities({12.0: 0.5}), {"parked-12": Rate(87.66, in_hours=True)}
+    )  # 1 % of a year
     found = year(of_year(), Aggregation(weights))
     table, told = designs(found)
     windy = 0.5 * 0.99 * YEAR

@@ -4,17 +4,18 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, InputError, open_study, run_study
+from macroslip.constants import YEAR
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.exceedance import THRESHOLDS, exceedance, load_spectrum
 from macroslip.study.export import tables, write_tables
 from macroslip.study.study_file import study_of
 from macroslip.study.summary import RANGE_EDGES
 from macroslip.study.summary import load_cycles as counted
-from macroslip.study.weights import YEAR, Given, Weibull
+from macroslip.study.weights import BinProbabilities, Weibull
 
 pytestmark = pytest.mark.slow
 
-WEIGHTS = Given({12.0: 0.6, 14.0: 0.3})
+WEIGHTS = BinProbabilities({12.0: 0.6, 14.0: 0.3})
 
 
 @pytest.fixture(scope="module")

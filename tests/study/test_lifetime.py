@@ -9,11 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import InputError
+from macroslip.constants import YEAR
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
 from macroslip.study.loads_list import Load
 from macroslip.study.summary import ROW_VARIABLES
-from macroslip.study.weights import YEAR, Given, Weibull, Weighting, binned
+from macroslip.study.weights import BinProbabilities, Weibull, Weighting, binned
 
 SPEEDS = [12.0, 12.4, 11.6, 14.0, 14.0, 12.0, 14.0]
 CLEARANCES = [0.0] * 5 + [0.2] * 2
@@ -38,7 +39,9 @@ def study(energy=(600.0, 1200.0, 1800.0, 60.0, 60.0, 6.0, 6.0)):
 
 
 def test_lifetime_energy_is_the_weighted_sum():
-    found = lifetime_energy(study(), Aggregation(Given({12.0: 0.5, 14.0: 0.25}), years=2.0))
+    found = lifetime_energy(
+        study(), Aggregation(BinProbabilities({12.0: 0.5, 14.0: 0.25}), years=2.0)
+    )
     first, second = found.isel(group=0), found.isel(group=1)
     assert float(first["bearing.diametral_clearance"]) == 0.0
     seconds = 2.0 * YEAR
@@ -61,12 +64,12 @@ def test_weibull_bins_cover_all_speeds(scale, shape, width):
 
 def test_a_run_without_a_result_is_left_out_and_reported():
     broken = study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, np.nan))
-    found = lifetime_energy(broken, Aggregation(Given({12.0: 0.5, 14.0: 0.25})))
+    found = lifetime_energy(broken, Aggregation(BinProbabilities({12.0: 0.5, 14.0: 0.25})))
     assert found.left_out.values.tolist() == [[1, 0], [0, 1]]
     assert float(found.power.isel(group=0).sel(bin=12.0, row="downwind")) == 2.0
     # A bin without any run gives no number, unless it has no weight.
     assert np.isnan(found.lifetime_energy.isel(group=1)).all()
-    without = lifetime_energy(broken, Aggregation(Given({12.0: 0.5, 14.0: 0.0})))
+    without = lifetime_energy(broken, Aggregation(BinProbabilities({12.0: 0.5, 14.0: 0.0})))
     assert np.isfinite(without.lifetime_energy).all()
 
 
@@ -128,11 +131,11 @@ def test_a_bin_reaches_half_its_width_to_either_side():
         (lambda: binned(study(), "bearing", 2.0), "not a number"),
         (lambda: binned(study(), "wind_speed", 0.0), "width of the bins"),
         (
-            lambda: lifetime_energy(study(), Aggregation(Given({12.0: 1.0}))),
+            lambda: lifetime_energy(study(), Aggregation(BinProbabilities({12.0: 1.0}))),
             "no probability is given for the bin at 14",
         ),
         (
-            lambda: lifetime_energy(study(), Aggregation(Given({12.0: 1.0, 14.0: 0.5}))),
+            lambda: lifetime_energy(study(), Aggregation(BinProbabilities({12.0: 1.0, 14.0: 0.5}))),
             "together at most 1",
         ),
         (lambda: lifetime_energy(study(), Aggregation(Weibull(0.0, 2.0))), "scale"),

@@ -9,7 +9,7 @@ from macroslip.result.surface_maps import energy_density
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.lifetime import lifetime_energy, weighted_maps
 from macroslip.study.study_file import study_of
-from macroslip.study.weights import Given
+from macroslip.study.weights import BinProbabilities
 
 pytestmark = pytest.mark.slow
 
@@ -44,7 +44,7 @@ def test_sums_are_the_lifetime_energy_of_the_raceways(study):
 
 
 def test_one_bin_that_is_always_there_is_the_mean_of_its_cases(study):
-    maps = weighted_maps(study, Aggregation(Given({12.0: 0.0, 18.0: 1.0}), years=1.0))
+    maps = weighted_maps(study, Aggregation(BinProbabilities({12.0: 0.0, 18.0: 1.0}), years=1.0))
     outer = study.isel(case=[1, 2]).sel(raceway="outer")
     per_pass = outer.surface_energy / outer.surface_passes.where(outer.surface_passes > 0.0, 1.0)
     kinds = ("angle", "station", "slip_sign", "film_regime")

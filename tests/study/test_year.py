@@ -8,14 +8,14 @@ import xarray as xr
 from scipy.stats import weibull_min
 
 from macroslip import InputError, open_study, run_study
+from macroslip.constants import YEAR
 from macroslip.study.aggregation import Aggregation, aggregation_in_use
 from macroslip.study.lifetime import lifetime_energy
 from macroslip.study.loads_list import Load
 from macroslip.study.study_file import study_of
 from macroslip.study.weights import (
     IEC_CLASSES,
-    YEAR,
-    Given,
+    BinProbabilities,
     Rate,
     Weibull,
     Year,
@@ -46,7 +46,9 @@ def study(energy=(600.0, 1200.0, 300.0, 50.0), life=(2e4, 2e4, 1e4, np.inf)):
     )
 
 
-YEARLY = Year(Given({12.0: 0.5}), {"start-8": Rate(300.0), "idle-6": Rate(400.0, in_hours=True)})
+YEARLY = Year(
+    BinProbabilities({12.0: 0.5}), {"start-8": Rate(300.0), "idle-6": Rate(400.0, in_hours=True)}
+)
 
 
 @pytest.mark.slow
@@ -99,11 +101,11 @@ def test_lives_accumulate_by_damage_and_loads_by_their_power():
 
 
 def test_scatter_is_that_of_runs_in_a_bin():
-    found = year(study().isel(case=slice(2)), Aggregation(Given({12.0: 1.0})))
+    found = year(study().isel(case=slice(2)), Aggregation(BinProbabilities({12.0: 1.0})))
     # 1 and 2 W: s = 0.707 W, over the root of two, in 1.5 W.
     np.testing.assert_allclose(found.scatter, 0.5 / 1.5, rtol=1e-12)
     assert np.isnan(
-        year(study().isel(case=[0, 2, 3]), Aggregation(Given({12.0: 1.0}))).scatter
+        year(study().isel(case=[0, 2, 3]), Aggregation(BinProbabilities({12.0: 1.0}))).scatter
     ).all()
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.optimize import brentq
 
@@ -27,8 +28,12 @@ from macroslip.bearing import geometry
 from macroslip.bearing.geometry import row_names
 from macroslip.case.parts import Traces
 from macroslip.contact.interface import contact_shape, interfaces
+from macroslip.rating.kinds import ratings_of
+from macroslip.rating.rate import rate, roller_load_history
 from macroslip.ring.balance import balance, roller_loads
 from macroslip.roller.model import ring_geometry, roller_model
+from macroslip.study.reader import open_study
+from macroslip.study.run import run_study
 
 FILE = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
 BEARING, OIL = Bearing.read(FILE), Lubricant.read("vg320-mineral").at(333.15)
@@ -199,13 +204,101 @@ def test_a_land_is_described_in_full_or_not_at_all(given, said):
         Cage(**given)
 
 
-def test_it_is_neither_rated_nor_studied(tmp_path):
-    from macroslip.rating.rate import roller_load_history
+def test_its_ratings_are_those_of_a_line_contact_by_hand():
+    """C by Lundberg and Palmgren's theory, whose values ISO 281 tabulates to 0.05 of about 86."""
+    gamma = 32.0 / 225.0
+    inner_over_outer = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)
+    shape = 172.56 * gamma ** (2.0 / 9.0) * (1.0 - gamma) ** (29.0 / 27.0) / (1.0 + gamma) ** 0.25
+    factor = shape * (1.0 + inner_over_outer**4.5) ** (-2.0 / 9.0)
+    dynamic = 1.1 * factor * 50.0 ** (7.0 / 9.0) * 18.0**0.75 * 32.0 ** (29.0 / 27.0)
+    static = 44.0 * (1.0 - gamma) * 18.0 * 50.0 * 32.0
+    found = ratings_of(BEARING)
+    assert found.dynamic == pytest.approx(dynamic, rel=1e-3)
+    assert found.static == pytest.approx(static, rel=1e-12)
+    assert found.fatigue_limit == pytest.approx(static / 8.2 * (100.0 / 225.0) ** 0.3, rel=1e-12)
+    assert found.minimum == pytest.approx(0.02 * dynamic, rel=1e-3)
+    given = BEARING.replace(dynamic_load_rating=600e3, static_load_rating=900e3)
+    assert ratings_of(given)[:2] == (600e3, 900e3)
 
-    with pytest.raises(InputError, match="cylindrical roller bearing"):
-        roller_load_history(BEARING, OIL, BearingLoads.constant([0.0, -8e3, 0.0], 2.0, 1.0))
-    (tmp_path / "study.yaml").write_text(
-        f"loads: {{bundled: [12B]}}\nbearings: [{FILE}]\n", encoding="utf-8"
+
+def test_its_lives_follow_from_the_loads_of_its_rollers():
+    """ISO 281 with P = F_r; ISO/TS 16281 from loads by a search, laminae of Hertz' ellipse by quadrature."""
+    force = 40e3
+    loads = BearingLoads.constant([0.0, -force, 0.0], SPEED, 0.2)
+    rating = rate(BEARING, OIL, *roller_load_history(BEARING, OIL, loads))
+    ratings = ratings_of(BEARING)
+    turns_an_hour = SPEED / (2.0 * np.pi) * 3600.0
+    assert rating.row.values.tolist() == ["single"]
+    assert float(rating.equivalent_load) == pytest.approx(force, rel=1e-12)
+    assert float(rating.static_safety) == pytest.approx(ratings.static / force, rel=1e-12)
+    basic = 1e6 * (ratings.dynamic / force) ** (10.0 / 3.0) / turns_an_hour
+    assert float(rating.basic_life) == pytest.approx(basic, rel=1e-9)
+
+    stiffness = sum(one.hertz.stiffness ** (-2.0 / 3.0) for one in interfaces(BEARING, OIL)[:2])
+    stiffness **= -1.5
+    semi_axes = [one.hertz.semi_axis_across for one in interfaces(BEARING, OIL)[:2]]
+    gamma = 32.0 / 225.0
+    ratio = 1.038 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)
+    share = ratings.dynamic / 18.0
+    # Load on a lamina that spread over the whole roller would give what the lamina bears, over 30 laminae.
+    edges = np.linspace(-25e-3, 25e-3, 31)
+    lives = {"hertz": [], "uniform": []}
+    for turn in np.arange(20) / 20.0:
+        angles = 2.0 * np.pi * (np.arange(18) + turn) / 18.0
+
+        def roller_loads_at(depth, angles=angles):
+            return stiffness * np.maximum(depth * np.cos(angles) - 5e-5, 0.0) ** 1.5
+
+        def unbalanced(depth, angles=angles):
+            return roller_loads_at(depth) @ np.cos(angles) - force
+
+        # Off the middle of a symmetric place the ring yields sideways a little; its part is below 1e-4.
+        carried = roller_loads_at(brentq(unbalanced, 5e-5, 1e-3))
+        for name, found in lives.items():
+            damage = 0.0
+            for axis, scale, power, exponent in (
+                (semi_axes[0], share / 0.378 * (1.0 + ratio**4.5) ** (2.0 / 9.0), 4.0, 9.0 / 8.0),
+                (semi_axes[1], share / 0.364 * (1.0 + ratio**-4.5) ** (2.0 / 9.0), 4.5, 1.0),
+            ):
+                if name == "uniform":
+                    damage += np.mean((carried / scale) ** power) ** exponent
+                    continue
+                lamina = np.zeros((18, 30))
+                for roller, load in enumerate(carried):
+                    if load <= 0.0:
+                        continue
+                    half = axis * load ** (1.0 / 3.0)
+                    places = np.clip(edges / half, -1.0, 1.0)
+                    reached = 0.75 * places - 0.25 * places**3
+                    inside = reached[-1] - reached[0]
+                    lamina[roller] = 30.0 * load * np.diff(reached) / inside
+                damage += np.mean(np.mean((0.83 * lamina / scale) ** power, axis=0) ** exponent)
+            found.append(damage ** (-8.0 / 9.0))
+    for name, found in lives.items():
+        life = 1e6 / np.mean(1.0 / np.array(found)) / turns_an_hour
+        assert float(rating.reference_life.sel(load_along_roller=name)) == pytest.approx(
+            life, rel=2e-3
+        )
+
+
+def test_it_is_studied_and_not_beside_bearings_of_another_kind(tmp_path):
+    for name, force in (("s5", -50e3), ("s7", -60e3)):
+        rows = "".join(f"{0.02 * k:.2f},1500,0,{force},0\n" for k in range(21))
+        (tmp_path / f"{name}.csv").write_text(
+            f"time_s,rotor_speed_rpm,F_X0_N,F_Y0_N,F_Z0_N\n{rows}", encoding="utf-8"
+        )
+    text = (
+        "case: {lubricant: vg320-mineral, temperature: 60 degC, rollers: [0]}\n"
+        f"loads: {{files: 's{{wind_speed:g}}.csv', kind: main-bearing}}\nbearings: [{FILE}MORE]\n"
     )
-    with pytest.raises(InputError, match="compare rows of spherical ones"):
-        read_study(tmp_path / "study.yaml")
+    (tmp_path / "study.yaml").write_text(text.replace("MORE", ""), encoding="utf-8")
+    ended = run_study(read_study(tmp_path / "study.yaml"), tmp_path / "out", threads=1)
+    assert not ended.failures
+    found = open_study(tmp_path / "out")
+    assert found.row.values.tolist() == ["single"]
+    assert (found.energy_mean > 0.0).all()
+    assert found.basic_life[0] / found.basic_life[1] == pytest.approx((60 / 50) ** (10 / 3))
+    assert "energy_mean_upwind" not in pd.read_parquet(tmp_path / "out" / "summary.parquet")
+    (tmp_path / "both.yaml").write_text(text.replace("MORE", ", skf-240-600-bc"), encoding="utf-8")
+    with pytest.raises(InputError, match="there are cylindrical and spherical roller bearings"):
+        read_study(tmp_path / "both.yaml")

@@ -26,6 +26,8 @@ from macroslip.input.units import (
 #: Relative difference allowed between given and computed positions of the roller centre: drawings
 #: round.
 SPHERE_TOLERANCE = 0.01
+#: Number of rows of rollers by the kind of bearing.
+_ROWS = {"spherical": 2, "cylindrical": 1}
 #: States of a mounted bearing for which its clearance may be given.
 CLEARANCE_STATES = ("warm", "cold")
 _CLEARANCE_STATE = Choice(
@@ -192,9 +194,14 @@ class Bearing(Record):
     ] = None
 
     @property
+    def kind(self) -> str:
+        """The kind of bearing: `spherical` (double-row) or `cylindrical` (single-row)."""
+        return "spherical" if self.roller_crown_radius is None else "cylindrical"
+
+    @property
     def rows(self) -> int:
-        """Number of rows: 1 in a cylindrical roller bearing, otherwise 2."""
-        return 2 if self.roller_crown_radius is None else 1
+        """Number of rows of rollers: 2 in a spherical roller bearing, 1 in a cylindrical one."""
+        return _ROWS[self.kind]
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         kind = list(_kind(self, source))
@@ -214,7 +221,7 @@ class Bearing(Record):
 def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
     """Yield osculations that are missing, and values that a cylindrical roller bearing cannot have."""
     osculations = ("osculation_inner", "osculation_outer")
-    if bearing.rows > 1:
+    if bearing.kind == "spherical":
         if missing := [key for key in osculations if getattr(bearing, key) is None]:
             yield InputError(
                 f"{' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
@@ -287,7 +294,7 @@ def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
 
 def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
     space = geometry.envelope(bearing)
-    if space.nearest < 0.0 and bearing.rows > 1:
+    if space.nearest < 0.0 and bearing.kind == "spherical":
         overlap = bearing.written("row_offset", -2.0 * space.nearest)
         coincide = bearing.row_offset == 0.0
         what = (
@@ -348,14 +355,13 @@ def _rings(bearing: Bearing, source: Source) -> Iterator[InputError]:
 
 def _sizes(bearing: Bearing, source: Source) -> Iterator[InputError]:
     """Yield load ratings and a mass that no bearing of this size has: they have another unit."""
-    rollers = (bearing.rows, bearing.rollers_per_row, bearing.roller_diameter)
-    shape = (bearing.roller_length, bearing.contact_angle, 2.0 * bearing.pitch_radius)
-    static = load_ratings.static_load_rating(*rollers, *shape)
-    limit = load_ratings.fatigue_load_limit(static, 2.0 * bearing.pitch_radius)
+    pitch = 2.0 * bearing.pitch_radius
+    static = load_ratings.static_load_rating_of(bearing)
+    limit = load_ratings.fatigue_load_limit(static, pitch)
     expected = {"static_load_rating": static, "fatigue_load_limit": limit}
-    slenderness = bearing.roller_diameter * math.cos(bearing.contact_angle) / shape[-1]
+    slenderness = bearing.roller_diameter * math.cos(bearing.contact_angle) / pitch
     if 0.01 <= slenderness <= 0.30:
-        expected["dynamic_load_rating"] = load_ratings.dynamic_load_rating(*rollers, *shape)
+        expected["dynamic_load_rating"] = load_ratings.dynamic_load_rating_of(bearing)
     bore, outside, width = bearing.bore_diameter, bearing.outside_diameter, bearing.width
     if bore is not None and outside is not None and width is not None and bore < outside:
         volume = math.pi / 4.0 * (outside**2 - bore**2) * width

@@ -8,13 +8,17 @@ pitch diameter of the roller centres Dpw [m], above Dw cos(alpha).
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from macroslip.errors import InputError
 
-SPHERICAL_ROLLER_FACTOR = 1.15
-"""b_m of spherical roller bearings, ISO 281:2007, table 6."""
+if TYPE_CHECKING:
+    from macroslip.bearing.bearing import Bearing
+
+RATING_FACTORS = {"spherical": 1.15, "cylindrical": 1.1}
+"""b_m by the kind of a roller bearing, ISO 281:2007, table 6."""
 _GEOMETRY_FACTORS = (
     52.1, 60.8, 66.5, 70.7, 74.1, 76.9, 79.2, 81.2, 82.8, 84.2, 85.4, 86.4, 87.1, 87.7, 88.2,
     88.5, 88.7, 88.8, 88.8, 88.7, 88.5, 88.2, 87.9, 87.5, 87.0, 86.4, 85.8, 85.2, 84.5, 83.8,
@@ -72,13 +76,14 @@ def dynamic_load_rating(
     roller_length: float,
     contact_angle: float,
     pitch: float,
+    kind: str = "spherical",
 ) -> float:
     """Basic dynamic radial load rating, C = b_m f_c (i L cos(alpha))^(7/9) Z^(3/4) Dw^(29/27), C in N, lengths in mm.
 
     Makers' catalogues have other values than this formula: for spherical roller bearings of one size they differ by up
     to 37 % among each other.
 
-    b_m = 1.15 for spherical roller bearings. Raises InputError if Dw cos(alpha)/Dpw lies outside 0.01 to 0.30. ISO 281:2007,
+    b_m = 1.15 for spherical and 1.1 for cylindrical roller bearings, by `kind`. Raises InputError if Dw cos(alpha)/Dpw lies outside 0.01 to 0.30. ISO 281:2007,
     Rolling bearings - Dynamic load ratings and rating life, section 7.1.
 
     Examples
@@ -91,7 +96,7 @@ def dynamic_load_rating(
     length = rows * roller_length * 1e3 * cosine
     diameter = roller_diameter * 1e3
     return (
-        SPHERICAL_ROLLER_FACTOR
+        RATING_FACTORS[kind]
         * factor
         * length ** (7 / 9)
         * rollers_per_row**0.75
@@ -110,3 +115,25 @@ def fatigue_load_limit(static_load_rating: float, pitch: float) -> float:
     1088
     """
     return static_load_rating / 8.2 * min(1.0, (0.1 / pitch) ** 0.3)
+
+
+def static_load_rating_of(bearing: Bearing) -> float:
+    """C0 [N] of a bearing's inside, by `static_load_rating`."""
+    return static_load_rating(*_inside(bearing))
+
+
+def dynamic_load_rating_of(bearing: Bearing) -> float:
+    """C [N] of a bearing's inside, by `dynamic_load_rating`."""
+    return dynamic_load_rating(*_inside(bearing), kind=bearing.kind)
+
+
+def _inside(bearing: Bearing) -> tuple[int, int, float, float, float, float]:
+    """Rows, rollers in each, diameter and length of a roller [m], contact angle [rad], pitch [m]."""
+    return (
+        bearing.rows,
+        bearing.rollers_per_row,
+        bearing.roller_diameter,
+        bearing.roller_length,
+        bearing.contact_angle,
+        2.0 * bearing.pitch_radius,
+    )

@@ -402,7 +402,7 @@ def _dynamics(case: Case) -> Iterator[InputError]:
 
 def _kind_of_bearing(case: Case) -> Iterator[InputError]:
     """Yield a speed of no rotor, and what a cylindrical roller bearing cannot carry or has no laws for."""
-    if case.bearing.rows > 1:
+    if case.bearing.kind == "spherical":
         if (fastest := float(np.abs(case.loads.shaft_speed).max())) > _FASTEST_ROTOR:
             yield InputError(
                 f"the shaft turns at up to {fastest:.4g} rad/s, beyond any rotor",

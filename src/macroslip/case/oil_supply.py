@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 FLOODED, SKF = WORDS = ("flooded", "skf")
 #: K_Z of the SKF model by the number of rows: cylindrical roller bearings with cage, and spherical ones.
-_TYPE_FACTORS = {1: 5.1, 2: 5.5}
+_TYPE_FACTORS = {"cylindrical": 5.1, "spherical": 5.5}
 #: Least film over flooded film.
 _LEAST = 0.3
 
@@ -123,7 +123,7 @@ def _gap(
         return FLOODED_GAP
     if supply == SKF:
         diameters = bearing.bore_diameter, bearing.outside_diameter
-        factor = _TYPE_FACTORS[bearing.rows]
+        factor = _TYPE_FACTORS[bearing.kind]
         filled = float(
             replenishment(oil.viscosity / oil.density, speed, *diameters, type_factor=factor)
         )

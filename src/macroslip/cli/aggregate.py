@@ -16,7 +16,7 @@ from macroslip.storage.files import check_not_input, check_regular
 if TYPE_CHECKING:
     import pandas as pd
 
-    from macroslip.study.weights import Given, Weibull
+    from macroslip.study.weights import BinProbabilities, Weibull
 
 #: Lines of the table that is printed.
 _MOST_LINES = 20
@@ -87,8 +87,8 @@ def aggregate(
 
 def _weights(
     weibull: tuple[float, float] | None, probabilities: Path | None
-) -> Weibull | Given | None:
-    from macroslip.study.weights import Given, Weibull
+) -> Weibull | BinProbabilities | None:
+    from macroslip.study.weights import BinProbabilities, Weibull
 
     if weibull is not None and probabilities is not None:
         raise InputError(
@@ -103,7 +103,7 @@ def _weights(
     check_regular(probabilities, "Name a CSV table.")
     try:
         given = pd.read_csv(probabilities)
-        return Given(
+        return BinProbabilities(
             dict(zip(given["bin"].astype(float), given["probability"].astype(float), strict=True))
         )
     except InputError:

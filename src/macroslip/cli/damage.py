@@ -40,9 +40,9 @@ def damage(
     """Criteria of damage by slip: smearing, friction energy, micropitting, wear, each with what it is compared with."""
     from macroslip.cli.catalogue import si
     from macroslip.cli.printing import print_json, print_table
+    from macroslip.constants import YEAR
     from macroslip.input.units import PRESSURE
     from macroslip.report.accessor import open_result
-    from macroslip.result.criteria.evaluation import YEAR
     from macroslip.result.damage import criterion_lines
     from macroslip.result.damage import damage as computed
 
@@ -103,7 +103,7 @@ def _wear(found: xr.Dataset) -> list[dict[str, Any]]:
     """Years to each depth by row and place, over the coefficients of wear."""
     if "wear_time" not in found:
         return []
-    from macroslip.result.criteria.evaluation import YEAR
+    from macroslip.constants import YEAR
 
     return [
         {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from macroslip.constants import SECTORS
 from macroslip.measures.roller import Wanted
 from macroslip.whole.books import Books
 from macroslip.whole.model import WholeBearing
@@ -11,8 +12,6 @@ from macroslip.whole.sdirk import Part
 
 #: Sides of a pocket: the spars ahead and behind.
 SIDES = ("front", "rear")
-#: Places on the orbit, 5° each, from φ = 0.
-PLACES = 72
 
 
 class CageMeasures:
@@ -24,7 +23,7 @@ class CageMeasures:
         #: By side of the pocket, shape (n, 2): ∫|N| dt [N s], largest |N| [N] and time with a push [s] in the window.
         self.impulse, self.largest, self.time = (np.zeros((count, 2)) for _ in range(3))
         #: Largest |N| in the window by place on the orbit [N], shape (n, places).
-        self.largest_by_place = np.zeros((count, PLACES))
+        self.largest_by_place = np.zeros((count, SECTORS))
         #: ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window, shape (c, 3).
         self.slip = np.zeros((cages, 3))
         #: Of momentum and energy, at the times of traces, or of the window's start and the ends of its orbits.
@@ -52,9 +51,9 @@ class CageMeasures:
         for k in range(2):
             push, weight = steps["cage_load"][..., k], steps["weight"][..., k]
             turn = whole["turn"][:, k][:, self._bearing.places["cage"]]
-            place = ((turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * PLACES).astype(
+            place = ((turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * SECTORS).astype(
                 int
-            ) % PLACES
+            ) % SECTORS
             for side, here in enumerate((push < 0.0, push > 0.0)):
                 size = np.where(here, np.abs(push), 0.0)
                 self.impulse[:, side] += (weight * size).sum(axis=0)

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature, transient_flash
 from macroslip.contact.look_up import log_load, log_speed
 from macroslip.contact.patch import (
@@ -46,7 +47,7 @@ if TYPE_CHECKING:
     from macroslip.roller.model import Roller
 
 #: Sectors of a raceway, 5° each, and stations along the roller's length.
-SECTORS, STATIONS = 72, 24
+STATIONS = 24
 _PER_ANGLE = SECTORS / (2.0 * math.pi)
 #: Meaning of `Details.surface_energy` by its last two positions, and of `Details.extreme` by its last.
 SLIP_SIGNS = ("negative", "positive")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from macroslip.constants import SECTORS
 from macroslip.contact.laws import RollerLaws
-from macroslip.measures.details import SECTORS, Details, Looker, Wanted, prepare
+from macroslip.measures.details import Details, Looker, Wanted, prepare
 from macroslip.measures.skew import Skewing, SkewMeasures
 from macroslip.measures.totals import (
     END,

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.constants import SECTORS
 from macroslip.contact.look_up import log_speed
 from macroslip.contact.skewed import slip_lines
-from macroslip.measures.details import SECTORS
 from macroslip.measures.totals import RACEWAYS
 from macroslip.roller.forces import cage_contact
 from macroslip.roller.model import Roller

@@ -32,6 +32,8 @@ LAMINAE = 30
 """Laminae over the whole length of a roller, the least number that the standard requires."""
 MINIMUM_SHARE = 0.01
 """Least equivalent load over static load rating of spherical roller bearings."""
+MINIMUM_SHARE_OF_ROLLERS = 0.02
+"""Least equivalent load over dynamic load rating of roller bearings in general."""
 
 
 def static_equivalent_load(
@@ -73,6 +75,20 @@ def minimum_load(static_load_rating: float) -> float:
     163000.0
     """
     return MINIMUM_SHARE * static_load_rating
+
+
+def minimum_load_of_rollers(dynamic_load_rating: float) -> float:
+    """Least dynamic equivalent load of a roller bearing so that rollers do not skid, 0.02 C [N].
+
+    The rule of thumb for roller bearings of any kind: SKF, Rolling bearings, catalogue 17000 EN
+    (2018), "Requisite minimum load". Formulas of single makers take speed and viscosity too.
+
+    Examples
+    --------
+    >>> minimum_load_of_rollers(500e3)
+    10000.0
+    """
+    return MINIMUM_SHARE_OF_ROLLERS * dynamic_load_rating
 
 
 def dynamic_equivalent_load(

@@ -10,8 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
-from macroslip.bearing.load_ratings import fatigue_load_limit
+from macroslip.bearing.geometry import row_names
 from macroslip.contact.interface import highest_load, interfaces
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.registry import FILM_LAWS
@@ -19,6 +18,7 @@ from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.lubricant import Lubricant
 from macroslip.rating import iso
+from macroslip.rating.kinds import EquivalentLoads, LoadRatings, equivalent_loads, ratings_of
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.ring.motion import elastic_loads, ring_motion
 from macroslip.roller.model import ring_geometry, roller_model
@@ -42,7 +42,7 @@ def roller_load_history(
 
     Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends. Gives
     the same loads, with samples in between where the shaft turns too far between two of them, and Q [N] over row,
-    roller and these samples, shape (2, Z, n).
+    roller and these samples, shape (rows, Z, n).
 
     Examples
     --------
@@ -51,14 +51,7 @@ def roller_load_history(
     >>> load.shape, round(load[0].sum(axis=0)[0] * np.sin(np.radians(11.2))), load[1].max().item()
     ((2, 28, 21), 100000, 0.0)
     """
-    if bearing.rows == 1:
-        raise InputError(
-            f"{bearing.name} is a cylindrical roller bearing",
-            where="rating",
-            allowed="double-row spherical roller bearings, whose load factors and raceways the formulas here are for",
-            remedy="Leave the rating out: set rating: false in a case.",
-        )
-    model = roller_model(bearing, lubricant, AXIAL_SIGNS["downwind"], tilt=0.0)
+    model = roller_model(bearing, lubricant, 1, tilt=0.0)
     ring = ring_geometry(bearing, model)
     motion, _ = ring_motion(loads, bearing, ring, highest_load(bearing, lubricant, Laws.physical()))
     found = elastic_loads(loads, ring, motion)
@@ -68,7 +61,7 @@ def roller_load_history(
         [np.interp(motion.time, known.time, component) for component in known.force.T]
     )
     finer = BearingLoads(motion.time, motion.shaft_speed, force, loads.source)
-    return finer, np.moveaxis(found, 0, -1).reshape(len(ROWS), bearing.rollers_per_row, -1)
+    return finer, np.moveaxis(found, 0, -1).reshape(bearing.rows, bearing.rollers_per_row, -1)
 
 
 def rate(
@@ -93,7 +86,7 @@ def rate(
         At the inlet temperature.
     loads : BearingLoads
         Load on the inner ring and shaft speed, n samples.
-    roller_load : ndarray, shape (2, Z, n)
+    roller_load : ndarray, shape (rows, Z, n)
         Elastic load of every roller [N] over row, roller and the samples of `loads`, see `roller_load_history`.
     contamination : float
         e_C of ISO 281 [-], above 0 and at most 1.
@@ -114,7 +107,7 @@ def rate(
     variables = {name: value for part in parts for name, value in part.items()}
     edges = _class_edges(history)
     coordinates = {
-        "row": list(ROWS),
+        "row": list(row_names(bearing)),
         "raceway": list(RACEWAYS),
         "load_along_roller": list(DISTRIBUTIONS),
         "load": list(LOADS),
@@ -134,25 +127,19 @@ def rate(
 
 
 class _History(NamedTuple):
-    """A bearing, its ratings C, C0 and C_u [N], and its loads over n samples."""
+    """A bearing, its load ratings, and its loads over n samples."""
 
     bearing: Bearing
     lubricant: Lubricant
     loads: BearingLoads
-    contamination: float
-    dynamic: float
-    static: float
-    fatigue_limit: float
-    #: Q [N] over (row, roller, sample).
-    roller_load: NDArray[np.float64]
-    #: Time [s] and turns of the shaft [-] that every sample represents.
-    duration: NDArray[np.float64]
-    revolutions: NDArray[np.float64]
-    #: Fr, Fa, P and P0 [N].
-    radial: NDArray[np.float64]
-    axial: NDArray[np.float64]
-    equivalent: NDArray[np.float64]
-    static_equivalent: NDArray[np.float64]
+    contamination: float  #: e_C [-]
+    ratings: LoadRatings
+    roller_load: NDArray[np.float64]  #: Q [N] over (row, roller, sample)
+    duration: NDArray[np.float64]  #: Time that every sample represents [s]
+    revolutions: NDArray[np.float64]  #: Turns of the shaft that every sample represents [-]
+    radial: NDArray[np.float64]  #: Fr [N]
+    axial: NDArray[np.float64]  #: Fa [N]
+    equivalent: EquivalentLoads
 
     @property
     def viscosity_ratio(self) -> float:
@@ -181,15 +168,9 @@ def _history(
     roller_load: NDArray[np.float64],
     contamination: float,
 ) -> _History:
-    keys = ("dynamic_load_rating", "static_load_rating", "axial_factor_e", "axial_factor_y1", "axial_factor_y2",
-            "axial_factor_y0")  # fmt: skip
-    bearing.require(*keys, purpose="the rating")
-    dynamic, static, e, y1, y2, y0 = (float(getattr(bearing, key)) for key in keys)
-    limit = bearing.fatigue_load_limit
-    if limit is None:
-        limit = fatigue_load_limit(static, 2.0 * bearing.pitch_radius)
+    ratings = ratings_of(bearing)
     roller_load = np.asarray(roller_load, float)
-    expected = (len(ROWS), bearing.rollers_per_row, loads.time.size)
+    expected = (bearing.rows, bearing.rollers_per_row, loads.time.size)
     if (
         roller_load.shape != expected
         or not np.all(roller_load >= 0.0)
@@ -207,12 +188,21 @@ def _history(
             remedy="1 is extreme cleanliness, 0.5 slight to typical contamination, 0.1 severe contamination",
         )
     duration = sample_durations(loads.time)
-    radial, axial = np.hypot(loads.force[:, 0], loads.force[:, 1]), loads.force[:, 2]
+    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
+    axial = loads.force[:, 2]
     return _History(
-        bearing, lubricant, loads, contamination, dynamic, static, limit, roller_load, duration,
-        duration * np.abs(loads.shaft_speed) / (2.0 * math.pi), radial, axial,
-        iso.dynamic_equivalent_load(radial, axial, e, y1, y2), iso.static_equivalent_load(radial, axial, y0),
-    )  # fmt: skip
+        bearing=bearing,
+        lubricant=lubricant,
+        loads=loads,
+        contamination=contamination,
+        ratings=ratings,
+        roller_load=roller_load,
+        duration=duration,
+        revolutions=duration * np.abs(loads.shaft_speed) / (2.0 * math.pi),
+        radial=radial,
+        axial=axial,
+        equivalent=equivalent_loads(bearing, radial, axial),
+    )
 
 
 def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
@@ -220,15 +210,14 @@ def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
 
 
 def _static(history: _History) -> dict[str, tuple]:
-    least, largest = iso.minimum_load(history.static), float(history.static_equivalent.max())
-    below, safety = (
-        _share(history.equivalent < least, history.duration),
-        iso.static_safety(history.static, largest),
-    )
+    least = history.ratings.minimum
+    largest = float(history.equivalent.static.max())
+    below = _share(history.equivalent.dynamic < least, history.duration)
+    safety = iso.static_safety(history.ratings.static, largest)
     return {
         "static_equivalent_load": _variable(largest, "N", "largest static equivalent load P0"),
         "static_safety": _variable(float(safety), "1", "static safety factor C0/P0, the least"),
-        "minimum_load": _variable(least, "N", "least load P that the maker requires, 0.01 C0"),
+        "minimum_load": _variable(least, "N", "least load P that makers require"),
         "share_below_minimum_load": _variable(
             below, "1", "share of time in which P is below the minimum load"
         ),
@@ -236,14 +225,12 @@ def _static(history: _History) -> dict[str, tuple]:
 
 
 def _iso281(history: _History) -> dict[str, tuple]:
-    mean, limit = (
-        iso.mean_equivalent_load(history.equivalent, history.revolutions),
-        history.fatigue_limit,
-    )
-    life = iso.basic_life(history.dynamic, mean) * history.hours_a_revolution
+    mean = iso.mean_equivalent_load(history.equivalent.dynamic, history.revolutions)
+    limit = history.ratings.fatigue_limit
+    life = iso.basic_life(history.ratings.dynamic, mean) * history.hours_a_revolution
     ratio = limit / mean if mean else math.inf
     factor = float(iso.life_modification(history.viscosity_ratio, history.contamination, ratio))
-    below = _share(history.equivalent < limit, history.duration)
+    below = _share(history.equivalent.dynamic < limit, history.duration)
     return {
         "equivalent_load": _variable(mean, "N", "mean dynamic equivalent load P_m"),
         "fatigue_load_limit": _variable(limit, "N", "fatigue load limit C_u"),
@@ -264,13 +251,17 @@ def _reference(history: _History) -> dict[str, tuple]:
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.roller_diameter * cosine / (2.0 * bearing.pitch_radius)
     ratings = iso.ring_ratings(
-        history.dynamic, len(ROWS), bearing.rollers_per_row, bearing.contact_angle, gamma
+        history.ratings.dynamic,
+        bearing.rows,
+        bearing.rollers_per_row,
+        bearing.contact_angle,
+        gamma,
     )
     semi_axes = [
         raceway.hertz.semi_axis_across for raceway in interfaces(bearing, history.lubricant)
     ]
     # (Q_e/Q_c)^(9/2) over distribution, row, raceway and sample.
-    damages = np.empty((len(DISTRIBUTIONS), len(ROWS), len(RACEWAYS), history.loads.time.size))
+    damages = np.empty((len(DISTRIBUTIONS), bearing.rows, len(RACEWAYS), history.loads.time.size))
     for row, load in enumerate(history.roller_load):
         for k, rating in enumerate(ratings):
             stationary = RACEWAYS[k] == "outer"
@@ -286,10 +277,10 @@ def _reference(history: _History) -> dict[str, tuple]:
             return turned / used * history.hours_a_revolution
 
     together = iso.reference_life(damages, axis=(1, 2))
-    load = history.dynamic * (1e6 / together) ** (1.0 / iso.LIFE_EXPONENT)
+    load = history.ratings.dynamic * (1e6 / together) ** (1.0 / iso.LIFE_EXPONENT)
     with np.errstate(divide="ignore"):
         factor = iso.life_modification(
-            history.viscosity_ratio, history.contamination, history.fatigue_limit / load
+            history.viscosity_ratio, history.contamination, history.ratings.fatigue_limit / load
         )
     by_raceway, modified = hours(iso.reference_life(damages, axis=())), hours(together * factor)
     name, along = "basic reference rating life, ISO/TS 16281", "load_along_roller"
@@ -315,7 +306,7 @@ def _contacts(history: _History) -> dict[str, tuple]:
     )
     inner, outer = geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing)
     entrainment = np.abs(history.loads.shaft_speed) * inner * outer / (inner + outer)
-    low, middle = np.full((2, len(ROWS), len(RACEWAYS)), np.nan)
+    low, middle = np.full((2, bearing.rows, len(RACEWAYS)), np.nan)
     weights = np.broadcast_to(history.duration, load.shape[1:])
     film = FILM_LAWS.named(FILM_LAW)
     for row, k in np.ndindex(low.shape):
@@ -344,14 +335,16 @@ def _contacts(history: _History) -> dict[str, tuple]:
 
 
 def _class_edges(history: _History) -> NDArray[np.float64]:
-    reach = [history.radial, history.axial, history.equivalent]
+    reach = [history.radial, history.axial, history.equivalent.dynamic]
     low, high = min(one.min() for one in reach), max(one.max() for one in reach)
     return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
 
 
 def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple]:
     edges = _class_edges(history)
-    by_name = dict(zip(LOADS, (history.radial, history.axial, history.equivalent), strict=True))
+    by_name = dict(
+        zip(LOADS, (history.radial, history.axial, history.equivalent.dynamic), strict=True)
+    )
     times = [load_duration(load, history.duration, edges) for load in by_name.values()]
     turns = [load_duration(load, history.revolutions, edges) for load in by_name.values()]
     total = history.duration.sum()

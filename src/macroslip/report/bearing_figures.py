@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.bearing import geometry
+from macroslip.constants import YEAR
 from macroslip.errors import InputError
 from macroslip.measures.details import FILM_EDGES, SLIP_EDGES
 from macroslip.report.style import (
@@ -524,7 +525,7 @@ def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
                 label=label,
                 **style,
             )
-    years = ", ".join(f"{age / (365.25 * 86400.0):g}" for age in depth.age.values)
+    years = ", ".join(f"{age / YEAR:g}" for age in depth.age.values)
     return finish(
         axes, "place along the roller [mm]", "depth of wear [µm]", f"{row} row, after {years} years"
     )

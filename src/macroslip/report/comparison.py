@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from macroslip.constants import YEAR
 from macroslip.errors import InputError
 from macroslip.input.units import with_unit
 from macroslip.report.accessor import open_result
@@ -22,7 +23,7 @@ from macroslip.result.run_input import stored_settings
 from macroslip.study.aggregation import aggregation_in_use
 from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
-from macroslip.study.weights import YEAR, Given, Weibull, binned
+from macroslip.study.weights import BinProbabilities, Weibull, binned
 from macroslip.study.year import DESIGN_COLUMNS, LIVES, coverage, design_names, designs, year
 
 #: Pieces of a history whose differences are taken as independent of each other, at most.
@@ -282,7 +283,9 @@ def _table(
 
 
 def compare_designs(
-    study: xr.Dataset, by: Sequence[str] | None = None, wind: Weibull | Given | None = None
+    study: xr.Dataset,
+    by: Sequence[str] | None = None,
+    wind: Weibull | BinProbabilities | None = None,
 ) -> pd.DataFrame:
     """Compare designs of a study over a year, `wind` in place of its file's; as `compare`."""
     aggregation = aggregation_in_use(study, wind)

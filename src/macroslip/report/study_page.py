@@ -39,7 +39,7 @@ from macroslip.study.export import as_table
 from macroslip.study.lifetime import lifetime_energy, weighted_maps, worst
 from macroslip.study.weights import (
     IEC_CLASSES,
-    Given,
+    BinProbabilities,
     Weibull,
     Year,
     binned,
@@ -84,7 +84,11 @@ _TEMPLATE = "study.html"
 
 
 def study_page(
-    study: xr.Dataset, *, title: str, weights: Weibull | Given | None = None, years: float = 20.0
+    study: xr.Dataset,
+    *,
+    title: str,
+    weights: Weibull | BinProbabilities | None = None,
+    years: float = 20.0,
 ) -> str:
     """A page on a study: HTML in one piece, every name and text in it escaped.
 
@@ -97,7 +101,7 @@ def study_page(
         From `macroslip.open_study`.
     title : str
         Heading of the page.
-    weights : Weibull or Given, optional
+    weights : Weibull or BinProbabilities, optional
         How likely each wind speed is; that of the study file if not given.
     years : float, optional
         The lifetime [years].
@@ -171,7 +175,9 @@ class _Weighted:
         return wind if wind is None or isinstance(wind, Weibull) else False
 
 
-def _weighted(study: xr.Dataset, weights: Weibull | Given | None, years: float) -> _Weighted:
+def _weighted(
+    study: xr.Dataset, weights: Weibull | BinProbabilities | None, years: float
+) -> _Weighted:
     pooled = study.drop_vars(sampled_parameters(study))
     given = aggregation_in_use(study, weights, years)
     try:
@@ -252,7 +258,7 @@ def _subtitle(study: xr.Dataset, title: str) -> str:
     return f"{own}{study_about(study)}."
 
 
-def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> list[str]:
+def _ranking(study: xr.Dataset, wind: Weibull | BinProbabilities | None) -> list[str]:
     """Sentences on the designs; none where there is one only."""
     try:
         return ranking_sentences(compare_designs(study, None, wind))

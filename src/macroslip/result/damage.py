@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from macroslip.constants import YEAR
 from macroslip.damage import smearing, wear
 from macroslip.errors import InputError
 from macroslip.measures.details import FILM_EDGES
 from macroslip.result.criteria import CRITERIA
 from macroslip.result.criteria.criterion import Threshold, Variables
-from macroslip.result.criteria.evaluation import PLACES, YEAR, Evaluation
+from macroslip.result.criteria.evaluation import PLACES, Evaluation
 from macroslip.result.criteria.friction_energy import LARGEST_POWER, LEAST_POWER
 from macroslip.result.criteria.wear import AGES
 from macroslip.result.run_input import run_input, stored_settings

@@ -13,11 +13,11 @@ import numpy as np
 import xarray as xr
 
 from macroslip.bearing import geometry
+from macroslip.constants import SECTORS
 from macroslip.errors import InputError
 from macroslip.result.run_input import run_input
 
-#: Sectors of the orbit, 5 degrees each, and most samples of time from which quantiles are taken.
-SECTORS = 72
+#: Most samples of time from which quantiles are taken.
 _QUANTILE_SAMPLES = 2400
 #: Most samples of a scene, and the least time between them [s].
 SCENE_SAMPLES = 2400

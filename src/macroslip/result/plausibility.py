@@ -57,7 +57,7 @@ def doubtful_loads(
     """
     doubts = []
     fastest = float(np.abs(loads.shaft_speed).max())
-    if fastest > _FASTEST and (bearing is None or bearing.rows > 1):
+    if fastest > _FASTEST and (bearing is None or bearing.kind == "spherical"):
         doubts.append(
             f"the shaft turns at up to {_RPM * fastest:.3g} rpm, and rotors on main bearings stay "
             "below 40 rpm; is the speed that of the generator, or in another unit?"

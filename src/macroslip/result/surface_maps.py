@@ -21,11 +21,11 @@ import xarray as xr
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
+from macroslip.constants import SECTORS
 from macroslip.errors import InputError
 from macroslip.measures.details import (
     FILM_EDGES,
     FILM_REGIMES,
-    SECTORS,
     SLIP_EDGES,
     SLIP_SIGNS,
     STATIONS,

@@ -9,7 +9,14 @@ from dataclasses import dataclass, replace
 import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import Binning, Given, Weibull, Weights, binned, stored_weighting
+from macroslip.study.weights import (
+    Binning,
+    BinProbabilities,
+    Weibull,
+    Weights,
+    binned,
+    stored_weighting,
+)
 
 
 @dataclass(frozen=True)
@@ -37,7 +44,7 @@ class Aggregation:
 
 
 def aggregation_in_use(
-    study: xr.Dataset, wind: Weibull | Given | None = None, years: float = 20.0
+    study: xr.Dataset, wind: Weibull | BinProbabilities | None = None, years: float = 20.0
 ) -> Aggregation:
     """Weights, field and width of the study's file, with another `wind` in place of its own."""
     stored = stored_weighting(study)

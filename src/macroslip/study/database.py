@@ -23,10 +23,11 @@ from typing import Any
 
 import pandas as pd
 
+from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.errors import InputError, MacroslipError
 from macroslip.storage.files import DATABASE, SUMMARY, write_durably
 from macroslip.study.store import REMEDY, other_version
-from macroslip.study.summary import NUMBERS
+from macroslip.study.summary import NUMBERS, ROW_VARIABLES, rows_with_numbers
 
 #: Advice for a damaged database, one that is missing, and one without runs.
 DAMAGED = (
@@ -274,6 +275,8 @@ def write_summary(directory: Path, units: dict[str, str]) -> None:
     import pyarrow.parquet as pq
 
     runs = read_runs(directory)
+    absent = set(AXIAL_SIGNS).difference(rows_with_numbers(runs))
+    runs = runs.drop(columns=[f"{name}_{row}" for name in ROW_VARIABLES for row in absent])
     for name, column in runs.items():
         # Words beside numbers make all of a column text.
         if column.map(lambda value: isinstance(value, str)).any():

@@ -7,10 +7,11 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from macroslip.constants import YEAR
 from macroslip.errors import InputError
 from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.weights import YEAR, Binning, weighted
+from macroslip.study.weights import Binning, weighted
 
 #: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
 THRESHOLDS = np.logspace(-9.0, 9.0, 721)

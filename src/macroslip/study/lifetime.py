@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from macroslip.constants import YEAR
 from macroslip.errors import InputError
 from macroslip.result.surface_maps import even_energy
 from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.weights import YEAR, binned, weighted
+from macroslip.study.weights import binned, weighted
 from macroslip.study.year import year
 
 #: Variables over the places of the raceways in a result.
@@ -39,12 +40,12 @@ def lifetime_energy(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     --------
     One bin that is always there, at 3 W for 20 years:
 
-    >>> from macroslip.study.weights import Given
+    >>> from macroslip.study.weights import BinProbabilities
     >>> labels = {name: ("case", ["-"]) for name in ("bearing", "lubricant", "model")}
     >>> labels["wind_speed"] = ("case", [12.0], {"units": "m/s"})
     >>> summary = {"energy_mean": (("case", "row"), [[1800.0]]), "window_length": ("case", [600.0])}
     >>> study = xr.Dataset(summary, labels | {"row": ["downwind"]})
-    >>> life = lifetime_energy(study, Aggregation(Given({12.0: 1.0}), years=20.0))
+    >>> life = lifetime_energy(study, Aggregation(BinProbabilities({12.0: 1.0}), years=20.0))
     >>> f"{float(life.lifetime_energy[0, 0]):.4g} J"
     '1.893e+09 J'
     """

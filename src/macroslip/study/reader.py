@@ -19,13 +19,12 @@ from xarray.core import (
     indexing,
 )  # the documented interface for arrays of a backend, in spite of its name
 
-from macroslip.bearing.geometry import ROWS
 from macroslip.result.variables import described
 from macroslip.storage.files import DATABASE, MANIFEST, reading
 from macroslip.study.database import DAMAGED, read_runs
 from macroslip.study.result_files import read_result
 from macroslip.study.store import REMEDY, read_manifest
-from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
+from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES, rows_with_numbers
 
 #: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so
 #: samples are counted.
@@ -78,10 +77,11 @@ def _dataset(directory: Path, manifest: Mapping[str, Any], runs: pd.DataFrame) -
     coordinates = {
         name: ("case", _column(runs, name), described(*about)) for name, about in labels.items()
     }
+    rows = rows_with_numbers(runs)
     summary = {
         name: (
             ("case", "row"),
-            np.stack([_column(runs, f"{name}_{row}") for row in ROWS], axis=1),
+            np.stack([_column(runs, f"{name}_{row}") for row in rows], axis=1),
             described(*about),
         )
         for name, about in ROW_VARIABLES.items()
@@ -94,7 +94,7 @@ def _dataset(directory: Path, manifest: Mapping[str, Any], runs: pd.DataFrame) -
     about = {"title": manifest["title"], "source": manifest["source"], **attributes}
     return xr.Dataset(
         summary | variables,
-        {"case": number, "row": list(ROWS)} | coordinates | more,
+        {"case": number, "row": list(rows)} | coordinates | more,
         about | {"study": json.dumps(manifest["study"], ensure_ascii=False)},
     )
 

@@ -20,7 +20,6 @@ from pathlib import Path
 from typing import Any
 
 import macroslip
-from macroslip.bearing.geometry import ROWS
 from macroslip.case.case import WHOLE_BEARING
 from macroslip.errors import InputError, MacroslipError, safe_text
 from macroslip.machine import usable_processors
@@ -264,7 +263,7 @@ class Session:
         else:
             threads = threads or usable_processors()
             base, _ = self.study.case_of()
-            rollers = len(ROWS) * len(base.roller_numbers)
+            rollers = base.bearing.rows * len(base.roller_numbers)
             is_small = base.dynamics == WHOLE_BEARING or rollers <= _FEW_ROLLERS * threads
             runs = min(threads, len(self.study)) if is_small else 1
             each = threads // runs

@@ -455,15 +455,15 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         for noun in RECORDS
         if f"{noun}s" in values
     }
-    for bearing in [*(records.get("bearing") or {}).values(), *([base.bearing] if base else [])]:
-        if bearing.rows == 1:
-            what = f"{bearing.name} is a cylindrical roller bearing, and studies compare rows of spherical ones"
-            remedy = "Compute cases of it one by one with macroslip run."
-            problems.append(
-                place.inside("bearings").problem(
-                    what, "double-row spherical roller bearings", remedy
-                )
+    kinds = sorted({bearing.kind for bearing in (records.get("bearing") or {}).values()})
+    if len(kinds) > 1:
+        problems.append(
+            place.inside("bearings").problem(
+                f"there are {' and '.join(kinds)} roller bearings, whose rows of rollers differ",
+                "bearings of one kind",
+                "Make a study of each kind.",
             )
+        )
     variations, models = (
         values.get("variations", Variations()),
         values.get("models") or {"base": []},

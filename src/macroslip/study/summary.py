@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
-from macroslip.bearing.geometry import ROWS, orbit_ratio
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, orbit_ratio
 from macroslip.case.case import Case
 from macroslip.errors import InputError
 from macroslip.imposed.status import Status
@@ -100,9 +101,17 @@ CASE_VARIABLES = {
     ),
 }
 #: Units of all columns of numbers; names of columns by row end in the row.
-NUMBERS = {f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in ROWS} | {
-    name: units for name, (units, _) in CASE_VARIABLES.items()
-}
+NUMBERS = {
+    f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in AXIAL_SIGNS
+} | {name: units for name, (units, _) in CASE_VARIABLES.items()}
+
+
+def rows_with_numbers(runs: pd.DataFrame) -> tuple[str, ...]:
+    """Names of the rows of rollers that a table of runs has numbers of; both without any run."""
+    found = tuple(row for row in AXIAL_SIGNS if np.isfinite(runs[f"failed_rollers_{row}"]).any())
+    return found or ROWS
+
+
 #: Components whose cycles are counted.
 COMPONENTS = ("radial", "axial")
 #: Classes of ranges, 40 a decade from 1 N to 1e8 N: every load that is accepted, to 6 %.
@@ -146,21 +155,27 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     # In an orbit the shaft turns by 2π over the ratio of the speeds.
     turned = 2.0 * np.pi / orbit_ratio(case.bearing)
     failed = bool((result.status != Status.COMPLETED).any())
-    return {
+    unknown = dict.fromkeys(NUMBERS, math.nan)
+    by_row = {
         f"{name}_{row}": float(values.sel(row=row))
         for name, values in found.items()
-        for row in ROWS
-    } | {
-        "window_length": float(result.attrs["window_end"] - result.attrs["window_start"]),
-        "orbits": float(result.sizes["orbit"]),
-        "loads_length": loads.duration,
-        "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
-        "contact_torque": case.bearing.rollers_per_row
-        * float(mean_orbit.sum(skipna=False))
-        / turned,
-        "friction_power": math.nan if failed else bearing_friction_power(result),
-        **rating_values(case),
+        for row in result.row.values.tolist()
     }
+    return (
+        unknown
+        | by_row
+        | {
+            "window_length": float(result.attrs["window_end"] - result.attrs["window_start"]),
+            "orbits": float(result.sizes["orbit"]),
+            "loads_length": loads.duration,
+            "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
+            "contact_torque": case.bearing.rollers_per_row
+            * float(mean_orbit.sum(skipna=False))
+            / turned,
+            "friction_power": math.nan if failed else bearing_friction_power(result),
+            **rating_values(case),
+        }
+    )
 
 
 def damage_values(result: xr.Dataset) -> dict[str, xr.DataArray]:

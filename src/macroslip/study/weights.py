@@ -14,17 +14,13 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from macroslip.constants import YEAR
 from macroslip.errors import InputError
-from macroslip.input.fields import IN_FILE, Form, Quantity, Text
-from macroslip.input.fields import Given as Given_
+from macroslip.input.fields import IN_FILE, Form, Given, Quantity, Text
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import NUMBER
 from macroslip.result.variables import described
 from macroslip.study.loads_list import Load
-
-#: A year [s], of 365.25 days.
-YEAR = 365.25 * 86400.0
-
 
 _SCALE = Quantity(
     "scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True
@@ -64,7 +60,7 @@ class Weibull:
 
 
 @dataclass(frozen=True)
-class Given:
+class BinProbabilities:
     """Probability of each bin by its centre [unit of the field].
 
     0 or above, together at most 1, else InputError.
@@ -147,13 +143,13 @@ class Year:
     The distribution of the wind speed holds for the rest.
     """
 
-    wind: Weibull | Given
+    wind: Weibull | BinProbabilities
     events: Mapping[str, Rate] = field(
         default_factory=dict
     )  #: By the label `event`; others count nothing
 
 
-Weights = Weibull | Given | Year
+Weights = Weibull | BinProbabilities | Year
 
 
 @dataclass(frozen=True)
@@ -162,7 +158,7 @@ class _WeibullOrClass(Form):
 
     form = f"a section with the keys scale and shape, or {', '.join(IEC_CLASSES)}"
 
-    def read(self, value: Any, given: Given_) -> Weibull:
+    def read(self, value: Any, given: Given) -> Weibull:
         """The distribution."""
         if isinstance(value, str) and value in IEC_CLASSES:
             return IEC_CLASSES[value]

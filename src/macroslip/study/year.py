@@ -8,11 +8,12 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from macroslip.constants import YEAR
 from macroslip.loads.bundled import EVENTS
 from macroslip.result.criteria import YEARLY
 from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.weights import CHOICES, YEAR, Binning, weighted
+from macroslip.study.weights import CHOICES, Binning, weighted
 
 #: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
 LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
@@ -69,13 +70,13 @@ def year(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     --------
     Half a year with a life of 10 000 h and half with 30 000 h, both on the way to failure:
 
-    >>> from macroslip.study.weights import Given
+    >>> from macroslip.study.weights import BinProbabilities
     >>> summary = {"energy_mean": (("case", "row"), [[600.0], [1200.0]]),
     ...            "basic_life": ("case", [1e4, 3e4]), "window_length": ("case", [600.0, 600.0])}
     >>> labels = {name: ("case", ["-", "-"]) for name in ("bearing", "lubricant", "model")}
     >>> labels["wind_speed"] = ("case", [8.0, 12.0], {"units": "m/s"})
     >>> study = xr.Dataset(summary, labels | {"row": ["downwind"]})
-    >>> of_year = year(study, Aggregation(Given({8.0: 0.5, 12.0: 0.5})))
+    >>> of_year = year(study, Aggregation(BinProbabilities({8.0: 0.5, 12.0: 0.5})))
     >>> of_year.basic_life.item(), f"{of_year.total.item():.5g} J"
     (15000.0, '4.7336e+07 J')
     """

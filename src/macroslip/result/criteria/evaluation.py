@@ -15,8 +15,6 @@ from macroslip.result.run_input import RunInput
 
 #: Places whose damage is told.
 PLACES = ("inner", "outer", "roller")
-#: A mean year [s].
-YEAR = 365.25 * 86400.0
 
 
 class Evaluation:

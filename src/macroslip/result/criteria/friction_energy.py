@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from macroslip.constants import YEAR
 from macroslip.damage import friction_energy
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest_of
-from macroslip.result.criteria.evaluation import YEAR, Evaluation
+from macroslip.result.criteria.evaluation import Evaluation
 from macroslip.result.variables import described
 
 _TEST = friction_energy.ThrustTest()

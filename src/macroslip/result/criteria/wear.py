@@ -10,11 +10,12 @@ import numpy as np
 import xarray as xr
 
 from macroslip.bearing import geometry
+from macroslip.constants import YEAR
 from macroslip.damage import wear
 from macroslip.errors import InputError
 from macroslip.measures.details import STATIONS
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly
-from macroslip.result.criteria.evaluation import PLACES, YEAR, Evaluation
+from macroslip.result.criteria.evaluation import PLACES, Evaluation
 from macroslip.result.variables import described
 
 #: Time for which turbines are designed [years], IEC 61400-1.
