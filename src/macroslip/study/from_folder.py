@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.errors import InputError, safe_text
-from macroslip.files import reading
 from macroslip.loads.openfast import loads_from_channels, mean_wind_speed, read_channels
 from macroslip.loads.source_file import DAMAGED
+from macroslip.storage.files import reading
 
 _OUTPUT = (".outb", ".out")
 #: Wind speed in a name: 11.4mps, 12ms, U8, ws_10, wind_speed=6.5; p may stand for the point.
