@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant, Traces, simulate
 from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.contact.table import table_box
-from macroslip.roller.forces import FORCES, STATION, powers, slip_forces
+from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces
 from macroslip.roller.model import roller_model, with_tables
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")

@@ -13,8 +13,8 @@ from benchmarks.quadrature import patch_by_quadrature
 from benchmarks.scan import timed
 from macroslip.compiled import jit
 from macroslip.contact.closed_form import patch_integral
+from macroslip.mechanics.spin import FORCES, STATION, slip_forces, station
 from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import FORCES, STATION, slip_forces, station
 
 #: States taken from each history, at equal intervals of time; how often they are gone through and timed.
 _STATES, _ROUNDS, _REPEATS = 2000, 20, 5

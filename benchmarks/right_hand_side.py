@@ -12,8 +12,8 @@ import numpy as np
 
 from benchmarks.histories import History
 from macroslip.compiled import jit, jit_inline
+from macroslip.mechanics.spin import FORCES, STATION, net_force, powers, slip_forces, station
 from macroslip.ring.orbit import Motion, instant, interval_of
-from macroslip.roller.forces import FORCES, STATION, net_force, powers, slip_forces, station
 from macroslip.roller.model import BODY
 
 #: What stands at the start of the array: number of samples, interval found last, evaluations so far, unit of energy [J], position

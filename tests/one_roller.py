@@ -15,8 +15,8 @@ from macroslip.imposed.run import radau_limits
 from macroslip.imposed.solve import integrate
 from macroslip.imposed.status import UNDER_WAY
 from macroslip.imposed.zones import classify
+from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces, station
 from macroslip.ring.orbit import Instant, Motion, shaft_angle
-from macroslip.roller.forces import FORCES, STATION, powers, slip_forces, station
 from macroslip.roller.model import Roller, RollerModel, roller_model, with_tables
 from macroslip.roller.step import STAGES, STEP
 
@@ -58,7 +58,16 @@ def a_station(
 ):
     """A station made up [N], [m/s]."""
     found = np.zeros(1, STATION)
-    found[0] = (ring_speed, 1e-5, load, load, load + extra_outer, tangential, 0.0)
+    found["ring_speed"] = ring_speed
+    found["interference"] = 1e-5
+    found["elastic_load"] = load
+    found["inner_load"] = load
+    found["outer_load"] = load + extra_outer
+    found["tangential"] = tangential
+    for name in ("inner", "outer"):
+        pressed = max(found[f"{name}_load"][0], 1e-12)
+        found[f"log_{name}_load"] = math.log(pressed)
+        found[f"root_{name}_load"] = pressed ** (1.0 / 3.0)
     return found[0]
 
 

@@ -45,3 +45,11 @@ def jit_inline(function: Callable) -> Callable:
     call, because parts copied into all their callers are optimised anew in each.
     """
     return register_jitable(**_OPTIONS)(function)
+
+
+def jit_evaluation(function: Callable) -> Callable:
+    """Make a part of a force evaluation, which is always copied into its callers.
+
+    Its results are many numbers: handing them up in memory would cost as much as computing them.
+    """
+    return register_jitable(**_OPTIONS, forceinline=True)(function)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from benchmarks.right_hand_side import evaluations, jacobian, pack, rates
+from macroslip.mechanics.spin import FORCES, STATION, slip_forces, station
 from macroslip.ring.orbit import instant
-from macroslip.roller.forces import FORCES, STATION, slip_forces, station
 
 pytestmark = pytest.mark.slow
 

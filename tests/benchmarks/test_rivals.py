@@ -9,8 +9,8 @@ from benchmarks import own
 from benchmarks.histories import load_edges
 from benchmarks.outcome import errors
 from benchmarks.quiet import silence
+from macroslip.mechanics.spin import STATION, station
 from macroslip.ring.orbit import instant
-from macroslip.roller.forces import STATION, station
 
 pytestmark = pytest.mark.slow
 

@@ -15,8 +15,8 @@ from macroslip import Laws
 from macroslip.bearing import geometry
 from macroslip.contact.interface import interfaces
 from macroslip.contact.rolling import light_contact
+from macroslip.mechanics.film_sharing import shared_film_load
 from macroslip.ring.orbit import Instant
-from macroslip.roller.forces import carried
 from tests.one_roller import (
     BEARING,
     OIL,
@@ -393,7 +393,7 @@ def test_films_and_approach_fill_the_play(physical, play, body):
         return sum(heights) - (q / stiffness) ** (2.0 / 3.0) - play
 
     expected = math.exp(brentq(excess, math.log(1e-6), math.log(1e5), xtol=1e-12))
-    assert carried(roller.body[0], roller.tables, play, body, RING_SPEED) == pytest.approx(
+    assert shared_film_load(roller.body[0], roller.tables, play, body, RING_SPEED) == pytest.approx(
         expected, rel=2e-4
     )
 
@@ -417,17 +417,19 @@ def test_loads_are_continuous_where_play_ends_and_films_fade(physical):
 
 def test_films_carry_more_the_less_play_there_is_and_nothing_at_standstill(physical):
     body, tables = physical["downwind"].body[0], physical["downwind"].tables
-    found = [carried(body, tables, play, 30.0, RING_SPEED) for play in (1e-6, 1e-5, 1e-4, 1e-3)]
+    found = [
+        shared_film_load(body, tables, play, 30.0, RING_SPEED) for play in (1e-6, 1e-5, 1e-4, 1e-3)
+    ]
     assert found == sorted(found, reverse=True) and found[-1] > 0.0
-    assert carried(body, tables, 1e-4, 30.0, 0.0) == 0.0
+    assert shared_film_load(body, tables, 1e-4, 30.0, 0.0) == 0.0
 
 
 def test_what_films_carry_does_not_depend_on_where_the_search_begins(physical):
     body, tables = physical["downwind"].body[0], physical["downwind"].tables
     for play in (0.0, 1e-6, 1e-4, 3e-4):
-        alone = carried(body, tables, play, 30.0, RING_SPEED)
+        alone = shared_film_load(body, tables, play, 30.0, RING_SPEED)
         again = [
-            carried(body, tables, play, 30.0, RING_SPEED, guess)
+            shared_film_load(body, tables, play, 30.0, RING_SPEED, guess)
             for guess in (1e-9, 1e-3, alone, 50.0, 1e6)
         ]
         assert again == pytest.approx([alone] * 5, rel=1e-9, abs=2e-9), play
@@ -436,7 +438,8 @@ def test_what_films_carry_does_not_depend_on_where_the_search_begins(physical):
 def test_starved_films_carry_nothing_where_the_play_is_wider_than_the_oil_reaches():
     roller = rollers(models(Laws.physical(), OIL.supplied(2e-4)))["downwind"]
     within, beyond = (
-        carried(roller.body[0], roller.tables, play, 30.0, RING_SPEED) for play in (1e-4, 4e-4)
+        shared_film_load(roller.body[0], roller.tables, play, 30.0, RING_SPEED)
+        for play in (1e-4, 4e-4)
     )
     assert within > 0.1 and beyond < 1e-8
 

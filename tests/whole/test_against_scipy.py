@@ -15,9 +15,11 @@ from scipy.integrate import solve_ivp
 
 from macroslip.bearing.geometry import initial_angles
 from macroslip.compiled import jit
-from macroslip.contact.look_up import log_load, log_speed
+from macroslip.contact.look_up import contact_load, log_speed
 from macroslip.contact.mechanisms import Laws
-from macroslip.roller.forces import cage_contact, film_load, raceway_oil, raceway_traction
+from macroslip.mechanics.cage import cage_forces
+from macroslip.mechanics.film_sharing import film_load
+from macroslip.mechanics.raceway import raceway_forces
 from macroslip.whole.cage import Cage
 from macroslip.whole.pocket import guide_force, pocket_force
 
@@ -31,15 +33,12 @@ def raceway(body, law, tables, load, speed, slip):
     """Spin force, pull [N] and power [W] of a raceway contact with its oil."""
     if load <= 0.0:
         return 0.0, 0.0, 0.0
-    found = raceway_traction(law, tables, body.closed_form, load, log_load(load), speed, slip)
-    spin, pull = found.pull - found.lag, found.pull
-    power = spin * slip + speed * (law.curvature * found.lag - law.spin * found.skew)
-    if body.oily:
-        mean = speed - 0.5 * slip
-        oil = raceway_oil(law, tables, load, log_load(load), mean, log_speed(mean), slip)
-        spin += oil.sliding + oil.shear
-        pull += oil.sliding + law.push * oil.shear
-        power += oil.sliding * slip + oil.power
+    log_mean = log_speed(speed - 0.5 * slip)
+    found = raceway_forces(body, law, tables, contact_load(load), speed, slip, log_mean)
+    spin = found.friction + found.shear
+    pull = found.pull
+    power = found.friction * slip + speed * (law.curvature * found.lag - law.spin * found.skew)
+    power += found.rolling_power
     return spin, pull, power
 
 
@@ -49,7 +48,7 @@ def roller_contacts(body, tables, load, depth, outward, inner, outer, push, slid
     load += film_load(body, tables, load, depth, outward, outer[0])
     at_inner = raceway(body, body.inner, tables, load + max(-outward, 0.0), inner[0], inner[1])
     at_outer = raceway(body, body.outer, tables, load + max(outward, 0.0), outer[0], outer[1])
-    cage = cage_contact(body, tables, abs(push), -sliding, log_speed(sliding))
+    cage = cage_forces(body, tables, abs(push), -sliding, log_speed(sliding))
     return at_inner, at_outer, cage.friction + cage.resistance
 
 

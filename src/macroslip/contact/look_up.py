@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit_inline
+from macroslip.compiled import jit_evaluation, jit_inline
 from macroslip.contact.spline import CHANNELS, splines_in_cube, splines_in_square
 
 #: w0 [m/s]: speed below which a contact counts as at rest.
@@ -37,6 +37,14 @@ TRACTION = np.dtype(
 )  # fmt: skip
 
 
+class ContactLoad(NamedTuple):
+    """Normal load of a contact, with what tables and formulas take of it."""
+
+    load: float  #: Q [N]
+    logarithm: float  #: ln Q [ln N]
+    root: float  #: Q^(1/3) [N^(1/3)]
+
+
 class Traction(NamedTuple):
     """Traction of a raceway contact on the roller."""
 
@@ -54,7 +62,7 @@ class Traction(NamedTuple):
     lag_by_load: float
 
 
-@jit_inline
+@jit_evaluation
 def cell_of(axis, coordinate):
     """Cell of a coordinate, the place in it, and its derivative by the coordinate: 0 beyond the ends, where it stays there."""
     first, place = axis.first * axis.per_spacing, coordinate * axis.per_spacing
@@ -67,19 +75,26 @@ def cell_of(axis, coordinate):
     return cell, place - (first + cell), axis.per_spacing
 
 
-@jit_inline
+@jit_evaluation
 def log_load(load):
     """Ln Q of a load [N] that may be none."""
     return math.log(max(load, _LEAST_LOAD))
 
 
-@jit_inline
+@jit_evaluation
 def log_speed(speed):
     """Ln |u| of a speed [m/s] that may be none."""
     return math.log(max(abs(speed), _LEAST_SPEED))
 
 
-@jit_inline
+@jit_evaluation
+def contact_load(load):
+    """Load Q > 0 [N] with its logarithm and its cube root."""
+    logarithm = math.log(load)
+    return ContactLoad(load, logarithm, math.exp(logarithm * (1.0 / 3.0)))
+
+
+@jit_evaluation
 def in_plane(plane, tables, log_load, log_speed):
     """Four quantities of a plane at ln Q and ln |u|, and their derivatives by both, as three tuples."""
     i, t, by_first = cell_of(plane.load, log_load)
@@ -100,56 +115,71 @@ def in_plane(plane, tables, log_load, log_speed):
     )
 
 
-@jit_inline
-def traction(table, tables, load, log_load, ring_speed, slip):
-    """`Traction` of a raceway contact from its table.
+@jit_evaluation
+def traction(table, tables, load, ring_speed, slip):
+    """Traction of a raceway contact from its table.
 
-    At Q > 0 [N], ln Q, u2 and v [m/s], each of either sign, from a record of `TRACTION` and the flat array of tables.
+    Parameters
+    ----------
+    table : record of `TRACTION`
+    tables : int or ndarray
+        The flat array of tables, or its address.
+    load : ContactLoad
+        Q > 0.
+    ring_speed, slip : float
+        u2 and Δu in the middle of the contact [m/s], of either sign.
+
+    Returns
+    -------
+    Traction
     """
     sign = math.copysign(1.0, ring_speed)
-    along, sliding = abs(ring_speed), slip * sign
-    speed = math.sqrt(along * along + 0.25 * sliding * sliding + REST_SPEED * REST_SPEED)
-    per_speed, per_sum = 1.0 / speed, 1.0 / (speed + along)
+    ring = abs(ring_speed)
+    sliding = slip * sign
+    speed = math.sqrt(ring * ring + 0.25 * sliding * sliding + REST_SPEED * REST_SPEED)
+    per_speed = 1.0 / speed
+    per_sum = 1.0 / (speed + ring)
     ratio = 2.0 * sliding * per_sum
     z = (ratio - table.middle) / table.scale
     size = math.sqrt(z * z + 1.0)
-    root_speed, root = math.sqrt(math.sqrt(speed)), math.exp(log_load * (1.0 / 3.0))
-    i, t, load_slope = cell_of(table.load, log_load + table.stretch * root)
+    arsinh = math.copysign(math.log1p(abs(z) + z * z / (1.0 + size)), z)
+    root_speed = math.sqrt(math.sqrt(speed))
+    root = load.root
+    i, t, load_slope = cell_of(table.load, load.logarithm + table.stretch * root)
     k, s, speed_slope = cell_of(table.speed, root_speed)
-    j, u, ratio_slope = cell_of(
-        table.ratio, math.copysign(math.log1p(abs(z) + z * z / (1.0 + size)), z)
-    )
+    j, u, ratio_slope = cell_of(table.ratio, arsinh)
     inner = CHANNELS * (table.ratio.cells + 3)
     outer = inner * (table.speed.cells + 3)
     start = table.start + i * outer + k * inner + CHANNELS * j
     value, first, second, third = splines_in_cube(tables, start, (outer, inner), (t, s, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
-    # Derivatives of the coordinates: by Q, by w and by y; of w and y by v and by u2, less the sign that both take.
-    load_slope *= (1.0 + table.stretch * root * (1.0 / 3.0)) / load
-    speed_slope *= 0.25 * root_speed / speed
-    ratio_slope /= table.scale * size
-    if along == 0.0 and slip == 0.0:
+    if ring == 0.0 and slip == 0.0:
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)
-    w_by_slip, w_by_speed = 0.25 * sliding * per_speed, along * per_speed
-    y_by_slip, y_by_speed = (
-        per_sum * (2.0 - ratio * w_by_slip),
-        -ratio * per_sum * (1.0 + w_by_speed),
-    )
-    pull_by_w, pull_by_y = load * second[0] * speed_slope, load * third[0] * ratio_slope
-    heavy = load * root * root
-    lag_by_w, lag_by_y = heavy * second[1] * speed_slope, heavy * third[1] * ratio_slope
+    # Derivatives of the coordinates: by Q, by w and by y; of w and y by v and by u2, less the sign that both take.
+    load_slope *= 1.0 + table.stretch * root * (1.0 / 3.0)
+    speed_slope *= 0.25 * root_speed * per_speed
+    ratio_slope /= table.scale * size
+    w_by_slip = 0.25 * sliding * per_speed
+    w_by_speed = ring * per_speed
+    y_by_slip = per_sum * (2.0 - ratio * w_by_slip)
+    y_by_speed = -ratio * per_sum * (1.0 + w_by_speed)
+    heavy = load.load * root * root
+    pull_by_w = load.load * second[0] * speed_slope
+    pull_by_y = load.load * third[0] * ratio_slope
+    lag_by_w = heavy * second[1] * speed_slope
+    lag_by_y = heavy * third[1] * ratio_slope
     return Traction(
-        sign * load * value[0],
+        sign * load.load * value[0],
         sign * heavy * value[1],
-        sign * table.side * load * root * value[2],
+        sign * table.side * load.load * root * value[2],
         # Where asperities have nearly nothing, splines pass a little below zero.
         heavy * speed * max(value[3], 0.0),
         pull_by_w * w_by_slip + pull_by_y * y_by_slip,
         lag_by_w * w_by_slip + lag_by_y * y_by_slip,
         pull_by_w * w_by_speed + pull_by_y * y_by_speed,
         lag_by_w * w_by_speed + lag_by_y * y_by_speed,
-        sign * (value[0] + load * first[0] * load_slope),
-        sign * root * root * ((5.0 / 3.0) * value[1] + load * first[1] * load_slope),
+        sign * (value[0] + first[0] * load_slope),
+        sign * root * root * ((5.0 / 3.0) * value[1] + first[1] * load_slope),
     )
 
 

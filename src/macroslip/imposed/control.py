@@ -15,8 +15,8 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.imposed import tuning
 from macroslip.imposed.radau import EIGENVALUE, NODES, WEIGHTS, evaluate, look_between
 from macroslip.imposed.zones import EDGE, FIRM, FREE
+from macroslip.mechanics.spin import net_force, powers
 from macroslip.ring.orbit import instant
-from macroslip.roller.forces import net_force, powers
 
 _ROOT_6 = math.sqrt(6.0)
 

@@ -15,8 +15,8 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.imposed import tuning
 from macroslip.imposed.radau import evaluate, frame, locate, start_at, write_point
 from macroslip.imposed.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE, UNDER_WAY
+from macroslip.mechanics.spin import net_force
 from macroslip.ring.orbit import interval_of
-from macroslip.roller.forces import net_force
 from macroslip.roller.step import write_stage
 
 #: Rule and bounds.

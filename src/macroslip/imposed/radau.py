@@ -28,8 +28,7 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import rising_slip
 from macroslip.imposed import tuning
 from macroslip.imposed.zones import EDGE, FIRM, FREE
-from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import (
+from macroslip.mechanics.spin import (
     FORCES,
     STATION,
     magnitude,
@@ -38,6 +37,7 @@ from macroslip.roller.forces import (
     slip_forces,
     station,
 )
+from macroslip.ring.orbit import instant, interval_of
 from macroslip.roller.step import write_stage
 
 _ROOT_6 = math.sqrt(6.0)

@@ -45,8 +45,8 @@ from macroslip.imposed.status import (
     UNDER_WAY,
 )
 from macroslip.imposed.zones import EDGE, FIRM, FREE, edge_time
+from macroslip.mechanics.spin import net_force, powers
 from macroslip.ring.orbit import Motion, interval_of, last_before
-from macroslip.roller.forces import net_force, powers
 from macroslip.roller.step import write_stage
 
 #: Rows that a step may take: its own, and rows of looks between its stages.

@@ -11,10 +11,11 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.look_up import log_load
+from macroslip.contact.look_up import contact_load, log_speed
 from macroslip.imposed import tuning
+from macroslip.mechanics.loads import interference
+from macroslip.mechanics.raceway import raceway_traction
 from macroslip.ring.orbit import instant
-from macroslip.roller.forces import interference, raceway_traction
 
 FREE, EDGE, FIRM = 0, 1, 2
 
@@ -26,14 +27,18 @@ def relaxation_rate(body, tables, load, ring_speed):
     `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a Newton iteration held
     within the slips that occur in the contact finds it.
     """
-    slip, low, high = 0.0, -math.inf, math.inf
-    rate, ln_load = 0.0, log_load(load)
+    slip = 0.0
+    low = -math.inf
+    high = math.inf
+    rate = 0.0
+    normal = contact_load(load)
     for _ in range(20):
+        log_mean = log_speed(ring_speed - 0.5 * slip)
         inner = raceway_traction(
-            body.inner, tables, body.closed_form, load, ln_load, ring_speed, slip
+            body.inner, tables, body.closed_form, normal, ring_speed, slip, log_mean
         )
         outer = raceway_traction(
-            body.outer, tables, body.closed_form, load, ln_load, ring_speed, slip
+            body.outer, tables, body.closed_form, normal, ring_speed, slip, log_mean
         )
         rest = inner.pull - inner.lag + outer.pull - outer.lag
         slope = inner.pull_by_slip - inner.lag_by_slip + outer.pull_by_slip - outer.lag_by_slip

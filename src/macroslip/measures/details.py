@@ -25,7 +25,7 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature, transient_flash
-from macroslip.contact.look_up import log_load, log_speed
+from macroslip.contact.look_up import log_speed
 from macroslip.contact.patch import (
     Patch,
     chord_stress_at,
@@ -36,8 +36,9 @@ from macroslip.contact.patch import (
 )
 from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.measures.totals import END, RACEWAYS, Batch, loaded_contacts, orbit_at, write_end
+from macroslip.mechanics.cage import cage_friction
+from macroslip.mechanics.film_sharing import LOWEST_SPEED
 from macroslip.ring.orbit import angle_at
-from macroslip.roller.forces import LOWEST_SPEED, cage_traction
 from macroslip.roller.step import STEP
 
 if TYPE_CHECKING:
@@ -511,7 +512,7 @@ def _look_at_cage(body, tables, contact, look, extreme):
     hot[0], hot[1], hot[2], hot[3] = 0.0, 1.0, surface, 0.0
     if load > 0.0:
         root = load ** (1.0 / 3.0)
-        force = cage_traction(body, tables, load, log_load(load), surface, log_speed(surface))[0]
+        force = cage_friction(body, tables, load, surface, log_speed(surface)).force
         hot[0], hot[1] = (
             0.75 * abs(surface * force) / (contact.patch.across * root),
             contact.patch.along * root,

@@ -12,7 +12,7 @@ from macroslip.constants import SECTORS
 from macroslip.contact.look_up import log_speed
 from macroslip.contact.skewed import slip_lines
 from macroslip.measures.totals import RACEWAYS
-from macroslip.roller.forces import cage_contact
+from macroslip.mechanics.cage import cage_forces
 from macroslip.roller.model import Roller
 from macroslip.roller.skew import Pair
 from macroslip.roller.skew_table import Guide, SkewTable, turned
@@ -40,7 +40,7 @@ def _power_of_ends(roller, stop, push, speed):
     power, rough = 0.0, 0.0
     if stop > 0.0:
         for load, sign in ((stop + abs(push), 1.0), (stop, 1.0), (abs(push), -1.0)):
-            found = cage_contact(body, tables, load, speed, log_speed(speed))
+            found = cage_forces(body, tables, load, speed, log_speed(speed))
             power -= sign * found.friction * speed
             rough += sign * found.asperity_power
     return power, rough

@@ -10,8 +10,8 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.laws import ContactLaws, RollerLaws
+from macroslip.mechanics.film_sharing import LOWEST_SPEED
 from macroslip.ring.orbit import last_before
-from macroslip.roller.forces import LOWEST_SPEED
 
 #: Meaning of `Totals.mechanism_energy` by position: what makes surfaces slide.
 MECHANISMS = ("sliding", "curvature", "contact angle")

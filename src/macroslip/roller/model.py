@@ -27,8 +27,8 @@ from macroslip.contact.table import (
     write_traction,
 )
 from macroslip.lubricant import Lubricant
+from macroslip.mechanics.film_sharing import film_load_is_negligible
 from macroslip.ring.balance import RingGeometry
-from macroslip.roller.forces import is_faded
 
 #: Least load of planes [N], and least speed of oil's as part of the fastest.
 _LIGHTEST, _SLOWEST = 1e-4, 1e-4
@@ -264,7 +264,7 @@ def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> flo
     roller = next(iter(rollers.values()))
     load = 1.0
     while not all(
-        is_faded(roller.body[0], roller.tables.ctypes.data, load, one, box.fastest)
+        film_load_is_negligible(roller.body[0], roller.tables.ctypes.data, load, one, box.fastest)
         for one in (-most, 0.0, most)
     ):
         load *= 1.1

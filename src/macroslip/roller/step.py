@@ -12,7 +12,7 @@ _AT_STAGES = (STAGES,)
 _BY_INTERFACE, _BY_RACEWAY = (STAGES, 3), (STAGES, 2)
 
 #: A step. Interfaces are in the order inner, outer, cage; arrays are over stages, of which the first `stages` count and the last
-#: is the step's end. Signs as in `macroslip.roller.forces`.
+#: is the step's end. Signs as in `macroslip.mechanics`.
 #:
 #: start, end : times [s]
 #: stages : number of stages
@@ -75,12 +75,7 @@ def write_stage(row, k, body, at, forces, slip, power):
             forces.rolling[i],
             forces.rough[i],
         )
-    ring = at.ring_speed
-    row.lag_power[k, 0], row.skew_power[k, 0] = (
-        ring * body.inner.curvature * forces.lag[0],
-        -ring * body.inner.spin * forces.skew[0],
-    )
-    row.lag_power[k, 1], row.skew_power[k, 1] = (
-        ring * body.outer.curvature * forces.lag[1],
-        -ring * body.outer.spin * forces.skew[1],
-    )
+    row.lag_power[k, 0] = at.ring_speed * body.inner.curvature * forces.lag[0]
+    row.lag_power[k, 1] = at.ring_speed * body.outer.curvature * forces.lag[1]
+    row.skew_power[k, 0] = -at.ring_speed * body.inner.spin * forces.skew[0]
+    row.skew_power[k, 1] = -at.ring_speed * body.outer.spin * forces.skew[1]

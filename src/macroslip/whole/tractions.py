@@ -12,14 +12,10 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.look_up import log_load, log_speed
-from macroslip.roller.forces import (
-    cage_contact,
-    film_load,
-    interference,
-    raceway_oil,
-    raceway_traction,
-)
+from macroslip.contact.look_up import contact_load, log_speed
+from macroslip.mechanics.cage import cage_forces
+from macroslip.mechanics.loads import roller_loads
+from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
 from macroslip.whole import tuning
 
 #: Tractions of a raceway contact at the load [N], ring speed and slip [m/s] of their evaluation: forces that turn (`spin`) and
@@ -114,68 +110,43 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
             ahead = (own[2] - a * sine + b * cosine) / pitch
             half = 1.0 - 0.5 * ahead * ahead
             x, y = cosine * half - sine * ahead, sine * half + cosine * ahead
-            approach = interference(body, x, y, now)
-            load = body.stiffness * approach * math.sqrt(approach) if approach > 0.0 else 0.0
             ring = now.shaft_speed * place.inner_radius
             orbit = 0.5 * (own[0] - own[1] + ring) / pitch
-            outward = (
-                body.centrifugal * orbit * orbit - body.weight_in_plane * y
-            ) * body.cos_contact_angle
-            outward += body.weight_along_axis * body.sin_contact_angle
-            outer_speed = -orbit * bearing.outer_radius
-            at.film_load = film_load(
-                body, tables, load, approach, outward, outer_speed, at.film_load
-            )
-            pressed = load + at.film_load
-            at.ring, at.elastic_load = ring, load
-            at.inner_load = pressed - min(outward, 0.0)
-            at.outer_load = pressed + max(outward, 0.0)
-            at.tangential = body.weight_in_plane * x + body.drag * orbit * abs(orbit)
+            loads = roller_loads(body, tables, x, y, now, orbit, at.film_load)
+            at.ring = ring
+            at.film_load = loads.film_load
+            at.elastic_load = loads.elastic_load
+            at.inner_load = loads.inner_load
+            at.outer_load = loads.outer_load
+            at.tangential = loads.tangential
             at.inner_speed = orbit * place.inner_radius - ring
-            at.outer_speed = outer_speed
+            at.outer_speed = -orbit * bearing.outer_radius
 
 
 @jit
 def _evaluate(body, law, tables, load, speed, slip, sheet):
     """Evaluate a raceway contact at its load [N], ring speed and slip [m/s] into its sheet."""
-    sheet.slip, sheet.load, sheet.speed = slip, load, speed
-    if load <= 0.0:
-        sheet.spin = sheet.pull = sheet.spin_by_slip = sheet.pull_by_slip = sheet.spin_by_load = (
-            sheet.pull_by_load
-        ) = 0.0
-        sheet.spin_by_speed = sheet.pull_by_speed = sheet.skew = sheet.rough = 0.0
-        sheet.shear = sheet.shear_by_slip = sheet.shear_by_load = sheet.shear_by_speed = 0.0
-        return
-    ln_load = log_load(load)
-    found = raceway_traction(law, tables, body.closed_form, load, ln_load, speed, slip)
-    sheet.spin, sheet.pull = found.pull - found.lag, found.pull
-    sheet.spin_by_slip, sheet.pull_by_slip = (
-        found.pull_by_slip - found.lag_by_slip,
-        found.pull_by_slip,
-    )
-    sheet.spin_by_load, sheet.pull_by_load = (
-        found.pull_by_load - found.lag_by_load,
-        found.pull_by_load,
-    )
-    sheet.spin_by_speed, sheet.pull_by_speed = (
-        found.pull_by_speed - found.lag_by_speed,
-        found.pull_by_speed,
-    )
-    sheet.skew, sheet.rough = -speed * law.spin * found.skew, found.asperity_power
-    if not body.oily:
-        return
-    mean, push = speed - 0.5 * slip, law.push
-    oil = raceway_oil(law, tables, load, ln_load, mean, log_speed(mean), slip)
-    sheet.spin += oil.sliding + oil.shear
-    sheet.pull += oil.sliding + push * oil.shear
-    sheet.spin_by_slip += oil.sliding_by_slip + oil.shear_by_slip
-    sheet.pull_by_slip += oil.sliding_by_slip + push * oil.shear_by_slip
-    sheet.spin_by_load += oil.sliding_by_load + oil.shear_by_load
-    sheet.pull_by_load += oil.sliding_by_load + push * oil.shear_by_load
-    sheet.spin_by_speed += oil.sliding_by_speed + oil.shear_by_speed
-    sheet.pull_by_speed += oil.sliding_by_speed + push * oil.shear_by_speed
-    sheet.shear, sheet.shear_by_slip = oil.shear, oil.shear_by_slip
-    sheet.shear_by_load, sheet.shear_by_speed = oil.shear_by_load, oil.shear_by_speed
+    forces = NO_RACEWAY_FORCES
+    if load > 0.0:
+        log_mean = log_speed(speed - 0.5 * slip)
+        forces = raceway_forces(body, law, tables, contact_load(load), speed, slip, log_mean)
+    sheet.slip = slip
+    sheet.load = load
+    sheet.speed = speed
+    sheet.spin = forces.friction + forces.shear
+    sheet.pull = forces.pull
+    sheet.shear = forces.shear
+    sheet.spin_by_slip = forces.friction_by_slip + forces.shear_by_slip
+    sheet.pull_by_slip = forces.pull_by_slip
+    sheet.shear_by_slip = forces.shear_by_slip
+    sheet.spin_by_load = forces.friction_by_load + forces.shear_by_load
+    sheet.pull_by_load = forces.pull_by_load
+    sheet.shear_by_load = forces.shear_by_load
+    sheet.spin_by_speed = forces.friction_by_speed + forces.shear_by_speed
+    sheet.pull_by_speed = forces.pull_by_speed
+    sheet.shear_by_speed = forces.shear_by_speed
+    sheet.skew = -speed * law.spin * forces.skew
+    sheet.rough = forces.asperity_power
 
 
 @jit
@@ -276,7 +247,7 @@ def cage_from(body, tables, sheet, push, sliding, part):
         abs(load - sheet.load) <= part * sheet.load + tuning.LIGHT
         and abs(sliding - sheet.slip) <= part * abs(sheet.slip)
     ):
-        found = cage_contact(body, tables, load, -sliding, log_speed(sliding))
+        found = cage_forces(body, tables, load, -sliding, log_speed(sliding))
         sheet.force = found.friction + found.resistance
         sheet.by_slip = found.friction_by_slip + found.resistance_by_slip
         sheet.by_load = found.friction_by_load + found.resistance_by_load

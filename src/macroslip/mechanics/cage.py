@@ -1,0 +1,145 @@
+"""The contact of a roller with the cage: its load (32) and its friction."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from macroslip.compiled import jit_evaluation
+from macroslip.contact.look_up import contact_load, in_plane, log_load
+from macroslip.mechanics.traction import uniform_traction
+
+
+class CageFriction(NamedTuple):
+    """Friction of the cage's contact without the oil of its pocket."""
+
+    force: float  #: In (16) [N]
+    by_slip: float  #: Slope by the roller's slip Δu [N s/m]
+    by_load: float  #: Slope by load [-]
+    asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
+
+
+class CageForces(NamedTuple):
+    """Forces of the cage's contact in (16), with slopes by the roller's slip Δu [N s/m] and by load [-]."""
+
+    friction: float  #: F_c [N]
+    resistance: float  #: Rolling resistance [N]
+    friction_by_slip: float
+    resistance_by_slip: float
+    friction_by_load: float
+    resistance_by_load: float
+    rolling_power: float  #: Power of rolling resistance [W]
+    asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
+
+
+NO_CAGE_FORCES = CageForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@jit_evaluation
+def cage_load(tangential, inner_pull, outer_pull):
+    """Normal force F_n,cage of (32) with its sign, positive where the cage pushes the roller along the orbit [N].
+
+    On an imposed orbit the cage balances everything tangential: F_g,x' + F_d,x' + F_i − F_o.
+    """
+    return tangential + inner_pull - outer_pull
+
+
+@jit_evaluation
+def _closed_form_friction(law, tables, load, surface_speed, log_surface):
+    """Friction of the contact by the paper's closed form."""
+    # Slip at the cage is −u1, and the raceways' slip slows the roller's surface.
+    entrainment = 0.5 * abs(surface_speed)
+    log_entrainment = log_surface - math.log(2.0)
+    uniform = uniform_traction(law, tables, load, -surface_speed, entrainment, log_entrainment)
+    by_slip = uniform.by_slip - math.copysign(0.5, surface_speed) * uniform.by_entrainment
+    return CageFriction(uniform.force, by_slip, uniform.by_load, uniform.asperity_power)
+
+
+@jit_evaluation
+def _tabulated_friction(value, by_load, by_speed, load, surface_speed):
+    """Friction of the contact from its plane's values and slopes."""
+    conductance = value[0]
+    return CageFriction(
+        -conductance * surface_speed,
+        conductance + by_speed[0],
+        -by_load[0] * surface_speed / load,
+        # Where the share of asperities is zero its spline is not, by rounding.
+        max(value[1], 0.0) * conductance * surface_speed * surface_speed,
+    )
+
+
+@jit_evaluation
+def cage_friction(body, tables, load, surface_speed, log_surface):
+    """Friction of the cage's contact under a load > 0, without the oil of the pocket.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    load : float
+        |F_n,cage| > 0 [N].
+    surface_speed, log_surface : float
+        Speed u1 = u2 − Δu of the roller's surface [m/s], and the logarithm of its magnitude.
+
+    Returns
+    -------
+    CageFriction
+    """
+    law = body.cage
+    if body.closed_form:
+        return _closed_form_friction(law, tables, contact_load(load), surface_speed, log_surface)
+    value, by_load, by_speed = in_plane(law.oil, tables, log_load(load), log_surface)
+    return _tabulated_friction(value, by_load, by_speed, load, surface_speed)
+
+
+@jit_evaluation
+def cage_forces(body, tables, load, surface_speed, log_surface):
+    """Friction (16) of the cage's contact, which is at rest in the orbiting frame: Δu_c = −u1.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    load : float
+        |F_n,cage| [N]; a pocket full of oil brakes its roller without load too.
+    surface_speed, log_surface : float
+        Speed u1 = u2 − Δu of the roller's surface [m/s], and the logarithm of its magnitude.
+
+    Returns
+    -------
+    CageForces
+    """
+    if not body.oily:
+        if load <= 0.0:
+            return NO_CAGE_FORCES
+        dry = cage_friction(body, tables, load, surface_speed, log_surface)
+        return CageForces(
+            dry.force, 0.0, dry.by_slip, 0.0, dry.by_load, 0.0, 0.0, dry.asperity_power
+        )
+    law = body.cage
+    value, by_load, by_speed = in_plane(law.oil, tables, log_load(load), log_surface)
+    friction = CageFriction(0.0, 0.0, 0.0, 0.0)
+    per_load = 0.0
+    if load > 0.0:
+        per_load = 1.0 / load
+        if body.closed_form:
+            friction = _closed_form_friction(
+                law, tables, contact_load(load), surface_speed, log_surface
+            )
+        else:
+            friction = _tabulated_friction(value, by_load, by_speed, load, surface_speed)
+    pocket = value[2]
+    resistance = value[3]
+    shear = -0.5 * resistance * surface_speed
+    return CageForces(
+        friction.force - pocket * surface_speed,
+        shear,
+        friction.by_slip + pocket + by_speed[2],
+        0.5 * (resistance + by_speed[3]),
+        friction.by_load - surface_speed * by_load[2] * per_load,
+        -0.5 * surface_speed * by_load[3] * per_load,
+        -shear * surface_speed,
+        friction.asperity_power,
+    )

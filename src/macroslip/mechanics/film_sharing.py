@@ -1,0 +1,153 @@
+"""Loads that lubricant films carry where a roller has play between the rings."""
+
+from __future__ import annotations
+
+import math
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.look_up import in_plane
+
+#: Entrainment speed below which film formulas are not followed further [m/s].
+LOWEST_SPEED = 1e-6
+#: Film of the volume flow over the smallest gap of a rigid contact (Martin) [-].
+FLOW = 1.2257
+#: Film loads below this fraction of the elastic load are neglected (they enter as e^−30) [-].
+NEGLIGIBLE = 1.0 / 30.0
+#: Bounds of ln q [ln N].
+_LIGHTEST = math.log(1e-9)
+_HEAVIEST = math.log(1e7)
+#: Most iterations of Newton's method; it takes about three.
+_ITERATIONS = 60
+#: Change of ln q after which Newton's next one, of the order of its square, is below 1e-8.
+_CONVERGED = 1e-4
+
+
+@jit_inline
+def _log_film_excess(body, tables, log_q, outward, play, log_u):
+    """Ln of the films' height over the space they have, at a load q of the lighter one, and its slope by ln q."""
+    load = math.exp(log_q)
+    inner_load = load - min(outward, 0.0)
+    outer_load = load + max(outward, 0.0)
+    log_inner = log_q if outward >= 0.0 else math.log(inner_load)
+    log_outer = log_q if outward <= 0.0 else math.log(outer_load)
+    inner, inner_slope, _ = in_plane(body.inner.oil, tables, log_inner, log_u)
+    outer, outer_slope, _ = in_plane(body.outer.oil, tables, log_outer, log_u)
+    inner_film = math.exp(inner[2])
+    outer_film = math.exp(outer[2])
+    films = inner_film + outer_film
+    growth = inner_film * inner_slope[2] * load / inner_load
+    growth += outer_film * outer_slope[2] * load / outer_load
+    approach = math.exp((log_q - math.log(body.stiffness)) * (2.0 / 3.0))
+    space = play + approach
+    slope = growth / films - (2.0 / 3.0) * approach / space
+    return math.log(films / (FLOW * space)), slope
+
+
+@jit
+def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
+    """Load q that the lighter of a roller's two raceway films carries [N].
+
+    A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the body force,
+
+        [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
+
+    h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without load turns slowly; one
+    that grips has left its play, where q counts for little.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    play : float
+        p ≥ 0 [m].
+    outward : float
+        Body force B along the contact normal, positive outward [N].
+    ring_speed : float
+        u2 [m/s].
+    guess : float
+        Load at which the search begins [N], such as the load a moment before; where it is 0, at 1 N.
+
+    Returns
+    -------
+    float
+        q [N], to a relative error of 1e-8.
+    """
+    speed = 0.5 * abs(ring_speed)
+    log_u = math.log(max(speed, LOWEST_SPEED))
+    low = _LIGHTEST - 1.0
+    high = _HEAVIEST
+    log_q = math.log(guess) if guess > 0.0 else 0.0
+    for _ in range(_ITERATIONS):
+        excess, slope = _log_film_excess(body, tables, log_q, outward, play, log_u)
+        if excess > 0.0:
+            low = log_q
+        else:
+            high = log_q
+        step = -excess / slope if slope < 0.0 else math.inf
+        following = log_q + step
+        # A start at the root may leave the bounds by rounding.
+        if abs(step) >= _CONVERGED and not low < following < high:
+            # Films that the play is too wide for carry nothing, which the lightest load shows at once.
+            wide = low < _LIGHTEST and excess <= 0.0
+            following = _LIGHTEST if wide else 0.5 * (low + high)
+        change = abs(following - log_q)
+        log_q = following
+        if change < _CONVERGED:
+            break
+    # In proportion to speed where it vanishes.
+    return math.exp(log_q) * min(1.0, speed / LOWEST_SPEED)
+
+
+@jit
+def film_load_is_negligible(body, tables, load, outward, ring_speed):
+    """True if the film load is negligible against the elastic load of a roller.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    load : float
+        Elastic load [N].
+    outward : float
+        Body force along the contact normal, positive outward [N].
+    ring_speed : float
+        u2 [m/s].
+    """
+    log_u = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
+    log_q = math.log(NEGLIGIBLE * load)
+    return _log_film_excess(body, tables, log_q, outward, 0.0, log_u)[0] <= 0.0
+
+
+@jit_inline
+def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
+    """Load of the films on either raceway beside the elastic load and the body force [N].
+
+    As the play vanishes q rises to a load q0 that films carry without play; a roller that the rings press with Q_e has
+    q0 exp(−Q_e/q0) of it left, so that loads are continuous.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    load : float
+        Elastic load Q_e [N].
+    approach : float
+        Elastic approach δ [m]; negative where there is play.
+    outward : float
+        Body force along the contact normal, positive outward [N].
+    ring_speed : float
+        u2 [m/s].
+    guess : float
+        Film load at which the search begins [N], as of `shared_film_load`.
+    """
+    if not body.oily or load >= body.faded_load:
+        return 0.0
+    if load <= 0.0:
+        return shared_film_load(body, tables, -approach, outward, ring_speed, guess)
+    without_play = shared_film_load(body, tables, 0.0, outward, ring_speed, guess)
+    if without_play <= NEGLIGIBLE * load:
+        return 0.0
+    return without_play * math.exp(-load / without_play)

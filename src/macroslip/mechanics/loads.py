@@ -1,0 +1,94 @@
+"""Loads on a roller at a place of its orbit: elastic load of the rings and body forces (18)-(26), whatever its spin."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from macroslip.compiled import jit_evaluation
+from macroslip.mechanics.film_sharing import film_load
+from macroslip.ring.balance import radial_clearance
+
+
+class RollerLoads(NamedTuple):
+    """Loads on a roller at one place and time."""
+
+    interference: (
+        float  #: Elastic approach δ of ring, roller and ring [m]; negative where there is play
+    )
+    elastic_load: float  #: Load Q that the rings press on the roller [N]
+    film_load: float  #: Load of the films that share a roller's play [N]
+    inner_load: float  #: Normal load of the inner raceway, with body forces and films [N]
+    outer_load: float  #: Normal load of the outer raceway, with body forces and films [N]
+    tangential: float  #: F_g,x' + F_d,x', along +x' [N]
+
+
+@jit_evaluation
+def interference(body, cosine, sine, now):
+    """Elastic approach δ = (dX cos φ + dY sin φ − c(φ)) cos α + s dZ sin α of a roller at cos φ, sin φ [m]."""
+    radial = now.displacement_x * cosine + now.displacement_y * sine
+    radial -= radial_clearance(body, cosine, sine)
+    return radial * body.cos_contact_angle + now.displacement_z * body.sin_contact_angle
+
+
+@jit_evaluation
+def elastic_load(body, approach):
+    """Load Q = K δ^1.5 of inner and outer contact in series [N] at an elastic approach [m]; 0 with play."""
+    if approach <= 0.0:
+        return 0.0
+    return body.stiffness * approach * math.sqrt(approach)
+
+
+@jit_evaluation
+def normal_body_force(body, sine, orbital_speed):
+    """Weight (18)-(20) and centrifugal force (21)-(23) along the contact normal, positive outward [N].
+
+    Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along Z0. Both forces are summed first; a sum that
+    points outward loads the outer raceway, inward the inner one. A roller with play can lean on only one ring, so that
+    the sum and not each force for itself is what a raceway feels.
+    """
+    radial = body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine
+    return radial * body.cos_contact_angle + body.weight_along_axis * body.sin_contact_angle
+
+
+@jit_evaluation
+def tangential_body_force(body, cosine, orbital_speed):
+    """Weight F_g,x' (18) and drag F_d,x' (24)-(26) along +x', against a positive orbit [N]."""
+    return body.weight_in_plane * cosine + body.drag * orbital_speed * abs(orbital_speed)
+
+
+@jit_evaluation
+def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
+    """Loads on a roller at the orbital position cos φ, sin φ.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    cosine, sine : float
+        Of the roller's orbital position φ [-].
+    now : macroslip.ring.orbit.Instant
+        The ring's motion.
+    orbital_speed : float
+        Ω [rad/s].
+    guess : float
+        Film load at which the search for the films' load begins [N].
+
+    Returns
+    -------
+    RollerLoads
+    """
+    approach = interference(body, cosine, sine, now)
+    pressed = elastic_load(body, approach)
+    outward = normal_body_force(body, sine, orbital_speed)
+    ring_speed = -orbital_speed * body.outer_radius
+    films = film_load(body, tables, pressed, approach, outward, ring_speed, guess)
+    return RollerLoads(
+        approach,
+        pressed,
+        films,
+        pressed + films - min(outward, 0.0),
+        pressed + films + max(outward, 0.0),
+        tangential_body_force(body, cosine, orbital_speed),
+    )

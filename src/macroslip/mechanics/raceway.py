@@ -1,0 +1,198 @@
+"""Forces of a raceway contact on the roller: traction, the film beside the ellipse, and rolling resistance."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from macroslip.compiled import jit_evaluation
+from macroslip.contact.look_up import Traction, in_plane, traction
+from macroslip.mechanics.film_sharing import LOWEST_SPEED
+from macroslip.mechanics.traction import uniform_traction
+
+
+class RacewayForces(NamedTuple):
+    """Forces of a raceway contact on the roller, with slopes by slip Δu, ring speed u2 and load Q.
+
+    Slopes by slip and by speed are in N s/m, those by load without unit; each is taken with the others constant.
+    """
+
+    friction: float  #: F in (16), the moment about the roller's axis over r, without rolling resistance [N]
+    pull: float  #: Force on the roller's centre, along the friction [N]
+    shear: float  #: Rolling resistance in (16) [N]
+    friction_by_slip: float
+    pull_by_slip: float
+    shear_by_slip: float
+    friction_by_speed: float
+    pull_by_speed: float
+    shear_by_speed: float
+    friction_by_load: float
+    pull_by_load: float
+    shear_by_load: float
+    lag: float  #: ∫τ h/r dA, by which the moment over r falls short of the traction [N]
+    skew: float  #: ∫τ ζ dA, moment about the contact normal [N m]
+    asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
+    rolling_power: float  #: Power of rolling resistance [W]
+
+
+NO_RACEWAY_FORCES = RacewayForces(
+    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+)
+_NO_TRACTION = Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class RacewayOil(NamedTuple):
+    """Forces of the oil beside the traction in (16) [N], with slopes as `RacewayForces` has them."""
+
+    sliding: float  #: Of the film outside the ellipse
+    shear: float  #: Rolling resistance
+    sliding_by_slip: float
+    shear_by_slip: float
+    sliding_by_speed: float
+    shear_by_speed: float
+    sliding_by_load: float
+    shear_by_load: float
+    power: float  #: Of rolling resistance [W]
+
+
+_NO_OIL = RacewayOil(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@jit_evaluation
+def raceway_traction(law, tables, closed_form, load, ring_speed, slip, log_mean):
+    """Traction of a raceway contact, from its table or by the closed form.
+
+    Parameters
+    ----------
+    law : record of `macroslip.roller.model.CONTACT`
+    tables : int
+        Address of the flat array of tables.
+    closed_form : int
+        1 where slip is the same all over and the closed form serves.
+    load : macroslip.contact.look_up.ContactLoad
+    ring_speed, slip : float
+        u2 and Δu in the middle of the contact [m/s].
+    log_mean : float
+        Logarithm of the mean speed |u2 − Δu/2|.
+
+    Returns
+    -------
+    macroslip.contact.look_up.Traction
+    """
+    if closed_form:
+        mean = ring_speed - 0.5 * slip
+        uniform = uniform_traction(law, tables, load, slip, abs(mean), log_mean)
+        by_speed = math.copysign(1.0, mean) * uniform.by_entrainment
+        return Traction(
+            uniform.force,
+            0.0,
+            0.0,
+            uniform.asperity_power,
+            uniform.by_slip - 0.5 * by_speed,
+            0.0,
+            by_speed,
+            0.0,
+            uniform.by_load,
+            0.0,
+        )
+    if ring_speed == 0.0 and slip == 0.0:
+        # At rest nothing pulls, while tables end at a ring that creeps.
+        return _NO_TRACTION
+    return traction(law.traction, tables, load, ring_speed, slip)
+
+
+@jit_evaluation
+def raceway_oil(law, tables, load, ring_speed, slip, log_mean):
+    """Shear of the film outside the contact ellipse and rolling resistance of a raceway contact.
+
+    Parameters
+    ----------
+    law : record of `macroslip.roller.model.CONTACT`
+    tables : int
+        Address of the flat array of tables.
+    load : macroslip.contact.look_up.ContactLoad
+    ring_speed, slip : float
+        u2 and Δu in the middle of the contact [m/s].
+    log_mean : float
+        Logarithm of the mean speed |u2 − Δu/2|.
+
+    Returns
+    -------
+    RacewayOil
+    """
+    value, by_load, by_speed = in_plane(law.oil, tables, load.logarithm, log_mean)
+    conductance = value[0]
+    resistance = value[1]
+    mean = ring_speed - 0.5 * slip
+    if abs(mean) < LOWEST_SPEED:
+        # Near rest, resistance goes with speed.
+        per_mean = math.copysign(1.0 / LOWEST_SPEED, mean)
+        sign = mean / LOWEST_SPEED
+        shear_by_speed = -resistance * abs(per_mean)
+    else:
+        per_mean = 1.0 / mean
+        sign = math.copysign(1.0, mean)
+        shear_by_speed = -by_speed[1] * abs(per_mean)
+    shear = -resistance * sign
+    sliding_by_speed = slip * by_speed[0] * per_mean
+    per_load = 1.0 / load.load
+    return RacewayOil(
+        conductance * slip,
+        shear,
+        conductance - 0.5 * sliding_by_speed,
+        -0.5 * shear_by_speed,
+        sliding_by_speed,
+        shear_by_speed,
+        slip * by_load[0] * per_load,
+        -sign * by_load[1] * per_load,
+        -2.0 * shear * mean,
+    )
+
+
+@jit_evaluation
+def raceway_forces(body, law, tables, load, ring_speed, slip, log_mean):
+    """Forces of a loaded raceway contact on the roller, which enter (16), (17) and (32).
+
+    Beside its shear the inclined pressure of rolling resistance pushes the roller's centre (`push`).
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    law : record of `macroslip.roller.model.CONTACT`
+        Of the raceway: `body.inner` or `body.outer`.
+    tables : int
+        Address of the flat array of tables.
+    load : macroslip.contact.look_up.ContactLoad
+        Q > 0.
+    ring_speed, slip : float
+        u2 and Δu in the middle of the contact [m/s], (28)-(31).
+    log_mean : float
+        Logarithm of the mean speed |u2 − Δu/2|.
+
+    Returns
+    -------
+    RacewayForces
+    """
+    film = raceway_traction(law, tables, body.closed_form, load, ring_speed, slip, log_mean)
+    oil = _NO_OIL
+    if body.oily:
+        oil = raceway_oil(law, tables, load, ring_speed, slip, log_mean)
+    push = law.push
+    return RacewayForces(
+        film.pull - film.lag + oil.sliding,
+        film.pull + oil.sliding + push * oil.shear,
+        oil.shear,
+        film.pull_by_slip - film.lag_by_slip + oil.sliding_by_slip,
+        film.pull_by_slip + oil.sliding_by_slip + push * oil.shear_by_slip,
+        oil.shear_by_slip,
+        film.pull_by_speed - film.lag_by_speed + oil.sliding_by_speed,
+        film.pull_by_speed + oil.sliding_by_speed + push * oil.shear_by_speed,
+        oil.shear_by_speed,
+        film.pull_by_load - film.lag_by_load + oil.sliding_by_load,
+        film.pull_by_load + oil.sliding_by_load + push * oil.shear_by_load,
+        oil.shear_by_load,
+        film.lag,
+        film.skew,
+        film.asperity_power,
+        oil.power,
+    )

@@ -1,0 +1,181 @@
+"""Tangential forces of a roller on its imposed orbit, by which its spin changes: I_z' dω/dt = r (F_i + F_o + F_c) (16)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.look_up import ContactLoad, log_load, log_speed
+from macroslip.mechanics.cage import cage_forces, cage_load
+from macroslip.mechanics.loads import roller_loads
+from macroslip.mechanics.power import raceway_power
+from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
+
+#: Loads and speeds of a roller at one place and time, whatever its spin.
+STATION = np.dtype(
+    [
+        # Speed of both raceway surfaces past the roller's centre (28)-(30):
+        # u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s].
+        ("ring_speed", "f8"),
+        # Elastic approach δ of ring, roller and ring [m]; negative where there is play.
+        ("interference", "f8"),
+        # Load Q that the rings press on the roller [N].
+        ("elastic_load", "f8"),
+        # Normal loads with body forces, and those of films that share a roller's play [N].
+        ("inner_load", "f8"),
+        ("outer_load", "f8"),
+        # F_g,x' + F_d,x', along +x' [N].
+        ("tangential", "f8"),
+        # Load of the films that share a roller's play [N], where the next search for it begins.
+        ("film_load", "f8"),
+        # Logarithms [ln N] and cube roots [N^(1/3)] of the normal loads.
+        ("log_inner_load", "f8"),
+        ("log_outer_load", "f8"),
+        ("root_inner_load", "f8"),
+        ("root_outer_load", "f8"),
+    ]
+)
+#: Tangential forces on a roller at a given slip Δu, and their slopes by it.
+FORCES = np.dtype(
+    [
+        # F_i, F_o, F_c in (16), that is moments over r, positive where they drive the spin ω up [N].
+        ("inner", "f8"),
+        ("outer", "f8"),
+        ("cage", "f8"),
+        # Rolling resistance of all three contacts in (16) [N].
+        ("resistance", "f8"),
+        # d(F_i + F_o + F_c + resistance)/dΔu, dF_i/dΔu and dF_o/dΔu [N s/m].
+        ("slope", "f8"),
+        ("inner_slope", "f8"),
+        ("outer_slope", "f8"),
+        # F_n,cage (32) with its sign, positive where the cage pushes the roller along +φ [N],
+        # and its slope [N s/m].
+        ("cage_load", "f8"),
+        ("cage_load_slope", "f8"),
+        # ∫τ h/r dA [N] and skew moment ∫τ ζ dA [N m] of inner and outer raceway.
+        ("lag", "f8", (2,)),
+        ("skew", "f8", (2,)),
+        # Power of rolling resistance, and power that asperities dissipate, by interface [W].
+        ("rolling", "f8", (3,)),
+        ("rough", "f8", (3,)),
+    ]
+)
+
+
+@jit
+def station(body, tables, start_angle, now, at):
+    """Write loads on a roller and speed of the rings past it, (18)-(30).
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    start_angle : float
+        Orbital position φ at the first sample [rad].
+    now : macroslip.ring.orbit.Instant
+        The ring's motion.
+    at : record of `STATION`
+        Is written; its film load is where the search for the new one begins.
+    """
+    orbital_speed = body.orbit_ratio * now.shaft_speed
+    angle = start_angle + body.orbit_ratio * now.shaft_angle
+    cosine = math.cos(angle)
+    sine = math.sin(angle)
+    loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.film_load)
+    at.ring_speed = -orbital_speed * body.outer_radius
+    at.interference = loads.interference
+    at.elastic_load = loads.elastic_load
+    at.film_load = loads.film_load
+    at.inner_load = loads.inner_load
+    at.outer_load = loads.outer_load
+    at.tangential = loads.tangential
+    at.log_inner_load = log_load(loads.inner_load)
+    at.log_outer_load = log_load(loads.outer_load)
+    at.root_inner_load = math.exp(at.log_inner_load * (1.0 / 3.0))
+    at.root_outer_load = math.exp(at.log_outer_load * (1.0 / 3.0))
+
+
+@jit
+def slip_forces(body, tables, at, slip, forces):
+    """Write the forces of the raceways and the cage in (16) for the raceway slip Δu_in = Δu_out.
+
+    The roller's surface speed is u1 = u2 − Δu (31). The cage is at rest in the orbiting frame, Δu_c = −u1, and its normal
+    force balances everything tangential (32), F_i and F_o with what rolling resistance does: its shear and the push
+    of the inclined pressure.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    at : record of `STATION`
+    slip : float
+        Δu [m/s].
+    forces : record of `FORCES`
+        Is written.
+    """
+    ring_speed = at.ring_speed
+    surface_speed = ring_speed - slip
+    log_mean = log_speed(ring_speed - 0.5 * slip)
+    inner = NO_RACEWAY_FORCES
+    outer = NO_RACEWAY_FORCES
+    if at.inner_load > 0.0:
+        load = ContactLoad(at.inner_load, at.log_inner_load, at.root_inner_load)
+        inner = raceway_forces(body, body.inner, tables, load, ring_speed, slip, log_mean)
+    if at.outer_load > 0.0:
+        load = ContactLoad(at.outer_load, at.log_outer_load, at.root_outer_load)
+        outer = raceway_forces(body, body.outer, tables, load, ring_speed, slip, log_mean)
+    push = cage_load(at.tangential, inner.pull, outer.pull)
+    push_by_slip = inner.pull_by_slip - outer.pull_by_slip
+    cage = cage_forces(body, tables, abs(push), surface_speed, log_speed(surface_speed))
+    cage_by_push = cage.friction_by_load + cage.resistance_by_load
+    cage_by_push = cage_by_push if push >= 0.0 else -cage_by_push
+    forces.inner = inner.friction
+    forces.outer = outer.friction
+    forces.cage = cage.friction
+    forces.resistance = inner.shear + outer.shear + cage.resistance
+    forces.inner_slope = inner.friction_by_slip
+    forces.outer_slope = outer.friction_by_slip
+    slope = inner.friction_by_slip + outer.friction_by_slip
+    slope += inner.shear_by_slip + outer.shear_by_slip
+    slope += cage.friction_by_slip + cage.resistance_by_slip
+    forces.slope = slope + cage_by_push * push_by_slip
+    forces.cage_load = push
+    forces.cage_load_slope = push_by_slip
+    forces.lag[0] = inner.lag
+    forces.lag[1] = outer.lag
+    forces.skew[0] = inner.skew
+    forces.skew[1] = outer.skew
+    forces.rolling[0] = inner.rolling_power
+    forces.rolling[1] = outer.rolling_power
+    forces.rolling[2] = cage.rolling_power
+    forces.rough[0] = inner.asperity_power
+    forces.rough[1] = outer.asperity_power
+    forces.rough[2] = cage.asperity_power
+
+
+@jit_inline
+def net_force(forces):
+    """F_i + F_o + F_c with rolling resistance, by which the spin changes (16) [N]."""
+    return forces.inner + forces.outer + forces.cage + forces.resistance
+
+
+@jit_inline
+def magnitude(forces):
+    """|F_i| + |F_o| + |F_c| with rolling resistance, the scale of rounding in the net force [N]."""
+    return abs(forces.inner) + abs(forces.outer) + abs(forces.cage) + abs(forces.resistance)
+
+
+@jit_inline
+def powers(body, at, forces, slip, power):
+    """Write the frictional power (33) at inner, outer and cage interface [W] into `power`; returns their sum."""
+    ring_speed = at.ring_speed
+    inner = raceway_power(body.inner, slip, ring_speed, forces.inner, forces.lag[0], forces.skew[0])
+    outer = raceway_power(body.outer, slip, ring_speed, forces.outer, forces.lag[1], forces.skew[1])
+    power[0] = inner.slip + inner.curvature + inner.spin
+    power[1] = outer.slip + outer.curvature + outer.spin
+    power[2] = abs(forces.cage * (ring_speed - slip))
+    return power[0] + power[1] + power[2]

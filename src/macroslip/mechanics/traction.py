@@ -1,0 +1,81 @@
+"""Traction of a contact whose slip is the same all over, by the paper's closed form, with friction of asperities."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from macroslip.compiled import jit_evaluation
+from macroslip.contact.closed_form import patch_integral
+from macroslip.contact.look_up import in_plane
+from macroslip.mechanics.film_sharing import LOWEST_SPEED
+
+
+class UniformTraction(NamedTuple):
+    """Traction of a contact whose slip is the same all over."""
+
+    force: float  #: F, with the sign of the slip [N]
+    by_slip: float  #: ∂F/∂Δu at constant entrainment speed [N s/m]
+    by_entrainment: float  #: ∂F/∂u_e at constant slip [N s/m]
+    by_load: float  #: ∂F/∂Q [-]
+    asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
+
+
+@jit_evaluation
+def asperity_friction(law, share, load, slip):
+    """Friction of asperities with the same slip all over [N], its slopes by slip [N s/m] and by load [-].
+
+    Asperities carry the part `share` of the load; their friction coefficient rises to µ_b in proportion to slip.
+    """
+    coefficient = law.boundary_friction * share
+    if abs(slip) < law.full_slip:
+        gradient = coefficient / law.full_slip
+        return gradient * load * slip, gradient * load, gradient * slip
+    return math.copysign(coefficient * load, slip), 0.0, math.copysign(coefficient, slip)
+
+
+@jit_evaluation
+def uniform_traction(law, tables, load, slip, entrainment_speed, log_entrainment):
+    """Traction F = 2π a b (η0 Δu/h) Φ of a Newtonian Barus film with Crook's heating, (27) over the Hertz ellipse.
+
+    Parameters
+    ----------
+    law : record of `macroslip.roller.model.CONTACT`
+    tables : int
+        Address of the flat array of tables.
+    load : ContactLoad
+    slip : float
+        Δu [m/s].
+    entrainment_speed, log_entrainment : float
+        u_e ≥ 0 [m/s] and its logarithm; below `LOWEST_SPEED` the film is that of this speed.
+
+    Returns
+    -------
+    UniformTraction
+    """
+    film, film_by_load, film_by_speed = in_plane(law.film, tables, load.logarithm, log_entrainment)
+    exponent = law.pressure_exponent * load.root
+    patch, by_log_slip, by_exponent = patch_integral(exponent, law.heating * abs(slip))
+    viscous = law.conductance * load.root * load.root * math.exp(-film[0])
+    force = viscous * patch * slip
+    per_load = 1.0 / load.load
+    by_load = (2.0 / 3.0 - film_by_load[0]) * force
+    by_load += viscous * slip * by_exponent * exponent * (1.0 / 3.0)
+    by_load *= per_load
+    per_speed = 1.0 / entrainment_speed if entrainment_speed > LOWEST_SPEED else 0.0
+    by_entrainment = -force * film_by_speed[0] * per_speed
+    by_slip = viscous * (patch + by_log_slip)
+    share = film[1]
+    if share == 0.0:
+        return UniformTraction(force, by_slip, by_entrainment, by_load, 0.0)
+    rough, rough_by_slip, rough_by_load = asperity_friction(law, share, load.load, slip)
+    fluid = 1.0 - share
+    # What a rise of the asperities' share adds: their friction at full share less the film's.
+    exchanged = rough / share - force
+    return UniformTraction(
+        fluid * force + rough,
+        fluid * by_slip + rough_by_slip,
+        fluid * by_entrainment + exchanged * film_by_speed[1] * per_speed,
+        fluid * by_load + rough_by_load + exchanged * film_by_load[1] * per_load,
+        rough * slip,
+    )
