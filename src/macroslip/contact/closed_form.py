@@ -31,6 +31,8 @@ _G_SERIES = np.array(
     [(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)]
 )
 _COOL = 0.02
+#: 1/(n + 1) of its terms.
+_RECIPROCALS = 1.0 / np.arange(1, _G_SERIES.size + 1)
 #: Coefficients of M(u)/u² in powers of u²: B_2n 2^2n/((2n)! (2n + 2)) = −(−1)^n 2 ζ(2n)/(π^2n (2n + 2)), and u up to which
 #: they are used. By Riemann's zeta: SciPy's own Bernoulli numbers are good to 12 digits only.
 _TERMS = np.arange(1, 18)
@@ -96,17 +98,24 @@ def _patch_by_rule(p, heating):
 
 @jit_inline
 def _patch_by_series(p, heating, exp_p):
-    value = by_slip = by_pressure = 0.0
+    """Φ and its derivatives by the power series of g, integrated term by term."""
+    value = 0.0
+    by_slip = 0.0
+    by_pressure = 0.0
+    per_p = 1.0 / p
+    per_exp_p = 1.0 / exp_p
     # (B0 e^P)^n e^P and e^{−(n+1)P} keep every factor within floating point.
-    power, decay = exp_p, 1.0
+    power = exp_p
+    decay = 1.0
     for n in range(_G_SERIES.size):
-        decay /= exp_p
+        decay *= per_exp_p
         x = (n + 1.0) * p
         weight = _G_SERIES[n] * power
-        term = weight * (x - 1.0 + decay) / (x * x)
+        per_x = per_p * _RECIPROCALS[n]
+        term = weight * (x - 1.0 + decay) * per_x * per_x
         value += term
         by_slip += 2.0 * n * term
-        by_pressure += (weight - 2.0 * term) / p
+        by_pressure += (weight - 2.0 * term) * per_p
         if abs(term) < 1e-17 * value:
             break
         power *= heating * exp_p

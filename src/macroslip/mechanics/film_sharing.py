@@ -18,8 +18,8 @@ _LIGHTEST = math.log(1e-9)
 _HEAVIEST = math.log(1e7)
 #: Most iterations of Newton's method; it takes about three.
 _ITERATIONS = 60
-#: Change of ln q after which Newton's next one, of the order of its square, is below 1e-8.
-_CONVERGED = 1e-4
+#: Change of ln q after which Newton's next one, of the order of its square, is below 1e-10.
+_CONVERGED = 1e-5
 
 
 @jit_inline
@@ -71,7 +71,7 @@ def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
     Returns
     -------
     float
-        q [N], to a relative error of 1e-8.
+        q [N], to a relative error of 1e-10.
     """
     speed = 0.5 * abs(ring_speed)
     log_u = math.log(max(speed, LOWEST_SPEED))

@@ -169,7 +169,7 @@ def magnitude(forces):
     return abs(forces.inner) + abs(forces.outer) + abs(forces.cage) + abs(forces.resistance)
 
 
-@jit_inline
+@jit
 def powers(body, at, forces, slip, power):
     """Write the frictional power (33) at inner, outer and cage interface [W] into `power`; returns their sum."""
     ring_speed = at.ring_speed
