@@ -199,7 +199,7 @@ def _book_peaks(step, totals, orbit):
 
 @jit
 def book(steps, j, totals, states):
-    """Add the steps of roller `j` in a buffer to its totals.
+    """Add the steps of roller `j` in a buffer to its energies E = ∫P dt (34), peaks and other totals.
 
     `steps` has the shape (n, rollers); `states`, shape (n,), is filled with the states at the ends of the steps.
 

@@ -37,7 +37,7 @@ NO_CAGE_FORCES = CageForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @jit_evaluation
 def cage_load(tangential, inner_pull, outer_pull):
-    """Normal force F_n,cage of (32) with its sign, positive where the cage pushes the roller along the orbit [N].
+    """Normal force of the cage F_n,cage (32) with its sign, positive where the cage pushes the roller along the orbit [N].
 
     On an imposed orbit the cage balances everything tangential: F_g,x' + F_d,x' + F_i − F_o.
     """
@@ -95,7 +95,7 @@ def cage_friction(body, tables, load, surface_speed, log_surface):
 
 @jit_evaluation
 def cage_forces(body, tables, load, surface_speed, log_surface):
-    """Friction (16) of the cage's contact, which is at rest in the orbiting frame: Δu_c = −u1.
+    """Friction and rolling resistance of the cage's contact, whose slip is Δu_c = −u1.
 
     Parameters
     ----------

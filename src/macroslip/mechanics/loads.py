@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit_evaluation
 from macroslip.mechanics.film_sharing import film_load
+from macroslip.mechanics.speeds import outer_ring_speed
 from macroslip.ring.balance import radial_clearance
 
 
@@ -53,7 +54,7 @@ def normal_body_force(body, sine, orbital_speed):
 
 @jit_evaluation
 def tangential_body_force(body, cosine, orbital_speed):
-    """Weight F_g,x' (18) and drag F_d,x' (24)-(26) along +x', against a positive orbit [N]."""
+    """Weight F_g,x' (18)-(20) and drag F_d,x' (24)-(26) along +x', against a positive orbit [N]."""
     return body.weight_in_plane * cosine + body.drag * orbital_speed * abs(orbital_speed)
 
 
@@ -82,7 +83,7 @@ def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
     approach = interference(body, cosine, sine, now)
     pressed = elastic_load(body, approach)
     outward = normal_body_force(body, sine, orbital_speed)
-    ring_speed = -orbital_speed * body.outer_radius
+    ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
     films = film_load(body, tables, pressed, approach, outward, ring_speed, guess)
     return RollerLoads(
         approach,

@@ -25,7 +25,9 @@ class SlipDrive(NamedTuple):
     """The two forces that change a roller's slips on a free orbit [N]: m v_in' = driving − turning − m r~_in Ω_in'."""
 
     turning: float  #: 2 (S_i + S_o + F_c), which changes both slips by the spin
-    driving: float  #: N − G − P_i + P_o, which changes them by the centre's motion, with opposite signs
+    driving: (
+        float  #: N − G − P_i + P_o, which changes them by the centre's motion, with opposite signs
+    )
 
 
 @jit_inline

@@ -151,7 +151,7 @@ def raceway_oil(law, tables, load, ring_speed, slip, log_mean):
 
 @jit_evaluation
 def raceway_forces(body, law, tables, load, ring_speed, slip, log_mean):
-    """Forces of a loaded raceway contact on the roller, which enter (16), (17) and (32).
+    """Forces of a loaded raceway contact on the roller.
 
     Beside its shear the inclined pressure of rolling resistance pushes the roller's centre (`push`).
 

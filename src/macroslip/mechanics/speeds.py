@@ -48,9 +48,14 @@ def outer_ring_speed(orbital_speed, outer_radius):
 
 @jit_inline
 def surface_speed(ring_speed, slip):
-    """Speed of the roller's surface (31), u1 = ω_rel r = u2 − Δu [m/s], from ring speed u2 and slip Δu [m/s].
+    """Speed of the roller's surface (31) past the cage's spar at rest (30), u1 = ω_rel r = u2 − Δu [m/s].
 
-    Past the cage's spar, which is at rest (30), it is the slip too: Δu_c = −u1.
+    The slip at the cage is Δu_c = −u1.
+
+    Parameters
+    ----------
+    ring_speed, slip : float
+        u2 and Δu at a raceway [m/s].
 
     Examples
     --------

@@ -12,6 +12,7 @@ from macroslip.mechanics.cage import cage_forces, cage_load
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.power import raceway_power
 from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
+from macroslip.mechanics.speeds import outer_ring_speed, surface_speed
 
 #: Loads and speeds of a roller at one place and time, whatever its spin.
 STATION = np.dtype(
@@ -66,7 +67,7 @@ FORCES = np.dtype(
 
 @jit
 def station(body, tables, start_angle, now, at):
-    """Write loads on a roller and speed of the rings past it, (18)-(30).
+    """Write loads on a roller and the speed of the rings past it.
 
     Parameters
     ----------
@@ -85,7 +86,7 @@ def station(body, tables, start_angle, now, at):
     cosine = math.cos(angle)
     sine = math.sin(angle)
     loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.film_load)
-    at.ring_speed = -orbital_speed * body.outer_radius
+    at.ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
     at.interference = loads.interference
     at.elastic_load = loads.elastic_load
     at.film_load = loads.film_load
@@ -100,7 +101,7 @@ def station(body, tables, start_angle, now, at):
 
 @jit
 def slip_forces(body, tables, at, slip, forces):
-    """Write the forces of the raceways and the cage in (16) for the raceway slip Δu_in = Δu_out.
+    """Write the forces of the raceways and the cage for the raceway slip Δu_in = Δu_out.
 
     The roller's surface speed is u1 = u2 − Δu (31). The cage is at rest in the orbiting frame, Δu_c = −u1, and its normal
     force balances everything tangential (32), F_i and F_o with what rolling resistance does: its shear and the push
@@ -118,7 +119,7 @@ def slip_forces(body, tables, at, slip, forces):
         Is written.
     """
     ring_speed = at.ring_speed
-    surface_speed = ring_speed - slip
+    surface = surface_speed(ring_speed, slip)
     log_mean = log_speed(ring_speed - 0.5 * slip)
     inner = NO_RACEWAY_FORCES
     outer = NO_RACEWAY_FORCES
@@ -130,7 +131,7 @@ def slip_forces(body, tables, at, slip, forces):
         outer = raceway_forces(body, body.outer, tables, load, ring_speed, slip, log_mean)
     push = cage_load(at.tangential, inner.pull, outer.pull)
     push_by_slip = inner.pull_by_slip - outer.pull_by_slip
-    cage = cage_forces(body, tables, abs(push), surface_speed, log_speed(surface_speed))
+    cage = cage_forces(body, tables, abs(push), surface, log_speed(surface))
     cage_by_push = cage.friction_by_load + cage.resistance_by_load
     cage_by_push = cage_by_push if push >= 0.0 else -cage_by_push
     forces.inner = inner.friction
@@ -159,7 +160,7 @@ def slip_forces(body, tables, at, slip, forces):
 
 @jit_inline
 def net_force(forces):
-    """F_i + F_o + F_c with rolling resistance, by which the spin changes (16) [N]."""
+    """Force by which the spin changes (16), F_i + F_o + F_c with rolling resistance [N]."""
     return forces.inner + forces.outer + forces.cage + forces.resistance
 
 
@@ -171,11 +172,11 @@ def magnitude(forces):
 
 @jit
 def powers(body, at, forces, slip, power):
-    """Write the frictional power (33) at inner, outer and cage interface [W] into `power`; returns their sum."""
+    """Write the frictional power (33) at inner, outer and cage interface [W] into `power`; return the sum."""
     ring_speed = at.ring_speed
     inner = raceway_power(body.inner, slip, ring_speed, forces.inner, forces.lag[0], forces.skew[0])
     outer = raceway_power(body.outer, slip, ring_speed, forces.outer, forces.lag[1], forces.skew[1])
     power[0] = inner.slip + inner.curvature + inner.spin
     power[1] = outer.slip + outer.curvature + outer.spin
-    power[2] = abs(forces.cage * (ring_speed - slip))
+    power[2] = abs(forces.cage * surface_speed(ring_speed, slip))
     return power[0] + power[1] + power[2]

@@ -36,7 +36,7 @@ def asperity_friction(law, share, load, slip):
 
 @jit_evaluation
 def uniform_traction(law, tables, load, slip, entrainment_speed, log_entrainment):
-    """Traction F = 2π a b (η0 Δu/h) Φ of a Newtonian Barus film with Crook's heating, (27) over the Hertz ellipse.
+    """Traction of a heated Barus film (27) over the Hertz ellipse, F = 2π a b (η0 Δu/h) Φ.
 
     Parameters
     ----------

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
+from macroslip.mechanics.orbit import slip_drive
 from macroslip.whole import tuning
 from macroslip.whole.model import Assembly
 from macroslip.whole.pocket import guide_force, pocket_force
@@ -362,10 +363,10 @@ def _assemble(assembly, stage, k, size, space):
         c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
         own, star = rollers[j].y[FIRST + k], rollers[j].y[STAR]
         met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], sheet)
-        turning = 2.0 * (at.spin_inner + at.spin_outer + met.friction)
-        driving = met.push - at.tangential - at.pull_inner + at.pull_outer
-        rest_in = inertia * (own[0] - star[0]) + turning - driving
-        rest_out = inertia * (own[1] - star[1]) + turning + driving
+        friction = at.spin_inner + at.spin_outer + met.friction
+        drive = slip_drive(friction, at.pull_inner, at.pull_outer, met.push, at.tangential)
+        rest_in = inertia * (own[0] - star[0]) + drive.turning - drive.driving
+        rest_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
         block.rest[0], block.rest[1] = rest_in, rest_out
         worst = max(worst, abs(rest_in), abs(rest_out))
         # `max` may ignore a NaN.

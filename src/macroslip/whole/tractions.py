@@ -16,6 +16,7 @@ from macroslip.contact.look_up import contact_load, log_speed
 from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
+from macroslip.mechanics.speeds import inner_ring_speed, outer_ring_speed
 from macroslip.whole import tuning
 
 #: Tractions of a raceway contact at the load [N], ring speed and slip [m/s] of their evaluation: forces that turn (`spin`) and
@@ -119,8 +120,8 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
             at.inner_load = loads.inner_load
             at.outer_load = loads.outer_load
             at.tangential = loads.tangential
-            at.inner_speed = orbit * place.inner_radius - ring
-            at.outer_speed = -orbit * bearing.outer_radius
+            at.inner_speed = inner_ring_speed(now.shaft_speed, orbit, place.inner_radius)
+            at.outer_speed = outer_ring_speed(orbit, bearing.outer_radius)
 
 
 @jit
