@@ -41,8 +41,8 @@ _M_SERIES = np.concatenate(
 )
 _SMALL_U, _HALF_ZETA_3 = 1.1, 0.6010284515797971
 #: Largest P served by the Gauss rule, its nodes and weights of ∫₀¹ s f(s) ds.
-_LARGEST_P = 0.5
-_RULE = roots_jacobi(6, 0.0, 1.0)
+_LARGEST_P = 0.8
+_RULE = roots_jacobi(7, 0.0, 1.0)
 _PLACES, _WEIGHTS = (1.0 + _RULE[0]) / 2.0, _RULE[1] / 4.0
 
 
