@@ -8,7 +8,7 @@ PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --no-loadscope-reorde
 # Without stored bytecode every process that a test starts would translate all modules anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: reproduce validate test test-fast test-lowest test-deep lint docs bench clean
+.PHONY: reproduce validate test check test-fast test-lowest test-deep release lint docs bench clean
 
 reproduce: $(VENV)/.figures  ## the paper's study: report.html, figures and summary.json in results/
 	$(BIN)/python -m paper -o results
@@ -16,11 +16,21 @@ reproduce: $(VENV)/.figures  ## the paper's study: report.html, figures and summ
 validate: $(VENV)/.figures  ## the program beside what was measured: the figures of docs/measurements.md, and its table
 	$(BIN)/python -m validation $(ARGS)
 
-test: lint  ## everything that has to hold, some sixteen minutes on two processors where nothing is compiled yet
-	$(PYTEST) $(ARGS)
+test: lint  ## what a contributor runs: the package's own tests, and one run of each command
+	$(PYTEST) -m "not deep and not check" $(ARGS)
+
+check: $(VENV)/.ready  ## all else that has to hold: documentation, paper, validation, benchmarks, golden numbers, lowest versions, release
+	$(PYTEST) -m "check and not deep" $(ARGS)
+	$(BIN)/python -m benchmarks.pair
+	$(VENV)/bin/python .ci/lowest >.lowest.txt
+	$(MAKE) test-lowest
+	$(MAKE) release
+
+release:  ## what a user installs: wheel and sdist, in fresh environments
+	bash .ci/release
 
 test-fast: $(VENV)/.ready  ## the loop of development, a minute once kernels are compiled
-	$(PYTEST) -m "not slow and not deep" $(or $(ARGS),tests)
+	$(PYTEST) -m "not slow and not deep and not check" $(or $(ARGS),tests)
 
 test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs; REPEAT rounds
 	for round in $$(seq $(or $(REPEAT),5)); do $(PYTEST) -m "hypothesis or deep" --hypothesis-profile deep $(ARGS) || exit 1; done

@@ -40,6 +40,36 @@ FIRST = (
 )
 
 
+#: What `make check` runs and `make test` does not: what shows that pages, the paper's study, comparisons and numbers hold,
+#: and second examples of what quicker tests show.
+CHECKED = (
+    "tests/docs/test_examples.py",
+    "tests/docs/test_pages.py",
+    "tests/docs/test_site.py",
+    "tests/paper/",
+    "paper/",
+    "tests/validation/",
+    "tests/benchmarks/",
+    "tests/golden/",
+    "tests/study/test_cluster.py",
+    "tests/report/test_browser.py",
+)
+#: Golden cases that stay in `make test`, one of each kind.
+QUICK_GOLDEN = (
+    "imposed-paper-14B",
+    "imposed-physical-14B",
+    "film-paper-14B",
+    "every_case_is_stored",
+)
+
+
+def is_checked(nodeid: str) -> bool:
+    """True if a test belongs to `make check`."""
+    if nodeid.startswith("tests/golden/"):
+        return not any(name in nodeid for name in QUICK_GOLDEN)
+    return nodeid.startswith(CHECKED)
+
+
 class Scheduling(LoadScopeScheduling):
     """A file of tests stays with one worker, so that what its tests share is computed once."""
 
@@ -54,6 +84,9 @@ def pytest_xdist_make_scheduler(config, log):
 
 def pytest_collection_modifyitems(items):
     """Files with slow tests first, so that no worker begins with one when the others have nothing left to do."""
+    for item in items:
+        if is_checked(item.nodeid):
+            item.add_marker(pytest.mark.check)
     slow = {item.path for item in items if item.get_closest_marker("slow")}
 
     def rank(item):
