@@ -43,7 +43,7 @@ many, result = min((spent(list(range(6))) for _ in range(turns)), key=lambda pai
 rollers = 10
 print(json.dumps({
     "times_real_time": rollers * loads.duration / (many - few),
-    "evaluations": int(result["evaluations"].sum()),
+    "evaluations": int(result["force_evaluations"].sum()),
     "energy": float(result["energy"].sum()),
 }))
 """

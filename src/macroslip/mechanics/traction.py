@@ -65,7 +65,8 @@ def uniform_traction(law, tables, load, slip, entrainment_speed, log_entrainment
     per_speed = 1.0 / entrainment_speed if entrainment_speed > LOWEST_SPEED else 0.0
     by_entrainment = -force * film_by_speed[0] * per_speed
     by_slip = viscous * (patch + by_log_slip)
-    share = film[1]
+    # Where asperities have nearly nothing, splines pass a little below zero.
+    share = max(film[1], 0.0)
     if share == 0.0:
         return UniformTraction(force, by_slip, by_entrainment, by_load, 0.0)
     rough, rough_by_slip, rough_by_load = asperity_friction(law, share, load.load, slip)
