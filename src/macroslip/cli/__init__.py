@@ -1,4 +1,7 @@
-"""The command line: one command a file. Imports of a command wait until it runs, so that help comes at once."""
+"""The command line: one command a file.
+
+Imports of a command wait until it runs, so that help comes at once.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ import warnings
 
 
 class _Patient(io.FileIO):
-    """A stream whose reader may go: `head` has what it wants then, and the command ends as it would have."""
+    """A stream whose reader may go, as `head` does; the command ends as it would have."""
 
     def write(self, data, /) -> int:
         try:

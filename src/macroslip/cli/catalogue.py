@@ -1,4 +1,4 @@
-"""`macroslip bearing` and `macroslip lubricant`: catalogue entries, files of the user's own, estimates, drawings."""
+"""`macroslip bearing` and `macroslip lubricant`: catalogue, own files, estimates, drawings."""
 
 from __future__ import annotations
 
@@ -236,8 +236,8 @@ def _estimate_bearing(
         low, high = one["10 to 90 %"]
         rows.append([key, f"{one['median']:g}{unit}", f"{low:g} to {high:g}{unit}"])
     title = (
-        f"{found.bearing.name}: median and range of four out of five of {numbers['bearings that fit the page']} bearings "
-        "that fit the page"
+        f"{found.bearing.name}: median and range of four out of five of "
+        f"{numbers['bearings that fit the page']} bearings that fit the page"
     )
     print_table(title, [("key", False), ("median", True), ("10 to 90 %", False)], rows)
     typer.echo()
@@ -249,7 +249,8 @@ def _estimate_bearing(
         )
     else:
         typer.echo(
-            "C is that of these dimensions, and lives are 0.5 to 0.9 of those by a maker's; give it by --c."
+            "C is that of these dimensions, and lives are 0.5 to 0.9 of those by a maker's; "
+            "give it by --c."
         )
     for name in numbers["in the catalogue"]:
         typer.echo(f"The catalogue has a bearing of this size: bearing: {name}")
@@ -257,7 +258,7 @@ def _estimate_bearing(
 
 
 def _numbers(found: EstimatedBearing) -> dict[str, Any]:
-    """Every estimated value with its range, and the rating by ISO 281 over the published one, where there is one."""
+    """Every estimated value with its range, and C by ISO 281 over the published one, if known."""
     from macroslip import Bearing
     from macroslip.bearing.load_ratings import dynamic_load_rating
 
@@ -298,14 +299,15 @@ def _init(
     ] = None,
     force: Force = False,
 ) -> None:
-    """Write a bearing file with every key explained, to change into your own: the base bearing's values."""
+    """Write a bearing file with the base bearing's values and every key explained, to change."""
     from macroslip import Bearing
 
     path = output or path
     check_new_file(path, force=force)
     _write(path, Bearing.read(_BASE).replace(name=path.stem, title=f"Started from {_BASE}"), force)
     typer.echo(
-        f"written: {path}\nlook at it:  macroslip bearing show {path}\nuse it:      bearing: {path}, in a case file"
+        f"written: {path}\nlook at it:  macroslip bearing show {path}\n"
+        f"use it:      bearing: {path}, in a case file"
     )
 
 
@@ -346,7 +348,7 @@ def _estimate_lubricant(
     ] = None,
     force: Force = False,
 ) -> None:
-    """Write a lubricant file from two viscosities and the base oil; estimates have the tag E and a range."""
+    """Write a lubricant file from two viscosities and the base oil; estimates have the tag E."""
     from macroslip.input.units import KINEMATIC_VISCOSITY
     from macroslip.lubricant.estimate import estimate_lubricant
 

@@ -25,7 +25,8 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
-    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, or some cases of a study, 130 interrupted.",
+    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, "
+    "or some cases of a study, 130 interrupted.",
 )
 command(app, init)
 command(app, run)

@@ -33,7 +33,7 @@ def compare(
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
-    """Compare results, or the designs of a study: what differs, the numbers side by side, and which is better."""
+    """Compare results, or the designs of a study: differences, numbers and ranking."""
     require(FIGURES)
     from macroslip.cli.printing import print_json, print_table
     from macroslip.report.accessor import open_result

@@ -37,7 +37,7 @@ def damage(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Criteria of damage by slip: smearing, friction energy, micropitting, wear, each with what it is compared with."""
+    """Criteria of damage by slip (smearing, friction energy, micropitting, wear) and references."""
     from macroslip.cli.catalogue import si
     from macroslip.cli.printing import print_json, print_table
     from macroslip.constants import YEAR
@@ -73,7 +73,8 @@ def damage(
             for i, row in enumerate(found.row.values.tolist())
             for j, place in enumerate(found.place.values.tolist())
         ]
-        title = f"years of wear at k = {', '.join(f'{one:.2g}' for one in found.wear_coefficient.values[::-1])} m²/N"
+        coefficients = ", ".join(f"{k:.2g}" for k in found.wear_coefficient.values[::-1])
+        title = f"years of wear at k = {coefficients} m²/N"
         headings = [
             ("row", False),
             ("place", False),
@@ -107,8 +108,13 @@ def _wear(found: xr.Dataset) -> list[dict[str, Any]]:
 
     return [
         {
-            "row": row, "place": place, "depth [m]": depth, "wear coefficients [m2/N]": found.wear_coefficient.values.tolist(),
-            "years": (found.wear_time.sel(row=row, place=place, depth=depth).values / YEAR).tolist(),
+            "row": row,
+            "place": place,
+            "depth [m]": depth,
+            "wear coefficients [m2/N]": found.wear_coefficient.values.tolist(),
+            "years": (
+                found.wear_time.sel(row=row, place=place, depth=depth).values / YEAR
+            ).tolist(),
         }
         for row in found.row.values.tolist()
         for place in found.place.values.tolist()

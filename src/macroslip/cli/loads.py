@@ -1,4 +1,4 @@
-"""`macroslip loads inspect`: content of a load file, how it was read, and the load on the main bearing."""
+"""`macroslip loads inspect`: content of a load file, and the load on the main bearing."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def inspect(
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
+    """Show the channels taken from a load file, statistics, and the load on the main bearing."""
     from macroslip.case.case_file import bearings_in, load_source, read_case
     from macroslip.input.units import ANGLE, LENGTH, MASS, SPEED
     from macroslip.loads import Drivetrain

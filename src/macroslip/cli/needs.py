@@ -11,7 +11,7 @@ from macroslip.errors import MacroslipError
 
 
 class Need(NamedTuple):
-    """Packages that a use of the program needs, by the name they are imported under, and the extra that has them."""
+    """Packages that a use of the program needs, by the name of their import, and their extra."""
 
     use: str
     packages: tuple[str, ...]
@@ -38,14 +38,16 @@ def missing_packages(need: Need) -> list[str]:
 
     Examples
     --------
-    >>> missing_packages(Need("nothing", ("json",), "all")), missing_packages(Need("more", ("json", "no_such_package"), "all"))
-    ([], ['no_such_package'])
+    >>> missing_packages(Need("nothing", ("json",), "all"))
+    []
+    >>> missing_packages(Need("more", ("json", "no_such_package"), "all"))
+    ['no_such_package']
     """
     return [name for name in need.packages if importlib.util.find_spec(name) is None]
 
 
 def require(*needs: Need) -> None:
-    """Refuse a use of the program whose packages are not all installed, or whose figures cannot be drawn.
+    """Refuse a use of the program that lacks a package, or whose figures cannot be drawn.
 
     Raises MacroslipError with the packages and the line that installs them, or with what keeps
     Matplotlib from starting.

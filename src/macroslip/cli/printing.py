@@ -36,7 +36,7 @@ def print_table(
 
 
 def plain_console(*, stderr: bool = False) -> Console:
-    """A console without markup and automatic colours, `PIPE_WIDTH` wide where there is no terminal."""
+    """Console without markup and colours, `PIPE_WIDTH` wide where there is no terminal."""
     from rich.console import Console
 
     out = Console(stderr=stderr, markup=False, highlight=False)
@@ -61,7 +61,7 @@ def number(value: float) -> str:
 
 
 def print_json(data: Mapping[str, Any] | list[Any]) -> None:
-    """Print data as JSON, for scripts; numbers in full, and null for a number that is not finite."""
+    """Print data as JSON, with numbers in full, and null for a number that is not finite."""
     typer.echo(json.dumps(_plain(data), indent=2, allow_nan=False))
 
 

@@ -12,7 +12,7 @@ DELAY = 1.0
 
 @contextmanager
 def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | None]:
-    """Show a bar on standard error while the block runs, if that is a terminal and it takes more than a moment.
+    """Show a bar while the block runs, if standard error is a terminal and it takes a moment.
 
     Gives a function to be called as `report(label, done, total)`, each label with a bar of its own;
     None if it is quiet or nothing is shown.

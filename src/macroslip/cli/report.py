@@ -23,7 +23,8 @@ def report(
         list[Path],
         typer.Argument(
             metavar="RESULTS...",
-            help="A file that `macroslip run` wrote, a folder of such files, or the folder of a study; several files are compared.",
+            help="A file that `macroslip run` wrote, a folder of such files, or the folder of a "
+            "study; several files are compared.",
         ),
     ],
     output: Annotated[

@@ -1,1 +1,1 @@
-"""Input: units, checked fields, and the files that hold them, with file, line, allowed values and remedy in messages."""
+"""Input: units, checked fields, and files; messages have line, allowed values and remedy."""

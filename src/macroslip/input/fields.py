@@ -1,4 +1,4 @@
-"""Checked fields: the form of a value in a file and in Python, declared once as the annotation of a field.
+"""Checked fields: form of a value in a file and in Python, declared as annotation of a field.
 
 `tilt: Annotated[float, Quantity("shaft tilt", ANGLE, -0.3, 0.3)]`. In a file a quantity is text
 with its unit; in Python it is a number in SI units. Range, message and JSON Schema follow from the
@@ -172,8 +172,10 @@ class Quantity(Form):
 
         Examples
         --------
-        >>> Quantity("tilt", ANGLE, -0.3, 0.3).range_text("deg"), Quantity("step", TIME, 0.0, above=True).range_text("s")
-        ('-17.1887 to 17.1887 deg', 'a number above 0 s')
+        >>> Quantity("tilt", ANGLE, -0.3, 0.3).range_text("deg")
+        '-17.1887 to 17.1887 deg'
+        >>> Quantity("step", TIME, 0.0, above=True).range_text("s")
+        'a number above 0 s'
         >>> Quantity("ratio", NUMBER, 0.9, 1.0, above=True, below=True).range_text()
         'above 0.9 and below 1'
         """
@@ -328,7 +330,7 @@ class Texts(Form):
 
 @dataclass(frozen=True)
 class Choice(Form):
-    """One of several names, which are looked up only when needed, so that laws are imported only then.
+    """One of several names, looked up when needed, so that laws are imported only then.
 
     `more` explains how a name that does not exist can come to exist.
     """

@@ -76,7 +76,7 @@ class Place:
         return found
 
     def blamed(self, problem: InputError) -> InputError:
-        """The same error with this place in front, unless it has one: from a reader that did not know the place."""
+        """The same error with this place in front, unless it has one already."""
         if problem.is_placed:
             return problem
         # A reader that was given the value without its file can name the key only.
@@ -92,7 +92,7 @@ class Place:
 def read_text(
     path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = ""
 ) -> str:
-    """Read a text file that a user has named, whatever the name leads to: a pipe or a device would never end.
+    """Read a text file that a user has named; a pipe or a device, which never ends, is refused.
 
     Raises InputError if it cannot be read, in the words given, such as "the case file cannot be
     read"; if it is no regular file, is longer than `MOST_BYTES`, or is not UTF-8.
@@ -173,7 +173,7 @@ def parse(
 
 
 def _check_size(text: str, file: str) -> None:
-    """Refuse text that is deep, or large once its aliases are written out, before anything is built from it."""
+    """Refuse text that is deep, large with its aliases written out, or has types of YAML."""
     largest: dict[str, int] = {}  # nodes behind each anchor
     open_nodes: list[tuple[str | None, int]] = []  # anchor, and nodes before it
     nodes = 0
@@ -227,7 +227,7 @@ def _check_size(text: str, file: str) -> None:
 def _lines(
     mapping: CommentedMap, outer: tuple[object, ...] = ()
 ) -> Iterator[tuple[tuple[object, ...], int]]:
-    """Yield keys with their lines; a key merged in from an anchor has none and falls back to the entry around it."""
+    """Yield keys with their lines; a key merged in from an anchor has that of the entry around it."""
     for key in mapping.lc.data or {}:
         yield (*outer, key), mapping.lc.key(key)[0] + 1
     for key, entry in mapping.items():

@@ -1,4 +1,4 @@
-"""Messages about input: values as text, keys that do not exist, and several problems as one error."""
+"""Messages about input: values as text, unknown keys, and several problems as one error."""
 
 from __future__ import annotations
 

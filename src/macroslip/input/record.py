@@ -146,7 +146,7 @@ def _entry(dimension: Dimension, whole: bool = False) -> Section:
 
 @dataclass(frozen=True)
 class _Entry(Form):
-    """A quantity in a catalogue file, read as its provenance; whether the value is in its range is checked later.
+    """Quantity in a catalogue file, read as its provenance; its range is checked later.
 
     It is text of number and unit, a plain number where the quantity has no unit, or a mapping as
     `_entry` has it.
@@ -269,7 +269,7 @@ class Record:
         return hash(tuple(vars(self).values()))
 
     def written(self, key: str, si_value: float | None = None) -> str:
-        """Write a quantity, or another value for it, in the unit in which the quantity was given."""
+        """Write a quantity, or another value for it, in the unit in which it was given."""
         value = getattr(self, key) if si_value is None else si_value
         return dimensions(type(self))[key].text(value, self.provenance[key].unit)
 
@@ -289,7 +289,7 @@ class Record:
 
     @property
     def provenance(self) -> Mapping[str, Provenance]:
-        """Origin of every quantity that has a value, by key: value and unit as written, tag and note."""
+        """Origin of every quantity with a value, by key: value and unit as written, tag, note."""
         return MappingProxyType(dict(self._provenance))
 
     @classmethod
@@ -324,7 +324,7 @@ class Record:
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
-        """Build a record from the content of a catalogue file, as `as_dict` gives it; errors as `read`.
+        """Build a record from the content of a catalogue file, which `as_dict` gives; errors as `read`.
 
         `source` says where it was written, for messages.
         """
@@ -364,7 +364,7 @@ class Record:
         return record
 
     def require(self, *keys: str, purpose: str) -> None:
-        """Refuse a record that lacks optional quantities which a purpose needs, for example "the physical model".
+        """Refuse a record that lacks quantities which a purpose needs, such as "the physical model".
 
         The InputError names all that are missing, and the form to add them in.
 
@@ -422,14 +422,14 @@ class Record:
         return type(self).from_dict(self._nested(entries, self.as_dict()))
 
     def as_yaml(self) -> str:
-        """Give the record as the text of a catalogue file, every key explained; `read` gives it back as it is."""
+        """Text of a catalogue file with every key explained; `read` gives the record back."""
         explained = {key: one.form.about for key, one in fields_of(type(self)).items()} | dict(
             self.sections
         )
         return yaml_text(self.as_dict(), _HEADER.format(self.noun), explained)
 
     def replace(self, **values: Any) -> Self:
-        """Copy the record with other values [SI], checked as any other input; they get the tag U."""
+        """Copy the record with other values [SI], which are checked and get the tag U."""
         kept = {key: origin for key, origin in self._provenance if key not in values}
         given = {
             key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived
@@ -444,7 +444,7 @@ class Record:
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
+        """JSON Schema (2020-12) of the file format, for editors and programs."""
         about = {
             "$schema": "https://json-schema.org/draft/2020-12/schema",
             "title": f"{cls.noun} of macroslip",
@@ -473,7 +473,7 @@ def fields_of(record: type[Record]) -> Fields:
 
 @functools.cache
 def _in_file(record: type[Record]) -> Fields:
-    """Fields as a file has them: quantities as entries, those of a section inside it; what follows from others need not be."""
+    """Fields as a file has them: quantities as entries, and sections; derived ones may be missing."""
     fields = {}
     for key, one in fields_of(record).items():
         form = one.form

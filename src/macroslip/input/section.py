@@ -1,4 +1,4 @@
-"""Sections of an input file as classes: the same class checks a section of a file and a call in Python.
+"""Sections of an input file as classes, which check a section of a file and a call in Python.
 
 `@input_section` makes a frozen dataclass whose fields carry a form of `macroslip.input.fields` or
 are sections themselves. To add a key to a file is to add such a field: reader, messages and JSON

@@ -52,7 +52,7 @@ class Unit:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Dimension:
-    """A kind of quantity and the units it may be given in, by their names in a file; the first one is SI."""
+    """Kind of quantity and its units, by their names in a file; the first one is SI."""
 
     units: Mapping[str, Unit]
 
@@ -222,7 +222,8 @@ def quantity_pattern(dimension: Dimension) -> str:
 
     Examples
     --------
-    >>> bool(re.search(quantity_pattern(MASS), "519 kg")), bool(re.search(quantity_pattern(MASS), "519"))
+    >>> pattern = quantity_pattern(MASS)
+    >>> bool(re.search(pattern, "519 kg")), bool(re.search(pattern, "519"))
     (True, False)
     """
     if dimension is NUMBER:

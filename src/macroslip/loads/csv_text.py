@@ -1,4 +1,4 @@
-"""Tables of text (CSV) as different programs write them: encoding, header, separator, number format.
+"""Tables of text (CSV) of different programs: encoding, header, separator, number format.
 
 Encoding: UTF-8, UTF-16 with its mark, or else Latin-1. Above the header may stand comment lines
 (``#`` or ``%``), blank lines and the line ``sep=;``; below it a line of units. Columns are

@@ -1,4 +1,4 @@
-"""Load histories from a table, Parquet or CSV, whose columns carry quantity and unit in their names.
+"""Load histories from a table, Parquet or CSV, whose columns name quantity and unit.
 
 A name is quantity, underscore, unit. Of each quantity there is one column; others are ignored.
 
