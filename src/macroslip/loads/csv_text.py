@@ -78,20 +78,27 @@ class CsvTable:
     """Table of a CSV file; its cells stay text until their column is asked for."""
 
     names: list[str]  #: Names of the columns; a unit from the line of units stands behind the name.
-    cells: pa.Table  #: Text without surrounding blanks, null where a cell is empty.
+    cells: pa.Table  #: Text of all cells
     separator: str
     where: str  #: Path of the file, for errors.
     number_format: NumberFormat = field(default_factory=NumberFormat)
 
     def texts(self, index: int) -> list[str | None]:
         """Cells of a column."""
-        return self.cells.column(index).to_pylist()
+        return self._column(index).to_pylist()
 
     def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
         """Values of columns; NaN where a cell is empty."""
-        columns = {index: self.cells.column(index) for index in indices}
+        columns = {index: self._column(index) for index in indices}
         decimal = self._decimal_mark(columns)
         return [self._parsed(self.names[index], columns[index], decimal) for index in indices]
+
+    def _column(self, index: int) -> pa.ChunkedArray:
+        """Text of a column without surrounding blanks, null where a cell is empty."""
+        import pyarrow.compute as pc
+
+        column = pc.utf8_trim_whitespace(self.cells.column(index))
+        return pc.if_else(pc.equal(column, ""), None, column)
 
     def _decimal_mark(self, columns: dict[int, pa.ChunkedArray]) -> str:
         """Decimal mark of all columns, as given or as they have it; refuses what is ambiguous."""
@@ -206,8 +213,11 @@ def _first(column: pa.ChunkedArray, pattern: str, *, matches: bool = True) -> st
 def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
     """Read a CSV file as text; InputError if it has no header, or rows of another length."""
     text = _decoded(path.read_bytes()).replace("\r\n", "\n").replace("\r", "\n")
-    comments = _COMMENT.findall(text)
-    body = _COMMENT.sub("", text).lstrip("\n")
+    comments: list[str] = []
+    if "#" in text or "%" in text:
+        comments = _COMMENT.findall(text)
+        text = _COMMENT.sub("", text)
+    body = text.lstrip("\n")
     first_line, _, below = body.partition("\n")
     separator_line = _SEPARATOR_LINE.fullmatch(first_line.strip())
     if separator_line:
@@ -278,7 +288,6 @@ def _fitted(names: list[str], row: list[str]) -> list[str]:
 
 def _text_columns(rows: str, width: int, separator: str, path: Path) -> pa.Table:
     import pyarrow as pa
-    import pyarrow.compute as pc
     from pyarrow import csv as arrow_csv
 
     names = [str(index) for index in range(width)]
@@ -291,7 +300,7 @@ def _text_columns(rows: str, width: int, separator: str, path: Path) -> pa.Table
         return "error"
 
     try:
-        table = arrow_csv.read_csv(
+        return arrow_csv.read_csv(
             io.BytesIO(rows.encode()),
             read_options=arrow_csv.ReadOptions(column_names=names, use_threads=False),
             parse_options=arrow_csv.ParseOptions(delimiter=separator, invalid_row_handler=refuse),
@@ -311,6 +320,3 @@ def _text_columns(rows: str, width: int, separator: str, path: Path) -> pa.Table
             remedy="Write the file again if it was cut off, delete text above the header, and "
             "separate columns by semicolons where numbers have decimal commas.",
         ) from None
-    columns = [pc.utf8_trim_whitespace(column) for column in table.columns]
-    filled = [pc.if_else(pc.equal(column, ""), None, column) for column in columns]
-    return pa.table(filled, names=names)
