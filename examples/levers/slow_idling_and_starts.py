@@ -23,7 +23,7 @@ for name, slope in (
 ):
     trials[name] = replace(start, time=start.time / slope)
 for name, loads in trials.items():
-    result = simulate(Case(loads=loads, laws=Laws.physical(), rollers=[0, 14]))
+    result = simulate(Case(loads=loads, laws=Laws.physical()))
     energy = result.energy.sum("interface").mean("roller")
     told = ", ".join(
         f"{row}: {float(energy.sel(row=row)):.3g} J, {3600.0 * float(energy.sel(row=row)) / loads.duration:.3g} J/h, "
