@@ -11,14 +11,16 @@ YEAR = 365.25 * 86400.0
 #: The same [h].
 HOURS_A_YEAR = YEAR / 3600.0
 
-#: Sectors into which maps divide the orbit of a roller and the circumference of a raceway, of 5° each.
+#: Sectors into which maps divide the orbit of a roller and the circumference of a raceway, of 5°
+#: each.
 SECTORS = 72
 
-#: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip and asperities; no
-#: traction law of one's own may have it.
+#: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip
+#: and asperities; no traction law of one's own may have it.
 MECHANISMS = "mechanisms"
 
 #: Gap where inlets begin to be full [m] from which on they count as flooded.
 FLOODED_GAP = 1.0
-#: Part of the largest time of a history by which two of its times may differ and be the same one: some roundings [-].
+#: Part of the largest time of a history by which two of its times may differ and be the same one:
+#: some roundings [-].
 TIME_ROUNDING = 1e-14

@@ -1,4 +1,4 @@
-"""Errors that a user can get, written for the user: the fault, its place, allowed values, a remedy."""
+"""Errors written for the user: the fault, its place, allowed values, a remedy."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from typing import ClassVar
 
 
 def safe_text(text: object, but: str = "") -> str:
-    r"""Text from a file or folder with its control characters, which could steer a terminal, as numbers, all `but` some.
+    r"""Text from a file or folder with its control characters as numbers, all `but` some.
+
+    They could steer a terminal.
 
     Examples
     --------
@@ -20,7 +22,9 @@ def safe_text(text: object, but: str = "") -> str:
 
 
 def legible(text: str, longest: int) -> str:
-    r"""Text from anywhere for a message: without letters that a terminal would act on, its middle cut out if it is long.
+    r"""Text from anywhere for a message.
+
+    It has no letters that a terminal would act on; its middle is cut out if it is long.
 
     Examples
     --------
@@ -62,13 +66,17 @@ class InputError(MacroslipError, ValueError):
     longest: ClassVar[int] = 1500
     #: The same of the place.
     longest_place: ClassVar[int] = 400
-    #: Whether `where` is the place in the user's input, and not a reader's name for it without the file.
+    #: Whether `where` is the place in the user's input, and not a reader's name for it without the
+    #: file.
     is_placed: bool = False
 
     def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = ""):
         what, allowed, remedy = (legible(part, self.longest) for part in (what, allowed, remedy))
         where = legible(where, self.longest_place)
-        self.what, self.where, self.allowed, self.remedy = what, where, allowed, remedy
+        self.what = what
+        self.where = where
+        self.allowed = allowed
+        self.remedy = remedy
         parts = [f"{where}: {what}" if where else what]
         if allowed:
             parts.append(f"Allowed: {allowed}")

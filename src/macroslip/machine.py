@@ -1,4 +1,7 @@
-"""The machine on which numbers were measured, without anything that identifies its owner, and its processes of Python."""
+"""The machine on which numbers were measured, and its processes of Python.
+
+Nothing identifies its owner.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,10 @@ _PACKAGES = ("macroslip", "numba", "llvmlite", "numpy", "scipy", "numbalsoda", "
 
 
 def machine() -> dict[str, str | int | None]:
-    """Processor, number of usable cores, system, and versions of Python and of what takes part; None: not installed."""
+    """Processor, usable cores, system, and versions of Python and of what takes part.
+
+    None stands for a package that is not installed.
+    """
     return {
         "processor": _processor(),
         "cores": usable_processors(),
@@ -44,7 +50,10 @@ def safe_path(entries: Iterable[str]) -> list[str]:
 
 
 def process_environment() -> dict[str, str]:
-    """Environment for a process of Python that is started: it finds the modules of this one, none in the current folder."""
+    """Environment for a process of Python that is started.
+
+    It finds the modules of this one, none in the current folder.
+    """
     given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
     modules = dict.fromkeys(safe_path([*given, *sys.path]))
     return os.environ | {"PYTHONSAFEPATH": "1", "PYTHONPATH": os.pathsep.join(modules)}

@@ -1,4 +1,7 @@
-"""Laws of one's own from a Python file that the user names on the command line or in a program, never in a data file."""
+"""Laws of one's own from a Python file.
+
+The user names it on the command line or in a program, never in a data file.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +36,9 @@ _loaded: dict[str, OwnLaws] = {}
 def load_laws(path: str | PathLike[str]) -> OwnLaws:
     """Run a Python file that registers film or traction laws, so that their names can be used.
 
-    The file is imported as a module whose name follows from its own name and its content, so that tables made of its laws
-    are found again on the disk, by every process and wherever the file lies. To load the same file again does nothing.
+    The file is imported as a module whose name follows from its own name and its content, so that
+    tables made of its laws are found again on the disk, by every process and wherever the file
+    lies. To load the same file again does nothing.
 
     Parameters
     ----------
@@ -44,16 +48,17 @@ def load_laws(path: str | PathLike[str]) -> OwnLaws:
     Raises
     ------
     InputError
-        If the file cannot be read, an error occurs in it (with its line), it registers no law, or it registers a name
-        that is taken. Then none of its laws is registered.
+        If the file cannot be read, an error occurs in it (with its line), it registers no law, or
+        it registers a name that is taken. Then none of its laws is registered.
 
     Examples
     --------
     >>> load_laws("my_laws.py")
     Traceback (most recent call last):
         ...
-    macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). Allowed: a Python \
-file that registers film or traction laws, as macroslip init --example laws writes. Check its path, which starts at the current folder.
+    macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). \
+Allowed: a Python file that registers film or traction laws, as macroslip init --example laws \
+writes. Check its path, which starts at the current folder.
     """
     from macroslip.contact.registry import FILM_LAWS, TRACTION_LAWS
 
@@ -97,7 +102,10 @@ file that registers film or traction laws, as macroslip init --example laws writ
 
 
 class _SourceOnly(SourceFileLoader):
-    """Without stored bytecode, which Python takes for a file's as long as its size and the second of its change agree."""
+    """Import without stored bytecode.
+
+    Python takes it for a file's as long as its size and the second of its change agree.
+    """
 
     def get_code(self, fullname: str) -> CodeType:
         return self.source_to_code(self.get_data(self.path), self.path)
@@ -119,11 +127,13 @@ def _import(path: Path, name: str) -> None:
     except (Exception, SystemExit) as error:
         if isinstance(error, ImportError) and str(error.name).startswith("macroslip."):
             raise InputError(
-                "the file uses laws with derivatives and compiled functions, as an earlier version had them",
+                "the file uses laws with derivatives and compiled functions, as an earlier version "
+                "had them",
                 where=_place(path, error),
                 allowed="functions of NumPy arrays that give values",
-                remedy="Write film(interface, load, speed) or traction(interface, load, film, slip) and call "
-                "macroslip.register_film or macroslip.register_traction, as macroslip init --example laws shows.",
+                remedy="Write film(interface, load, speed) or traction(interface, load, film, "
+                "slip) and call macroslip.register_film or macroslip.register_traction, as "
+                "macroslip init --example laws shows.",
             ) from None
         reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
         what = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"

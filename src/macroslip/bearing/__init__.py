@@ -1,4 +1,7 @@
-"""The bearing: its data with their provenance, and the geometry, kinematics and inertia that follow from them."""
+"""The bearing: its data with their provenance, and what follows from them.
+
+That is geometry, kinematics and inertia.
+"""
 
 from macroslip.bearing.bearing import Bearing
 

@@ -35,17 +35,17 @@ _CLEARANCE_STATE = Choice(
     lambda: CLEARANCE_STATES,
 )
 _Optional = float | None
-#: Ratings and mass are within this factor of those by the standard and of solid rings: makers differ
-#: by far less, and a wrong unit by more.
+#: Ratings and mass are within this factor of those by the standard and of solid rings: makers
+#: differ by far less, and a wrong unit by more.
 _SIZE_FACTOR = 30.0
 
 
 class Bearing(Record):
     """Data of a double-row spherical or a single-row cylindrical roller bearing.
 
-    The rows of a spherical roller bearing are identical and mirrored. A cylindrical roller bearing has a `roller_crown_radius` and no osculations: its crowned rollers
-    touch straight raceways. Contact angle and row offset are 0, and `outer_raceway_radius` is the
-    radius of a cylinder.
+    The rows of a spherical roller bearing are identical and mirrored. A cylindrical roller bearing
+    has a `roller_crown_radius` and no osculations: its crowned rollers touch straight raceways.
+    Contact angle and row offset are 0, and `outer_raceway_radius` is the radius of a cylinder.
 
     Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths
     and angles have no sign, except the clearance, which is negative for a preloaded bearing. Raises
@@ -219,7 +219,7 @@ class Bearing(Record):
 
 
 def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
-    """Yield osculations that are missing, and values that a cylindrical roller bearing cannot have."""
+    """Yield osculations that are missing, and values that a cylindrical bearing cannot have."""
     osculations = ("osculation_inner", "osculation_outer")
     if bearing.kind == "spherical":
         if missing := [key for key in osculations if getattr(bearing, key) is None]:
@@ -323,7 +323,8 @@ def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
 
 
 def _rings(bearing: Bearing, source: Source) -> Iterator[InputError]:
-    bore, outside = bearing.bore_diameter, bearing.outside_diameter
+    bore = bearing.bore_diameter
+    outside = bearing.outside_diameter
     if bore is not None and outside is not None and bore >= outside:
         yield InputError(
             f"bore_diameter is {bearing.written('bore_diameter')}",
@@ -362,7 +363,9 @@ def _sizes(bearing: Bearing, source: Source) -> Iterator[InputError]:
     slenderness = bearing.roller_diameter * math.cos(bearing.contact_angle) / pitch
     if 0.01 <= slenderness <= 0.30:
         expected["dynamic_load_rating"] = load_ratings.dynamic_load_rating_of(bearing)
-    bore, outside, width = bearing.bore_diameter, bearing.outside_diameter, bearing.width
+    bore = bearing.bore_diameter
+    outside = bearing.outside_diameter
+    width = bearing.width
     if bore is not None and outside is not None and width is not None and bore < outside:
         volume = math.pi / 4.0 * (outside**2 - bore**2) * width
         expected["mass"] = bearing.density * volume

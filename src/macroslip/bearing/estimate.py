@@ -1,16 +1,19 @@
 """The inside of a spherical roller bearing from what its maker publishes.
 
-A catalogue page gives the boundary dimensions, the load ratings and the axial factors, and not one dimension of the
-rollers. Dimensions that the page leaves open are sampled here within accepted ranges; every sample is a bearing that
-can exist and has the static load rating of the page. The result is an estimate with its scatter, **not the maker's
-drawing**.
+A catalogue page gives the boundary dimensions, the load ratings and the axial factors, and not one
+dimension of the rollers. Dimensions that the page leaves open are sampled here within accepted
+ranges; every sample is a bearing that can exist and has the static load rating of the page. The
+result is an estimate with its scatter, **not the maker's drawing**.
 
 * Contact angle: e = 1.5 tan(alpha) (ISO 281), e as printed, with two decimals.
-* Outer raceway: a sphere that meets the face of the outer ring at the shoulder diameter, R^2 = (D1/2)^2 + (B/2)^2.
-* Roller length: from the static load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha) (ISO 76), on which makers
+* Outer raceway: a sphere that meets the face of the outer ring at the shoulder diameter, R^2 =
+  (D1/2)^2 + (B/2)^2.
+* Roller length: from the static load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha)
+  (ISO 76), on which makers
   agree within 15 % for one size; not from the dynamic rating, in which they differ by up to 37 %.
 * Roller diameter: the room that sphere and inner ring leave between them.
-* Number of rollers: from their spacing; or from the overrolling frequencies, BPFO + BPFI = Z per turn of the shaft,
+* Number of rollers: from their spacing; or from the overrolling frequencies, BPFO + BPFI = Z per
+  turn of the shaft,
   which give the roller diameter too: (BPFI - BPFO)/Z = Dw cos(alpha)/Dpw.
 """
 
@@ -45,8 +48,9 @@ SPACING = Accepted(1.06, 1.22)
 INNER_WALL = Accepted(0.18, 0.27)
 """Thinnest place of the inner ring under the rollers over (outside - bore)/2."""
 OUTER_WALL = Accepted(0.14, 0.20)
-"""Thinnest place of the outer ring over (outside - bore)/2, where the shoulder is not published: 90 % of a maker's
-bearings of 500 mm bore and more."""
+"""Thinnest place of the outer ring over (outside - bore)/2, where the shoulder is not published: 90
+% of a maker's bearings of 500 mm bore and more.
+"""
 CHAMFER = Accepted(0.0, 0.03)
 """Axial distance from the ring's face to the edge of the outer raceway over width."""
 END_CLEARANCE = Accepted(0.0, 0.08)
@@ -126,7 +130,10 @@ class MakersPage:
                 allowed=f"below the outside diameter, {1e3 * self.outside:g} mm",
             )
         if self.shoulder is not None and not self.bore < self.shoulder < self.outside:
-            allowed = f"between bore and outside diameter, {1e3 * self.bore:g} mm and {1e3 * self.outside:g} mm"
+            allowed = (
+                f"between bore and outside diameter, {1e3 * self.bore:g} mm and "
+                f"{1e3 * self.outside:g} mm"
+            )
             remedy = "It is the diameter at the outer ring's faces, D1 in catalogues."
             raise InputError(
                 f"shoulder is {1e3 * self.shoulder:g} mm", allowed=allowed, remedy=remedy
@@ -144,8 +151,10 @@ class MakersPage:
         count = self.bpfo + self.bpfi
         if abs(count - round(count)) > 0.05 or round(count) < 3 or not self.bpfo < self.bpfi:
             raise InputError(
-                f"bpfo is {self.bpfo:g} and bpfi {self.bpfi:g} per turn of the shaft, together {count:g}",
-                allowed="a sum that is the whole number of rollers in a row, within 0.05, and bpfo below bpfi",
+                f"bpfo is {self.bpfo:g} and bpfi {self.bpfi:g} per turn of the shaft, together "
+                f"{count:g}",
+                allowed="a sum that is the whole number of rollers in a row, within 0.05, and bpfo "
+                "below bpfi",
                 remedy="Divide frequencies in hertz by the shaft's speed in turns per second.",
             )
 
@@ -164,20 +173,22 @@ def estimate_bearing(
 ) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
-    Raises InputError if no bearing within the accepted proportions fits the page. The same page and `seed` of the
-    random numbers give the same bearing.
+    Raises InputError if no bearing within the accepted proportions fits the page. The same page and
+    `seed` of the random numbers give the same bearing.
 
-    The samples are independent and uniform within the accepted ranges of this module, rejected where the parts do not
-    fit. Length, spacing, sphere and angle of the median bearing agree with each other, as in every sample.
+    The samples are independent and uniform within the accepted ranges of this module, rejected
+    where the parts do not fit. Length, spacing, sphere and angle of the median bearing agree with
+    each other, as in every sample.
 
-    ISO 76:2006; ISO 281:2007; Harris and Kotzalas, Essential Concepts of Bearing Technology (2006), for the overrolling
-    frequencies.
+    ISO 76:2006; ISO 281:2007; Harris and Kotzalas, Essential Concepts of Bearing Technology (2006),
+    for the overrolling frequencies.
 
     Examples
     --------
     >>> page = MakersPage(0.63, 0.92, 0.29, 17600e3, 0.30, shoulder=0.828, groove=0.0565)
     >>> bearing, samples = estimate_bearing(page, "my-240-630")
-    >>> bearing.rollers_per_row, round(1e3 * bearing.roller_diameter, 1), round(1e3 * bearing.roller_length, 1)
+    >>> diameter, length = 1e3 * bearing.roller_diameter, 1e3 * bearing.roller_length
+    >>> bearing.rollers_per_row, round(diameter, 1), round(length, 1)
     (29, 75.4, 104.0)
     """
     drawn = _fitting(page, _draw(page, np.random.default_rng(seed)))
@@ -185,7 +196,10 @@ def estimate_bearing(
 
 
 def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:
-    """Sample the dimensions that the page leaves open, and solve for roller diameter, number and length."""
+    """Sample the dimensions that the page leaves open.
+
+    Diameter, number and length of the rollers follow from them.
+    """
 
     def between(accepted: Accepted) -> NDArray[np.float64]:
         return rng.uniform(*accepted, SAMPLES)
@@ -193,7 +207,8 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
     height = 0.5 * (page.outside - page.bore)
     e = page.axial_factor_e + E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
     alpha = np.arctan(e / 1.5)
-    edge, wall = page.width * (0.5 - between(CHAMFER)), between(OUTER_WALL)
+    edge = page.width * (0.5 - between(CHAMFER))
+    wall = between(OUTER_WALL)
     sphere = (
         0.5 * page.outside - wall * height
         if page.shoulder is None
@@ -206,16 +221,20 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
         "diametral_clearance": page.bore * between(CLEARANCE),
     }
     inside = 0.5 * page.bore + height * between(INNER_WALL)
-    rating, spacing = page.static_load_rating * between(STATIC_RATING), between(SPACING)
+    rating = page.static_load_rating * between(STATIC_RATING)
+    spacing = between(SPACING)
     cosine = np.cos(alpha)
-    diameter, count, gamma = np.full(SAMPLES, 0.5 * height), np.zeros(SAMPLES), None
+    diameter = np.full(SAMPLES, 0.5 * height)
+    count = np.zeros(SAMPLES)
+    gamma = None
     if page.bpfo is not None and page.bpfi is not None:
         count = np.full(SAMPLES, float(round(page.bpfo + page.bpfi)))
         gamma = (
             page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)
         ) / count
         diameter = 2.0 * gamma * sphere / (1.0 + gamma)
-    # The room for the inner ring depends little on the roller length, and the length little on the diameter.
+    # The room for the inner ring depends little on the roller length, and the length little on the
+    # diameter.
     for _ in range(30):
         centre = sphere - 0.5 * diameter
         if gamma is None:
@@ -252,9 +271,11 @@ def _fitting(
     page: MakersPage, drawn: dict[str, NDArray[np.float64]]
 ) -> dict[str, NDArray[np.float64]]:
     sine, cosine = np.sin(drawn["contact_angle"]), np.cos(drawn["contact_angle"])
-    diameter, length = drawn["roller_diameter"], drawn["roller_length"]
+    diameter = drawn["roller_diameter"]
+    length = drawn["roller_length"]
     end = 0.5 * diameter - _drop(drawn["osculation"] * drawn["outer_raceway_radius"], length)
-    along, across = 0.5 * length * cosine, end * sine
+    along = 0.5 * length * cosine
+    across = end * sine
     spacing = 2.0 * drawn["pitch_radius"] * np.sin(np.pi / drawn["rollers_per_row"]) / diameter
     clearance = 0.5 - (drawn["row_offset"] + along + across) / page.width
     wall = (drawn["pitch_radius"] - 0.5 * length * sine - end * cosine - 0.5 * page.bore) / (
@@ -282,10 +303,12 @@ def _fitting(
         given = "the overrolling frequencies" if page.bpfo is not None else "shoulder and groove"
         worst = min(passed, key=lambda what: np.count_nonzero(passed[what]))
         raise InputError(
-            f"no bearing of usual proportions fits these values: of {SAMPLES} tried, {np.count_nonzero(kept)} did, and "
-            f"{np.count_nonzero(passed[worst])} passed the check of the {worst}",
+            f"no bearing of usual proportions fits these values: of {SAMPLES} tried, "
+            f"{np.count_nonzero(kept)} did, and {np.count_nonzero(passed[worst])} passed the check "
+            f"of the {worst}",
             allowed="the published values of one double-row spherical roller bearing",
-            remedy=f"Check the values and their units, static load rating and e above all; try without {given}.",
+            remedy="Check the values and their units, static load rating and e above all; try "
+            f"without {given}.",
         )
     return {key: values[kept] for key, values in drawn.items()}
 
@@ -297,7 +320,10 @@ def _within(
 
 
 def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: str) -> Bearing:
-    """The bearing of the medians; centres of the rollers lie on the sphere of the medians, as in every sample."""
+    """The bearing of the medians.
+
+    Centres of the rollers lie on the sphere of the medians, as in every sample.
+    """
     entries = {
         key: _entry(np.median(drawn[key]), drawn[key], *how)
         for key, how in _WRITTEN.items()
@@ -324,7 +350,7 @@ def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: st
 
 
 def _entry(value: float, samples: NDArray, unit: str, digits: int, tag: str, note: str) -> dict:
-    """An entry of a bearing file: the value as it would be written, with the range of the samples."""
+    """An entry of a bearing file: the value as it is written, with the range of the samples."""
 
     def written(number: float) -> float:
         rounded = round(float(number) * _SCALES[unit], digits)
@@ -366,13 +392,15 @@ def _published(page: MakersPage) -> dict[str, dict]:
 
 
 def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
-    """Entries of ratings and factors that the page leaves out, by the standards from the median geometry."""
+    """Entries of ratings and factors that the page leaves out.
+
+    They follow by the standards from the median geometry.
+    """
     alpha = math.radians(entries["contact_angle"]["value"])
-    diameter, length = (
-        1e-3 * entries["roller_diameter"]["value"],
-        1e-3 * entries["roller_length"]["value"],
-    )
-    pitch, count = 2e-3 * entries["pitch_radius"]["value"], entries["rollers_per_row"]["value"]
+    diameter = 1e-3 * entries["roller_diameter"]["value"]
+    length = 1e-3 * entries["roller_length"]["value"]
+    pitch = 2e-3 * entries["pitch_radius"]["value"]
+    count = entries["rollers_per_row"]["value"]
     found = {}
     if page.dynamic_load_rating is None:
         rating = dynamic_load_rating(ROWS, count, diameter, length, alpha, pitch)

@@ -1,10 +1,11 @@
 """Geometry of a bearing and its rollers: radii, curvatures, space, rows, positions and inertia.
 
-Hart et al., "Dynamic modelling of slip in a wind turbine spherical roller main bearing". The bearing frame has Z0 along
-the shaft, pointing downwind, Y0 up and X0 = Y0 x Z0 horizontal. A roller's position is its angle from +X0,
-counter-clockwise about Z0: 90 deg is the top, -90 deg the bottom. A positive orbital speed is counter-clockwise about
-Z0, and the roller's spin about its own axis, which also points downwind, is negative then. At a contact the rolling
-direction lies in the plane across the roller's axis, the lateral direction along it. All curvature sums of a valid
+Hart et al., "Dynamic modelling of slip in a wind turbine spherical roller main bearing". The
+bearing frame has Z0 along the shaft, pointing downwind, Y0 up and X0 = Y0 x Z0 horizontal. A
+roller's position is its angle from +X0, counter-clockwise about Z0: 90 deg is the top, -90 deg the
+bottom. A positive orbital speed is counter-clockwise about Z0, and the roller's spin about its own
+axis, which also points downwind, is negative then. At a contact the rolling direction lies in the
+plane across the roller's axis, the lateral direction along it. All curvature sums of a valid
 bearing are positive.
 """
 
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
 ROWS: tuple[str, ...] = ("downwind", "upwind")
 #: Name of the row of a single-row bearing.
 SINGLE = "single"
-#: Axial sign s of each row: the downwind row (+1) carries downwind thrust; without contact angle it means nothing.
+#: Axial sign s of each row: the downwind row (+1) carries downwind thrust; without contact angle it
+#: means nothing.
 AXIAL_SIGNS: Mapping[str, int] = MappingProxyType({"downwind": 1, "upwind": -1, SINGLE: 1})
 # The rows are staggered by half a pitch.
 _STAGGER = MappingProxyType({"downwind": 0.0, "upwind": 0.5, SINGLE: 0.0})
@@ -90,7 +92,9 @@ def outer_contact_radius(bearing: Bearing) -> float:
 
 
 def orbit_ratio(bearing: Bearing) -> float:
-    """Orbital speed of the rollers over the speed of the inner ring in pure rolling, r~_in/(r~_in + r~_out) [-].
+    """Orbital speed of the rollers over the speed of the inner ring in pure rolling [-].
+
+    Equal to r~_in/(r~_in + r~_out).
 
     Examples
     --------
@@ -103,7 +107,9 @@ def orbit_ratio(bearing: Bearing) -> float:
 
 
 def roller_contour_radius(bearing: Bearing) -> float:
-    """Radius of the roller's barrel contour [m]: one contour, set by the osculation at the outer raceway sphere.
+    """Radius of the roller's barrel contour [m].
+
+    One contour, set by the osculation at the outer raceway sphere.
 
     That of a cylindrical roller is its crown.
 
@@ -119,7 +125,9 @@ def roller_contour_radius(bearing: Bearing) -> float:
 
 
 def inner_raceway_contour_radius(bearing: Bearing) -> float:
-    """Radius of the inner raceway's contour in the axial plane [m]: roller contour radius / inner osculation.
+    """Radius of the inner raceway's contour in the axial plane [m].
+
+    Roller contour radius / inner osculation.
 
     Infinite where a cylindrical roller runs on it.
 
@@ -137,7 +145,9 @@ def inner_raceway_contour_radius(bearing: Bearing) -> float:
 
 
 def outer_raceway_contour_radius(bearing: Bearing) -> float:
-    """Radius of the outer raceway's contour in the axial plane [m]: its sphere, or infinite under a cylindrical roller.
+    """Radius of the outer raceway's contour in the axial plane [m].
+
+    Its sphere, or infinite under a cylindrical roller.
 
     Examples
     --------
@@ -151,7 +161,8 @@ def outer_raceway_contour_radius(bearing: Bearing) -> float:
 def inner_curvatures(bearing: Bearing) -> Curvatures:
     """Curvature sums of the roller on the inner raceway [1/m].
 
-    Rolling direction 1/r + cos(alpha)/r~_in; lateral 1/roller contour radius - 1/inner raceway contour radius.
+    Rolling direction 1/r + cos(alpha)/r~_in; lateral 1/roller contour radius - 1/inner raceway
+    contour radius.
 
     Examples
     --------
@@ -189,8 +200,9 @@ def outer_curvatures(bearing: Bearing) -> Curvatures:
 def cage_curvatures(bearing: Bearing) -> Curvatures:
     """Curvature sums of the roller in its conforming cage pocket [1/m] (Hart et al., force 5).
 
-    The pocket conforms as closely across the roller as along it: rolling direction 1/r - osculation/r, lateral as at
-    the outer raceway. The spars of a cylindrical roller's cage are flat.
+    The pocket conforms as closely across the roller as along it: rolling direction 1/r -
+    osculation/r, lateral as at the outer raceway. The spars of a cylindrical roller's cage are
+    flat.
 
     Examples
     --------
@@ -204,7 +216,9 @@ def cage_curvatures(bearing: Bearing) -> Curvatures:
 
 
 def roller_end_radius(bearing: Bearing) -> float:
-    """Radius of the barrel roller at its ends [m], r less the sagitta of its contour; 0 where the contour meets the axis.
+    """Radius of the barrel roller at its ends [m], r less the sagitta of its contour.
+
+    0 where the contour meets the axis.
 
     Examples
     --------
@@ -212,7 +226,8 @@ def roller_end_radius(bearing: Bearing) -> float:
     >>> round(roller_end_radius(Bearing.read("skf-240-600-bc")), 6)
     0.031531
     """
-    contour, half = roller_contour_radius(bearing), bearing.roller_length / 2
+    contour = roller_contour_radius(bearing)
+    half = bearing.roller_length / 2
     drop = contour - math.sqrt(contour**2 - half**2) if half < contour else contour
     return max(0.0, roller_radius(bearing) - drop)
 
@@ -220,7 +235,8 @@ def roller_end_radius(bearing: Bearing) -> float:
 class Envelope(NamedTuple):
     """Space that a row's rollers need, from the corners of their ends."""
 
-    #: Axial distance from the bearing's mid-plane [m]; a row that crosses the mid-plane has a negative `nearest`.
+    #: Axial distance from the bearing's mid-plane [m]; a row that crosses the mid-plane has a
+    #: negative `nearest`.
     nearest: float
     farthest: float
     inside: (
@@ -231,7 +247,8 @@ class Envelope(NamedTuple):
 def envelope(bearing: Bearing) -> Envelope:
     """Space that a row's rollers need.
 
-    The roller's axis leans by the contact angle, towards the bearing axis with growing distance from the mid-plane.
+    The roller's axis leans by the contact angle, towards the bearing axis with growing distance
+    from the mid-plane.
 
     Examples
     --------
@@ -240,7 +257,8 @@ def envelope(bearing: Bearing) -> Envelope:
     [0.0159, 0.1321, 0.3315]
     """
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    half, end = bearing.roller_length / 2, roller_end_radius(bearing)
+    half = bearing.roller_length / 2
+    end = roller_end_radius(bearing)
     return Envelope(
         nearest=bearing.row_offset - half * cosine - end * sine,
         farthest=bearing.row_offset + half * cosine + end * sine,
@@ -249,9 +267,12 @@ def envelope(bearing: Bearing) -> Envelope:
 
 
 def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
-    """Positions (Z,) [rad] of the Z rollers of a row at the start, evenly spaced from the bottom, rising.
+    """Positions of the Z rollers of a row at the start [rad], shape (Z,).
 
-    -pi/2 + 2 pi j/Z downwind and in a single row, -pi/2 + 2 pi (j + 1/2)/Z upwind: rows are staggered by half a pitch. Raises InputError for
+    They rise in even steps from the bottom.
+
+    -pi/2 + 2 pi j/Z downwind and in a single row, -pi/2 + 2 pi (j + 1/2)/Z upwind: rows are
+    staggered by half a pitch. Raises InputError for
     another row.
 
     Examples
@@ -282,7 +303,9 @@ def roller_mass(density: float, roller_radius: float, roller_length: float) -> f
 
 
 def spin_inertia(mass: float, roller_radius: float) -> float:
-    """Moment of inertia of a roller about its own axis [kg m2], I_z' = m r^2/2, (13), from mass [kg] and radius [m].
+    """Moment of inertia of a roller about its own axis [kg m2], I_z' = m r^2/2, (13).
+
+    From mass [kg] and radius [m].
 
     Examples
     --------

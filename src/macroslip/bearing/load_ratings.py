@@ -1,8 +1,11 @@
-"""Load ratings that follow from a bearing's inside: static (ISO 76), dynamic and fatigue limit (ISO 281).
+"""Load ratings that follow from a bearing's inside.
 
-Lengths are metres here; the standards' formulas hold for millimetres and newtons. Both ratings take the number of rows i,
-of rollers in a row Z, Dw and effective length L of a roller [m] (Dw of a barrel roller at its middle), alpha [rad] and the
-pitch diameter of the roller centres Dpw [m], above Dw cos(alpha).
+Static (ISO 76), dynamic and fatigue limit (ISO 281).
+
+Lengths are metres here; the standards' formulas hold for millimetres and newtons. Both ratings take
+the number of rows i, of rollers in a row Z, Dw and effective length L of a roller [m] (Dw of a
+barrel roller at its middle), alpha [rad] and the pitch diameter of the roller centres Dpw [m],
+above Dw cos(alpha).
 """
 
 from __future__ import annotations
@@ -34,10 +37,13 @@ def static_load_rating(
     contact_angle: float,
     pitch: float,
 ) -> float:
-    """Basic static radial load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha), C0 in N, lengths in mm.
+    """Basic static radial load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha).
 
-    At C0 the most loaded contact of a bearing loaded over half its circumference has a pressure of 4000 MPa by the
-    standard's line contact. ISO 76:2006, Rolling bearings - Static load ratings, equation (15).
+    C0 in N, lengths in mm.
+
+    At C0 the most loaded contact of a bearing loaded over half its circumference has a pressure of
+    4000 MPa by the standard's line contact. ISO 76:2006, Rolling bearings - Static load ratings,
+    equation (15).
 
     Examples
     --------
@@ -51,8 +57,9 @@ def static_load_rating(
 def geometry_factor(gamma: float) -> float:
     """Factor f_c [-] of radial roller bearings by linear interpolation in the standard's table.
 
-    gamma is Dw cos(alpha)/Dpw [-], 0.01 to 0.30; outside, InputError. ISO 281:2007, table 7. Its values are 172.56 gamma^(2/9) (1 - gamma)^(29/27)/(1 + gamma)^(1/4)
-    {1 + [1.04 ((1 - gamma)/(1 + gamma))^(143/108)]^(9/2)}^(-2/9), which is Lundberg and Palmgren's theory, to 0.05.
+    gamma is Dw cos(alpha)/Dpw [-], 0.01 to 0.30; outside, InputError. ISO 281:2007, table 7. Its
+    values are 172.56 gamma^(2/9) (1 - gamma)^(29/27)/(1 + gamma)^(1/4) {1 + [1.04 ((1 - gamma)/(1 +
+    gamma))^(143/108)]^(9/2)}^(-2/9), which is Lundberg and Palmgren's theory, to 0.05.
 
     Examples
     --------
@@ -78,13 +85,16 @@ def dynamic_load_rating(
     pitch: float,
     kind: str = "spherical",
 ) -> float:
-    """Basic dynamic radial load rating, C = b_m f_c (i L cos(alpha))^(7/9) Z^(3/4) Dw^(29/27), C in N, lengths in mm.
+    """Basic dynamic radial load rating, C = b_m f_c (i L cos(alpha))^(7/9) Z^(3/4) Dw^(29/27).
 
-    Makers' catalogues have other values than this formula: for spherical roller bearings of one size they differ by up
-    to 37 % among each other.
+    C in N, lengths in mm.
 
-    b_m = 1.15 for spherical and 1.1 for cylindrical roller bearings, by `kind`. Raises InputError if Dw cos(alpha)/Dpw lies outside 0.01 to 0.30. ISO 281:2007,
-    Rolling bearings - Dynamic load ratings and rating life, section 7.1.
+    Makers' catalogues have other values than this formula: for spherical roller bearings of one
+    size they differ by up to 37 % among each other.
+
+    b_m = 1.15 for spherical and 1.1 for cylindrical roller bearings, by `kind`. Raises InputError
+    if Dw cos(alpha)/Dpw lies outside 0.01 to 0.30. ISO 281:2007, Rolling bearings - Dynamic load
+    ratings and rating life, section 7.1.
 
     Examples
     --------
@@ -105,9 +115,12 @@ def dynamic_load_rating(
 
 
 def fatigue_load_limit(static_load_rating: float, pitch: float) -> float:
-    """Fatigue load limit of a roller bearing, C_u = C0/8.2 (100 mm/Dpw)^0.3; C0/8.2 up to a pitch of 100 mm.
+    """Fatigue load limit of a roller bearing, C_u = C0/8.2 (100 mm/Dpw)^0.3.
 
-    From C0 [N] and the pitch diameter Dpw [m]: ISO 281:2007, annex B.3.3 (simplified method), roller bearings.
+    C0/8.2 up to a pitch of 100 mm.
+
+    From C0 [N] and the pitch diameter Dpw [m]: ISO 281:2007, annex B.3.3 (simplified method),
+    roller bearings.
 
     Examples
     --------
@@ -128,7 +141,7 @@ def dynamic_load_rating_of(bearing: Bearing) -> float:
 
 
 def _inside(bearing: Bearing) -> tuple[int, int, float, float, float, float]:
-    """Rows, rollers in each, diameter and length of a roller [m], contact angle [rad], pitch [m]."""
+    """Rows, rollers in each, diameter and length of one [m], contact angle [rad], pitch [m]."""
     return (
         bearing.rows,
         bearing.rollers_per_row,

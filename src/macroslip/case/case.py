@@ -1,4 +1,7 @@
-"""A case: everything one simulation needs, validated once and frozen; its fields are the keys of a case file."""
+"""A case: everything one simulation needs, validated once and frozen.
+
+Its fields are the keys of a case file.
+"""
 
 from __future__ import annotations
 
@@ -106,23 +109,27 @@ class Case:
     bearing : Bearing
     lubricant : Lubricant
     temperature : float or "balance", optional
-        Of the oil at the inlets of the contacts [K]; None: that for which the lubricant's values are given. "balance":
-        the temperature at which the bearing loses its friction power by `heat`.
+        Of the oil at the inlets of the contacts [K]; None: that for which the lubricant's values
+        are given. "balance": the temperature at which the bearing loses its friction power by
+        `heat`.
     heat : Heat, optional
         Goes with "balance".
     oil_supply : "flooded", "skf" or float, optional
-        How full the inlets of all contacts are: flooded; as SKF's replenishment factor says; or the film over the flooded
-        film, 0.3 to 1, at the inner raceway under the mean load and speed. Film, rolling resistance, idle contacts and the
-        squeeze films of pockets follow from it. None: "skf" where the laws have one of these, see `inlet_supply`.
+        How full the inlets of all contacts are: flooded; as SKF's replenishment factor says; or the
+        film over the flooded film, 0.3 to 1, at the inner raceway under the mean load and speed.
+        Film, rolling resistance, idle contacts and the squeeze films of pockets follow from it.
+        None: "skf" where the laws have one of these, see `inlet_supply`.
     loads : HubLoads, BearingLoads or RollerLoads
     drivetrain : Drivetrain
         Turns hub loads into main-bearing load; its tilt also directs the rollers' weight.
     gravity, drag : bool
         Whether weight and drag act on the rollers.
     laws : Laws
-        Mechanisms in the contacts: all of them, `Laws.physical()`, by default; `Laws.paper()` is the model of Hart et al.
+        Mechanisms in the contacts: all of them, `Laws.physical()`, by default; `Laws.paper()` is
+        the model of Hart et al.
     dynamics : "imposed-orbit" or "whole-bearing"
-        Whether every roller turns on its own on an orbit of pure rolling, or all move together with the cage.
+        Whether every roller turns on its own on an orbit of pure rolling, or all move together with
+        the cage.
     cage : Cage
         For the whole bearing.
     integrator : Radau, ExplicitEuler or BackwardEuler
@@ -131,8 +138,9 @@ class Case:
         Numbers of the rollers to simulate in each row, from 0.
     traces : Traces, optional
     contact_details : bool
-        Whether to record, of contacts with microslip or asperities, where on them energy goes, how hot and how densely
-        (`macroslip.result.variables.CONTACT_DETAILS`). It takes up to a third of a simulation and changes nothing else.
+        Whether to record, of contacts with microslip or asperities, where on them energy goes, how
+        hot and how densely (`macroslip.result.variables.CONTACT_DETAILS`). It takes up to a third
+        of a simulation and changes nothing else.
     rating : bool
         Whether `macroslip run` and studies rate the bearing beside its slip; `simulate` never does.
 
@@ -163,7 +171,8 @@ class Case:
     oil_supply: Annotated[
         str | float | None,
         OilSupply(
-            "how full the inlets of all contacts are: flooded, skf (replenishment), or film / flooded film, 0.3 to 1"
+            "how full the inlets of all contacts are: flooded, skf (replenishment), or film / "
+            "flooded film, 0.3 to 1"
         ),
     ] = None
     loads: Annotated[
@@ -225,7 +234,8 @@ class Case:
                 "the temperature is that of a balance of heat, which only a simulation finds",
                 where="temperature",
                 allowed="a temperature",
-                remedy="Give the temperature of the oil; inlet_temperature of a result has the one it found.",
+                remedy="Give the temperature of the oil; inlet_temperature of a result has the one "
+                "it found.",
             )
         oil = self.lubricant if self.temperature is None else self.lubricant.at(self.temperature)
         if not self.laws.asks_for_oil:
@@ -238,13 +248,17 @@ class Case:
     def inlet_supply(self) -> str | float:
         """How full inlets are: `oil_supply`, or what stands for None.
 
-        That is "skf" with laws that have a starved film or rolling resistance, and "flooded" with others.
+        That is "skf" with laws that have a starved film or rolling resistance, and "flooded" with
+        others.
         """
         return inlet_supply(self.oil_supply, self.lubricant, self.laws)
 
     @property
     def ring_loads(self) -> BearingLoads | RollerLoads:
-        """What loads the rollers: the load on the inner ring, or loads of the rollers that are given."""
+        """What loads the rollers.
+
+        The load on the inner ring, or loads of the rollers that are given.
+        """
         return (
             main_bearing_load(self.loads, self.drivetrain)
             if isinstance(self.loads, HubLoads)
@@ -267,7 +281,10 @@ class Case:
         return tuple(self.rollers)
 
     def as_dict(self) -> dict[str, Any]:
-        """The full input as plain data; of the load series its source, extent and a hash of all its numbers."""
+        """The full input as plain data.
+
+        Of the load series its source, extent and a hash of all its numbers.
+        """
         loads = self.loads
         digest = hashlib.sha256()
         for name in ("time", "shaft_speed", "force", "moment", "angle", "load"):
@@ -314,7 +331,9 @@ class Case:
         return html_overview("Case", ["", ""], self._overview())
 
     def _overview(self) -> list[tuple[str, str]]:
-        loads, start, end = self.loads, self.window.start, self.window.end
+        loads = self.loads
+        start = self.window.start
+        end = self.window.end
         count = (
             "all rollers"
             if self.rollers == "all"
@@ -360,11 +379,13 @@ def _raised(check: Callable[..., Any], *values: Any) -> Iterator[InputError]:
 
 def _dynamics(case: Case) -> Iterator[InputError]:
     """Yield values that the chosen dynamics cannot use."""
-    default, skews = Cage(), case.laws.skew != "none"
+    default = Cage()
+    skews = case.laws.skew != "none"
     given = [name for name in SKEW_KEYS if getattr(case.cage, name) != getattr(default, name)]
     if given and not skews:
         yield InputError(
-            f"{' and '.join(given)} tell how the cage holds rollers that skew, and here they are held straight",
+            f"{' and '.join(given)} tell how the cage holds rollers that skew, and here they are "
+            "held straight",
             where="cage",
             allowed="with laws: {skew: quasi-static}",
             remedy=f"Set laws.skew: quasi-static, or remove {' and '.join(given)}.",
@@ -383,16 +404,16 @@ def _dynamics(case: Case) -> Iterator[InputError]:
         return
     if isinstance(case.loads, RollerLoads):
         yield InputError(
-            "loads of the rollers are given over their places, but in a whole bearing the rollers' places, and with them "
-            "their loads, follow from the simulation",
+            "loads of the rollers are given over their places, but in a whole bearing the rollers' "
+            "places, and with them their loads, follow from the simulation",
             where="loads.roller_loads",
             allowed="loads at the hub or on the main bearing, for dynamics: whole-bearing",
             remedy="Set dynamics: imposed-orbit, or give the load on the bearing.",
         )
     if not isinstance(case.integrator, Radau):
         yield InputError(
-            f"a fixed step of {case.integrator.step:g} s cannot resolve the impacts of rollers on their cage, which take "
-            "a tenth of a millisecond and begin at any time",
+            f"a fixed step of {case.integrator.step:g} s cannot resolve the impacts of rollers on "
+            "their cage, which take a tenth of a millisecond and begin at any time",
             where="integrator",
             allowed="an error-controlled integrator for dynamics: whole-bearing",
             remedy="Choose integrator.method: radau; its tolerance serves the whole bearing too.",
@@ -401,7 +422,11 @@ def _dynamics(case: Case) -> Iterator[InputError]:
 
 
 def _kind_of_bearing(case: Case) -> Iterator[InputError]:
-    """Yield a speed of no rotor, and what a cylindrical roller bearing cannot carry or has no laws for."""
+    """Yield what the kind of bearing cannot have.
+
+    A spherical roller bearing no speed beyond rotors', a cylindrical one no axial load, loads at
+    the hub, skew or second cage.
+    """
     if case.bearing.kind == "spherical":
         if (fastest := float(np.abs(case.loads.shaft_speed).max())) > _FASTEST_ROTOR:
             yield InputError(
@@ -413,22 +438,26 @@ def _kind_of_bearing(case: Case) -> Iterator[InputError]:
         return
     if not isinstance(case.loads, BearingLoads):
         yield InputError(
-            f"{case.bearing.name} is a cylindrical roller bearing, and loads are given at the hub or for rollers of two rows",
+            f"{case.bearing.name} is a cylindrical roller bearing, and loads are given at the hub "
+            "or for rollers of two rows",
             where="loads",
             allowed="the force on the bearing: loads.main_bearing or loads.bearing_file",
-            remedy="Give the radial force on its inner ring over time, with the speed of its shaft.",
+            remedy="Give the radial force on its inner ring over time, with the speed of its "
+            "shaft.",
         )
     elif np.abs(case.loads.force[:, 2]).max() > _NO_THRUST * np.abs(case.loads.force).max():
         yield InputError(
-            f"the load has an axial part of up to {np.abs(case.loads.force[:, 2]).max():.4g} N, and rollers without contact "
-            "angle carry none",
+            f"the load has an axial part of up to {np.abs(case.loads.force[:, 2]).max():.4g} N, "
+            "and rollers without contact angle carry none",
             where="loads",
             allowed="F_Z0 = 0 for a cylindrical roller bearing",
-            remedy="Set it to 0: another bearing, or flanges that are not modelled, carry the thrust.",
+            remedy="Set it to 0: another bearing, or flanges that are not modelled, carry the "
+            "thrust.",
         )
     if case.laws.skew != "none":
         yield InputError(
-            "skew is computed for spherical rollers, which their raceways' spheres hold; a cylindrical one is held by flanges",
+            "skew is computed for spherical rollers, which their raceways' spheres hold; a "
+            "cylindrical one is held by flanges",
             where="laws.skew",
             allowed="none, in a cylindrical roller bearing",
             remedy="Set laws.skew: none.",
@@ -444,11 +473,13 @@ def _kind_of_bearing(case: Case) -> Iterator[InputError]:
 
 def _times_and_rollers(case: Case) -> Iterator[InputError]:
     """Yield rollers that the bearing does not have, and times at which there are no loads."""
-    count, numbers = case.bearing.rollers_per_row, case.roller_numbers
+    count = case.bearing.rollers_per_row
+    numbers = case.roller_numbers
     if len(set(numbers)) < len(numbers) or min(numbers) < 0 or max(numbers) >= count:
         allowed = f"all, or a list of different numbers from 0 to {count - 1}"
         yield InputError(f"rollers is {shown(list(numbers))}", where="rollers", allowed=allowed)
-    first, last = float(case.loads.time[0]), float(case.loads.time[-1])
+    first = float(case.loads.time[0])
+    last = float(case.loads.time[-1])
     rounding = TIME_ROUNDING * max(abs(first), abs(last))
     for name, part, allowed in (
         ("window", case.window, "start before end, both within the loads'"),
@@ -458,8 +489,8 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
         end = last if part is None or part.end is None else part.end
         within = first - rounding <= start <= end <= last + rounding
         if not within or (name == "window" and end - start <= rounding):
-            what, allowed = (
-                f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s",
-                allowed,
+            what = (
+                f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s"
             )
+            allowed = allowed
             yield InputError(what, where=name, allowed=f"{allowed} {first:g} s to {last:g} s")

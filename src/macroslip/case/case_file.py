@@ -1,4 +1,7 @@
-"""From a case file to a `Case`; whatever is wrong with the file is reported together, each with its line and remedy."""
+"""From a case file to a `Case`.
+
+Whatever is wrong with the file is reported together, each with its line and remedy.
+"""
 
 from __future__ import annotations
 
@@ -27,10 +30,10 @@ BOTH = "both"
 def read_case(path: str | PathLike[str], *, bearing: str = "") -> Case:
     """Read a case file.
 
-    `macroslip init` writes one with every key explained. Every quantity carries its unit. Relative paths in it start at its
-    own folder. Of a file with `drivetrain.bearing: both`, `bearing` is the one that is meant, front or rear. Raises
-    InputError if the file cannot be read, or anything in it is wrong: all problems together, each with file, line and
-    key.
+    `macroslip init` writes one with every key explained. Every quantity carries its unit. Relative
+    paths in it start at its own folder. Of a file with `drivetrain.bearing: both`, `bearing` is the
+    one that is meant, front or rear. Raises InputError if the file cannot be read, or anything in
+    it is wrong: all problems together, each with file, line and key.
     """
     path = Path(path)
     data, source = _content(path)
@@ -55,7 +58,10 @@ def read_case(path: str | PathLike[str], *, bearing: str = "") -> Case:
 
 
 def files_named_in(path: Path) -> list[Path]:
-    """Files that a case file names: bearing, lubricant and loads. None of a file that cannot be read."""
+    """Files that a case file names: bearing, lubricant and loads.
+
+    None of a file that cannot be read.
+    """
     try:
         data, _ = _content(path)
     except InputError:
@@ -76,7 +82,10 @@ def names_key(path: Path, key: str) -> bool:
 
 
 def bearings_in(path: Path) -> tuple[str, ...]:
-    """The main bearings that a case file means by `drivetrain.bearing: both`; otherwise one, without a name."""
+    """The main bearings that a case file means by `drivetrain.bearing: both`.
+
+    Otherwise one, without a name.
+    """
     drivetrain = _content(path)[0].get("drivetrain")
     return (
         BEARINGS if isinstance(drivetrain, Mapping) and drivetrain.get("bearing") == BOTH else ("",)
@@ -100,7 +109,7 @@ def _content(path: Path) -> tuple[dict[Any, Any], Source]:
 
 
 def case_schema() -> dict[str, Any]:
-    """JSON Schema (2020-12) of the case file, for editors and for programs that write such files."""
+    """JSON Schema (2020-12) of the case file, for editors and programs that write such files."""
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "case of macroslip",
@@ -119,10 +128,13 @@ def build_case(
 ) -> Case:
     """Make a case of the content of a case file; raises InputError with all that is wrong.
 
-    Relative paths start at `folder`. `records`: `bearing` and `lubricant` that have been read already, in place of those
-    that the file names; `series` makes the loads of their section, which are read by default.
+    Relative paths start at `folder`. `records`: `bearing` and `lubricant` that have been read
+    already, in place of those that the file names; `series` makes the loads of their section, which
+    are read by default.
     """
-    place, known, parts = Place(source), records or {}, {}
+    place = Place(source)
+    known = records or {}
+    parts = {}
     values, problems = read_fields(Case, data, place)
     for key, value in values.items():
         inner = (key, value.key) if isinstance(value, LoadSource) else (key,)
@@ -158,7 +170,8 @@ def build_case(
 
 
 def _record(kind: type[Record], name: str, folder: Path) -> Record:
-    names, path = kind.catalogue(), folder / name
+    names = kind.catalogue()
+    path = folder / name
     if name in names:
         return kind.read(name)
     if not path.exists():

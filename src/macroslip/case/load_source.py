@@ -23,7 +23,8 @@ CUT_KEYS = ("start", "end", *FOR_HUB_FILES, "decimal", "thousands")
 _ADVICE = {
     "read it with BearingLoads.read": "name it under bearing_file",
     "read it with HubLoads.read, then main_bearing_load": "name it under file",
-    "become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())": "belong under file",
+    "become bearing loads by main_bearing_load(HubLoads.read(path), "
+    "Drivetrain())": "belong under file",
     "(start=, end=)": "(loads.start, loads.end)",
 }
 _Force = Annotated[list[float], Vector("three components of the force", FORCE)]
@@ -65,7 +66,8 @@ class LoadSource:
     roller_loads: Annotated[
         str | None,
         Text(
-            "loads of the rollers: a table of time_s, shaft_speed_rpm, row, angle_deg, load_N (.parquet, .csv)"
+            "loads of the rollers: a table of time_s, shaft_speed_rpm, row, angle_deg, load_N "
+            "(.parquet, .csv)"
         ),
     ] = None
     hub: ConstantHubLoads | None = None
@@ -111,7 +113,8 @@ class LoadSource:
             ) from None
 
     def _series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
-        key, cut = self.key, self.cut
+        key = self.key
+        cut = self.cut
         value: Any = getattr(self, key)
         for name in FOR_HUB_FILES:
             if name in cut and key != "file":

@@ -1,7 +1,10 @@
-"""How much oil the inlets of the contacts get: one choice of a case, from which films, rolling and idle contacts follow.
+"""How much oil the inlets of the contacts get.
 
-The state of all inlets is the gap from which on they are full of oil [m]. In a contact of film h it is S = gap/h, from which
-film and rolling resistance follow (`macroslip.contact.starvation`), and the rigid film of an idle contact (`contact.gap`).
+One choice of a case, from which films, rolling and idle contacts follow.
+
+The state of all inlets is the gap from which on they are full of oil [m]. In a contact of film h it
+is S = gap/h, from which film and rolling resistance follow (`macroslip.contact.starvation`), and
+the rigid film of an idle contact (`contact.gap`).
 """
 
 from __future__ import annotations
@@ -26,7 +29,8 @@ if TYPE_CHECKING:
     from macroslip.lubricant import Lubricant
 
 FLOODED, SKF = WORDS = ("flooded", "skf")
-#: K_Z of the SKF model by the number of rows: cylindrical roller bearings with cage, and spherical ones.
+#: K_Z of the SKF model by the number of rows: cylindrical roller bearings with cage, and spherical
+#: ones.
 _TYPE_FACTORS = {"cylindrical": 5.1, "spherical": 5.5}
 #: Least film over flooded film.
 _LEAST = 0.3
@@ -36,7 +40,10 @@ _LEAST = 0.3
 class OilSupply(Form):
     """A word, or the film over the flooded film."""
 
-    form = f"{FLOODED}, {SKF}, or film / flooded film at the inner raceway under the mean load, {_LEAST:g} to 1"
+    form = (
+        f"{FLOODED}, {SKF}, or film / flooded film at the inner raceway under the mean load, "
+        f"{_LEAST:g} to 1"
+    )
 
     def read(self, value: Any, given: Given) -> str | float:
         """The word, or the number."""
@@ -54,9 +61,12 @@ class OilSupply(Form):
 
 
 def inlet_supply(given: str | float | None, oil: Lubricant, laws: Laws) -> str | float:
-    """The supply that counts: what a case gives; otherwise SKF's replenishment where a mechanism depends on it.
+    """The supply that counts: what a case gives.
 
-    A lubricant file from before version 0.2 gives a film factor, `starvation`, which is read as the supply.
+    Otherwise SKF's replenishment where a mechanism depends on it.
+
+    A lubricant file from before version 0.2 gives a film factor, `starvation`, which is read as the
+    supply.
     """
     if given is not None:
         return given
@@ -66,11 +76,15 @@ def inlet_supply(given: str | float | None, oil: Lubricant, laws: Laws) -> str |
 
 
 def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, laws: Laws) -> None:
-    """Refuse a supply that no law uses, and a bearing that lacks a diameter, which SKF's replenishment needs."""
+    """Refuse a supply that no law uses.
+
+    SKF's replenishment needs the bearing's diameters, and a bearing without is refused too.
+    """
     supply = inlet_supply(given, oil, laws)
     if supply not in (FLOODED, 1.0) and not laws.asks_for_oil:
         raise InputError(
-            f"oil_supply is {supply!r}, and laws: {laws.name} have neither a starved film nor rolling resistance",
+            f"oil_supply is {supply!r}, and laws: {laws.name} have neither a starved film nor "
+            "rolling resistance",
             where="oil_supply",
             allowed=f"{FLOODED} with these laws",
             remedy="Leave it out, set laws.starvation: true, or choose model: physical.",
@@ -80,22 +94,28 @@ def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, la
     ]
     if supply == SKF and missing:
         raise InputError(
-            f"SKF's replenishment factor goes with the bearing's size, and {bearing.name} has no {' and no '.join(missing)}",
+            f"SKF's replenishment factor goes with the bearing's size, and {bearing.name} has no "
+            f"{' and no '.join(missing)}",
             where="oil_supply",
-            allowed=f"{SKF} with both diameters; otherwise {FLOODED}, or a number from {_LEAST:g} to 1",
-            remedy="Add them to the bearing file, or give the film over the flooded film as a number.",
+            allowed=f"{SKF} with both diameters; otherwise {FLOODED}, or a number from {_LEAST:g} "
+            "to 1",
+            remedy="Add them to the bearing file, or give the film over the flooded film as a "
+            "number.",
         )
 
 
 def oil_gap(
     supply: str | float, bearing: Bearing, oil: Lubricant, loads: BearingLoads, laws: Laws
 ) -> float:
-    """The gap from which on inlets are full [m], from the state of the inner raceway under the mean load and speed.
+    """The gap from which on inlets are full [m].
 
-    The supply is `flooded`; `skf`: as much as makes the rolling resistance SKF's replenishment factor times the flooded
-    one; or film over flooded film. The mean load is that of the loaded rollers of the row with the larger share, under the
-    mean force on the inner ring. Means are over the angle that the shaft turns, so that time at rest does not count. 1 m
-    counts as flooded, without load or motion as well.
+    It follows from the state of the inner raceway under the mean load and speed.
+
+    The supply is `flooded`; `skf`: as much as makes the rolling resistance SKF's replenishment
+    factor times the flooded one; or film over flooded film. The mean load is that of the loaded
+    rollers of the row with the larger share, under the mean force on the inner ring. Means are over
+    the angle that the shaft turns, so that time at rest does not count. 1 m counts as flooded,
+    without load or motion as well.
     """
     turned = np.abs(loads.shaft_speed) * np.convolve(np.diff(loads.time), [0.5, 0.5])
     if not turned.any():
@@ -142,12 +162,16 @@ def _gap(
 def _inner_raceway(
     bearing: Bearing, oil: Lubricant, force: tuple[float, ...], speed: float
 ) -> tuple[float, float]:
-    """Mean load of a loaded roller under a force on the ring [N], and entrainment speed of the inner raceway [m/s]."""
+    """Mean load of a loaded roller [N] and entrainment speed of the inner raceway [m/s].
+
+    Under a force on the inner ring [N] and a size of the shaft's speed [rad/s].
+    """
     from macroslip.ring.balance import balance, roller_loads
     from macroslip.roller.model import ring_geometry, roller_model
 
     model = roller_model(bearing, oil, 1, tilt=0.0)
-    ring, place = ring_geometry(bearing, model), np.zeros(3)
+    ring = ring_geometry(bearing, model)
+    place = np.zeros(3)
     balance(ring, 0.0, np.array(force), place)
     found = np.empty(ring.cosine.size)
     roller_loads(ring, 0.0, place, found)
@@ -159,8 +183,12 @@ def _inner_raceway(
 
 
 def supply_note(case: Case) -> str:
-    """A line on the state of the inlets, for a result, and one on keys of earlier versions; empty without either."""
-    oil, notes = case.oil, []
+    """A line on the state of the inlets, and one on keys of earlier versions, for a result.
+
+    The text is empty without either.
+    """
+    oil = case.oil
+    notes = []
     if case.laws.asks_for_oil:
         full = oil.oil_gap >= FLOODED_GAP
         known = (
@@ -175,6 +203,7 @@ def supply_note(case: Case) -> str:
     old |= {"cage.film_fullness": case.cage.film_fullness}
     if given := [key for key, value in old.items() if value is not None]:
         notes.append(
-            f"{', '.join(given)}: keys of before version 0.2, of which starvation alone is read; give oil_supply"
+            f"{', '.join(given)}: keys of before version 0.2, of which starvation alone is read; "
+            "give oil_supply"
         )
     return "\n".join(notes)

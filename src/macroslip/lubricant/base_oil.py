@@ -8,7 +8,10 @@ from typing import NamedTuple
 
 
 class BaseOil(NamedTuple):
-    """Mean values of a family of base oils, each with a range in which four out of five oils are taken to lie."""
+    """Mean values of a family of base oils.
+
+    Each with a range in which four out of five oils are taken to lie.
+    """
 
     title: str  #: Its name in words
     #: s and t of `macroslip.lubricant.temperature.gold` [1/GPa at 1 mm2/s, -].
@@ -24,12 +27,13 @@ class BaseOil(NamedTuple):
     thermal_conductivity: float  #: [W/(m K)]
 
 
-# Gold's mean scatters by 20 %, and by as much between a viscometer and a measured film. The friction of thrust bearings needs
-# 0.70 to 1.07 of it in a mineral oil, 0.88 to 1.19 in PAO, 1.04 to 1.33 in an ester and 1.06 to 1.41 in a polyglycol
-# (docs/measurements.md); the usual value is the middle of what both allow.
-# Limiting shear: PAO 100, paraffinic, naphthenic and polyglycol oils after Hoeglund in Arana, Larranaga and Ulacia (2019);
-# 0.035 to 0.05 is reported for PAO of other makes. Esters and mixtures are estimates between them.
-# Gold's s and t are in rolling-bearing papers of Fernandes, Martins and Seabra (2013) as well.
+# Gold's mean scatters by 20 %, and by as much between a viscometer and a measured film. The
+# friction of thrust bearings needs 0.70 to 1.07 of it in a mineral oil, 0.88 to 1.19 in PAO, 1.04
+# to 1.33 in an ester and 1.06 to 1.41 in a polyglycol (docs/measurements.md); the usual value is
+# the middle of what both allow. Limiting shear: PAO 100, paraffinic, naphthenic and polyglycol oils
+# after Hoeglund in Arana, Larranaga and Ulacia (2019); 0.035 to 0.05 is reported for PAO of other
+# makes. Esters and mixtures are estimates between them. Gold's s and t are in rolling-bearing
+# papers of Fernandes, Martins and Seabra (2013) as well.
 _SCATTER = (0.8, 1.0, 1.2)
 BASE_OILS: Mapping[str, BaseOil] = MappingProxyType(
     {

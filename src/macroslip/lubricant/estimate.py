@@ -30,12 +30,13 @@ def estimate_lubricant(
 ) -> Lubricant:
     """Estimate a lubricant at 35 degC from kinematic viscosities and base oil.
 
-    The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil family by Gold et
-    al., for esters and polyglycols raised within its scatter by the friction of thrust bearings, and the Eyring stress
-    2 gamma/alpha at 1 GPa. Values that the family leaves open have the tag E and a range. Raises InputError if there is
-    no such family, a viscosity is out of range, or it does not fall with temperature. The viscosities are at 40 and 100
-    degC [m2/s]; `base_oil` is a family of `macroslip.lubricant.base_oil.BASE_OILS`, for a grease that of its base oil,
-    and `name` the short name of the lubricant.
+    The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil
+    family by Gold et al., for esters and polyglycols raised within its scatter by the friction of
+    thrust bearings, and the Eyring stress 2 gamma/alpha at 1 GPa. Values that the family leaves
+    open have the tag E and a range. Raises InputError if there is no such family, a viscosity is
+    out of range, or it does not fall with temperature. The viscosities are at 40 and 100 degC
+    [m2/s]; `base_oil` is a family of `macroslip.lubricant.base_oil.BASE_OILS`, for a grease that of
+    its base oil, and `name` the short name of the lubricant.
 
     Examples
     --------
@@ -114,7 +115,7 @@ def estimate_lubricant(
 def _entry(
     value: float, unit: str, note: str, *, tag: str = "E", spread: tuple[float, float] | None = None
 ) -> dict[str, Any]:
-    """An entry of a lubricant file, to three digits where it is an estimate with a relative spread."""
+    """An entry of a lubricant file, to three digits where it is estimated with a spread."""
     entry: dict[str, Any] = {
         "value": float(f"{value:.12g}"),
         "unit": unit,

@@ -18,7 +18,9 @@ from macroslip.lubricant.temperature import (
     walther_viscosity,
 )
 
-T15, T40, T100 = 288.15, 313.15, 373.15
+T15 = 288.15
+T40 = 313.15
+T100 = 373.15
 """Temperatures [K] at which makers give density and viscosities."""
 
 
@@ -33,10 +35,12 @@ class Inlet(NamedTuple):
 
 
 def viscosities(line: WaltherLine, temperature: float, density: float) -> tuple[float, float]:
-    """Dynamic viscosity and its relative fall with temperature, from Walther's line and the density.
+    """Dynamic viscosity and its relative fall with temperature.
 
-    eta0 = nu rho [Pa s] and beta = -d ln eta0/dT = -d ln nu/dT + 0.65 kg/(m3 K)/rho [1/K], at T [K] with the density rho
-    there [kg/m3].
+    Both follow from Walther's line and the density.
+
+    eta0 = nu rho [Pa s] and beta = -d ln eta0/dT = -d ln nu/dT + 0.65 kg/(m3 K)/rho [1/K], at T [K]
+    with the density rho there [kg/m3].
 
     Examples
     --------
@@ -50,14 +54,17 @@ def viscosities(line: WaltherLine, temperature: float, density: float) -> tuple[
 
 
 def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
-    """The values at another temperature [K]: Walther's line through viscosity and slope, linear density, constant Z.
+    """The values at another temperature [K].
+
+    Walther's line through viscosity and slope, linear density, constant Z.
 
     Raises InputError if the viscosity does not fall with temperature, or is too low for a law.
 
     Examples
     --------
     >>> warm = moved_inlet(Inlet(308.15, 900.0, 0.54, 0.056, 2.1e-8), 323.15)
-    >>> round(warm.viscosity, 4), round(warm.temperature_viscosity, 4), round(warm.pressure_viscosity * 1e9, 2)
+    >>> coefficient = round(warm.pressure_viscosity * 1e9, 2)
+    >>> round(warm.viscosity, 4), round(warm.temperature_viscosity, 4), coefficient
     (0.2496, 0.0472, 19.21)
     """
     kinematic = inlet.viscosity / inlet.density
@@ -78,8 +85,8 @@ def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
 def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
     """Values at the inlet that follow from the figures of a data sheet, in SI.
 
-    Of density, viscosity, temperature_viscosity and pressure_viscosity those that are not `given` [SI] and that follow
-    from others, whose ranges in `origins` are handed on in proportion.
+    Of density, viscosity, temperature_viscosity and pressure_viscosity those that are not `given`
+    [SI] and that follow from others, whose ranges in `origins` are handed on in proportion.
     """
     found: dict[str, Provenance] = {}
 
@@ -93,7 +100,8 @@ def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dic
     if density is None and "density_15" in given:
         density = density_at(given["density_15"], T15, temperature)
         follows("density", density, "kg/m3", "from density_15, less 0.65 kg/(m3 K)", "density_15")
-    viscosity, line = given.get("viscosity"), None
+    viscosity = given.get("viscosity")
+    line = None
     if (
         density is not None
         and {"kinematic_viscosity_40", "kinematic_viscosity_100"} <= given.keys()

@@ -47,13 +47,14 @@ _SOURCES: Mapping[str, tuple[str, ...]] = {
 class Lubricant(Record):
     """Data of a lubricant at the inlet of the contacts, and of its drag on the rollers.
 
-    A file gives viscosity, temperature_viscosity, pressure_viscosity and density at the inlet temperature, or in place of
-    each what data sheets give: kinematic_viscosity_40 and kinematic_viscosity_100, density_15, and roelands_index or
-    reference_pressure_viscosity at a reference_temperature. The values at the inlet then follow. `at` gives the lubricant
-    at another temperature.
+    A file gives viscosity, temperature_viscosity, pressure_viscosity and density at the inlet
+    temperature, or in place of each what data sheets give: kinematic_viscosity_40 and
+    kinematic_viscosity_100, density_15, and roelands_index or reference_pressure_viscosity at a
+    reference_temperature. The values at the inlet then follow. `at` gives the lubricant at another
+    temperature.
 
-    Attributes are in SI units (K, Pa s, m2/s, 1/Pa, 1/K, W/(m K), kg/m3); `provenance` gives the source of each. Raises
-    InputError if a value is missing, out of range, or given in two ways.
+    Attributes are in SI units (K, Pa s, m2/s, 1/Pa, 1/K, W/(m K), kg/m3); `provenance` gives the
+    source of each. Raises InputError if a value is missing, out of range, or given in two ways.
 
     Examples
     --------
@@ -222,15 +223,21 @@ class Lubricant(Record):
             )
 
     def replace(self, **values: Any) -> Self:
-        """Copy the lubricant with other values [SI], checked as any other input; they get the tag U.
+        """Copy the lubricant with other values [SI], checked as any other input.
 
-        A value at the inlet, such as viscosity, takes the place of the figures from which it followed.
+        They get the tag U.
+
+        A value at the inlet, such as viscosity, takes the place of the figures from which it
+        followed.
         """
         stated = self._stated() if self._derived & values.keys() else self
         return super(Lubricant, stated).replace(**values)
 
     def _stated(self, **changes: Provenance) -> Self:
-        """The lubricant by its values at the inlet alone, some of them changed; their origins are in SI."""
+        """The lubricant by its values at the inlet alone, some of them changed.
+
+        Their origins are in SI.
+        """
         sources = {source for those in _SOURCES.values() for source in those}
         kept = {key: origin for key, origin in self.provenance.items() if key not in sources}
         values = {key: getattr(self, key) for key in fields_of(type(self)) if key not in sources}
@@ -245,10 +252,11 @@ class Lubricant(Record):
     def at(self, temperature: float | str) -> Self:
         """Give the lubricant at another inlet temperature.
 
-        Viscosity and its temperature coefficient follow Walther's line (ASTM D341) through viscosity and slope at the
-        present inlet temperature; density falls by 0.65 kg/(m3 K); the pressure-viscosity coefficient follows Roelands'
-        law with constant index Z, alpha_p = Z (ln eta0 + 9.67)/p_r; the Eyring stress 2 gamma/alpha(T, p) rises as
-        alpha falls. The limiting shear coefficient stays: measured changes with temperature are within 0.003.
+        Viscosity and its temperature coefficient follow Walther's line (ASTM D341) through
+        viscosity and slope at the present inlet temperature; density falls by 0.65 kg/(m3 K); the
+        pressure-viscosity coefficient follows Roelands' law with constant index Z, alpha_p = Z (ln
+        eta0 + 9.67)/p_r; the Eyring stress 2 gamma/alpha(T, p) rises as alpha falls. The limiting
+        shear coefficient stays: measured changes with temperature are within 0.003.
 
         Parameters
         ----------
@@ -263,12 +271,14 @@ class Lubricant(Record):
         Raises
         ------
         InputError
-            If the temperature is no number or out of range, or a law does not hold for the lubricant.
+            If the temperature is no number or out of range, or a law does not hold for the
+            lubricant.
 
         Examples
         --------
         >>> warm = Lubricant.read("vg460-pao").at("50 degC")
-        >>> round(warm.viscosity, 4), round(warm.pressure_viscosity * 1e9, 2), warm.provenance["viscosity"].tag
+        >>> tag = warm.provenance["viscosity"].tag
+        >>> round(warm.viscosity, 4), round(warm.pressure_viscosity * 1e9, 2), tag
         (0.2496, 19.21, 'D')
         """
         where = f"lubricant {self.name}"
@@ -311,7 +321,8 @@ class Lubricant(Record):
             values["eyring_stress"] = (
                 self.eyring_stress * self.pressure_viscosity / there.pressure_viscosity
             )
-        kinds, origins = dimensions(type(self)), self.provenance
+        kinds = dimensions(type(self))
+        origins = self.provenance
         changes = {"inlet_temperature": Provenance(temperature, "K")} | {
             key: Provenance(
                 values[key], kinds[key].si_unit, "D", note, scaled_range(origins[key], values[key])
@@ -321,7 +332,10 @@ class Lubricant(Record):
         return self._stated(**changes)
 
     def supplied(self, oil_gap: float) -> Lubricant:
-        """The lubricant with inlets of contacts that are full from a gap [m] on; from 1 m on they are flooded."""
+        """The lubricant with inlets of contacts that are full from a gap [m] on.
+
+        From 1 m on they are flooded.
+        """
         made = SuppliedLubricant.__new__(SuppliedLubricant)
         values = {
             key: getattr(self, key) for key in fields_of(Lubricant) if key not in self._derived

@@ -1,11 +1,16 @@
-"""Viscosity, density, pressure-viscosity coefficient and Eyring stress of an oil over temperature and pressure.
+"""Properties of an oil over temperature and pressure.
 
-Kinematic viscosity follows Walther's line, as ASTM D341 draws it; the pressure-viscosity coefficient follows Roelands' law
-with a constant index Z:
+These are viscosity, density, pressure-viscosity coefficient and Eyring stress.
 
-* C. Walther, "Ueber die Auswertung von Viskositaetsangaben", Erdoel und Teer 7 (1931) 382-384. ASTM D341, Standard
-  Practice for Viscosity-Temperature Equations and Charts for Liquid Petroleum or Hydrocarbon Products.
-* C. J. A. Roelands, Correlational Aspects of the Viscosity-Temperature-Pressure Relationship of Lubricating Oils, thesis,
+Kinematic viscosity follows Walther's line, as ASTM D341 draws it; the pressure-viscosity
+coefficient follows Roelands' law with a constant index Z:
+
+* C. Walther, "Ueber die Auswertung von Viskositaetsangaben", Erdoel und Teer 7 (1931) 382-384. ASTM
+  D341, Standard
+  Practice for Viscosity-Temperature Equations and Charts for Liquid Petroleum or Hydrocarbon
+  Products.
+* C. J. A. Roelands, Correlational Aspects of the Viscosity-Temperature-Pressure Relationship of
+  Lubricating Oils, thesis,
   Delft (1966), with p_r = 1.96e8 Pa.
 
 Both laws refuse, by `InputError`, a viscosity that is too low for them.
@@ -24,7 +29,8 @@ _MM2 = 1e-6
 ROELANDS_PRESSURE = 1.96e8
 #: Viscosity [Pa s] that every oil has where Roelands' lines meet; the law holds above it.
 ROELANDS_LOWEST_VISCOSITY = math.exp(-9.67)
-#: Fall of density with temperature [kg/(m3 K)]: 0.60 to 0.68 for mineral oils and PAO in petroleum measurement tables.
+#: Fall of density with temperature [kg/(m3 K)]: 0.60 to 0.68 for mineral oils and PAO in petroleum
+#: measurement tables.
 THERMAL_EXPANSION = 0.65
 
 
@@ -36,10 +42,13 @@ class WaltherLine(NamedTuple):
 
 
 def walther_viscosity(line: WaltherLine, temperature: float) -> float:
-    """Kinematic viscosity nu [m2/s] at a temperature T [K], log10 log10(nu + 0.7) = A - B log10 T, with nu in mm2/s.
+    """Kinematic viscosity nu [m2/s] at a temperature T [K], log10 log10(nu + 0.7) = A - B log10 T.
 
-    Valid for liquid hydrocarbons above 2 mm2/s between cloud point and first boiling; interpolation between the two
-    given viscosities is good to a few per cent, extrapolation by more than 30 K less so.
+    In this equation nu is in mm2/s.
+
+    Valid for liquid hydrocarbons above 2 mm2/s between cloud point and first boiling; interpolation
+    between the two given viscosities is good to a few per cent, extrapolation by more than 30 K
+    less so.
 
     Examples
     --------
@@ -51,7 +60,9 @@ def walther_viscosity(line: WaltherLine, temperature: float) -> float:
 
 
 def walther_coefficient(line: WaltherLine, temperature: float) -> float:
-    """Relative fall of the kinematic viscosity [1/K] at T [K], -d ln nu/dT = B (nu + 0.7) ln(nu + 0.7)/(nu T), nu in mm2/s.
+    """Relative fall of the kinematic viscosity [1/K] at T [K].
+
+    It is -d ln nu/dT = B (nu + 0.7) ln(nu + 0.7)/(nu T), nu in mm2/s.
 
     `walther_viscosity` differentiated; 0.02 to 0.08 for most oils.
 
@@ -97,7 +108,9 @@ def walther_line_through(
 def walther_line_with_slope(
     temperature: float, viscosity: float, coefficient: float
 ) -> WaltherLine:
-    """Line through one kinematic viscosity [m2/s] at T [K] and its relative fall [1/K]; inverse of `walther_coefficient`.
+    """Line through one kinematic viscosity [m2/s] at T [K] and its relative fall [1/K].
+
+    It is the inverse of `walther_coefficient`.
 
     Raises InputError if the coefficient is not positive.
 
@@ -130,8 +143,8 @@ def _ordinate(viscosity: float) -> float:
 def density_at(density: float, temperature: float, other_temperature: float) -> float:
     """Density [kg/m3] at another temperature [K], rho(T) = rho(T0) - 0.65 kg/(m3 K) (T - T0).
 
-    Valid for mineral oils, PAO and esters from -20 to 150 degC, to about half a per cent. The slope is an engineering
-    estimate; ASTM D1250 tabulates it for lubricating oils by their density.
+    Valid for mineral oils, PAO and esters from -20 to 150 degC, to about half a per cent. The slope
+    is an engineering estimate; ASTM D1250 tabulates it for lubricating oils by their density.
 
     Examples
     --------
@@ -142,10 +155,12 @@ def density_at(density: float, temperature: float, other_temperature: float) -> 
 
 
 def dowson_higginson(pressure):
-    """Density under pressure over density at ambient pressure [-], 1 + 0.6 p/(1 + 1.7 p) with p in GPa, given in Pa.
+    """Density under pressure over density at ambient pressure [-].
 
-    Fitted to mineral oils up to 0.4 GPa and widely used beyond; it tends to 1.353. Dowson and Higginson,
-    Elasto-hydrodynamic Lubrication, Pergamon (1966).
+    It is 1 + 0.6 p/(1 + 1.7 p) with p in GPa, given in Pa.
+
+    Fitted to mineral oils up to 0.4 GPa and widely used beyond; it tends to 1.353. Dowson and
+    Higginson, Elasto-hydrodynamic Lubrication, Pergamon (1966).
 
     Examples
     --------
@@ -156,10 +171,12 @@ def dowson_higginson(pressure):
 
 
 def roelands_index(viscosity: float, pressure_viscosity: float) -> float:
-    """Roelands' index [-] that gives the law the initial slope alpha_p, Z = alpha_p p_r / (ln eta0 + 9.67).
+    """Roelands' index [-] that gives the law the initial slope alpha_p.
 
-    0.5 to 0.7 for most oils. eta0 [Pa s] is the viscosity at ambient pressure, above exp(-9.67) = 6.3e-5 Pa s, and
-    alpha_p [1/Pa] the positive slope d ln eta/dp there.
+    Z = alpha_p p_r / (ln eta0 + 9.67).
+
+    0.5 to 0.7 for most oils. eta0 [Pa s] is the viscosity at ambient pressure, above exp(-9.67) =
+    6.3e-5 Pa s, and alpha_p [1/Pa] the positive slope d ln eta/dp there.
 
     Examples
     --------
@@ -180,23 +197,28 @@ def roelands_index(viscosity: float, pressure_viscosity: float) -> float:
 
 
 def pressure_viscosity_at(index: float, viscosity: float) -> float:
-    """Coefficient [1/Pa] at ambient pressure, alpha_p = Z (ln eta0 + 9.67)/p_r, eta0 in Pa s; inverse of `roelands_index`.
+    """Coefficient [1/Pa] at ambient pressure, alpha_p = Z (ln eta0 + 9.67)/p_r, eta0 in Pa s.
+
+    Inverse of `roelands_index`.
 
     Z is a constant of the oil, so alpha_p falls with temperature as ln eta0 does.
 
     Examples
     --------
-    >>> round(pressure_viscosity_at(0.4546, 0.54) * 1e9, 2), round(pressure_viscosity_at(0.4546, 0.233) * 1e9, 2)
-    (21.0, 19.05)
+    >>> [round(pressure_viscosity_at(0.4546, one) * 1e9, 2) for one in (0.54, 0.233)]
+    [21.0, 19.05]
     """
     return index / roelands_index(viscosity, 1.0)
 
 
 def mean_pressure_viscosity(viscosity: float, pressure_viscosity: float, pressure: float) -> float:
-    """Mean pressure-viscosity coefficient [1/Pa] up to a pressure p [Pa], alpha(p) = ln(eta/eta0)/p, by Roelands' law.
+    """Mean pressure-viscosity coefficient [1/Pa] up to a pressure p [Pa].
 
-    eta = eta0 exp{(ln eta0 + 9.67) [(1 + p/p_r)^Z - 1]}, fitted to oils up to about 1 GPa. It is what
-    eta = eta0 exp(alpha(p) p) needs to hold at that pressure, and below alpha_p for Z < 1. Arguments as `roelands_index`.
+    By Roelands' law, alpha(p) = ln(eta/eta0)/p.
+
+    eta = eta0 exp{(ln eta0 + 9.67) [(1 + p/p_r)^Z - 1]}, fitted to oils up to about 1 GPa. It is
+    what eta = eta0 exp(alpha(p) p) needs to hold at that pressure, and below alpha_p for Z < 1.
+    Arguments as `roelands_index`.
 
     Examples
     --------
@@ -209,14 +231,17 @@ def mean_pressure_viscosity(viscosity: float, pressure_viscosity: float, pressur
 
 
 def gold(kinematic_viscosity: float, factor: float, exponent: float) -> float:
-    """Pressure-viscosity coefficient [1/Pa] by the power law of Gold et al., alpha_p = s nu^t in 1/GPa, with nu in mm2/s.
+    """Pressure-viscosity coefficient [1/Pa] by the power law of Gold and co-workers.
 
-    A mean over oils of one family, measured up to 0.2 GPa; single oils scatter by about 20 % around it. nu is at
-    ambient pressure and the temperature of interest, positive, fitted for about 5 to 1000 mm2/s; `factor` and
-    `exponent` are s and t of the oil family; see `macroslip.lubricant.base_oil`.
+    It is alpha_p = s nu^t in 1/GPa, with nu in mm2/s.
 
-    P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, "Viscosity-pressure-temperature behaviour of mineral and
-    synthetic oils", Journal of Synthetic Lubrication 18 (2001) 51-79.
+    A mean over oils of one family, measured up to 0.2 GPa; single oils scatter by about 20 % around
+    it. nu is at ambient pressure and the temperature of interest, positive, fitted for about 5 to
+    1000 mm2/s; `factor` and `exponent` are s and t of the oil family; see
+    `macroslip.lubricant.base_oil`.
+
+    P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, "Viscosity-pressure-temperature behaviour
+    of mineral and synthetic oils", Journal of Synthetic Lubrication 18 (2001) 51-79.
 
     Examples
     --------
@@ -229,14 +254,15 @@ def gold(kinematic_viscosity: float, factor: float, exponent: float) -> float:
 def eyring_stress(limiting_shear: float, mean_pressure_viscosity: float) -> float:
     """Eyring stress [Pa] over temperature and pressure, tau_E = 2 gamma/alpha(T, p).
 
-    Shear stress far above tau_E is tau_E ln(2 eta s/tau_E), in which ln eta contains alpha p. As gamma hardly depends on
-    temperature while alpha falls, tau_E rises with temperature: for a PAO at 1 GPa 6.9, 7.8 and 8.7 MPa at 40, 60 and
-    80 degC. Under Roelands' law with constant Z the ratio of two temperatures does not depend on the pressure. gamma is
-    the limiting shear stress over pressure [-], 0.03 to 0.06, and alpha(T, p) = ln(eta/eta0)/p at the temperature and
+    Shear stress far above tau_E is tau_E ln(2 eta s/tau_E), in which ln eta contains alpha p. As
+    gamma hardly depends on temperature while alpha falls, tau_E rises with temperature: for a PAO
+    at 1 GPa 6.9, 7.8 and 8.7 MPa at 40, 60 and 80 degC. Under Roelands' law with constant Z the
+    ratio of two temperatures does not depend on the pressure. gamma is the limiting shear stress
+    over pressure [-], 0.03 to 0.06, and alpha(T, p) = ln(eta/eta0)/p at the temperature and
     pressure [1/Pa], positive; see `mean_pressure_viscosity`.
 
-    A. Arana, J. Larranaga, I. Ulacia, "Partial EHL friction coefficient model to predict power losses in cylindrical
-    gears", Proc. IMechE Part J 233 (2019) 303-316.
+    A. Arana, J. Larranaga, I. Ulacia, "Partial EHL friction coefficient model to predict power
+    losses in cylindrical gears", Proc. IMechE Part J 233 (2019) 303-316.
 
     Examples
     --------

@@ -1,4 +1,7 @@
-"""The usual ratings beside slip: static safety, rating lives, pressures, film ratio, minimum load, load spectra."""
+"""The usual ratings beside slip.
+
+Static safety, rating lives, pressures, film ratio, minimum load, load spectra.
+"""
 
 from macroslip.rating.rate import rate, roller_load_history
 

@@ -1,11 +1,14 @@
-"""Ratings of radial roller bearings by ISO 76, ISO 281 and ISO/TS 16281, and the makers' minimum load.
+"""Ratings of radial roller bearings by ISO 76, ISO 281 and ISO/TS 16281.
 
-Lives are in revolutions. Load ratings themselves (C0, C, C_u) stand in `macroslip.bearing.load_ratings`.
+With the makers' minimum load.
 
-ISO/TS 16281 cuts a roller into laminae, for line contacts with any profile. A spherical roller touches its raceways in
-an ellipse, whose load per length is Hertz', w(x) = 3 Q/(4 a) (1 - x^2/a^2); its laminae carry that. Since the laminae
-account for the uneven load along the roller, the standard takes the factor lambda nu = 0.83 for such unevenness out of
-the load rating.
+Lives are in revolutions. Load ratings themselves (C0, C, C_u) stand in
+`macroslip.bearing.load_ratings`.
+
+ISO/TS 16281 cuts a roller into laminae, for line contacts with any profile. A spherical roller
+touches its raceways in an ellipse, whose load per length is Hertz', w(x) = 3 Q/(4 a) (1 - x^2/a^2);
+its laminae carry that. Since the laminae account for the uneven load along the roller, the standard
+takes the factor lambda nu = 0.83 for such unevenness out of the load rating.
 """
 
 from __future__ import annotations
@@ -39,9 +42,12 @@ MINIMUM_SHARE_OF_ROLLERS = 0.02
 def static_equivalent_load(
     radial_load: ArrayLike, axial_load: ArrayLike, factor_y0: float
 ) -> NDArray[np.float64]:
-    """Static equivalent radial load P0 = Fr + Y0 |Fa| [N] of a double-row bearing, ISO 76:2006, section 6.2, X0 = 1.
+    """Static equivalent radial load P0 = Fr + Y0 |Fa| [N] of a double-row bearing.
 
-    Of Fr, not negative, and Fa, either sign [N], with the catalogue's Y0 [-]; 0.44 cot(alpha) in the standard.
+    ISO 76:2006, section 6.2, X0 = 1.
+
+    Of Fr, not negative, and Fa, either sign [N], with the catalogue's Y0 [-]; 0.44 cot(alpha) in
+    the standard.
 
     Examples
     --------
@@ -64,10 +70,12 @@ def static_safety(static_load_rating: float, equivalent_load: ArrayLike) -> NDAr
 
 
 def minimum_load(static_load_rating: float) -> float:
-    """Least dynamic equivalent load of a spherical roller bearing so that rollers do not skid, P_min = 0.01 C0 [N].
+    """Least dynamic equivalent load P_min = 0.01 C0 [N] of a spherical roller bearing.
 
-    A rule of thumb, which depends on neither speed nor lubricant: SKF, Rolling bearings, catalogue 17000 EN (2018),
-    chapter on spherical roller bearings, "Minimum load".
+    Below it rollers skid.
+
+    A rule of thumb, which depends on neither speed nor lubricant: SKF, Rolling bearings, catalogue
+    17000 EN (2018), chapter on spherical roller bearings, "Minimum load".
 
     Examples
     --------
@@ -94,23 +102,28 @@ def minimum_load_of_rollers(dynamic_load_rating: float) -> float:
 def dynamic_equivalent_load(
     radial_load: ArrayLike, axial_load: ArrayLike, e: float, y1: float, y2: float
 ) -> NDArray[np.float64]:
-    """Dynamic equivalent radial load [N], P = Fr + Y1 |Fa| where |Fa| <= e Fr, else 0.67 Fr + Y2 |Fa|.
+    """Dynamic equivalent radial load [N] of a double-row spherical roller bearing.
 
-    ISO 281:2007, table 8. Of Fr, not negative, and Fa, either sign [N], with the catalogue's e, Y1 and Y2 [-]; 1.5
-    tan(alpha), 0.45 cot(alpha) and 0.67 cot(alpha) in the standard. As catalogues round them, P has a step of up to a
-    few per cent at |Fa| = e Fr.
+    P = Fr + Y1 |Fa| where |Fa| <= e Fr, else 0.67 Fr + Y2 |Fa|.
+
+    ISO 281:2007, table 8. Of Fr, not negative, and Fa, either sign [N], with the catalogue's e, Y1
+    and Y2 [-]; 1.5 tan(alpha), 0.45 cot(alpha) and 0.67 cot(alpha) in the standard. As catalogues
+    round them, P has a step of up to a few per cent at |Fa| = e Fr.
 
     Examples
     --------
     >>> dynamic_equivalent_load([300e3, 300e3], [50e3, -150e3], 0.3, 2.3, 3.4).round().tolist()
     [415000.0, 711000.0]
     """
-    radial, axial = np.asarray(radial_load, float), np.abs(axial_load)
+    radial = np.asarray(radial_load, float)
+    axial = np.abs(axial_load)
     return np.where(axial <= e * radial, radial + y1 * axial, 0.67 * radial + y2 * axial)
 
 
 def basic_life(load_rating: float, equivalent_load: ArrayLike) -> NDArray[np.float64]:
-    """Basic rating life with 90 % reliability, L10 = 1e6 (C/P)^(10/3) revolutions of loads [N]; infinite without load.
+    """Basic rating life with 90 % reliability, L10 = 1e6 (C/P)^(10/3) revolutions of loads [N].
+
+    It is infinite without load.
 
     ISO 281:2007, section 8; valid to P = C/2, no range is stated below.
 
@@ -124,7 +137,9 @@ def basic_life(load_rating: float, equivalent_load: ArrayLike) -> NDArray[np.flo
 
 
 def mean_equivalent_load(equivalent_load: ArrayLike, revolutions: ArrayLike) -> float:
-    """Constant load [N] with the life of a varying one, P_m = (sum P^p n / sum n)^(1/p), p = 10/3; NaN at rest.
+    """Constant load [N] with the life of a varying one, P_m = (sum P^p n / sum n)^(1/p), p = 10/3.
+
+    It is NaN at rest.
 
     Of loads P [N] and the revolutions n made under each, not negative, in any unit.
 
@@ -143,10 +158,12 @@ def mean_equivalent_load(equivalent_load: ArrayLike, revolutions: ArrayLike) -> 
 
 
 def reference_viscosity(speed: float, pitch: float) -> float:
-    """Kinematic viscosity [m2/s] that the standard requires at a speed [rad/s], not zero, and pitch diameter [m].
+    """Kinematic viscosity [m2/s] that the standard requires.
 
-    nu1 = 45000 n^-0.83 Dpw^-0.5 mm2/s (n in rpm, Dpw in mm); from 1000 rpm on 4500 n^-0.5 Dpw^-0.5. ISO 281:2007,
-    section 9.3.3.2, equations (26) and (27).
+    At a speed [rad/s], not zero, and a pitch diameter [m].
+
+    nu1 = 45000 n^-0.83 Dpw^-0.5 mm2/s (n in rpm, Dpw in mm); from 1000 rpm on 4500 n^-0.5 Dpw^-0.5.
+    ISO 281:2007, section 9.3.3.2, equations (26) and (27).
 
     Examples
     --------
@@ -163,10 +180,11 @@ def life_modification(
 ) -> NDArray[np.float64]:
     """Life modification factor a_ISO [-] of radial roller bearings.
 
-    a_ISO = 0.1 [1 - (1.5859 - A/kappa^B) (e_C C_u/P)^0.4]^-9.185, at most 50, with (A, B) = (1.3993, 0.054381) for
-    kappa below 0.4, (1.2348, 0.19087) to 1, and (1.2348, 0.071739) to 4. kappa = nu/nu1 [-] is at least 0.1; above 4
-    the value at 4 holds. Below 0.1, or NaN, the standard defines no factor, and it is NaN. e_C [-] is 0 (very severe)
-    to 1 (extreme cleanliness), C_u/P [-] not negative.
+    a_ISO = 0.1 [1 - (1.5859 - A/kappa^B) (e_C C_u/P)^0.4]^-9.185, at most 50, with (A, B) =
+    (1.3993, 0.054381) for kappa below 0.4, (1.2348, 0.19087) to 1, and (1.2348, 0.071739) to 4.
+    kappa = nu/nu1 [-] is at least 0.1; above 4 the value at 4 holds. Below 0.1, or NaN, the
+    standard defines no factor, and it is NaN. e_C [-] is 0 (very severe) to 1 (extreme
+    cleanliness), C_u/P [-] not negative.
 
     ISO 281:2007, section 9.3.3.3, equations (31) to (33) and figure 4.
 
@@ -189,8 +207,8 @@ def life_modification(
         if kappa < 1.0
         else (1.2348, 0.071739)
     )
-    # At kappa 0.1 the film's part is zero but for the rounding of its coefficients. Where the bracket is not positive the
-    # endurance limit is reached.
+    # At kappa 0.1 the film's part is zero but for the rounding of its coefficients. Where the
+    # bracket is not positive the endurance limit is reached.
     bracket = 1.0 - max(1.5859 - a / kappa**b, 0.0) * (contamination * ratio) ** 0.4
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         factor = np.where(bracket > 0.0, 0.1 * np.abs(bracket) ** -9.185, np.inf)
@@ -198,7 +216,10 @@ def life_modification(
 
 
 class RingRatings(NamedTuple):
-    """Load on each roller [N] that a tenth of all inner, or outer, rings of one row do not bear for 1e6 revolutions."""
+    """Load ratings of the rings of one row [N].
+
+    Under such a load on each roller a tenth of the rings fail before 1e6 revolutions.
+    """
 
     inner: float
     outer: float
@@ -207,15 +228,19 @@ class RingRatings(NamedTuple):
 def ring_ratings(
     dynamic_load_rating: float, rows: int, rollers_per_row: int, contact_angle: float, gamma: float
 ) -> RingRatings:
-    """Load ratings [N] of a roller's contacts with inner and outer ring from the bearing's load rating.
+    """Load ratings [N] of a roller's contacts with inner and outer ring.
 
-    Q_ci = C/(0.378 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 - gamma)/(1 + gamma))^(143/108)]^(9/2)}^(2/9),
-    Q_ce = C/(0.364 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 - gamma)/(1 + gamma))^(143/108)]^(-9/2)}^(2/9),
-    without the division by lambda nu = 0.83, which goes with laminae. Of C [N], i rows, Z rollers in each, alpha [rad]
-    and gamma = Dw cos(alpha)/Dpw [-].
+    They follow from the bearing's load rating.
 
-    ISO/TS 16281:2008, section 6.3.1.1. 0.378 and 0.364 are J_r/J_1 and J_r/J_2, Sjövall's and Lundberg's load integrals
-    of a bearing loaded over half its circumference, to which the tests compare them.
+    Q_ci = C/(0.378 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 - gamma)/(1 +
+    gamma))^(143/108)]^(9/2)}^(2/9), Q_ce = C/(0.364 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 -
+    gamma)/(1 + gamma))^(143/108)]^(-9/2)}^(2/9), without the division by lambda nu = 0.83, which
+    goes with laminae. Of C [N], i rows, Z rollers in each, alpha [rad] and gamma = Dw
+    cos(alpha)/Dpw [-].
+
+    ISO/TS 16281:2008, section 6.3.1.1. 0.378 and 0.364 are J_r/J_1 and J_r/J_2, Sjövall's and
+    Lundberg's load integrals of a bearing loaded over half its circumference, to which the tests
+    compare them.
 
     Examples
     --------
@@ -233,19 +258,22 @@ def ring_ratings(
 
 @jit
 def damage_series(load, semi_axis, roller_length, rating, stationary):
-    """Damage of one ring of one row over a history, (Q_e/Q_c)^(9/2), from the loads of all its rollers.
+    """Damage of one ring of one row over a history, (Q_e/Q_c)^(9/2).
 
-    Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of one at rest. Along
-    the roller it is the mean over laminae, on each of which a load Q_j counts that spread over the whole length would
-    give what it bears per length: Hertz' ellipse, or what lies within the roller's ends, carrying all. The mean is the
-    standard's sum with q_c = Q_c (1/n)^(7/9). It has the shape (2, n): with the load along the roller of Hertz, and
-    with load spread evenly and the factor 0.83 kept, which is what ISO 281 assumes of every bearing. `load` is that of
-    the row's rollers [N], shape (Z, n); the semi-axis of the contact ellipse along the roller is per Q^(1/3)
-    [m/N^(1/3)], the length L in m, and Q_c of the ring [N] is without the division by `REDUCTION`; `stationary` says
-    whether the ring is at rest relative to the load.
+    It follows from the loads of all the row's rollers.
 
-    The inner loop runs over laminae of rollers of samples, 40 million times for ten minutes; NumPy's powers of the same
-    arrays take ten times as long.
+    Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of
+    one at rest. Along the roller it is the mean over laminae, on each of which a load Q_j counts
+    that spread over the whole length would give what it bears per length: Hertz' ellipse, or what
+    lies within the roller's ends, carrying all. The mean is the standard's sum with q_c = Q_c
+    (1/n)^(7/9). It has the shape (2, n): with the load along the roller of Hertz, and with load
+    spread evenly and the factor 0.83 kept, which is what ISO 281 assumes of every bearing. `load`
+    is that of the row's rollers [N], shape (Z, n); the semi-axis of the contact ellipse along the
+    roller is per Q^(1/3) [m/N^(1/3)], the length L in m, and Q_c of the ring [N] is without the
+    division by `REDUCTION`; `stationary` says whether the ring is at rest relative to the load.
+
+    The inner loop runs over laminae of rollers of samples, 40 million times for ten minutes;
+    NumPy's powers of the same arrays take ten times as long.
 
     ISO/TS 16281:2008, section 6.3.1.2.
 
@@ -260,7 +288,8 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     lamina = 0.5 * roller_length / count
     found = np.zeros((2, samples))
     sums = np.empty(count)
-    # The outer ring's exponent is 9/2 for every roller; the inner one's 4, and the sum to the power 9/8.
+    # The outer ring's exponent is 9/2 for every roller; the inner one's 4, and the sum to the power
+    # 9/8.
     for k in range(samples):
         sums[:] = 0.0
         even = 0.0
@@ -292,10 +321,12 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
 def reference_life(
     damage: NDArray[np.float64], axis: int | tuple[int, ...] | None = None
 ) -> NDArray[np.float64]:
-    """Basic reference rating life of rings together, L10r = 1e6 (sum (Q_c/Q_e)^(-9/2))^(-8/9) revolutions.
+    """Basic reference rating life of rings together [revolutions].
 
-    ISO/TS 16281:2008, section 6.3.2; of `damage_series`, over the axes of the rings and rows to take together, None for
-    all. Without load the life is infinite.
+    L10r = 1e6 (sum (Q_c/Q_e)^(-9/2))^(-8/9).
+
+    ISO/TS 16281:2008, section 6.3.2; of `damage_series`, over the axes of the rings and rows to
+    take together, None for all. Without load the life is infinite.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What standards and makers say of one kind of bearing: load ratings, equivalent and least loads."""
+"""Load ratings, equivalent loads and minimum load by the kind of a bearing."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ _AXIAL_FACTORS = ("axial_factor_e", "axial_factor_y1", "axial_factor_y2", "axial
 def ratings_of(bearing: Bearing) -> LoadRatings:
     """Load ratings of a bearing: the file's, or those that the standards give for its inside.
 
-    A spherical roller bearing needs its C and C0, in which makers differ from the standards' formulas
-    by up to 37 %; a cylindrical one without them has ISO 281's C for line contacts and ISO 76's C0.
-    C_u follows from C0 (ISO 281, annex B) where it is not given. Raises InputError if a spherical
-    roller bearing lacks C, C0 or an axial factor.
+    A spherical roller bearing needs its C and C0, in which makers differ from the standards'
+    formulas by up to 37 %; a cylindrical one without them has ISO 281's C for line contacts and ISO
+    76's C0. C_u follows from C0 (ISO 281, annex B) where it is not given. Raises InputError if a
+    spherical roller bearing lacks C, C0 or an axial factor.
 
     Examples
     --------

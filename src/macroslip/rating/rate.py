@@ -30,7 +30,9 @@ DISTRIBUTIONS = ("hertz", "uniform")
 LOADS = ("radial", "axial", "equivalent")
 LOAD_CLASSES = 40
 CONTAMINATION = 0.5
-"""e_C by default: between slight and typical contamination of a bearing with a pitch above 100 mm; an estimate."""
+"""e_C by default: between slight and typical contamination of a bearing with a pitch above 100 mm;
+an estimate.
+"""
 WOHLER_EXPONENTS = (4.0, 10.0)
 _HOUR = 3600.0
 
@@ -40,14 +42,15 @@ def roller_load_history(
 ) -> tuple[BearingLoads, NDArray[np.float64]]:
     """Elastic load of every roller at every sample; it does not depend on the lubricant.
 
-    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends. Gives
-    the same loads, with samples in between where the shaft turns too far between two of them, and Q [N] over row,
-    roller and these samples, shape (rows, Z, n).
+    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the
+    roller's ends. Gives the same loads, with samples in between where the shaft turns too far
+    between two of them, and Q [N] over row, roller and these samples, shape (rows, Z, n).
 
     Examples
     --------
     >>> thrust = BearingLoads.constant([0.0, 0.0, 100e3], 2.1, 1.0)
-    >>> _, load = roller_load_history(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), thrust)
+    >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+    >>> _, load = roller_load_history(bearing, oil, thrust)
     >>> load.shape, round(load[0].sum(axis=0)[0] * np.sin(np.radians(11.2))), load[1].max().item()
     ((2, 28, 21), 100000, 0.0)
     """
@@ -75,8 +78,9 @@ def rate(
 ) -> xr.Dataset:
     """Rate a bearing: static safety, rating lives, pressures, film, minimum load and load spectra.
 
-    Variables have `units` and `long_name`. Lives are hours at the history's mean speed, as if it repeated for ever;
-    they weigh loads by revolutions. NaN where the shaft does not turn or the standard defines no value.
+    Variables have `units` and `long_name`. Lives are hours at the history's mean speed, as if it
+    repeated for ever; they weigh loads by revolutions. NaN where the shaft does not turn or the
+    standard defines no value.
 
     Parameters
     ----------
@@ -87,7 +91,8 @@ def rate(
     loads : BearingLoads
         Load on the inner ring and shaft speed, n samples.
     roller_load : ndarray, shape (rows, Z, n)
-        Elastic load of every roller [N] over row, roller and the samples of `loads`, see `roller_load_history`.
+        Elastic load of every roller [N] over row, roller and the samples of `loads`, see
+        `roller_load_history`.
     contamination : float
         e_C of ISO 281 [-], above 0 and at most 1.
     wohler_exponents : tuple of float
@@ -98,7 +103,8 @@ def rate(
     >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
     >>> weight = BearingLoads.constant([0.0, -400e3, 0.0], 2.1, 1.0)
     >>> rating = rate(bearing, oil, *roller_load_history(bearing, oil, weight))
-    >>> round(float(rating.static_safety), 2), f"{float(rating.basic_life):.3g} {rating.basic_life.units}"
+    >>> life = rating.basic_life
+    >>> round(float(rating.static_safety), 2), f"{float(life):.3g} {life.units}"
     (40.75, '2.21e+07 h')
     """
     history = _history(bearing, lubricant, loads, roller_load, contamination)
@@ -177,7 +183,8 @@ def _history(
         or not np.all(np.isfinite(roller_load))
     ):
         raise InputError(
-            f"roller_load has the shape {roller_load.shape}, or loads that are negative or not finite",
+            f"roller_load has the shape {roller_load.shape}, or loads that are negative or not "
+            "finite",
             allowed=f"loads from 0 N in the shape {expected}: row, roller, sample",
             remedy="Take them from macroslip.rating.roller_load_history.",
         )
@@ -185,7 +192,8 @@ def _history(
         raise InputError(
             f"the contamination factor is {contamination!r}",
             allowed="a number above 0 and at most 1",
-            remedy="1 is extreme cleanliness, 0.5 slight to typical contamination, 0.1 severe contamination",
+            remedy="1 is extreme cleanliness, 0.5 slight to typical contamination, 0.1 severe "
+            "contamination",
         )
     duration = sample_durations(loads.time)
     radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
@@ -282,8 +290,10 @@ def _reference(history: _History) -> dict[str, tuple]:
         factor = iso.life_modification(
             history.viscosity_ratio, history.contamination, history.ratings.fatigue_limit / load
         )
-    by_raceway, modified = hours(iso.reference_life(damages, axis=())), hours(together * factor)
-    name, along = "basic reference rating life, ISO/TS 16281", "load_along_roller"
+    by_raceway = hours(iso.reference_life(damages, axis=()))
+    modified = hours(together * factor)
+    name = "basic reference rating life, ISO/TS 16281"
+    along = "load_along_roller"
     return {
         "reference_life": _variable(hours(together), "h", name, along),
         "raceway_reference_life": _variable(
@@ -304,7 +314,8 @@ def _contacts(history: _History) -> dict[str, tuple]:
     pressure = np.array(
         [[raceway.hertz.pressure * np.cbrt(one) for raceway in raceways] for one in largest]
     )
-    inner, outer = geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing)
+    inner = geometry.inner_contact_radius(bearing)
+    outer = geometry.outer_contact_radius(bearing)
     entrainment = np.abs(history.loads.shaft_speed) * inner * outer / (inner + outer)
     low, middle = np.full((2, bearing.rows, len(RACEWAYS)), np.nan)
     weights = np.broadcast_to(history.duration, load.shape[1:])

@@ -1,4 +1,4 @@
-"""Spectra of a load history: how long each load lasts, and the cycle that does the damage of all."""
+"""Spectra of a load history: how long each load lasts, and the damage-equivalent cycle."""
 
 from __future__ import annotations
 
@@ -24,14 +24,17 @@ def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:
 def load_duration(
     load: NDArray[np.float64], weight: NDArray[np.float64], edges: NDArray[np.float64]
 ) -> NDArray:
-    """Shares [-] of time, or of revolutions, that n loads [N] spend in each of k classes; their sum is 1.
+    """Shares [-] of time, or of revolutions, that n loads [N] spend in each of k classes.
 
-    `weight` is the time, or the revolutions, that each sample represents, `edges` the k + 1 rising edges of the classes
-    [N], which contain all loads. NaN if the weights are all zero.
+    Their sum is 1.
+
+    `weight` is the time, or the revolutions, that each sample represents, `edges` the k + 1 rising
+    edges of the classes [N], which contain all loads. NaN if the weights are all zero.
 
     Examples
     --------
-    >>> load_duration(np.array([1.0, 3.0]), np.array([1.0, 3.0]), np.array([0.0, 2.0, 4.0])).tolist()
+    >>> loads, edges = np.array([1.0, 3.0]), np.array([0.0, 2.0, 4.0])
+    >>> load_duration(loads, np.array([1.0, 3.0]), edges).tolist()
     [0.25, 0.75]
     """
     found = np.histogram(load, edges, weights=weight)[0]
@@ -40,11 +43,15 @@ def load_duration(
 
 
 def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Ranges [N] of the cycles of a load history [N], taken as repeating, so that every cycle closes.
+    """Ranges [N] of the cycles of a load history [N].
 
-    Of two samples or more. Empty for a constant load. Ripples of less than 1/256 of the largest range do not count.
+    It is taken as repeating, so that every cycle closes.
 
-    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17.
+    Of two samples or more. Empty for a constant load. Ripples of less than 1/256 of the largest
+    range do not count.
+
+    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis,
+    doi:10.1520/E1049-85R17.
 
     Examples
     --------
@@ -67,10 +74,14 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
 def damage_equivalent_load(
     load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0
 ) -> float:
-    """Range [N] of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
+    """Range [N] of a sinusoidal load of one frequency that does the same damage.
 
-    Twice its amplitude; 0 for a constant load. S_i are the `rainflow_ranges` of the load [N], T > 0 its duration [s], m
-    >= 1 the slope of the Wöhler line [-], f the frequency [Hz]. IEC 61400-13, annex on damage-equivalent loads.
+    It is (sum S_i^m/(f T))^(1/m).
+
+    Twice its amplitude; 0 for a constant load. S_i are the `rainflow_ranges` of the load [N], T > 0
+    its duration [s], m
+    >= 1 the slope of the Wöhler line [-], f the frequency [Hz]. IEC 61400-13, annex on
+    damage-equivalent loads.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Friction torque of a whole bearing: as computed from its contacts, and as handbooks estimate it."""
+"""Friction torque of a whole bearing: computed from its contacts, and by handbooks."""
 
 from macroslip.torque.computed import computed_torque
 from macroslip.torque.handbooks import (

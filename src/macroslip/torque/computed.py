@@ -12,25 +12,31 @@ from macroslip.roller.model import RollerModel
 
 
 def computed_torque(result: xr.Dataset) -> xr.Dataset:
-    """Torque with which friction in the contacts and drag of the lubricant hold the shaft, at the times of the traces.
+    """Torque with which friction in the contacts and drag of the lubricant hold the shaft.
 
-        T = (Σ P + Σ P_r + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
+    It is given at the times of the traces.
 
-    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without, P_r the
-    power of rolling resistance. It is the torque a drive has to supply for the dissipation of that moment. Kinetic
-    energy of the rollers and the work of their weight, whose mean over an orbit vanishes, are left out, and so is what the
-    model does not have: churning beyond the rollers' drag, hysteresis of the steel, seals.
+        T = (Σ P + Σ P_r + P_drag)/Ω_in                                          (33)
+        P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²          (24)
 
-    The same torque follows from the contacts' forces on the rings. A contact takes the power P + P_r; it gives the roller's spin
-    −(F + F_r) u1 of what the ring spends, so that the tangential force on the ring is −(P + F u1)/u2 + F_r along its motion,
-    F the traction and F_r = −P_r/(u1 + u2) the shear of rolling resistance. The push of the inclined pressure goes
-    through the ring's axis. Of both rings and the rollers between them the torques balance: what the inner ring gets and
-    the outer one does not is drag and what guides the cage.
+    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu|
+    in one without, P_r the power of rolling resistance. It is the torque a drive has to supply for
+    the dissipation of that moment. Kinetic energy of the rollers and the work of their weight,
+    whose mean over an orbit vanishes, are left out, and so is what the model does not have:
+    churning beyond the rollers' drag, hysteresis of the steel, seals.
 
-    Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque [N m]
-    and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: its parts; ring_torque [N m] over
-    (raceway, time): torque of the contacts on inner and outer ring, positive along the orbit. NaN where the shaft is at
-    rest, or from where a roller failed. The result has all rollers of both rows, with traces; InputError without.
+    The same torque follows from the contacts' forces on the rings. A contact takes the power P +
+    P_r; it gives the roller's spin −(F + F_r) u1 of what the ring spends, so that the tangential
+    force on the ring is −(P + F u1)/u2 + F_r along its motion, F the traction and F_r = −P_r/(u1 +
+    u2) the shear of rolling resistance. The push of the inclined pressure goes through the ring's
+    axis. Of both rings and the rollers between them the torques balance: what the inner ring gets
+    and the outer one does not is drag and what guides the cage.
+
+    Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative;
+    contact_torque [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m]
+    over time: its parts; ring_torque [N m] over (raceway, time): torque of the contacts on inner
+    and outer ring, positive along the orbit. NaN where the shaft is at rest, or from where a roller
+    failed. The result has all rollers of both rows, with traces; InputError without.
 
     Examples
     --------
@@ -48,7 +54,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
             remedy="Give the case traces, such as traces: {step: 0.05 s}.",
         )
     given = run_input(result)
-    bearing, models = given.bearing, given.models
+    bearing = given.bearing
+    models = given.models
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
         what = f"{missing} rollers of each row are missing" if missing else "a row is missing"

@@ -1,4 +1,6 @@
-"""Friction torque of spherical roller bearings by the handbooks: Palmgren's formula and the SKF model.
+"""Friction torque of spherical roller bearings by the handbooks.
+
+Palmgren's formula and the SKF model.
 
 Both are stated in mm, N, r/min and mm²/s, and give N mm; only `_Operation` converts from SI.
 """
@@ -30,13 +32,18 @@ PALMGREN_SERIES: dict[str, tuple[float, float, float]] = {
     "240": (6.5, 0.0012, 0.5),
     "241": (7.0, 0.0022, 0.5),
 }
-"""f0, and z and y in f1 = z (P0/C0)^y, of double-row spherical roller bearings by series, for grease or an oil bath.
+"""f0, and z and y in f1 = z (P0/C0)^y, of double-row spherical roller bearings by series, for
+grease or an oil bath.
 
-Tag R, from memory: the tables of bearing manufacturers that follow DIN 732. They agree to a rounding with the f0 and f1
-of ISO 15312, remembered apart from them, which are those at a load of 0.05 C0."""
+Tag R, from memory: the tables of bearing manufacturers that follow DIN 732. They agree to a
+rounding with the f0 and f1 of ISO 15312, remembered apart from them, which are those at a load of
+0.05 C0.
+"""
 
 SLOW = 2000.0
-"""Product ν n [mm²/s · r/min] below which Palmgren's viscous part is taken not to depend on speed. Tag R."""
+"""Product ν n [mm²/s · r/min] below which Palmgren's viscous part is taken not to depend on speed.
+Tag R.
+"""
 
 SKF_SERIES: dict[
     str, tuple[tuple[float, float, float, float], tuple[float, float, float, float]]
@@ -58,7 +65,9 @@ SKF_SERIES: dict[
 }
 """R1 to R4 of rolling and S1 to S4 of sliding friction of spherical roller bearings by series.
 
-Tag V: remembered, and found number by number the same in a public transcription of the catalogue's table."""
+Tag V: remembered, and found number by number the same in a public transcription of the catalogue's
+table.
+"""
 
 BOUNDARY_FRICTION = 0.12
 """μ_bl of a turning bearing, tag V."""
@@ -67,9 +76,12 @@ STARTING_FRICTION = 0.15
 FILM_FRICTION = {"synthetic oil": 0.04, "mineral oil": 0.05, "transmission fluid": 0.1}
 """μ_EHL of a full film, tag V."""
 STARVATION = {"grease": 6e-8, "low oil bath": 3e-8}
-"""Replenishment constant K_rs, tag V; a bath that covers the lowest roller's axis does not starve."""
+"""Replenishment constant K_rs, tag V; a bath that covers the lowest roller's axis does not starve.
+"""
 VISCOSITY_RANGE = (2.0, 500.0)
-"""Kinematic viscosity for which the SKF model is stated [mm²/s], tag R; the drag takes a thicker oil as the thickest."""
+"""Kinematic viscosity for which the SKF model is stated [mm²/s], tag R; the drag takes a thicker
+oil as the thickest.
+"""
 TYPE_FACTOR = 5.5
 """K_Z of double-row spherical roller bearings, tag V."""
 ROLLER_FACTOR = 0.8
@@ -79,7 +91,10 @@ _WHERE = "friction torque"
 
 
 class _Operation(NamedTuple):
-    """Dimensions d, D, B [mm], speed n [r/min], kinematic viscosity ν [mm²/s], loads F_r, F_a [N]; none has a sign."""
+    """Dimensions, speed, viscosity and loads in the handbooks' units.
+
+    d, D, B [mm], n [r/min], ν [mm²/s], F_r and F_a [N]; none has a sign.
+    """
 
     bore: float
     outside: float
@@ -140,7 +155,10 @@ _Torque = float | NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PalmgrenTorque:
-    """Friction torque [N m] by Palmgren, against the rotation; floats, or arrays of the shape of the input."""
+    """Friction torque [N m] by Palmgren, against the rotation.
+
+    Floats, or arrays of the shape of the input.
+    """
 
     viscous: _Torque  #: M0, which the oil causes without load: shear and churning
     load: _Torque  #: M1, which the load causes at any speed: hysteresis of the steel and sliding within the contacts
@@ -160,7 +178,9 @@ def palmgren_torque(
     *,
     series: str = "240",
 ) -> PalmgrenTorque:
-    """Friction torque of a spherical roller bearing by Palmgren, with the constants of DIN 732 and ISO 15312.
+    """Friction torque of a spherical roller bearing by Palmgren.
+
+    It has the constants of DIN 732 and ISO 15312.
 
     With ν in mm²/s, n in r/min, d_m in mm, loads in N and torques in N mm (converted inside):
 
@@ -172,7 +192,8 @@ def palmgren_torque(
     Parameters
     ----------
     bearing : Bearing
-        With bore and outside diameter, static load rating and the axial factors e and Y0; InputError without.
+        With bore and outside diameter, static load rating and the axial factors e and Y0;
+        InputError without.
     lubricant : Lubricant
         Oil, or base oil of the grease, at operating temperature.
     radial_load, axial_load, shaft_speed : array_like
@@ -182,19 +203,25 @@ def palmgren_torque(
 
     Notes
     -----
-    For bearings at normal loads whose lubricant has settled; fresh grease may double M0. Below ν n = 2000 the handbook
-    gives a constant M0, and so does this function, down to standstill; there is a step of 0.8 % at that place. The
-    load part depends on neither speed nor film: it is one of good lubrication. Handbooks do not state an error; the factors
+    For bearings at normal loads whose lubricant has settled; fresh grease may double M0. Below ν n
+    = 2000 the handbook
+    gives a constant M0, and so does this function, down to standstill; there is a step of 0.8 % at
+    that place. The
+    load part depends on neither speed nor film: it is one of good lubrication. Handbooks do not
+    state an error; the factors
     are rounded means over sizes.
 
     References
     ----------
-    A. Palmgren, Ball and Roller Bearing Engineering, 3rd ed. (1959). T. A. Harris and M. N. Kotzalas, Essential
-    Concepts of Bearing Technology, 5th ed. (2006), chapter 10. DIN 732 (2010), ISO 15312 (2003). All constants tag R.
+    A. Palmgren, Ball and Roller Bearing Engineering, 3rd ed. (1959). T. A. Harris and M. N.
+    Kotzalas, Essential
+    Concepts of Bearing Technology, 5th ed. (2006), chapter 10. DIN 732 (2010), ISO 15312 (2003).
+    All constants tag R.
 
     Examples
     --------
-    >>> torque = palmgren_torque(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 344e3, 164e3, 2.143)
+    >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+    >>> torque = palmgren_torque(bearing, oil, 344e3, 164e3, 2.143)
     >>> print(f"{torque.viscous:.1f} + {torque.load:.1f} = {torque.total:.1f} N m")
     137.4 + 160.4 = 297.8 N m
     """
@@ -209,7 +236,8 @@ def palmgren_torque(
         * case.mean_diameter**3
         * np.where(flow < SLOW, 160e-7, 1e-7 * np.cbrt(flow) ** 2)
     )
-    radial, thrust = case.radial_load, case.axial_load / factor_e
+    radial = case.radial_load
+    thrust = case.axial_load / factor_e
     # Where thrust > radial this quotient is not used; without load it is 0/0.
     share = np.divide(
         thrust, radial, out=np.zeros(np.broadcast(thrust, radial).shape), where=radial > 0
@@ -230,11 +258,12 @@ class OilBath:
     InputError for a value outside its range.
     """
 
-    #: H: height of the oil above the lowest place of the outer raceway while the bearing is at rest [m], ≥ 0. The
-    #: formula is for up to 1.2 times the mean diameter; a higher level counts as this one.
+    #: H: height of the oil above the lowest place of the outer raceway while the bearing is at rest
+    #: [m], ≥ 0. The formula is for up to 1.2 times the mean diameter; a higher level counts as this
+    #: one.
     level: float
-    #: V_M [-], read from the catalogue's diagram for roller bearings over H/d_m, 0 to 0.01. The diagram has no formula.
-    #: It belongs to the churning term, which is small in a slow bearing.
+    #: V_M [-], read from the catalogue's diagram for roller bearings over H/d_m, 0 to 0.01. The
+    #: diagram has no formula. It belongs to the churning term, which is small in a slow bearing.
     drag_variable: float
 
     def __post_init__(self) -> None:
@@ -250,7 +279,10 @@ class OilBath:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SkfTorque:
-    """Friction torque [N m] of an open bearing by the SKF model, against the rotation; floats or arrays as input."""
+    """Friction torque [N m] of an open bearing by the SKF model, against the rotation.
+
+    Floats or arrays as input.
+    """
 
     rolling: (
         _Torque  #: φ_ish φ_rs M_rr: resistance of the oil that the contacts squeeze at their inlets
@@ -276,9 +308,12 @@ def skf_torque(
     oil: str = "synthetic oil",
     bath: OilBath | None = None,
 ) -> SkfTorque:
-    """Friction torque of an open spherical roller bearing by the SKF model, M = φ_ish φ_rs M_rr + M_sl + M_drag.
+    """Friction torque of an open spherical roller bearing by the SKF model.
 
-    With ν in mm²/s, n in r/min, d, D and d_m in mm, loads in N and torques in N mm (converted inside):
+    M = φ_ish φ_rs M_rr + M_sl + M_drag.
+
+    With ν in mm²/s, n in r/min, d, D and d_m in mm, loads in N and torques in N mm (converted
+    inside):
 
         M_rr = G_rr (ν n)^0.6
         G_rr = min[R1 d_m^1.85 (F_r + R2 F_a)^0.54,  R3 d_m^2.3 (F_r + R4 F_a)^0.31]
@@ -304,19 +339,25 @@ def skf_torque(
 
     Notes
     -----
-    Stated for steady operation at constant load of at least the recommended minimum, hours after greasing, normal
-    clearance, and ν from 2 to 500 mm²/s; a thicker oil is computed all the same and noted in `out_of_range`. Whether a
-    bath starves the contacts is decided by whether it reaches the axis of the lowest roller (tag E).
+    Stated for steady operation at constant load of at least the recommended minimum, hours after
+    greasing, normal
+    clearance, and ν from 2 to 500 mm²/s; a thicker oil is computed all the same and noted in
+    `out_of_range`. Whether a
+    bath starves the contacts is decided by whether it reaches the axis of the lowest roller (tag
+    E).
 
     References
     ----------
-    SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "The SKF model for calculating the frictional moment".
-    Formulas and constants from memory, then confirmed in public excerpts of the catalogue and in transcriptions of it,
+    SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "The SKF model for calculating the
+    frictional moment".
+    Formulas and constants from memory, then confirmed in public excerpts of the catalogue and in
+    transcriptions of it,
     except for numbers tagged R or E.
 
     Examples
     --------
-    >>> torque = skf_torque(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 344e3, 164e3, 2.143)
+    >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+    >>> torque = skf_torque(bearing, oil, 344e3, 164e3, 2.143)
     >>> print(f"{torque.rolling:.1f} + {torque.sliding:.1f} = {torque.total:.1f} N m")
     270.3 + 82.9 = 353.1 N m
     >>> torque.out_of_range
@@ -329,13 +370,12 @@ def skf_torque(
         )
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     if bath is None:
-        starvation, drag = STARVATION["grease"], np.zeros_like(case.speed)
+        starvation = STARVATION["grease"]
+        drag = np.zeros_like(case.speed)
     else:
         covered = bath.level >= bearing.roller_diameter / 2
-        starvation, drag = (
-            0.0 if covered else STARVATION["low oil bath"],
-            _oil_bath_drag(case, bath),
-        )
+        starvation = 0.0 if covered else STARVATION["low oil bath"]
+        drag = _oil_bath_drag(case, bath)
     rolling = _skf_rolling(case, rolling_constants, starvation)
     sliding = _skf_sliding(case, sliding_constants, FILM_FRICTION[oil])
     parts = np.broadcast_arrays(
@@ -351,12 +391,10 @@ def skf_torque(
 def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> NDArray[np.float64]:
     """φ_ish φ_rs M_rr [N mm]; G_rr is the smaller of the catalogue's G_rr.e and G_rr.l."""
     r1, r2, r3, r4 = constants
-    d_m, radial, axial, flow = (
-        case.mean_diameter,
-        case.radial_load,
-        case.axial_load,
-        case.viscosity * case.speed,
-    )
+    d_m = case.mean_diameter
+    radial = case.radial_load
+    axial = case.axial_load
+    flow = case.viscosity * case.speed
     least = np.minimum(
         r1 * d_m**1.85 * (radial + r2 * axial) ** 0.54,
         r3 * d_m**2.3 * (radial + r4 * axial) ** 0.31,
@@ -372,12 +410,10 @@ def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> NDArr
 def _skf_sliding(case: _Operation, constants: tuple, film: float) -> NDArray[np.float64]:
     """M_sl [N mm]; G_sl is the smaller of the catalogue's G_sl.e and G_sl.l."""
     s1, s2, s3, s4 = constants
-    d_m, radial, axial, flow = (
-        case.mean_diameter,
-        case.radial_load,
-        case.axial_load,
-        case.speed * case.viscosity,
-    )
+    d_m = case.mean_diameter
+    radial = case.radial_load
+    axial = case.axial_load
+    flow = case.speed * case.viscosity
     elliptic = s1 * d_m**0.25 * np.cbrt(radial**4 + s2 * axial**4)
     least = np.minimum(elliptic, s3 * d_m**0.94 * np.cbrt(radial**3 + s4 * axial**3))
     boundary = np.exp(-2.6e-8 * flow**1.4 * d_m)
@@ -394,13 +430,15 @@ def _oil_bath_drag(case: _Operation, bath: OilBath) -> NDArray[np.float64]:
         t = 2 arccos[(0.6 d_m − H)/(0.6 d_m)],    f_t = sin(t/2) up to t = π, then 1
         R_s = 0.36 d_m² (t − sin t) f_A,    f_A = 0.05 K_Z (D + d)/(D − d)
 
-    For a large oil sump, the shaft horizontal, the inner ring turning. The first term is churning, the second the
-    entrance of the rollers into the oil.
+    For a large oil sump, the shaft horizontal, the inner ring turning. The first term is churning,
+    the second the entrance of the rollers into the oil.
 
-    SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "Drag losses". From memory, then confirmed in a public
-    transcription (V), except for the cubic term of C_w, which is negligible, for t and f_t, and for the bounds (R).
+    SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "Drag losses". From memory, then
+    confirmed in a public transcription (V), except for the cubic term of C_w, which is negligible,
+    for t and f_t, and for the bounds (R).
     """
-    d_m, spread = case.mean_diameter, (case.outside + case.bore) / (case.outside - case.bore)
+    d_m = case.mean_diameter
+    spread = (case.outside + case.bore) / (case.outside - case.bore)
     if bath.level == 0.0:
         return np.zeros_like(case.speed)
     angle = 2 * math.acos(max(-1.0, 1 - bath.level * 1e3 / (0.6 * d_m)))
@@ -428,13 +466,14 @@ def torque_histories(
 ) -> dict[str, TorqueHistory]:
     """Torque by `computed_torque` under models, and by the handbooks' formulas over the same times.
 
-    By name: the models, "SKF, sliding", "SKF, all" and "Palmgren, all". The formulas hold for steady running; over
-    time they are a chain of steady states.
+    By name: the models, "SKF, sliding", "SKF, all" and "Palmgren, all". The formulas hold for
+    steady running; over time they are a chain of steady states.
 
     Examples
     --------
     >>> loads = BearingLoads.constant([0.0, -344e3, 164e3], 2.143, 1.0)
-    >>> found = torque_histories({}, loads, Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
+    >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+    >>> found = torque_histories({}, loads, bearing, oil)
     >>> [f"{name}: {history.torque[0]:.0f} N m" for name, history in found.items()]
     ['SKF, sliding: 83 N m', 'SKF, all: 353 N m', 'Palmgren, all: 298 N m']
     """
@@ -445,7 +484,8 @@ def torque_histories(
     start = max((float(one.time[0]) for one in computed.values()), default=float(loads.time[0]))
     end = min((float(one.time[-1]) for one in computed.values()), default=float(loads.time[-1]))
     here = (loads.time >= start) & (loads.time <= end)
-    force, time = loads.force[here], loads.time[here]
+    force = loads.force[here]
+    time = loads.time[here]
     given = (
         bearing,
         lubricant,
