@@ -73,6 +73,5 @@ def test_settings_of_other_programs(quick, tmp_path):
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
     assert "dask.yaml' is malformed" in done.stderr and "settings of dask" in done.stderr
     for threads in ("abc", "0", "-3", "1.5", ""):
-        done = start("run", case, "-o", "x.nc", "--force", cwd=tmp_path, NUMBA_NUM_THREADS=threads)
-        assert done.returncode == 0 and "numba" not in done.stderr.lower(), threads
-        assert done.stderr.startswith("doubtful: "), threads
+        done = start("bearing", "show", "skf-240-600-bc", cwd=tmp_path, NUMBA_NUM_THREADS=threads)
+        assert (done.returncode, done.stderr) == (0, ""), threads

@@ -74,18 +74,18 @@ def study(
     from macroslip.study.study_file import read_study
 
     checked = read_study(study)
-    for remark in checked.loads.remarks:
-        to_stderr(f"note: {remark}")
     require(*([SCHEDULER] if scheduler else []))
-    if dry_run:
-        _dry_run(checked, workers, threads, as_json)
-        return
-    if output is None:
+    if output is None and not dry_run:
         raise InputError(
             "there is no folder for the results",
             where="--output",
             remedy="Name one, new or empty, with -o.",
         )
+    for remark in checked.loads.remarks:
+        to_stderr(f"note: {remark}")
+    if dry_run or output is None:
+        _dry_run(checked, workers, threads, as_json)
+        return
     from macroslip.study.run import run_study
     from macroslip.study.store import lacks_database
 
