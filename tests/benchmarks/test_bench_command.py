@@ -10,7 +10,7 @@ from benchmarks import histories as room
 from benchmarks import rivals, run
 from benchmarks.__main__ import app
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.deep
 
 
 @pytest.fixture

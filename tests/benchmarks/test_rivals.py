@@ -12,7 +12,7 @@ from benchmarks.quiet import silence
 from macroslip.mechanics.spin import STATION, station
 from macroslip.ring.orbit import instant
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.deep
 
 TIGHT = {
     "lsoda": {"stops": True, "rtol": 1e-10, "atol": 1e-12},

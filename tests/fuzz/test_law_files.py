@@ -46,6 +46,7 @@ def _load(path):
         plugins._loaded.clear()
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("name", ["own_film.py", "own_law.py"])
 @examples(25)
 @given(data=st.data())

@@ -87,6 +87,7 @@ def test_case_file(folder, content):
     )
 
 
+@pytest.mark.deep
 @examples(40)
 @given(content=_either(STUDY))
 def test_study_file(folder, content):
@@ -94,7 +95,7 @@ def test_study_file(folder, content):
     ends_well(folder, folder / "mine.yaml", folder / "mine.yaml", app=app_of(_all_runs))
 
 
-@pytest.mark.slow
+@pytest.mark.deep
 @pytest.mark.parametrize("noun", RECORDS)
 @examples(15)
 @given(data=st.data())

@@ -106,7 +106,8 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
     That is an input that it is made from, part of a study, no regular file, a file that exists
     unless `force` is set, and a name in a folder that is missing or cannot be written to.
     """
-    folder, where = path.parent, str(path)
+    folder = path.parent
+    where = str(path)
     check_no_zero_byte(where)
     check_not_input(path, inputs)
     if path.name in STUDY_FILES and any((folder / name).exists() for name in (MANIFEST, DATABASE)):

@@ -71,8 +71,8 @@ def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> di
     ):
         if not np.isfinite(power):
             raise MacroslipError(
-                f"the friction power of the bearing under the loads {run.load.name} is not known, because the run "
-                "failed: give the base case a temperature in place of balance"
+                f"the friction power of the bearing under the loads {run.load.name} is not known, "
+                "because the run failed: give the base case a temperature in place of balance"
             )
         found[run.group] = found.get(run.group, 0.0) + weights[run.load.name] * power
     return found

@@ -35,7 +35,8 @@ def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray
     """
     from scipy.stats import spearmanr
 
-    places, found = np.asarray(values, float), np.asarray(results, float)
+    places = np.asarray(values, float)
+    found = np.asarray(results, float)
     ranks, chance = np.full((2, places.shape[1]), np.nan)
     if found.size >= 3 and np.ptp(found) > 0.0:
         for p in np.flatnonzero(np.ptp(places, axis=0) > 0.0):
@@ -54,7 +55,8 @@ def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.
     >>> effect.item(), round(error.item(), 3)
     (10.0, 1.414)
     """
-    places, found = np.asarray(values, float), np.asarray(results, float)
+    places = np.asarray(values, float)
+    found = np.asarray(results, float)
     effect, error = np.full((2, places.shape[1]), np.nan)
     for p, one in enumerate(places.T):
         halves = found[one > np.median(one)], found[one <= np.median(one)]

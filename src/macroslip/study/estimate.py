@@ -107,7 +107,8 @@ def _measured(case: Case, length: float) -> tuple[float, int]:
     from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
 
-    first, last = float(case.loads.time[0]), float(case.loads.time[-1])
+    first = float(case.loads.time[0])
+    last = float(case.loads.time[-1])
     end = min(max(first + length, float(case.loads.time[1])), last)  # at least two samples
     traces = Traces(step=case.traces.step) if case.traces else None
     part = replace(case, loads=case.loads.window(None, end), window=Window(), traces=traces)

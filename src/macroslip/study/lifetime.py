@@ -96,7 +96,8 @@ def percentiles(
         list(quantiles)
     )
     # A cell without runs has no line.
-    every, dims = [*map(range, shape), list(quantiles)], ("group", "bin", "row", "quantile")
+    every = [*map(range, shape), list(quantiles)]
+    dims = ("group", "bin", "row", "quantile")
     array = (
         found.rename_axis(index=dims)
         .to_xarray()
@@ -120,10 +121,27 @@ def worst(
 ) -> xr.Dataset:
     """The runs and rows with the largest values of a variable of the summary.
 
-    Raises InputError if there is no such variable. The variables of the summary and all labels are
-    over `rank` from 1; `row` is a coordinate of it. Runs without a value are left out. `variable`
-    is any over case and row, `count` above 0; `smallest` takes the smallest ones instead, as for
-    `lowest_spin_ratio`.
+    Parameters
+    ----------
+    study : xarray.Dataset
+        From `macroslip.study.reader.open_study`.
+    variable : str
+        Any variable over case and row.
+    count : int
+        How many, above 0.
+    smallest : bool
+        Whether to take the smallest values instead, as for `lowest_spin_ratio`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables of the summary and all labels over `rank` from 1, with `row` as a coordinate of
+        it. Runs without a value are left out.
+
+    Raises
+    ------
+    InputError
+        If there is no such variable.
     """
     names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
     if variable not in names:

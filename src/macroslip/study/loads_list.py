@@ -70,7 +70,8 @@ class Pattern:
     def __init__(self, text: str):
         self.text = PurePosixPath(text).as_posix()
         self.kinds: dict[str, Callable[[str], Any]] = {}
-        self._expression, self._glob = "", ""
+        self._expression = ""
+        self._glob = ""
         for piece in _PIECES.findall(self.text):
             match = _FIELD.fullmatch(piece)
             if piece.startswith("{") and (match is None or (match[2] or "") not in _KINDS):
@@ -119,7 +120,8 @@ class Pattern:
             raise InputError(f"'{self.text}' is a folder", allowed=allowed, remedy=remedy)
         # The part before the first wildcard is a plain folder, which may lead upwards ("../runs").
         while len(names) > 1 and not re.search(r"[*?\[]", names[0]):
-            base, start = base / names[0], start / names[0]
+            base = base / names[0]
+            start = start / names[0]
             names = names[1:]
         paths = sorted(
             (base / one.relative_to(start)).as_posix()
@@ -136,10 +138,24 @@ def load_list(
     folder: Path, *, kind: str, bundled: Sequence[str] | None = None, table: str | None = None,
     files: Sequence[str] | None = None, units: Mapping[str, str] | None = None,
 ) -> LoadList:  # fmt: skip
-    """The load histories that the section `loads` of a study file names, whose keys are the arguments.
+    """The load histories that the section `loads` of a study file names.
 
-    Raises InputError if there is none, a table cannot be read, or a field has a name that is taken
-    or a value that cannot be stored.
+    Parameters
+    ----------
+    folder : path
+        Where relative paths start.
+    kind : str
+        Content of the files, `hub` or `main-bearing`.
+    bundled, table, files : optional
+        Exactly one of them: names of bundled cases, a table of files, or patterns of paths.
+    units : mapping, optional
+        Units of the fields, by name.
+
+    Raises
+    ------
+    InputError
+        If there is no load history, a table cannot be read, or a field has a name that is taken or
+        a value that cannot be stored.
     """
     source = "bundled" if bundled else "bearing_file" if kind == "main-bearing" else "file"
     remarks: list[str] = []
@@ -195,7 +211,9 @@ def _bundled(names: Sequence[str]) -> list[Load]:
 
 
 def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load], list[str]]:
-    first, loads, remarks = patterns[0], {}, []
+    first = patterns[0]
+    loads = {}
+    remarks = []
     for pattern in patterns:
         if pattern.kinds.keys() != first.kinds.keys():
             what = f"the patterns '{first.text}' and '{pattern.text}' have different fields"
@@ -204,12 +222,16 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
         if not found:
             remedy = f"Relative paths start at {folder.resolve()}."
             if unread:
-                remedy += f" The fields of {len(unread)} files could not be read, {safe_text(unread[0])} first."
+                first_unread = safe_text(unread[0])
+                remedy += (
+                    f" The fields of {len(unread)} files could not be read, {first_unread} first."
+                )
             raise InputError(f"no file fits the pattern '{pattern.text}'", remedy=remedy)
         loads |= {name: Load(name, fields) for name, fields in found}
         if unread:
             remarks.append(
-                f"{len(unread)} files fit the pattern '{pattern.text}' but for their fields and are left out, "
+                f"{len(unread)} files fit the pattern '{pattern.text}' but for their fields "
+                "and are left out, "
                 f"{safe_text(unread[0])} first"
             )
     return list(loads.values()), remarks

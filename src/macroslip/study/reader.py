@@ -154,7 +154,8 @@ def _of_results(
     }
     sizes["roller"] = len(rollers)
     shared = _Shared(uuid.uuid4().hex, directory, keys, checksums, numbers, kinds, rollers, sizes)
-    variables, coordinates = {}, {}
+    variables = {}
+    coordinates = {}
     for name, one in {
         name: one for example in examples for name, one in example.variables.items()
     }.items():
@@ -196,7 +197,9 @@ class _Stacked(BackendArray):
     """
 
     def __init__(self, shared: _Shared, name: str, dims: tuple[str, ...]):
-        self._shared, self._name, self._dims = shared, name, dims
+        self._shared = shared
+        self._name = name
+        self._dims = dims
         self.shape = (len(shared.keys), *(shared.sizes[dim] for dim in dims))
         self.dtype = np.dtype(float)
 
@@ -206,14 +209,16 @@ class _Stacked(BackendArray):
         )
 
     def _values(self, key: tuple[Any, ...]) -> np.ndarray:
-        numbers, inner = np.arange(self.shape[0])[key[0]], key[1:]
+        numbers = np.arange(self.shape[0])[key[0]]
+        inner = key[1:]
         parts = [_cut(self._whole(int(number)), inner) for number in np.atleast_1d(numbers)]
         if not parts:
             return _cut(np.empty(self.shape[1:]), inner)[None][:0]
         return np.stack(parts) if np.ndim(numbers) else parts[0]
 
     def _whole(self, number: int) -> np.ndarray:
-        whole, shared = np.full(self.shape[1:], np.nan), self._shared
+        whole = np.full(self.shape[1:], np.nan)
+        shared = self._shared
         if shared.kinds[number] < 0:
             return whole
         rollers = shared.layouts[shared.kinds[number]]

@@ -113,7 +113,8 @@ class Setting:
         raise problems[0]
 
     def _check_against(self, field: Field) -> None:
-        form, word = form_of(field), word_of(field)
+        form = form_of(field)
+        word = word_of(field)
         if self.unit and not (isinstance(form, Quantity) and form.dimension is not NUMBER):
             raise InputError(
                 f"it has the unit '{self.unit}'",
@@ -125,7 +126,8 @@ class Setting:
         read_value(field, self.text, FORM_ONLY)
 
     def _check_entry(self, record: type[Record], key: str) -> None:
-        key, known = _TOGETHER.get(self.key, _field_key(key)), dimensions(record)
+        key = _TOGETHER.get(self.key, _field_key(key))
+        known = dimensions(record)
         if key not in known:
             raise unknown_key(self.key, (f"{record.noun}.{one}" for one in known))
         if not is_finite_number(self.value):
@@ -219,10 +221,30 @@ def template(
 ) -> tuple[Case, dict[str, Any]]:
     """A case with everything but its loads, and how to read them.
 
-    The base case is the mapping of a case file, of `loads` only `CUT_KEYS`; settings and records
-    stand in place of its values. Details of contacts are recorded only where variables to keep are
-    among them. Source and folder are where the mapping was written and where relative paths start.
-    Raises InputError if anything but the loads is wrong.
+    Parameters
+    ----------
+    mapping : mapping
+        Base case: the mapping of a case file, of `loads` only start, end and shaft_speed.
+    settings : sequence of Setting
+        Values in place of those of the base case.
+    records : mapping
+        Bearing and lubricant in place of those of the base case.
+    keep : sequence of str, optional
+        Variables to keep; details of contacts are recorded only where some of them are among these.
+    source : Source, optional
+        Where the mapping was written.
+    folder : path, optional
+        Where relative paths start.
+
+    Returns
+    -------
+    Case, dict
+        The case, with loads that stand for any; and the arguments of `read_loads` for its own.
+
+    Raises
+    ------
+    InputError
+        If anything but the loads is wrong.
     """
     cut: dict[str, Any] = {}
 
@@ -296,7 +318,8 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
     """Check both ends as values of the parameter; a file's are checked with the file."""
     if interval is None:
         if key.partition(".")[0] not in RECORDS:
-            what = f"the range of {key} is to come from a file, but it is no value of a bearing or lubricant"
+            what = f"the range of {key} is to come from a file, "
+            what += "but it is no value of a bearing or lubricant"
             raise InputError(
                 what,
                 allowed="keys such as bearing.roller_length",
@@ -326,7 +349,8 @@ class Sample:
         dict[str, Range | None],
         MappingOf(
             "interval of each parameter",
-            "a section such as {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}, bearing.roller_length: range}",
+            "a section such as {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}, "
+            "bearing.roller_length: range}",
             Annotated[Range | None, OrWord("range")],
             _checked_range,
         ),
@@ -347,7 +371,8 @@ class Sample:
         found = dict(self.ranges)
         for key in (key for key, interval in self.ranges.items() if interval is None):
             noun, _, name = _field_key(key.replace(".", "/", 1)).partition("/")
-            entry, where = records[noun].provenance.get(name), f"variations.sample.ranges.{key}"
+            entry = records[noun].provenance.get(name)
+            where = f"variations.sample.ranges.{key}"
             if entry is None or entry.range is None:
                 remedy = "Give low, high and unit, or a range in the file."
                 raise InputError(

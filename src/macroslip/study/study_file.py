@@ -120,10 +120,16 @@ class Study:
     temperatures: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
-        counts = {"load histories": self.loads.loads, "bearings": self.bearings, "lubricants": self.lubricants,
-                  "models": self.models, "combinations of parameters": self.variations}  # fmt: skip
+        counts = {
+            "load histories": self.loads.loads,
+            "bearings": self.bearings,
+            "lubricants": self.lubricants,
+            "models": self.models,
+            "combinations of parameters": self.variations,
+        }
         several = [f"{len(one)} {what}" for what, one in counts.items() if len(one) > 1]
-        return f"<study {self.title!r}: {len(self)} runs{' of ' if several else ''}{', '.join(several)}>"
+        of = " of " if several else ""
+        return f"<study {self.title!r}: {len(self)} runs{of}{', '.join(several)}>"
 
     def __len__(self) -> int:
         """Number of runs."""
@@ -464,10 +470,8 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
                 "Make a study of each kind.",
             )
         )
-    variations, models = (
-        values.get("variations", Variations()),
-        values.get("models") or {"base": []},
-    )
+    variations = values.get("variations", Variations())
+    models = values.get("models") or {"base": []}
     sample = attempt("variations", lambda: _sample(variations.sample, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))
     heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
@@ -532,7 +536,8 @@ def _event_lengths(
             continue
         with contextlib.suppress(InputError):
             record = read_loads(loads.source, load_path(loads, load, folder), cut)
-            first, last = float(record.time[0]), float(record.time[-1])
+            first = float(record.time[0])
+            last = float(record.time[-1])
             start = first if base.window.start is None else base.window.start
             end = last if base.window.end is None else base.window.end
             lengths.setdefault(load.event, []).append(end - start)
@@ -570,7 +575,8 @@ def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]
     for noun in open_nouns:
         known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
         if len(known) > 1:
-            what = f"the sample takes ranges from the {noun}'s file, and the study has {len(known)} of them"
+            what = f"the sample takes ranges from the {noun}'s file, "
+            what += f"and the study has {len(known)} of them"
             remedy = f"Make a study of each {noun}, or give low, high and unit."
             raise InputError(what, where="variations.sample.ranges", remedy=remedy)
         found[noun] = known[0]

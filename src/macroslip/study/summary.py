@@ -127,8 +127,10 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     of_orbits = result[["orbit_energy", "peak_power"]].pad(
         orbit=(0, int(not result.sizes["orbit"]))
     )
-    energy, orbit_energy = result.energy, of_orbits.orbit_energy
-    rollers, samples = ["roller"], ["roller", "orbit"]
+    energy = result.energy
+    orbit_energy = of_orbits.orbit_energy
+    rollers = ["roller"]
+    samples = ["roller", "orbit"]
     total = energy.sum("interface", skipna=False)
     of_orbit = orbit_energy.sum("interface", skipna=False)
     peaks = of_orbits.peak_power.max("interface", skipna=False)

@@ -95,8 +95,10 @@ class BinProbabilities:
 
 #: Wind speeds of the classes of IEC 61400-1: Rayleigh distributions with a mean of 0.2 times the
 #: reference wind speed, 50, 42.5 and 37.5 m/s.
-IEC_CLASSES = {f"IEC {name}": Weibull(scale=0.2 * speed / math.gamma(1.5), shape=2.0) for name, speed in
-               (("I", 50.0), ("II", 42.5), ("III", 37.5))}  # fmt: skip
+IEC_CLASSES = {
+    f"IEC {name}": Weibull(scale=0.2 * speed / math.gamma(1.5), shape=2.0)
+    for name, speed in (("I", 50.0), ("II", 42.5), ("III", 37.5))
+}
 
 
 @dataclass(frozen=True)
@@ -188,7 +190,8 @@ _RATES = MappingOf(
 
 @input_section(
     "weights",
-    "what each load history counts in a year: wind speeds, which the histories of a bin share, and events",
+    "what each load history counts in a year: wind speeds, which the histories of a bin share, "
+    "and events",
 )
 class Weighting:
     """How much each load history counts.
@@ -320,7 +323,16 @@ class Bins:
     ) -> Bins:
         """Sort values into bins, those of events by the event.
 
-        `lengths` are those of the events' records [s].
+        Parameters
+        ----------
+        values : array_like, shape (values,)
+            Wind speeds, in the unit of the field; those of events do not count.
+        events : sequence of str
+            Name of the event of each value, empty for wind speeds.
+        width : float
+            Width of a bin, in the unit of the field.
+        lengths : mapping
+            Length of the record of each event [s].
         """
         named = np.asarray(events, dtype=object)
         calm = named == ""
@@ -352,7 +364,8 @@ class Bins:
         known = [name for name in self.events if name]
         if unknown := [name for name in year.events if name not in known]:
             raise InputError(
-                f"the weights name the event '{unknown[0]}', which no loads have as their label 'event'",
+                f"the weights name the event '{unknown[0]}', "
+                "which no loads have as their label 'event'",
                 where="weights.events",
                 allowed=", ".join(known) or "none: no loads are events",
             )
@@ -424,7 +437,8 @@ class Binning(Bins):
         (groups, bins).
         """
         shape = len(self.groups), self.centres.size
-        used, left_out = np.zeros(shape), np.zeros(shape)
+        used = np.zeros(shape)
+        left_out = np.zeros(shape)
         total = np.zeros(shape)
         for cell, value in zip(
             zip(self.group, self.bin, strict=True), map(np.asarray, values), strict=True
@@ -456,10 +470,23 @@ def binned(
 
     A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of
     their own. A group has one bearing, lubricant, model and set of parameters; other labels, such
-    as seeds, are pooled unless they are named in `by`. Raises InputError if there is no such label,
-    or it is no number. `field` is the label to sort by, a number, or None: then one bin holds all
-    runs. `width` is that of a bin [unit of the field], above 0, and `by` names further labels that
-    separate groups: `turbulence`.
+    as seeds, are pooled.
+
+    Parameters
+    ----------
+    study : xarray.Dataset
+        From `macroslip.study.reader.open_study`.
+    field : str, optional
+        Label to sort by, a number; None: one bin holds all runs.
+    width : float
+        Width of a bin, in the unit of the field, above 0.
+    by : sequence of str
+        Further labels that separate groups, as `turbulence`.
+
+    Raises
+    ------
+    InputError
+        If there is no such label, or the field is no number.
     """
     labels = [
         str(name)

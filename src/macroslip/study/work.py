@@ -236,5 +236,6 @@ def _failed_rollers(result: xr.Dataset) -> str:
     ended = float(result.end_time.sel(row=first.row, roller=first.roller))
     return (
         f"{len(failed)} of {result.status.size} rollers failed; "
-        f"roller {int(first.roller)} of the {first.row.item()} row at t = {ended:.6g} s: {Status(int(first)).sentence}"
+        f"roller {int(first.roller)} of the {first.row.item()} row at t = {ended:.6g} s: "
+        f"{Status(int(first)).sentence}"
     )

@@ -41,14 +41,16 @@ _DEATHS = 4
 #: Longest wait for the end of a process that has died [s].
 _PATIENCE = 5.0
 _NO_GUARD = (
-    "the worker processes end as they start: each of them imports this script, so call run_study(..., workers=...) below "
-    'the main guard, if __name__ == "__main__":'
+    "the worker processes end as they start: each of them imports this script, so call "
+    'run_study(..., workers=...) below the main guard, if __name__ == "__main__":'
 )
 #: Tasks in flight for each thread of a worker elsewhere: one under way, one waiting.
 _AHEAD = 2
 #: Tasks a second given to one scheduler and one client, which can do some five times as many;
 #: longest time until a scheduler responds, and time between looks at who has joined [s].
-_TASKS_PER_SECOND, _ANSWER, _LOOK = 100.0, 20.0, 1.0
+_TASKS_PER_SECOND = 100.0
+_ANSWER = 20.0
+_LOOK = 1.0
 _GONE = "the scheduler is gone. Nothing that was reported done is lost; go on with --resume."
 
 
@@ -61,7 +63,8 @@ class ThisProcess:
     """
 
     def __init__(self, count: int):
-        self._count, self._ended = count, Event()
+        self._count = count
+        self._ended = Event()
         self._pool = ThreadPoolExecutor(count) if count > 1 else None
         self._under_way: dict[Future, Task] = {}
 
@@ -207,7 +210,8 @@ class _Seat:
 @contextmanager
 def _safe_start() -> Iterator[None]:
     """Processes started in the block find no module in the current folder, and leave Ctrl-C to this process."""
-    safe, path = process_environment(), list(sys.path)
+    safe = process_environment()
+    path = list(sys.path)
     before = {name: os.environ.get(name) for name in safe}
     os.environ.update(safe)
     sys.path[:] = [entry for entry in path if entry]
@@ -263,7 +267,8 @@ def look_for(scheduler: str) -> None:
         try:
             thread.submit(asyncio.run, knock()).result()
         except (OSError, ValueError, TypeError) as error:  # the last without what TLS needs
-            what = f"no scheduler answers at '{scheduler}' ({str(error) or f'nothing is heard for {_ANSWER:g} s'})"
+            why = str(error) or f"nothing is heard for {_ANSWER:g} s"
+            what = f"no scheduler answers at '{scheduler}' ({why})"
             raise InputError(
                 what, remedy="Start one with `dask scheduler`, and look at its address."
             ) from None
@@ -293,12 +298,14 @@ class Dask:
     """
 
     def __init__(self, client: Any, note: Callable[[str], None]):
-        self._client, self._note = client, note
+        self._client = client
+        self._note = note
         self._pool = client.get_executor(
             pure=False
         )  # not pure: Dask must not take two runs for one
         self._under_way: dict[Future, list[Task]] = {}
-        self._looked, self._threads = -math.inf, 0
+        self._looked = -math.inf
+        self._threads = 0
         self._names: set[str] = set()
         if not self._look():
             note("no worker has joined yet; waiting for one")
@@ -338,7 +345,8 @@ class Dask:
                             self._pool.submit(work_several, [task]): [task] for task in tasks
                         }
                 except Exception as error:
-                    what = f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?"
+                    what = f"a worker cannot work: {type(error).__name__}: {error}. "
+                    what += "Is macroslip installed there?"
                     raise MacroslipError(what) from None
                 else:
                     found += zip(
@@ -359,11 +367,9 @@ class Dask:
                     self._note(f"worker {name} has joined")
                 for name in sorted(self._names - names):
                     self._note(f"worker {name} is gone; others take over what it had")
-            self._names, self._threads, self._looked = (
-                names,
-                sum(threads.values()),
-                time.monotonic(),
-            )
+            self._names = names
+            self._threads = sum(threads.values())
+            self._looked = time.monotonic()
         return self._threads
 
     def _bundle(self) -> int:

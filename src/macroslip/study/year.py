@@ -172,7 +172,8 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     no run has is left out.
     """
     labels = {str(name): one.values for name, one in found.coords.items() if one.dims == ("group",)}
-    table, told = pd.DataFrame(labels, index=range(found.sizes["group"])), []
+    table = pd.DataFrame(labels, index=range(found.sizes["group"]))
+    told = []
     missing = []
     seconds = float(found.covered) * YEAR
     mean_over = {one.name: seconds * one.mean_over for one in YEARLY if one.mean_over is not None}
@@ -201,7 +202,8 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
             table[name] = found[name].values
     if missing:
         told.append(
-            f"Not known, because the results did not keep what it takes or the model has none: {', '.join(missing)}."
+            "Not known, because the results did not keep what it takes or the model has none: "
+            f"{', '.join(missing)}."
         )
     if left_out := int(found.left_out.sum()):
         told.append(f"{left_out} runs without a result are left out.")
@@ -261,13 +263,12 @@ def coverage(found: xr.Dataset) -> str:
         return (
             "The study has no weights: all its cases count alike, as if a year consisted of them."
         )
+    covered = f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year"
     if "event" not in found.coords:
-        return f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year, {hours.sum():.0f} h of wind speeds."
+        return f"{covered}, {hours.sum():.0f} h of wind speeds."
     event = found.event.values.astype(str)
-    idle = [name for name, one in zip(event, hours, strict=True) if name and one == 0.0]
+    idle = [name for name, own in zip(event, hours, strict=True) if name and own == 0.0]
     nothing = f"; {', '.join(idle)} count{'s' if len(idle) == 1 else ''} nothing" if idle else ""
     assumed = ", whose supervisor is assumed" if set(event) & set(EVENTS) else ""
-    return (
-        f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year: {hours[event == ''].sum():.0f} h of wind "
-        f"speeds and {hours[event != ''].sum():.3g} h of events{assumed}{nothing}."
-    )
+    windy = f"{hours[event == ''].sum():.0f} h of wind speeds"
+    return f"{covered}: {windy} and {hours[event != ''].sum():.3g} h of events{assumed}{nothing}."
