@@ -1,5 +1,6 @@
 """Cases made in Python: NumPy's numbers are numbers, and what is wrong is reported in one paragraph."""
 
+import dataclasses
 import pickle
 from dataclasses import replace
 
@@ -123,3 +124,16 @@ def test_what_is_wrong_is_said_in_words(make, words):
     with pytest.raises(InputError) as caught:
         make()
     assert words in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_every_field_of_a_case_is_in_its_input():
+    """A key is declared once: whatever field the class has, the input of a result has its value."""
+    loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 1.0)
+    case = Case(loads=loads, dynamics="whole-bearing", gravity=False)
+    found = case.as_dict()
+    names = {one.name for one in dataclasses.fields(Case)} - {"gravity", "drag"} | {"forces"}
+    assert found.keys() == names
+    assert found["forces"] == {"gravity": False, "drag": True}
+    assert found["cage"] == dataclasses.asdict(case.cage)
+    # What has no effect is left out.
+    assert {"dynamics", "cage"}.isdisjoint(Case(loads=loads).as_dict())

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
 from numbers import Integral
 from typing import Annotated, Any
 
@@ -281,48 +281,23 @@ class Case:
         return tuple(self.rollers)
 
     def as_dict(self) -> dict[str, Any]:
-        """The full input as plain data.
+        """The full input as plain data, by the keys of a case file; without keys that have no effect.
 
-        Of the load series its source, extent and a hash of all its numbers.
+        Of the load series there are its source, extent and a hash of all its numbers.
         """
-        loads = self.loads
-        digest = hashlib.sha256()
-        for name in ("time", "shaft_speed", "force", "moment", "angle", "load"):
-            if hasattr(loads, name):
-                digest.update(getattr(loads, name).tobytes())
-        return {
-            "loads": {
-                "kind": type(loads).__name__,
-                "source": without_folders(loads.source),
-                "samples": int(loads.time.size),
-                "start": float(loads.time[0]),
-                "end": float(loads.time[-1]),
-                "sha256": digest.hexdigest(),
-                **({"event": True} if loads.event else {}),
-            },
-            "bearing": self.bearing.as_dict(),
-            "lubricant": self.lubricant.as_dict(),
-            "temperature": self.temperature,
-            "heat": {key: one for key, one in asdict(self.heat).items() if one is not None}
-            if self.heat
-            else None,
-            **({"oil_supply": self.inlet_supply} if self.laws.asks_for_oil else {}),
-            "drivetrain": asdict(self.drivetrain),
-            "forces": {"gravity": self.gravity, "drag": self.drag},
-            "laws": {"model": self.laws.name, **asdict(self.laws)},
-            **({"dynamics": self.dynamics} if self.dynamics == WHOLE_BEARING else {}),
-            **(
-                {"cage": asdict(self.cage)}
-                if self.dynamics == WHOLE_BEARING or self.laws.skew != "none"
-                else {}
-            ),
-            "integrator": {"method": type(self.integrator).__name__, **asdict(self.integrator)},
-            "window": asdict(self.window),
-            "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
-            "traces": asdict(self.traces) if self.traces else None,
-            "contact_details": self.contact_details,
-            "rating": self.rating,
+        values = {one.name: _plain(getattr(self, one.name)) for one in fields(self)}
+        values["loads"] = _told(self.loads)
+        values["oil_supply"] = self.inlet_supply
+        values["laws"] = {"model": self.laws.name} | values["laws"]
+        values["integrator"] = {"method": type(self.integrator).__name__} | values["integrator"]
+        values["forces"] = {name: values.pop(name) for name in ("gravity", "drag")}
+        is_whole = self.dynamics == WHOLE_BEARING
+        used = {
+            "oil_supply": self.laws.asks_for_oil,
+            "dynamics": is_whole,
+            "cage": is_whole or self.laws.skew != "none",
         }
+        return {name: value for name, value in values.items() if used.get(name, True)}
 
     def __repr__(self) -> str:
         return f"<Case: {', '.join(text for _, text in self._overview())}>"
@@ -355,6 +330,34 @@ class Case:
                 "no traces" if self.traces is None else f"traces every {self.traces.step:g} s",
             ),
         ]
+
+
+def _plain(value: Any) -> Any:
+    """A value of a case as numbers, text, lists and mappings."""
+    if isinstance(value, (Bearing, Lubricant)):
+        return value.as_dict()
+    if isinstance(value, Heat):
+        return {key: one for key, one in asdict(value).items() if one is not None}
+    if is_dataclass(value) and not isinstance(value, type):
+        return asdict(value)
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _told(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]:
+    """Kind, source and extent of a load series, and a hash of all its numbers."""
+    digest = hashlib.sha256()
+    for name in ("time", "shaft_speed", "force", "moment", "angle", "load"):
+        if hasattr(loads, name):
+            digest.update(getattr(loads, name).tobytes())
+    found = {
+        "kind": type(loads).__name__,
+        "source": without_folders(loads.source),
+        "samples": int(loads.time.size),
+        "start": float(loads.time[0]),
+        "end": float(loads.time[-1]),
+        "sha256": digest.hexdigest(),
+    }
+    return found | ({"event": True} if loads.event else {})
 
 
 def _temperature(case: Case) -> Iterator[InputError]:
