@@ -70,6 +70,7 @@ from macroslip.cli.damage import damage
 from macroslip.report.comparison import compare
 from macroslip.result.damage import lines
 from macroslip.result.stored import to_netcdf
+from macroslip.study.aggregation import Aggregation
 from macroslip.study.study_file import study_of
 from macroslip.study.year import year
 
@@ -80,7 +81,7 @@ run_study(study_of(content), folder)
 study = open_study(folder)
 passes = study.sector_passes.values
 assert (passes >= 1.0).all() and study.sector_passes.attrs["units"] == "1/s"
-found = year(study, None)
+found = year(study, Aggregation())
 assert "passes" in found and found.passes.attrs["units"] == "1"
 compared = compare(folder, by="lubricant")
 assert "passes of a sector, both rows" in set(compared["quantity"])
