@@ -27,12 +27,14 @@ FULL_SLIP = 1e-4
 BOUNDED = ("masjedi-khonsari",)
 #: Factors of W inside the lower and the upper end of its range from which on the load ratio alone counts, since tables
 #: cannot hold a step. Rollers pass the lower end in an instant; near the upper one they wear, so there it is narrow.
-_WITHIN_LEAST, _WITHIN_MOST = 2.0, 1.1
+_WITHIN_LEAST = 2.0
+_WITHIN_MOST = 1.1
 
 # Gauss-Legendre with four points, exact for the polynomials of degree 7 that occur between two corners.
 _FAR = math.sqrt(3.0 / 7.0 + 2.0 / 7.0 * math.sqrt(6.0 / 5.0))
 _NEAR = math.sqrt(3.0 / 7.0 - 2.0 / 7.0 * math.sqrt(6.0 / 5.0))
-_FAR_WEIGHT, _NEAR_WEIGHT = (18.0 - math.sqrt(30.0)) / 36.0, (18.0 + math.sqrt(30.0)) / 36.0
+_FAR_WEIGHT = (18.0 - math.sqrt(30.0)) / 36.0
+_NEAR_WEIGHT = (18.0 + math.sqrt(30.0)) / 36.0
 _RULE = ((-_FAR, _FAR_WEIGHT), (-_NEAR, _NEAR_WEIGHT), (_NEAR, _NEAR_WEIGHT), (_FAR, _FAR_WEIGHT))
 #: Stands for zero in a divisor.
 _LEAST = 1e-300
@@ -53,7 +55,9 @@ def load_ratio(load, speed, material, roughness, hardness):
     >>> float(round(load_ratio(1e-4, 1e-11, 4846.0, 1e-5, 0.03), 6))
     0.054356
     """
-    log_load, log_speed, log_material = np.log(load), np.log(speed), np.log(material)
+    log_load = np.log(load)
+    log_speed = np.log(speed)
+    log_material = np.log(material)
     with np.errstate(divide="ignore"):
         exponent = math.log(4470.0) + 6.015 * np.log(roughness) + 1.168 * np.log(hardness)
     exponent = exponent + 0.485 * log_load - 3.741 * log_speed - 2.898 * log_material
@@ -222,14 +226,22 @@ def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
     )
     # The four in order.
     low, high = np.minimum(a, b), np.maximum(a, b)
-    less, more = np.minimum(c, d), np.maximum(c, d)
-    first, last = np.minimum(low, less), np.maximum(high, more)
-    one, two = np.maximum(low, less), np.minimum(high, more)
-    second_corner, third_corner = np.minimum(one, two), np.maximum(one, two)
-    force, second, skew, power = 0.0 * scale, 0.0 * scale, 0.0 * scale, 0.0 * scale
+    less = np.minimum(c, d)
+    more = np.maximum(c, d)
+    first = np.minimum(low, less)
+    last = np.maximum(high, more)
+    one = np.maximum(low, less)
+    two = np.minimum(high, more)
+    second_corner = np.minimum(one, two)
+    third_corner = np.maximum(one, two)
+    force = 0.0 * scale
+    second = 0.0 * scale
+    skew = 0.0 * scale
+    power = 0.0 * scale
     before = -half
     for after in (first, second_corner, third_corner, last, half):
-        middle, reach = 0.5 * (before + after), 0.5 * (after - before)
+        middle = 0.5 * (before + after)
+        reach = 0.5 * (after - before)
         for node, weight in _RULE:
             station = middle + reach * node
             slip = sliding + station * (bend * station - spin)

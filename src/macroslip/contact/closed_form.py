@@ -39,11 +39,13 @@ _TERMS = np.arange(1, 18)
 _M_SERIES = np.concatenate(
     [[0.5], -((-1.0) ** _TERMS) * zeta(2.0 * _TERMS) / (math.pi ** (2.0 * _TERMS) * (_TERMS + 1.0))]
 )
-_SMALL_U, _HALF_ZETA_3 = 1.1, 0.6010284515797971
+_SMALL_U = 1.1
+_HALF_ZETA_3 = 0.6010284515797971
 #: Largest P served by the Gauss rule, its nodes and weights of ∫₀¹ s f(s) ds.
 _LARGEST_P = 0.8
 _RULE = roots_jacobi(7, 0.0, 1.0)
-_PLACES, _WEIGHTS = (1.0 + _RULE[0]) / 2.0, _RULE[1] / 4.0
+_PLACES = (1.0 + _RULE[0]) / 2.0
+_WEIGHTS = _RULE[1] / 4.0
 
 
 @jit_inline
@@ -73,7 +75,8 @@ def moment_of_coth(u):
 def _reduction(heating):
     """G(B) and its logarithmic slope B g'(B)."""
     if heating < _COOL:
-        g = slope = 0.0
+        g = 0.0
+        slope = 0.0
         for n in range(_G_SERIES.size - 1, -1, -1):
             g = g * heating + _G_SERIES[n]
             slope = slope * heating + n * _G_SERIES[n]
@@ -85,7 +88,9 @@ def _reduction(heating):
 
 @jit_inline
 def _patch_by_rule(p, heating):
-    value = by_slip = by_pressure = 0.0
+    value = 0.0
+    by_slip = 0.0
+    by_pressure = 0.0
     for k in range(_PLACES.size):
         growth = math.exp(p * _PLACES[k])
         g, slope = _reduction(heating * growth)
@@ -155,7 +160,8 @@ def patch_integral(pressure_exponent, root_heating):
     >>> round(patch_integral(5.0, 1.0)[0], 12)
     1.160551948246
     """
-    p, heating = pressure_exponent, root_heating * root_heating
+    p = pressure_exponent
+    heating = root_heating * root_heating
     if p < _LARGEST_P:
         return _patch_by_rule(p, heating)
     growth = math.exp(0.5 * p)
@@ -163,7 +169,8 @@ def patch_integral(pressure_exponent, root_heating):
     if q1 * q1 < _COOL:
         return _patch_by_series(p, heating, growth * growth)
     h = 0.5 * p
-    u0, u1 = math.asinh(root_heating), math.asinh(q1)
+    u0 = math.asinh(root_heating)
+    u1 = math.asinh(q1)
     w1 = u1 * (q1 / math.sqrt(1.0 + q1 * q1))
     integral = 0.5 * (h * u1 * u1 - (moment_of_coth(u1) - moment_of_coth(u0)))
     slope = h * w1 - 0.5 * (u1 - u0) * (u1 + u0)
@@ -188,7 +195,8 @@ class BarusCrook(NamedTuple):
 
 def prepare_barus_crook(interface: Interface, *, heated: bool) -> BarusCrook:
     """The law for an interface of given Hertz coefficients and lubricant."""
-    hertz, oil = interface.hertz, interface.lubricant
+    hertz = interface.hertz
+    oil = interface.lubricant
     return BarusCrook(
         conductance=2.0 * math.pi * hertz.semi_axis_across * hertz.semi_axis_along * oil.viscosity,
         pressure_exponent=oil.pressure_viscosity * hertz.pressure,

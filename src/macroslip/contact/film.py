@@ -39,9 +39,11 @@ RANGES = {
     "hardness": (0.005, 0.03),
 }
 #: Loads M and lubricant parameters L up to which Moes' formula was compared with full numerical solutions.
-HIGHEST_COMPARED_LOAD, HIGHEST_COMPARED_MATERIAL = 20.0, 15.0
+HIGHEST_COMPARED_LOAD = 20.0
+HIGHEST_COMPARED_MATERIAL = 15.0
 
-_LOG_HEAVY, _DECADE = math.log(RANGES["load"][0]), math.log(10.0)
+_LOG_HEAVY = math.log(RANGES["load"][0])
+_DECADE = math.log(10.0)
 
 
 class LineGroups(NamedTuple):
@@ -56,7 +58,9 @@ class LineGroups(NamedTuple):
 
 def line_groups(interface: Interface) -> LineGroups:
     """Groups of a contact, taken as a line."""
-    radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
+    radius = interface.rolling_radius
+    modulus = interface.modulus
+    oil = interface.lubricant
     return LineGroups(
         0.75 / interface.hertz.semi_axis_across / (modulus * radius),
         oil.viscosity / (modulus * radius),
@@ -97,7 +101,8 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
     >>> float(round(masjedi_khonsari_thickness(1e-4, 1e-11, 4846.0, 0.0, 0.03) * 1e5, 4))
     1.8365
     """
-    log_load, log_speed = np.log(load), np.log(speed)
+    log_load = np.log(load)
+    log_speed = np.log(speed)
     smooth = 2.691 * np.power(material, 0.556)
     rough = (
         0.2 * np.power(roughness, 1.222) * np.power(hardness, 0.223) * np.power(material, -0.842)
@@ -110,10 +115,8 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
 def masjedi_khonsari(interface: Interface, load, entrainment_speed):
     """Film thickness h [m] by `masjedi_khonsari_thickness` at loads [N] and speeds [m/s], in range or not."""
     groups = line_groups(interface)
-    load_group, speed_group = (
-        groups.load * np.cbrt(load) ** 2,
-        groups.speed * np.asarray(entrainment_speed),
-    )
+    load_group = groups.load * np.cbrt(load) ** 2
+    speed_group = groups.speed * np.asarray(entrainment_speed)
     return interface.rolling_radius * masjedi_khonsari_thickness(
         load_group, speed_group, *groups[2:]
     )
@@ -122,7 +125,8 @@ def masjedi_khonsari(interface: Interface, load, entrainment_speed):
 def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
     """Whether W and U are in `RANGES`; `masjedi_khonsari_notes` judges the groups that load and speed do not change."""
     groups = line_groups(interface)
-    w, u = groups.load * np.cbrt(load) ** 2, groups.speed * np.asarray(entrainment_speed)
+    w = groups.load * np.cbrt(load) ** 2
+    u = groups.speed * np.asarray(entrainment_speed)
     (least, most), (slowest, fastest) = RANGES["load"], RANGES["speed"]
     return (least <= w) & (w <= most) & (slowest <= u) & (u <= fastest)
 
@@ -202,10 +206,8 @@ def moes_in_range(interface: Interface, load, entrainment_speed):
     """Whether M and L are at most those at which the formula was compared; lighter loads approach its exact limit."""
     groups = line_groups(interface)
     doubled = 2.0 * groups.speed * np.asarray(entrainment_speed)
-    m, material = (
-        groups.load * np.cbrt(load) ** 2 / np.sqrt(doubled),
-        groups.material * doubled**0.25,
-    )
+    m = groups.load * np.cbrt(load) ** 2 / np.sqrt(doubled)
+    material = groups.material * doubled**0.25
     return (m <= HIGHEST_COMPARED_LOAD) & (material <= HIGHEST_COMPARED_MATERIAL)
 
 
@@ -233,12 +235,12 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
     >>> [float(round(1e6 * h, 2)) for h in masjedi_khonsari_moes(inner, np.array([30.0, 2e4]), 0.4)]
     [5.2, 1.32]
     """
-    groups, radius = line_groups(interface), interface.rolling_radius
-    log_load, log_speed = np.log(load), np.log(entrainment_speed)
-    log_w, log_u = (
-        math.log(groups.load) + (2.0 / 3.0) * log_load,
-        math.log(groups.speed) + log_speed,
-    )
+    groups = line_groups(interface)
+    radius = interface.rolling_radius
+    log_load = np.log(load)
+    log_speed = np.log(entrainment_speed)
+    log_w = math.log(groups.load) + (2.0 / 3.0) * log_load
+    log_u = math.log(groups.speed) + log_speed
     scale = math.log(radius * 2.691) + 0.556 * math.log(groups.material)
     heavy = scale - 0.135 * log_w + 0.705 * log_u
     density = dowson_higginson(interface.hertz.pressure * np.exp(log_load / 3.0))

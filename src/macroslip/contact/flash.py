@@ -134,7 +134,8 @@ def transient_flash(
     >>> float(round(transient_flash(time, 136.0 * one, 0.63e-3 * one, 0.37 * one, 0.37 * one, steel, steel), 3))
     0.272
     """
-    hottest = widest = 0.0
+    hottest = 0.0
+    widest = 0.0
     for width in half_width:  # NumPy's maximum would compile longer than all the rest
         widest = max(widest, width)
     for n in range(time.size):
@@ -143,7 +144,9 @@ def transient_flash(
             continue
         uptake = effusivity_1 * math.sqrt(abs(speed_1[n])) + effusivity_2 * math.sqrt(speed)
         for m in range(_PLACES.size):
-            place, came, k = half_width[n] * _PLACES[m], 0.0, n
+            place = half_width[n] * _PLACES[m]
+            came = 0.0
+            k = n
             span = math.sqrt((place + widest) / speed)
             for q in range(_NODES.size):
                 # The square root in the integral is the variable.

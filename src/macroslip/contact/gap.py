@@ -39,12 +39,15 @@ SHEAR = 0.5 * math.pi + math.atan(EXIT)
 #: Film of the volume flow, which is the film where the pressure is highest, over h0.
 FLOW = 1.0 + EXIT**2
 #: Largest s and κ of the table of rigid gaps.
-WIDEST, MOST_CURVED = 4.0, 1e5
+WIDEST = 4.0
+MOST_CURVED = 1e5
 _KNOTS = 96
 #: Least S for which a gap of a given inlet is computed; straight on below.
 _LEAST_INLET = 1.1
 #: Quantities of a rigid gap.
-_LOAD, _ROLLING, _SHEAR = 0, 1, 2
+_LOAD = 0
+_ROLLING = 1
+_SHEAR = 2
 
 
 def starved_martin(inlet: float) -> tuple[float, float, float]:
@@ -115,7 +118,8 @@ def _ratio_splines() -> list[RectBivariateSpline]:
     """Ln c_Q, ln c_F and ln c_S over ln(1 + κ) and √s; mirrored at √s = 0, where c − 1 goes with s."""
     with files("macroslip.contact").joinpath("gap_table.csv").open(encoding="utf-8") as file:
         columns = np.loadtxt(file, delimiter=",", skiprows=1)
-    curvatures, aspects = np.unique(columns[:, 0]), np.unique(columns[:, 1])
+    curvatures = np.unique(columns[:, 0])
+    aspects = np.unique(columns[:, 1])
     values = np.log(columns[:, 2:5]).reshape(curvatures.size, aspects.size, 3)
     aspects = np.concatenate([-aspects[:0:-1], aspects])
     values = np.concatenate([values[:, :0:-1], values], axis=1)
@@ -142,7 +146,8 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     `oil_gap` is the gap where the inlet begins to be full [m], always wider than the film, infinite where flooded;
     `widest_inlet` the largest S, > 1: where a surface ends, as a spar does, or infinite.
     """
-    radius, length = shape.rolling_radius, shape.length
+    radius = shape.rolling_radius
+    length = shape.length
     curvature = length**2 / (8.0 * shape.lateral_radius)  # κ h0
     # λ² (1 + κ) = s²: s² = 8 R_x h0/l² + R_x/R_y.
     highest = (WIDEST**2 - radius / shape.lateral_radius) * length**2 / (8.0 * radius)
@@ -152,7 +157,8 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     log_gap = np.linspace(math.log(lowest), math.log(highest), _KNOTS)
     gap = np.exp(log_gap)
     root = np.sqrt(np.maximum(curvature / gap, 1e-12))
-    narrow, wide = np.arctan(root) / root, np.arcsinh(root) / root
+    narrow = np.arctan(root) / root
+    wide = np.arcsinh(root) / root
     slices = np.stack(
         [
             LOAD * radius * length / gap * narrow,

@@ -22,7 +22,8 @@ from macroslip.contact.spline import CHANNELS, splines_in_cube, splines_in_squar
 #: w0 [m/s]: speed below which a contact counts as at rest.
 REST_SPEED = 1e-6
 #: Least speed whose logarithm is taken [m/s], and least load [N].
-_LEAST_SPEED, _LEAST_LOAD = 1e-12, 1e-12
+_LEAST_SPEED = 1e-12
+_LEAST_LOAD = 1e-12
 
 AXIS = np.dtype([("first", "f8"), ("per_spacing", "f8"), ("cells", "i8")])
 #: Where a plane stands in the flat array of tables, and its axes.
@@ -65,7 +66,8 @@ class Traction(NamedTuple):
 @jit_evaluation
 def cell_of(axis, coordinate):
     """Cell of a coordinate, the place in it, and its derivative by the coordinate: 0 beyond the ends, where it stays there."""
-    first, place = axis.first * axis.per_spacing, coordinate * axis.per_spacing
+    first = axis.first * axis.per_spacing
+    place = coordinate * axis.per_spacing
     if place <= first:
         return 0, 0.0, 0.0
     if place >= first + axis.cells:

@@ -64,7 +64,8 @@ class Patch(NamedTuple):
 
 def patch_of(contact: ContactLaws) -> Patch:
     """Geometry of a contact, its roller's axis tilted to the positive side."""
-    shape, hertz = contact.shape, contact.interface.hertz
+    shape = contact.shape
+    hertz = contact.interface.hertz
     return Patch(
         bool(shape.microslip), shape.contour_radius, shape.roller_radius, shape.half_length, shape.curvature_ratio,
         abs(shape.spin_ratio), hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure,
@@ -79,7 +80,8 @@ def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     of an ellipse it makes the root of the chord's length smooth.
     """
     t, weights = np.polynomial.legendre.leggauss(nodes)
-    t, weights = 0.5 * (t + 1.0), 0.5 * weights
+    t = 0.5 * (t + 1.0)
+    weights = 0.5 * weights
     return t * t * (3.0 - 2.0 * t), weights * 6.0 * t * (1.0 - t)
 
 
@@ -99,12 +101,10 @@ def _node(count, place):
 def _on_line(coefficients, cell, t):
     """Value of a spline of one coordinate."""
     rest = 1.0 - t
-    one, two, three, four = (
-        coefficients[cell],
-        coefficients[cell + 1],
-        coefficients[cell + 2],
-        coefficients[cell + 3],
-    )
+    one = coefficients[cell]
+    two = coefficients[cell + 1]
+    three = coefficients[cell + 2]
+    four = coefficients[cell + 3]
     middle = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * two + (
         4.0 - 6.0 * rest * rest + 3.0 * rest * rest * rest
     ) * three
@@ -132,7 +132,8 @@ def film_node(chords, film):
 def chord_stress_at(chords, node, pressure, slip):
     """Mean stress along a chord [Pa] of a film, a `FilmNode`, from its largest pressure p1 [Pa] and |slip| [m/s]."""
     pressure = min(max(pressure, LOWEST_PRESSURE), HIGHEST_PRESSURE)
-    fluid, (pressures, films, slips) = chords.fluid, chords.shape
+    fluid = chords.fluid
+    (pressures, films, slips) = chords.shape
     i, t = _node(pressures, math.sqrt(math.sqrt(pressure)) / chords.pressure_spacing)
     log_eta = _on_line(chords.log_viscosities, i, t)
     if fluid.rheology == NEWTONIAN:
@@ -185,9 +186,11 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
     The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
     """
     root = load ** (1.0 / 3.0)
-    across, pressure = patch.across * root, patch.pressure * root
+    across = patch.across * root
+    pressure = patch.pressure * root
     end = min(1.0, patch.half_length / across)
-    bend, spin = 0.0, 0.0
+    bend = 0.0
+    spin = 0.0
     if patch.microslip:
         bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (
             2.0 * patch.contour_radius
@@ -196,8 +199,11 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
     first, second = rolling_lines(bend, spin, slip, across * end)
     edges = (-end, first / across, second / across, end)
     area = 2.0 * across * patch.along * root * (1.0 - share)
-    pull, lag, skew = 0.0, 0.0, 0.0
-    per_drop, node = 0.5 / (patch.contour_radius * patch.roller_radius), film_node(chords, film)
+    pull = 0.0
+    lag = 0.0
+    skew = 0.0
+    per_drop = 0.5 / (patch.contour_radius * patch.roller_radius)
+    node = film_node(chords, film)
     for segment in range(3):
         length = edges[segment + 1] - edges[segment]
         if length < _SHORTEST:
@@ -224,8 +230,13 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
         more, second_moment, more_skew, rough = _asperity_patch(
             scale, patch.full_slip, across, across * end, slip, bend, spin
         )
-        pull, lag, skew = pull + more, lag + second_moment * per_drop, skew + more_skew
-    found[0], found[1], found[2], found[3] = pull, lag, skew, rough
+        pull = pull + more
+        lag = lag + second_moment * per_drop
+        skew = skew + more_skew
+    found[0] = pull
+    found[1] = lag
+    found[2] = skew
+    found[3] = rough
 
 
 @jit
@@ -278,7 +289,8 @@ def fine_power(
     lengths = np.diff(edges)
     place = (edges[:-1, None] + lengths[:, None] * _FINE_NODES).ravel()
     weight = (lengths[:, None] * _FINE_WEIGHTS).ravel()
-    station, cosine = across * place, np.sqrt(1.0 - place**2)
+    station = across * place
+    cosine = np.sqrt(1.0 - place**2)
     local = slip + station * (bend * station - spin)
     stress = chord_stress(
         fluid,

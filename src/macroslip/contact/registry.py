@@ -33,7 +33,8 @@ _PROPORTIONAL = 0.01
 #: Load of the cage, as part of what raceways bear: weight and friction of a roller.
 _CAGE_SHARE = 0.01
 #: Thinnest and thickest film [m] that a traction law is tried with.
-_THINNEST, _THICKEST = 1e-9, 1e-3
+_THINNEST = 1e-9
+_THICKEST = 1e-3
 #: Time [s] that a law may take for one call.
 _LONGEST = 60.0
 #: Begin of the last call of a law [s].
@@ -95,7 +96,8 @@ class Law(NamedTuple):
         """What a function of the law gives at states, refused if it is none of the kinds, or not one for each state."""
         # A law may change the arrays it is given.
         arrays = [np.array(one, dtype=float) for one in np.broadcast_arrays(*states)]
-        where, size = f"{part}{self.kind} law '{self.name}', {interface.name}", arrays[0].size
+        where = f"{part}{self.kind} law '{self.name}', {interface.name}"
+        size = arrays[0].size
         _begun[0] = time.monotonic()
         try:
             with np.errstate(all="ignore"):
@@ -198,7 +200,8 @@ class LawList:
         return self._laws[name]
 
 
-FILM_LAWS, TRACTION_LAWS = LawList("film"), LawList("traction", reserved=(MECHANISMS,))
+FILM_LAWS = LawList("film")
+TRACTION_LAWS = LawList("traction", reserved=(MECHANISMS,))
 
 
 def own_laws() -> list[str]:
@@ -326,10 +329,8 @@ def _check(
 
 
 def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, speed: float) -> None:
-    loads, speeds = (
-        np.geomspace(1e-6, 1.0, 13)[:, None] * heaviest,
-        np.geomspace(1e-4, 1.0, 13) * speed,
-    )
+    loads = np.geomspace(1e-6, 1.0, 13)[:, None] * heaviest
+    speeds = np.geomspace(1e-4, 1.0, 13) * speed
     heights = chosen[0](interface, loads, speeds)
     chosen[0].inside(interface, loads, speeds)
     if len(chosen) == 1:

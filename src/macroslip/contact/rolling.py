@@ -61,7 +61,9 @@ REFERENCES = {
 
 #: N_R/√M.
 RIGID = ROLLING / math.sqrt(2.0)
-_LOG_FLOW, _LOG_RIGID, _LOG_SLICE = math.log(FLOW), math.log(RIGID), math.log(math.pi**2 / 16.0)
+_LOG_FLOW = math.log(FLOW)
+_LOG_RIGID = math.log(RIGID)
+_LOG_SLICE = math.log(math.pi**2 / 16.0)
 
 #: Order with which the rigid limit joins each elastic one.
 ORDERS = {"inlet": 10.0, "whole-film": 3.64}
@@ -163,7 +165,8 @@ def log_elastic(name: str, log_load, log_material):
     if name == "inlet":
         heavy = math.log(4.318 * 2.0**-0.658) - 0.342 * log_material + 0.0126 * log_load
         return joined(heavy, math.log(1.42 / 0.966), -ORDERS[name])
-    load, material = np.exp(log_load), np.exp(log_material)
+    load = np.exp(log_load)
+    material = np.exp(log_material)
     power = 0.0692 * material / (material + 4.71)
     return math.log(2.026) - 0.00481 * material - power * np.log1p(1.97 * load)
 
@@ -253,7 +256,9 @@ def prepare_rolling(
         )
     if name == "none":
         return None
-    radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
+    radius = interface.rolling_radius
+    modulus = interface.modulus
+    oil = interface.lubricant
     across = interface.hertz.semi_axis_across
     doubled = 2.0 * oil.viscosity / (modulus * radius)
     per_root = oil.viscosity * math.sqrt(2.0 * shape.rolling_radius * shape.lateral_radius)
@@ -346,7 +351,8 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
         else log_film
     )
     _, _, log_shear = film_at_gap(numbers.gap, log_flow - _LOG_FLOW)
-    shear, film = np.exp(log_shear), np.exp(log_flow)
+    shear = np.exp(log_shear)
+    film = np.exp(log_flow)
     inside = numbers.area * np.exp((2.0 / 3.0) * log_load) / film
     conductance = numbers.viscosity * shear * shear / (shear + inside)
     return (
@@ -363,14 +369,17 @@ def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h
     rigid = _LOG_RIGID + 0.5 * log_m
     line = joined(rigid, elastic, -order)
     # Shares of the rigid and of the elastic limit; neither is one less the other, which would cancel.
-    share, rest = expit(order * (elastic - rigid)), expit(order * (rigid - elastic))
+    share = expit(order * (elastic - rigid))
+    rest = expit(order * (rigid - elastic))
     scale = numbers.log_scale + log_load / 3.0 + 0.75 * log_speed
     unit = math.log(numbers.viscosity) + log_speed
     light = log_rolling + unit - scale - rigid
-    heavy, beside = 0.0, _beside(numbers, log_load, log_speed, log_h0)
+    heavy = 0.0
+    beside = _beside(numbers, log_load, log_speed, log_h0)
     if math.isfinite(numbers.oil_gap):
         inlet = inlet_at_gap(numbers.oil_gap, np.exp(log_h0 + _LOG_FLOW))
-        heavy, beside = np.log(starvation_factor(inlet)), beside * rigid_rolling_factor(inlet)
+        heavy = np.log(starvation_factor(inlet))
+        beside = beside * rigid_rolling_factor(inlet)
     if numbers.loading > 0.0:
         heavy = heavy + np.log(inlet_heating_of_rolling(numbers.loading * np.exp(2.0 * log_speed)))
     force = np.exp(scale + line + share * light + rest * heavy)

@@ -38,10 +38,12 @@ Shear = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 _NODES, _WEIGHTS = graded_rule(10)
 #: Cosines and sines of the places along a chord, and weights of ∫ sin²φ f dφ (Gauss and Chebyshev).
 _ANGLES = np.pi * np.arange(1, 11) / 11.0
-_COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
+_COSINES = np.cos(_ANGLES)
+_SINES = np.sin(_ANGLES)
 _CHORD_WEIGHTS = np.pi / 11.0 * _SINES
 #: Slip and pressure that stand for none [m/s], [Pa].
-_NO_SLIP, _NO_PRESSURE = 1e-30, 1.0
+_NO_SLIP = 1e-30
+_NO_PRESSURE = 1.0
 
 
 class SkewedContact(NamedTuple):
@@ -150,18 +152,16 @@ def skewed_contact(
 
 def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> SlipLines:
     """Slip of a contact; parameters as of `resultants`."""
-    k, r = contact.side, contact.roller_radius
-    spin, ring = (ring_speed - slip) / r, k * ring_speed / contact.raceway_radius
-    rim, offset = (
-        1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along),
-        contact.lateral * shift,
-    )
+    k = contact.side
+    r = contact.roller_radius
+    spin = (ring_speed - slip) / r
+    ring = k * ring_speed / contact.raceway_radius
+    rim = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along)
+    offset = contact.lateral * shift
     aside = (offset + k * tilt) / contact.along  # δ + k r θ
-    fall, turned, per_xi = (
-        spin - ring * contact.cosine,
-        k * spin * skew,
-        -(contact.sine * ring + spin * tilt),
-    )
+    fall = spin - ring * contact.cosine
+    turned = k * spin * skew
+    per_xi = -(contact.sine * ring + spin * tilt)
     return SlipLines(
         slip - 0.25 * fall * offset * shift - k * contact.sine * ring * aside,
         0.5 * fall * offset - k * ring * (contact.cosine * tilt + contact.sine),
@@ -199,7 +199,9 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     )
     shape = states[0].shape
     load, ring_speed, slip, skew, shift, tilt = (one.reshape(-1, 1, 1) for one in states)
-    k, r, hertz = contact.side, contact.roller_radius, contact.laws.interface.hertz
+    k = contact.side
+    r = contact.roller_radius
+    hertz = contact.laws.interface.hertz
     root = np.cbrt(load)
     across, width, pressure = (
         one * root for one in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure)
@@ -219,9 +221,11 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     speed = np.maximum(np.hypot(v, w), _NO_SLIP)
     local = np.maximum(pressure * height * _SINES, _NO_PRESSURE)
     film, rough = _stresses(contact, load, np.abs(ring_speed - 0.5 * slip), local, speed)
-    stress, area = film + rough, weight * width * height * _CHORD_WEIGHTS
+    stress = film + rough
+    area = weight * width * height * _CHORD_WEIGHTS
     part = stress * area / speed
-    along, axial = part * v, part * w
+    along = part * v
+    axial = part * w
 
     def total(values: np.ndarray) -> np.ndarray:
         return values.sum(axis=(1, 2)).reshape(shape)[()]

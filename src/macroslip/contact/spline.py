@@ -22,7 +22,8 @@ from scipy.linalg import solve_banded
 #: Splines that share a grid.
 CHANNELS = 4
 _VECTOR = ir.VectorType(ir.DoubleType(), CHANNELS)
-_INDEX, _SIZE = ir.IntType(32), ir.IntType(64)
+_INDEX = ir.IntType(32)
+_SIZE = ir.IntType(64)
 _EMPTY = ir.Constant(_VECTOR, ir.Undefined)
 _FOUR = types.UniTuple(types.float64, CHANNELS)
 #: The four weights as a polynomial of the place in the cell, constant term first, and their derivatives.
@@ -124,7 +125,8 @@ class _Vectors:
 
     def polynomial(self, terms: list[list[float]], place: Any) -> Any:
         """The four weights of a cell at a place in it."""
-        at, total = self.splat(place), ir.Constant(_VECTOR, terms[-1])
+        at = self.splat(place)
+        total = ir.Constant(_VECTOR, terms[-1])
         for term in terms[-2::-1]:
             total = self.add_product(total, at, ir.Constant(_VECTOR, term))
         return total
@@ -197,10 +199,12 @@ def spline_value(typingctx, table, start, strides, places):
             for k in range(2)
         )
         t, s, u = (builder.extract_value(arguments[3], k) for k in range(3))
-        w, z = write.weights(_CUBIC, t), write.weights(_CUBIC, s)
+        w = write.weights(_CUBIC, t)
+        z = write.weights(_CUBIC, s)
         planes = []
         for _ in range(4):
-            address, lines = corner, []
+            address = corner
+            lines = []
             for _ in range(4):
                 lines.append(builder.load(builder.inttoptr(address, _VECTOR.as_pointer()), align=8))
                 address = builder.add(address, second)
@@ -229,7 +233,8 @@ def splines_in_square(typingctx, table, start, stride, t, u):
             [write.weights(terms, place) for terms in (_CUBIC, _QUADRATIC)]
             for place in arguments[3:]
         )
-        sums, slopes = [], []
+        sums = []
+        slopes = []
         for _ in range(4):
             line = write.line(address)
             sums.append(write.sum(z, line))
@@ -266,9 +271,13 @@ def splines_in_cube(typingctx, table, start, strides, places):
             ]
             for k in range(3)
         )
-        planes, by_second, by_third = [], [], []
+        planes = []
+        by_second = []
+        by_third = []
         for _ in range(4):
-            address, sums, slopes = corner, [], []
+            address = corner
+            sums = []
+            slopes = []
             for _ in range(4):
                 line = write.line(address)
                 sums.append(write.sum(v, line))

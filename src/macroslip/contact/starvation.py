@@ -20,7 +20,9 @@ from scipy.special import betainc, betaincinv
 from macroslip.contact.gap import starved_martin
 
 #: Least and largest S − 1 of tables.
-_LEAST, _LARGEST, _KNOTS = 1e-3, 1e7, 400
+_LEAST = 1e-3
+_LARGEST = 1e7
+_KNOTS = 400
 
 
 def film_factor(inlet):
@@ -54,7 +56,8 @@ def inlet_for_rolling(factor: float) -> float:
     >>> round(inlet_for_rolling(0.9), 1)
     174.7
     """
-    square, linear = 1.0 - factor, 162.8 - 193.1 * factor
+    square = 1.0 - factor
+    linear = 162.8 - 193.1 * factor
     return max(
         1.0 + _LEAST,
         (math.sqrt(linear * linear + 4.0 * square * 1257.0 * factor) - linear) / (2.0 * square),

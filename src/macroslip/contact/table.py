@@ -23,12 +23,15 @@ from macroslip.storage.tables import remembered, stored, table_key
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of w^(1/4) for the
 #: fastest speed of the box of 1 m/s.
-_LOAD_SPACING, _RATIO_SPACING, _SPEED_SPACING = 0.46, 0.06, 0.018
+_LOAD_SPACING = 0.46
+_RATIO_SPACING = 0.06
+_SPEED_SPACING = 0.018
 #: Share of the pressure exponent of the middle by which loads are stretched.
 _STRETCH = 0.6
 #: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller carries some newtons of its
 #: films. Below, traction goes with load.
-_LEAST_LOAD, _LIGHTEST = 0.05, 1e-3
+_LEAST_LOAD = 0.05
+_LIGHTEST = 1e-3
 #: Slip ratio by which asinh is scaled with microslip, which varies by as much over a contact.
 _MICROSLIP = 6e-4
 #: Slip ratio of a roller that spins while the ring is at rest.
@@ -38,7 +41,9 @@ _NO_ENTRAINMENT = 4.0 * (math.sqrt(2.0) - 1.0)
 #: Part of the Newtonian force that is missing at the slip by which asinh is scaled without microslip.
 _BENT = 0.05
 #: Distances between nodes of ln Q and ln u of planes, and their least speed as part of the fastest.
-_PLANE_LOAD, _PLANE_SPEED, _SLOWEST = 0.1, 0.05, 1e-4
+_PLANE_LOAD = 0.1
+_PLANE_SPEED = 0.05
+_SLOWEST = 1e-4
 #: Nodes beyond the states of the box: next to its ends a spline is less good.
 _BEYOND = 1
 #: Part of the largest force or power at the same load and speed below which an error counts as one of this part: a gripped
@@ -46,7 +51,11 @@ _BEYOND = 1
 _SMALL_FORCE = 0.05
 #: Random loads and speeds at which a table is measured, with slips at each; load [N] from which on a roller is held, and its
 #: slip ratio there; and the largest slip ratio of lighter ones.
-_STATES, _SLIPS, _HELD_LOAD, _HELD_RATIO, _MOST_RATIO = 200, 10, 20e3, 0.006, 1.2
+_STATES = 200
+_SLIPS = 10
+_HELD_LOAD = 20e3
+_HELD_RATIO = 0.006
+_MOST_RATIO = 1.2
 
 
 class Box(NamedTuple):
@@ -126,7 +135,8 @@ def write_plane(
     for channel, one in enumerate(values(*states)):
         nodes[..., channel] = one
     record["start"] = tables.add(spline_coefficients(nodes, 2))
-    record["load"], record["speed"] = tuple(load), tuple(speed)
+    record["load"] = tuple(load)
+    record["speed"] = tuple(speed)
 
 
 def film_values(
@@ -152,7 +162,8 @@ def cage_values(
     sliding per slip and rolling resistance per mean speed.
     """
     none = np.zeros_like(load)
-    friction, rough = none, none
+    friction = none
+    rough = none
     if contact.closed_form is None:
         pull, _, _, power = tractions(contact, load, none, -speed)
         friction = -pull / speed
@@ -219,23 +230,25 @@ class _Grid(NamedTuple):
 
 
 def _grid(contact: ContactLaws, box: Box) -> _Grid:
-    shape, hertz = contact.shape, contact.interface.hertz
+    shape = contact.shape
+    hertz = contact.interface.hertz
     # A law of one's own may rise with the oil's viscosity.
-    fluid, middle, per_pressure = contact.fluid, 0.0, contact.interface.lubricant.pressure_viscosity
+    fluid = contact.fluid
+    middle = 0.0
+    per_pressure = contact.interface.lubricant.pressure_viscosity
     if fluid is not None:
         per_pressure = fluid.exponent * fluid.index / fluid.reference_pressure
     stretch = _STRETCH * per_pressure * hertz.pressure
     if shape.microslip:
-        middle, scale = (
-            shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio),
-            _MICROSLIP,
-        )
+        middle = shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio)
+        scale = _MICROSLIP
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
     # A node at no slip, where the splines are exact: errors beside it hide the force of a roller that cold oil grips. And the
     # slip without entrainment in the middle between two: there the film ends, and a node would spread that over its cells.
-    fine, beyond = _RATIO_SPACING * box.fineness, _NO_ENTRAINMENT - middle
+    fine = _RATIO_SPACING * box.fineness
+    beyond = _NO_ENTRAINMENT - middle
     scale = beyond / math.sinh(fine * (math.floor(math.asinh(beyond / scale) / fine) + 0.5))
     below, above = (
         math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle)
@@ -257,7 +270,8 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
 def _bent_ratio(contact: ContactLaws, box: Box) -> float:
     """Slip ratio at which traction with the same slip all over begins to bend, at the highest load."""
     ratio = np.geomspace(1e-16, 1.0, 200)
-    load, speed = np.full_like(ratio, box.load), np.full_like(ratio, box.fastest)
+    load = np.full_like(ratio, box.load)
+    speed = np.full_like(ratio, box.fastest)
     pull, *_ = tractions(contact, load, speed, speed * ratio)
     bent = pull / ratio < (1.0 - _BENT) * pull[0] / ratio[0]
     return float(min(ratio[np.argmax(bent)] if bent.any() else 1.0, _MICROSLIP))
@@ -280,7 +294,8 @@ def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
 
 def contact_parts(contact: ContactLaws) -> tuple:
     """All that a contact's traction depends on."""
-    one, oil = contact.interface, contact.interface.lubricant
+    one = contact.interface
+    oil = contact.interface.lubricant
     sources = contact.own_sources
     return (
         contact.film_name, contact.oil_gap, contact.thermal_loading, contact.fluid, contact.traction_name,
@@ -304,12 +319,16 @@ class _Made(NamedTuple):
 
 def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> TableErrors:
     """Make the table of a raceway's traction, or find it in store, and write where it stands into a record of `TRACTION`."""
-    grid, key = _grid(contact, box), table_key("traction", *contact_parts(contact))
+    grid = _grid(contact, box)
+    key = table_key("traction", *contact_parts(contact))
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
-    record["start"], record["rising"] = tables.add(made.coefficients), tables.add(made.rising)
+    record["start"] = tables.add(made.coefficients)
+    record["rising"] = tables.add(made.rising)
     for name in ("load", "speed", "ratio"):
         record[name] = tuple(getattr(grid, name))
-    record["stretch"], record["middle"], record["scale"] = grid.stretch, grid.middle, grid.scale
+    record["stretch"] = grid.stretch
+    record["middle"] = grid.middle
+    record["scale"] = grid.scale
     record["side"] = math.copysign(1.0, contact.shape.spin_ratio)
     return made.errors
 
@@ -345,7 +364,8 @@ def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
     slip = grid.slips(grid.ratio.nodes)
     falls = np.diff(spin, axis=-1) < 0.0
     centre = int(np.searchsorted(slip, grid.middle))
-    above, below = falls[..., centre:], falls[..., :centre][..., ::-1]
+    above = falls[..., centre:]
+    below = falls[..., :centre][..., ::-1]
     upper = np.append(slip[centre:-1], 2.0)
     lower = np.append(-slip[centre:0:-1], 2.0)
     up = np.where(above.any(-1), upper[above.argmax(-1)], 2.0)
@@ -369,7 +389,8 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
         for edge, light in ((-_HELD_RATIO, -1e-3), (_HELD_RATIO, _MOST_RATIO))
     )
     slip = grid.slips(random.uniform(low, high, (_STATES, _SLIPS)))
-    load, speed = np.broadcast_to(load, slip.shape), np.broadcast_to(speed, slip.shape)
+    load = np.broadcast_to(load, slip.shape)
+    speed = np.broadcast_to(speed, slip.shape)
     root = np.cbrt(load)
     places = [
         (coordinate - one.first) * one.per_spacing + 1.0

@@ -33,7 +33,9 @@ from macroslip.lubricant import Lubricant
 from macroslip.lubricant.temperature import ROELANDS_PRESSURE, roelands_index
 from macroslip.storage.tables import stored, table_key
 
-NEWTONIAN, LIMITING_SHEAR, EYRING = 0, 1, 2
+NEWTONIAN = 0
+LIMITING_SHEAR = 1
+EYRING = 2
 #: Numbers of the rheologies by the names that case files use.
 RHEOLOGIES = {"newtonian": NEWTONIAN, "limiting-shear": LIMITING_SHEAR, "eyring": EYRING}
 #: Works to cite for each mechanism.
@@ -52,8 +54,11 @@ _BARUS_PRESSURE = 1e8
 #: Heat times stress below which heating is a small correction, taken to first order.
 _SMALL = 1e-7
 #: Highest and lowest pressure of the chord table [Pa]; pressures beyond are treated as these.
-HIGHEST_PRESSURE, LOWEST_PRESSURE = 4e9, 10.0
-_THINNEST, _THICKEST, _FASTEST = 2e-8, 4e-4, 5.0
+HIGHEST_PRESSURE = 4e9
+LOWEST_PRESSURE = 10.0
+_THINNEST = 2e-8
+_THICKEST = 4e-4
+_FASTEST = 5.0
 # A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip already.
 LOWEST_LOG_SLIP = -12.0
 #: Pressures, and spacing of slips and of films in their logarithms. Eyring's stress has no corner at a limit: with a third of
@@ -64,7 +69,9 @@ _GRIDS = {NEWTONIAN: (80, 0.3, 0.35), LIMITING_SHEAR: (80, 0.3, 0.35), EYRING: (
 #: of what is done beyond.
 _CONTINUED = 150.0
 #: Bounds and spacing of both coordinates of the local stress, and its relative error beyond which it is solved for.
-_BOUNDS, _SPACING, _LARGEST_ERROR = ((-14.0, 8.0), (-22.0, 8.0)), 0.1, 1e-6
+_BOUNDS = ((-14.0, 8.0), (-22.0, 8.0))
+_SPACING = 0.1
+_LARGEST_ERROR = 1e-6
 
 
 def limited_stress(rheology: int, viscous_stress, characteristic_stress):
@@ -150,10 +157,13 @@ def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarra
     high = np.minimum(
         np.sqrt(power) * np.sqrt(1.0 + power), np.arcsinh(np.sqrt(heat) * np.sqrt(ratio))
     )
-    low, c = np.zeros_like(high), high.copy()
+    low = np.zeros_like(high)
+    c = high.copy()
     left = np.arange(c.size)
     for _ in range(60):
-        at, given, warm = c[left], ratio[left], heat[left]
+        at = c[left]
+        given = ratio[left]
+        warm = heat[left]
         decay = np.exp(-2.0 * at)
         tangent = (1.0 - decay) / (1.0 + decay)
         spread = 2.0 * at * (1.0 + decay * decay) / (1.0 - decay * decay) - 1.0
@@ -198,13 +208,12 @@ def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
     """
     if laws.viscosity == "roelands":
         index = roelands_index(lubricant.viscosity, lubricant.pressure_viscosity)
-        exponent, pressure = math.log(lubricant.viscosity) + 9.67, ROELANDS_PRESSURE
+        exponent = math.log(lubricant.viscosity) + 9.67
+        pressure = ROELANDS_PRESSURE
     else:
-        index, exponent, pressure = (
-            1.0,
-            lubricant.pressure_viscosity * _BARUS_PRESSURE,
-            _BARUS_PRESSURE,
-        )
+        index = 1.0
+        exponent = lubricant.pressure_viscosity * _BARUS_PRESSURE
+        pressure = _BARUS_PRESSURE
     rheology = RHEOLOGIES[laws.rheology]
     characteristic = {
         NEWTONIAN: 1.0,
@@ -417,10 +426,8 @@ def chord_table(fluid: Fluid | None) -> ChordTable:
         return [spline_coefficients(values, 3)]
 
     (coefficients,) = stored(table_key("chord stress", fluid, pressures, slips, films), make)
-    log_viscosities, numbers = (
-        spline_coefficients(log_eta, 1),
-        (float(roots[1]), slip_spacing, film_spacing, float(films[0])),
-    )
+    log_viscosities = spline_coefficients(log_eta, 1)
+    numbers = (float(roots[1]), slip_spacing, film_spacing, float(films[0]))
     return ChordTable(fluid, coefficients.shape, coefficients.ravel(), log_viscosities, *numbers)
 
 
@@ -428,14 +435,16 @@ def _chord_values(
     fluid: Fluid, pressure: float, slips: np.ndarray, films: np.ndarray
 ) -> np.ndarray:
     """Ln of the stress over its unit at one pressure [Pa], shape (films, slips); slips and films are logarithms."""
-    log_eta, film = log_viscosity(fluid, pressure), np.exp(films)
+    log_eta = log_viscosity(fluid, pressure)
+    film = np.exp(films)
     scale = characteristic_slip(fluid, log_eta, pressure, film)
     log_slip = np.log(scale)[:, None] + slips
     solved = log_slip <= math.log(_CONTINUED)
     solved[:, :2] = True
     values = np.zeros(solved.shape)
     where_film = np.nonzero(solved)[0]
-    slip, log_film = log_slip[solved], films[where_film]
+    slip = log_slip[solved]
+    log_film = films[where_film]
     stress = local_stress(fluid, pressure * _COSINES, log_film[:, None], slip[:, None]) @ _WEIGHTS
     unit = (
         np.exp(log_eta) * scale / film
@@ -445,8 +454,6 @@ def _chord_values(
     values[solved] = np.log(stress) - np.broadcast_to(np.log(unit), film.shape)[where_film]
     # Beyond, a straight line through the last two that were solved for.
     last = solved.sum(axis=1)[:, None] - 1
-    end, before = (
-        np.take_along_axis(values, last, axis=1),
-        np.take_along_axis(values, last - 1, axis=1),
-    )
+    end = np.take_along_axis(values, last, axis=1)
+    before = np.take_along_axis(values, last - 1, axis=1)
     return np.where(solved, values, end + (np.arange(slips.size) - last) * (end - before))

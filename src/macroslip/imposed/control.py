@@ -31,7 +31,8 @@ EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
 @jit_inline
 def cubic(x, g0, g1, g2, g3):
     """Value at x of the cubic through the values at 0, c1, c2 and 1."""
-    a, b = NODES[0], NODES[1]
+    a = NODES[0]
+    b = NODES[1]
     return (
         g0 * (x - a) * (x - b) * (x - 1.0) / (-a * b)
         + g1 * x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
@@ -54,11 +55,17 @@ def crossing(g0, g1, g2, g3):
     1.0
     """
     if g0 * g1 < 0.0:
-        low, high, below = 0.0, NODES[0], g0
+        low = 0.0
+        high = NODES[0]
+        below = g0
     elif g1 * g2 < 0.0:
-        low, high, below = NODES[0], NODES[1], g1
+        low = NODES[0]
+        high = NODES[1]
+        below = g1
     elif g2 * g3 < 0.0:
-        low, high, below = NODES[1], 1.0, g2
+        low = NODES[1]
+        high = 1.0
+        below = g2
     else:
         return 1.0
     for _ in range(40):
@@ -84,7 +91,10 @@ def first_cusp(work):
     roller without elastic load has another where it leans over from one raceway to the other. Where the shaft turns back
     all friction has one.
     """
-    at, one, two, three = work.at, work.stage_at[0], work.stage_at[1], work.stage_at[2]
+    at = work.at
+    one = work.stage_at[0]
+    two = work.stage_at[1]
+    three = work.stage_at[2]
     held = work.forces.cage_load - at.tangential
     part = crossing(
         at.tangential + held, one.tangential + held, two.tangential + held, three.tangential + held
@@ -109,8 +119,11 @@ def slip_error(path, work):
     The embedded estimate is one number and may vanish by accident, especially where grip ceases between two stages; so the
     equation's defect is looked at between them.
     """
-    microslip, firm, forces = path.body.microslip, work.zone == FIRM, work.stage_forces
-    error, last = 0.0, forces[2].slope
+    microslip = path.body.microslip
+    firm = work.zone == FIRM
+    forces = work.stage_forces
+    error = 0.0
+    last = forces[2].slope
     if not (firm and microslip):
         # A held roller's slip is the balance of the instant, solved for at the end of the step.
         least = max(min(work.forces.slope, forces[0].slope, forces[1].slope, last), 0.0)
@@ -165,11 +178,13 @@ def _kink_error(path, work):
 @jit_inline
 def energy_error(path, work):
     """Estimated error of the energy of a step [J]."""
-    error, totals = 0.0, work.totals
+    error = 0.0
+    totals = work.totals
     for k in range(4):
         error += EMBEDDED[k] * totals[k]
     error = max(abs(work.length * error), _kink_error(path, work))
-    first, last = abs(work.forces.cage_load), abs(work.stage_forces[2].cage_load)
+    first = abs(work.forces.cage_load)
+    last = abs(work.stage_forces[2].cage_load)
     if work.zone == EDGE or min(first, last) >= tuning.FALLEN * max(first, last):
         return error
     if work.zone == FIRM and path.body.microslip:

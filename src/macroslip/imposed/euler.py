@@ -35,7 +35,8 @@ RULE = np.dtype(
 @jit_inline
 def _defect(path, work, spin, step):
     """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s] at the end of a step [s], for a spin there [rad/s]."""
-    body, at = path.body, work.stage_at[0]
+    body = path.body
+    at = work.stage_at[0]
     evaluate(path, at, at.ring_speed - body.radius * spin, work.push)
     work.count[2] += 1
     return spin - work.spin - step * body.mobility / body.radius * net_force(work.push)
@@ -71,8 +72,10 @@ def backward_euler_step(path, work, step, tolerance):
         if not math.isfinite(trial):
             break
         change = abs(trial - newer)
-        older, older_defect = newer, newer_defect
-        newer, newer_defect = trial, _defect(path, work, trial, step)
+        older = newer
+        older_defect = newer_defect
+        newer = trial
+        newer_defect = _defect(path, work, trial, step)
         if change <= tolerance * abs(newer) or newer_defect == 0.0 or newer == older:
             return newer, abs(newer_defect) * to_force
     return math.nan, math.inf
@@ -85,10 +88,14 @@ def integrate_fixed_step(path, work, steps):
     As `macroslip.imposed.solve.integrate`, with a `RULE` for limits and one stage a step: the state at which its forces are
     evaluated, its start or its end.
     """
-    body, motion, rule = path.body, path.motion, path.limits
+    body = path.body
+    motion = path.motion
+    rule = path.limits
     start = motion.time[0]
     if work.begun == 0:
-        work.begun, work.time, work.interval = 1, start, 0
+        work.begun = 1
+        work.time = start
+        work.interval = 0
         start_at(path, work)
         work.spin = (work.at.ring_speed - work.slip) / body.radius
     for count in range(steps.size):
@@ -97,11 +104,9 @@ def integrate_fixed_step(path, work, steps):
             write_point(path, work, steps[count])
             return COMPLETED, count + 1
         after = min(start + (work.count[0] + 1) * rule.step, rule.end)
-        span, interval, row = (
-            after - work.time,
-            interval_of(motion, after, work.interval),
-            steps[count],
-        )
+        span = after - work.time
+        interval = interval_of(motion, after, work.interval)
+        row = steps[count]
         locate(path, after, interval, work.stage_at[0])
         frame(work, row, 1, after)
         row.weight[0] = span
@@ -119,7 +124,8 @@ def integrate_fixed_step(path, work, steps):
         if abs(slip) > rule.largest_slip:
             work.time = after
             return IMPOSSIBLE_SLIP, count
-        work.time, work.interval = after, interval
+        work.time = after
+        work.interval = interval
         start_at(path, work)
         work.count[0] += 1
         work.stretch = work.count[0]

@@ -155,13 +155,11 @@ def start_at(path, work):
 @jit_inline
 def frame(work, row, stages, end):
     """Write the fields of a row on the whole step, which ends at `end` [s]."""
-    row.start, row.end, row.stages, row.stretch, row.sampled = (
-        work.time,
-        end,
-        stages,
-        work.stretch,
-        0,
-    )
+    row.start = work.time
+    row.end = end
+    row.stages = stages
+    row.stretch = work.stretch
+    row.sampled = 0
     for i in range(3):
         row.power_before[i] = work.powers[i]
 
@@ -170,18 +168,18 @@ def frame(work, row, stages, end):
 def write_point(path, work, row):
     """Write a row without weight of the roller now."""
     frame(work, row, 1, work.time)
-    row.time[0], row.weight[0], row.sampled = work.time, 0.0, 1
+    row.time[0] = work.time
+    row.weight[0] = 0.0
+    row.sampled = 1
     write_stage(row, 0, path.body, work.at, work.forces, work.slip, work.powers[:])
 
 
 @jit_inline
 def set_step(path, work, length, held):
     """Set up a step of `length` [s] from now on, of three stages or held."""
-    work.length, work.scale, work.held = (
-        length,
-        1.0 / (length * path.body.mobility),
-        1 if held else 0,
-    )
+    work.length = length
+    work.scale = 1.0 / (length * path.body.mobility)
+    work.held = 1 if held else 0
     interval = work.interval
     for k in range(3):
         work.weights[k] = SIMPSON[k] if held else WEIGHTS[k]
@@ -202,7 +200,8 @@ def shift(forces, change):
 
     The change of the cage's force and of rolling resistance is all given to the cage; the rest is left as it is.
     """
-    inner, outer = forces.inner_slope * change, forces.outer_slope * change
+    inner = forces.inner_slope * change
+    outer = forces.outer_slope * change
     forces.inner += inner
     forces.outer += outer
     forces.cage += forces.slope * change - inner - outer
@@ -248,7 +247,8 @@ def collocation(part, z1, z2, z3):
     >>> round(increment, 12), round(rate, 12)
     (0.125, 0.75)
     """
-    a, b = NODES[0], NODES[1]
+    a = NODES[0]
+    b = NODES[1]
     # Newton's divided differences through (0, 0), (a, z1), (b, z2), (1, z3).
     first = z1 / a
     second = ((z2 - z1) / (b - a) - first) / b
@@ -310,25 +310,33 @@ def _correct(work, change, first, shifted):
 @jit_inline
 def solve_stages(path, work):
     """Solve the stage equations of a step of three stages from the first guess in `work.v`."""
-    scale, limits = work.scale, path.limits
+    scale = work.scale
+    limits = path.limits
     force_part = force_tolerance(limits.tolerance, path.body.microslip)
     round_off = 4e-15 * scale * (limits.speed_scale + abs(work.slip))
     # Without microslip a roller that grips slips too little for its forces to bend in the same way twice.
     smooth = path.body.microslip or work.zone == FREE
-    work.converged, work.left, change, foreseen = 0, math.inf, 0.0, math.inf
-    one, two, three = work.stage_forces[0], work.stage_forces[1], work.stage_forces[2]
+    work.converged = 0
+    work.left = math.inf
+    change = 0.0
+    foreseen = math.inf
+    one = work.stage_forces[0]
+    two = work.stage_forces[1]
+    three = work.stage_forces[2]
     for iteration in range(tuning.ITERATIONS):
         _evaluate_stages(path, work, 0)
         rest = residuals(
             scale, work.s[0], work.s[1], work.s[2], net_force(one), net_force(two), net_force(three)
         )
-        size, solved = max(abs(rest[0]), abs(rest[1]), abs(rest[2])), True
+        size = max(abs(rest[0]), abs(rest[1]), abs(rest[2]))
+        solved = True
         for k in range(3):
             forces = work.stage_forces[k]
             allowed = force_part * magnitude(forces) + limits.grain * abs(forces.slope) + round_off
             solved = solved and abs(rest[k]) <= allowed
         if solved:
-            work.converged, work.left = 1, size
+            work.converged = 1
+            work.left = size
             return
         if not math.isfinite(size) or (iteration > 2 and size > 0.9 * work.left):
             return
@@ -348,7 +356,8 @@ def solve_stages(path, work):
         last = is_close and foreseen <= force_part * least + round_off
         _correct(work, update, 0, last)
         if last:
-            work.converged, work.left = 1, foreseen
+            work.converged = 1
+            work.left = foreseen
             return
 
 
@@ -380,10 +389,16 @@ def held_update(scale, d2, d3, rest_2, rest_3):
 @jit_inline
 def solve_held(path, work):
     """Solve the stage equations of a held step; not converged where Newton would need a better guess than is available."""
-    scale, slip = work.scale, work.slip
-    at, middle, end = work.at, work.stage_at[1], work.stage_at[2]
-    second, third = work.stage_forces[1], work.stage_forces[2]
-    work.stage_forces[0], work.v[0], work.s[0] = work.forces, slip, 0.0
+    scale = work.scale
+    slip = work.slip
+    at = work.at
+    middle = work.stage_at[1]
+    end = work.stage_at[2]
+    second = work.stage_forces[1]
+    third = work.stage_forces[2]
+    work.stage_forces[0] = work.forces
+    work.v[0] = slip
+    work.s[0] = 0.0
     force_part = force_tolerance(path.limits.tolerance, path.body.microslip)
     work.v[1] = held_slip(path.body.microslip, slip, at, middle, work.exponent)
     evaluate(path, middle, work.v[1], second)
@@ -403,7 +418,10 @@ def solve_held(path, work):
     work.count[2] += 2
     for k in range(1, 3):
         work.s[k] = work.v[k] - slip - (work.stage_at[k].ring_speed - at.ring_speed)
-    work.converged, work.left, change, foreseen = 0, math.inf, 0.0, math.inf
+    work.converged = 0
+    work.left = math.inf
+    change = 0.0
+    foreseen = math.inf
     for iteration in range(tuning.HELD_ITERATIONS):
         rest_2 = scale * work.s[2] + net_force(second)
         rest_3 = scale * (3.0 * work.s[2] - 4.0 * work.s[1]) + net_force(third)
@@ -421,10 +439,12 @@ def solve_held(path, work):
         change = max(abs(update[0]), abs(update[1]))
         if iteration == 0:
             foreseen = tuning.BEND_SAFETY * work.bend * change * change
-        work.left, last = size, foreseen <= allowed
+        work.left = size
+        last = foreseen <= allowed
         _correct(work, (0.0, update[0], update[1]), 1, last)
         if last:
-            work.converged, work.left = 1, foreseen
+            work.converged = 1
+            work.left = foreseen
             return
         _evaluate_stages(path, work, 1)
 
@@ -471,8 +491,12 @@ def guess(path, work):
     continues with the acceleration of the forces at the start, and one stuck to the cage keeps its spin; any other starts
     from the slip before the step, which `held_slip` changes with the load if the roller follows its loads.
     """
-    h, slip, forces, at = work.length, work.slip, work.forces, work.at
-    microslip, last = path.body.microslip, work.last_s
+    h = work.length
+    slip = work.slip
+    forces = work.forces
+    at = work.at
+    microslip = path.body.microslip
+    last = work.last_s
     gripped = path.body.mobility * forces.slope * h
     continues = (
         work.zone != FIRM and h <= tuning.MOST_AHEAD * work.last_length and gripped < tuning.GRIPPED
@@ -529,17 +553,21 @@ def is_continuous(path, work):
     have one root. Above it, a step is accepted only where slip changes so little, and traction falls so gently, that the
     root found is the continuous one.
     """
-    slip, limits, at = work.slip, path.limits, work.at
-    change, largest, inner, outer = 0.0, abs(slip), at.inner_load, at.outer_load
+    slip = work.slip
+    limits = path.limits
+    at = work.at
+    change = 0.0
+    largest = abs(slip)
+    inner = at.inner_load
+    outer = at.outer_load
     for k in range(3):
         # More than one root is possible only where traction falls with slip faster than the step allows.
         if work.stage_forces[k].slope < -0.5 * work.scale:
             return False
-        change, largest = max(change, abs(work.v[k] - slip)), max(largest, abs(work.v[k]))
-        inner, outer = (
-            max(inner, work.stage_at[k].inner_load),
-            max(outer, work.stage_at[k].outer_load),
-        )
+        change = max(change, abs(work.v[k] - slip))
+        largest = max(largest, abs(work.v[k]))
+        inner = max(inner, work.stage_at[k].inner_load)
+        outer = max(outer, work.stage_at[k].outer_load)
     if (
         change <= tuning.HOT_CHANGE * abs(slip) + tuning.SMALL_CHANGE * limits.speed_scale
         or largest <= limits.cold_slip

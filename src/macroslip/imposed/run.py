@@ -58,7 +58,8 @@ def radau_limits(
     `tolerance` is relative, of slip and energy; `heaviest` the largest load of a roller with weight and centrifugal
     force [N], `window` the window's start [s]. The roller may be of either row.
     """
-    body, tables = roller.body[0], roller.tables
+    body = roller.body[0]
+    tables = roller.tables
     fastest = body["orbit_ratio"] * np.abs(motion.shaft_speed).max()
     # A shaft at rest has no speed of its own by which an error of slip could be judged.
     speed = max(float(fastest * body["outer_radius"]), REST_SPEED)
@@ -69,7 +70,8 @@ def radau_limits(
     ring = 0.0 if body["closed_form"] else speed
     cold = surely_rising(body, tables, heaviest, heaviest, ring) if heaviest > 0.0 else np.inf
     firm = firm_interference(body, tables.ctypes.data, speed)
-    energy, grain = speed**2 / body["mobility"], 0.0
+    energy = speed**2 / body["mobility"]
+    grain = 0.0
     if not body["closed_form"]:
         # A film without heating may hold a roller at a slip of 1e-13 of the rings' speed.
         contacts = (body[name]["traction"] for name in ("inner", "outer"))
@@ -96,10 +98,13 @@ def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator
     Yields steps that follow one another, arrays of `STEP` of shape (n, 1), in a buffer that the next ones overwrite.
     The first sample has the roller at φ = `start_angle` [rad]; `outcome` is filled when the last buffer has been given.
     """
-    motion, limits, body = problem.motion, problem.limits[0], problem.roller.body[0]
+    motion = problem.motion
+    limits = problem.limits[0]
+    body = problem.roller.body[0]
     tables = problem.roller.tables
     path = Path(body, tables.ctypes.data, tables, motion, float(start_angle), limits)
-    work, steps = np.zeros(1, WORK), new_steps()
+    work = np.zeros(1, WORK)
+    steps = new_steps()
     classes = np.empty(motion.time.size - 1, dtype=np.int8)
     radau = problem.limits.dtype == LIMITS
     if radau:
@@ -115,10 +120,8 @@ def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator
     last = work[0]
     outcome.status = status
     outcome.steps, outcome.rejections, outcome.evaluations = (int(one) for one in last["count"])
-    outcome.unbalanced, outcome.time, outcome.slip = (
-        float(last["unbalanced"]),
-        float(last["time"]),
-        float(last["slip"]),
-    )
+    outcome.unbalanced = float(last["unbalanced"])
+    outcome.time = float(last["time"])
+    outcome.slip = float(last["slip"])
     if status == COMPLETED and not radau:
         outcome.rejections = 0

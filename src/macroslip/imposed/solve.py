@@ -67,7 +67,9 @@ def _rebalance(path, work):
     The transition takes the relaxation time, for which `firm_interference` gives a bound; here it takes none. A roller
     that still skids, or has not settled yet, is left as it is.
     """
-    body, motion, k = path.body, path.motion, work.interval
+    body = path.body
+    motion = path.motion
+    k = work.interval
     acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
         motion.time[k + 1] - motion.time[k]
     )
@@ -85,16 +87,19 @@ def _rebalance(path, work):
 @jit_inline
 def _next_stretch(path, stops, classes, work):
     """At a barrier: the class of the interval that begins there, and the next barrier. None is left after the last stop."""
-    time, motion = work.time, path.motion
+    time = work.time
+    motion = path.motion
     while work.next_stop < stops.size and stops[work.next_stop] <= time:
         work.next_stop += 1
     if work.next_stop == stops.size:
         return
-    stop, before = stops[work.next_stop], work.zone
+    stop = stops[work.next_stop]
+    before = work.zone
     work.interval = interval = interval_of(motion, time, work.interval)
     work.zone = zone = np.int64(classes[interval])
     work.sample_step = sample_step = motion.time[interval + 1] - motion.time[interval]
-    jumps, last = not path.body.microslip, interval
+    jumps = not path.body.microslip
+    last = interval
     # From where an earlier search ended: a run may have as many intervals as the history, and is searched at every barrier.
     work.run_end = max(work.run_end, interval)
     while work.run_end < classes.size - 1 and classes[work.run_end + 1] == zone:
@@ -124,7 +129,8 @@ def _attempt(path, work):
     else:
         guess(path, work)
         solve_stages(path, work)
-    work.totals[0], work.energy = work.powers[0] + work.powers[1] + work.powers[2], 0.0
+    work.totals[0] = work.powers[0] + work.powers[1] + work.powers[2]
+    work.energy = 0.0
     for k in range(3):
         total = powers(
             path.body, work.stage_at[k], work.stage_forces[k], work.v[k], work.stage_powers[k]
@@ -134,17 +140,17 @@ def _attempt(path, work):
     if work.converged == 0 or not is_continuous(path, work):
         return math.inf
     if work.held:
-        slip_off, energy_off = (
-            0.0,
-            held_energy_error(work.energy, work.length, work.totals[0], work.totals[3]),
-        )
+        slip_off = 0.0
+        energy_off = held_energy_error(work.energy, work.length, work.totals[0], work.totals[3])
     else:
-        slip_off, energy_off = slip_error(path, work), energy_error(path, work)
+        slip_off = slip_error(path, work)
+        energy_off = energy_error(path, work)
     since = path.limits.window if work.time >= path.limits.window else path.motion.time[0]
     mean_power = (work.spent + work.energy) / (work.times[2] - since)
     # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a sample interval may
     # be off by what is allowed in that part.
-    share, limits = max(work.length, tuning.SHORT_PART * work.sample_step), path.limits
+    share = max(work.length, tuning.SHORT_PART * work.sample_step)
+    limits = path.limits
     worth = max(mean_power * share, work.energy, tuning.NO_ENERGY * limits.energy_scale)
     slip_off /= tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
     return max(
@@ -176,7 +182,8 @@ def _reject(path, work, error):
 @jit_inline
 def _leaves_tables(body, work):
     """Whether the step ends in a state that the tables do not hold."""
-    at, slip = work.stage_at[2], work.v[2]
+    at = work.stage_at[2]
+    slip = work.v[2]
     speed = math.sqrt(at.ring_speed * at.ring_speed + 0.25 * slip * slip)
     load = max(at.inner_load, at.outer_load, abs(work.stage_forces[2].cage_load))
     return load > body.highest_load or speed > body.highest_speed + 2.0 * REST_SPEED
@@ -205,10 +212,8 @@ def _film_ends_at(work, resolved):
     """
     if min(abs(work.slip), abs(work.v[2])) <= resolved:
         return 1.0
-    before, after = (
-        work.at.ring_speed - 0.5 * work.slip,
-        work.stage_at[2].ring_speed - 0.5 * work.v[2],
-    )
+    before = work.at.ring_speed - 0.5 * work.slip
+    after = work.stage_at[2].ring_speed - 0.5 * work.v[2]
     return before / (before - after) if before * after < 0.0 else 1.0
 
 
@@ -219,7 +224,9 @@ def _write_samples(path, work, resolved, cusp, rows):
     One of them is at the part `cusp` of the step. A slip that is small against what a step may be off says nothing of the
     power there.
     """
-    row, stage, parts = 0, 0, tuning.PEAK_PARTS
+    row = 0
+    stage = 0
+    parts = tuning.PEAK_PARTS
     for k in range(1, parts + 1):
         near = abs(cusp * parts - k) <= 0.5 or (k == 1 and cusp * parts < 0.5)
         part = cusp if near else k / parts
@@ -230,12 +237,14 @@ def _write_samples(path, work, resolved, cusp, rows):
         evaluate(path, work.there, slip, work.push)
         powers(path.body, work.there, work.push, slip, work.push_powers[:])
         one = rows[row]
-        one.time[stage], one.weight[stage] = work.time + part * work.length, 0.0
+        one.time[stage] = work.time + part * work.length
+        one.weight[stage] = 0.0
         write_stage(one, stage, path.body, work.there, work.push, slip, work.push_powers[:])
         stage += 1
         frame(work, one, stage, one.time[stage - 1])
         if stage == 3:
-            row, stage = row + 1, 0
+            row = row + 1
+            stage = 0
     work.count[2] += parts
     return row + (1 if stage > 0 else 0)
 
@@ -243,10 +252,8 @@ def _write_samples(path, work, resolved, cusp, rows):
 @jit_inline
 def _accept(path, work, end, rows):
     """Write a step, which ends at `end` [s], and go on to there; returns the number of rows."""
-    resolved, count = (
-        tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale,
-        0,
-    )
+    resolved = tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale
+    count = 0
     cusp = _film_ends_at(work, resolved) if path.body.closed_form else 1.0
     sampled = cusp < 1.0 or _may_peak_inside(path, work, resolved)
     if sampled:
@@ -256,7 +263,8 @@ def _accept(path, work, end, rows):
     row.sampled = 1 if sampled else 0
     top = 0.0 if work.zone == FREE else work.top_power
     for k in range(3):
-        row.time[k], row.weight[k] = end if k == 2 else work.times[k], work.length * work.weights[k]
+        row.time[k] = end if k == 2 else work.times[k]
+        row.weight[k] = work.length * work.weights[k]
         write_stage(
             row,
             k,
@@ -268,11 +276,9 @@ def _accept(path, work, end, rows):
         )
         top = max(top, work.stage_powers[k, 0], work.stage_powers[k, 1])
     work.count[0] += 1
-    work.spent, work.top_power, work.unbalanced = (
-        work.spent + work.energy,
-        top,
-        max(work.unbalanced, work.left),
-    )
+    work.spent = work.spent + work.energy
+    work.top_power = top
+    work.unbalanced = max(work.unbalanced, work.left)
     if work.zone == FIRM:
         work.exponent = held_exponent(
             work.at, work.slip, work.stage_at[2], work.v[2], work.exponent
@@ -281,17 +287,26 @@ def _accept(path, work, end, rows):
     for k in range(3):
         work.last_s[k], work.powers[k] = work.s[k], work.stage_powers[2, k]
     # A step ends in the interval it comes from, not in the next one that begins there.
-    work.time, work.interval, work.slip = end, work.end_interval, work.v[2]
-    work.at, work.forces = work.stage_at[2], work.stage_forces[2]
+    work.time = end
+    work.interval = work.end_interval
+    work.slip = work.v[2]
+    work.at = work.stage_at[2]
+    work.forces = work.stage_forces[2]
     return count + 1
 
 
 @jit_inline
 def _begin(path, work, row):
     """Start at the first sample, at which no step ends: it has a row of its own."""
-    work.begun, work.time, work.interval = 1, path.motion.time[0], 0
-    work.step, work.barrier = min(path.limits.longest_step, tuning.FIRST_STEP), work.time
-    work.zone, work.run_end, work.exponent, work.bend = -1, -1, tuning.LIMIT_EXPONENT, math.inf
+    work.begun = 1
+    work.time = path.motion.time[0]
+    work.interval = 0
+    work.step = min(path.limits.longest_step, tuning.FIRST_STEP)
+    work.barrier = work.time
+    work.zone = -1
+    work.run_end = -1
+    work.exponent = tuning.LIMIT_EXPONENT
+    work.bend = math.inf
     start_at(path, work)
     write_point(path, work, row)
 
@@ -308,7 +323,8 @@ def integrate(path, stops, classes, work, steps):
     time, speed, angle, displacement = path.motion
     motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]
     path = Path(path.body, path.tables, uncounted(path.flat), motion, path.start_angle, path.limits)
-    limits, count = path.limits, 0
+    limits = path.limits
+    count = 0
     if work.begun == 0:
         _begin(path, work, steps[0])
         count = 1
@@ -341,10 +357,8 @@ def integrate(path, stops, classes, work, steps):
         if length > tuning.CUSP_PART * limits.longest_step and work.held == 0:
             part = first_cusp(work)
             if part < 1.0:
-                work.step, work.barrier = (
-                    part * length,
-                    min(work.barrier, work.time + part * length),
-                )
+                work.step = part * length
+                work.barrier = min(work.barrier, work.time + part * length)
                 continue
         error = _attempt(path, work)
         if error < math.inf and not math.isfinite(work.energy):
@@ -357,8 +371,6 @@ def integrate(path, stops, classes, work, steps):
         count += _accept(
             path, work, work.barrier if length == left else work.times[2], steps[count:]
         )
-        work.step, work.failed = (
-            length * min(1.0 if work.failed else tuning.GROWTH, step_factor(error)),
-            0,
-        )
+        work.step = length * min(1.0 if work.failed else tuning.GROWTH, step_factor(error))
+        work.failed = 0
     return UNDER_WAY, count

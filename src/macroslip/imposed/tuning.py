@@ -11,13 +11,16 @@ from __future__ import annotations
 
 #: First step of the history and first step after entering an edge of the load zone [s]. Judgement: error control
 #: corrects either within three steps.
-FIRST_STEP, EDGE_STEP = 1e-2, 1e-3
+FIRST_STEP = 1e-2
+EDGE_STEP = 1e-3
 #: Largest part of an orbit turned in one step [rad], so that a step has stages under different directions of gravity:
 #: in a coast, steps of a tenth of an orbit keep the tolerance.
 LONGEST_TURN = 0.6
 #: Most growth of a step, its least part after an error, and its part after stages that were not solved; the first two
 #: as in Hairer and Wanner's RADAU5, IV.8, the third a judgement.
-GROWTH, LEAST_PART, UNSOLVED_PART = 5.0, 0.2, 0.25
+GROWTH = 5.0
+LEAST_PART = 0.2
+UNSOLVED_PART = 0.25
 #: Safety factor on the step that the error allows (Hairer and Wanner, IV.8: 0.8 to 0.9).
 SAFETY = 0.8
 #: Part of the longest step above which steps end on the cusps of light contacts. Needed for slip in coasts and peaks to
@@ -35,7 +38,8 @@ INERTIA_PART = 0.02
 #: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a coast and adds up;
 #: errors of energy are of either sign and their estimate is of low order, hence far too large. With these, errors on
 #: the bundled histories stay below half of the tolerance from 2e-4 on.
-SLIP_SHARE, ENERGY_SHARE = 0.1, 10.0
+SLIP_SHARE = 0.1
+ENERGY_SHARE = 10.0
 #: Part of a roller's kinetic energy at the largest raceway speed below which a step's energy need not be known better.
 #: Without it, a start from standstill fails at tolerances from 1e-6 on; a million steps add up to 1e-8 J at 1e-6.
 NO_ENERGY = 1e-9
@@ -52,7 +56,9 @@ KINK_WEIGHT = 7.5
 #: Part of the cage's load at one end of a step that is left at the other where power may have a cusp there; where in the
 #: step power is looked at, and the weight of what the cubic through the stages misses. For (1 - x)^0.6 to (1 - x)^0.9 times
 #: lines, the error is half to once that.
-FALLEN, CUSP_LOOK, CUSP_WEIGHT = 0.1, 0.4, 1.0
+FALLEN = 0.1
+CUSP_LOOK = 0.4
+CUSP_WEIGHT = 1.0
 #: Weight of the step over the relaxation time at its end by which an error of slip with microslip counts less. Judgement.
 FORGOTTEN = 1.0
 
@@ -65,13 +71,15 @@ ITERATIONS = 12
 FORCE_TOLERANCE = 1e-9
 #: The same with microslip, whose power does not hang on the balance of two large forces: half of the integration's
 #: tolerance, and at most this. At 2e-4, errors of energy on the bundled histories are 1e-5 with it.
-MICROSLIP_FORCE_SHARE, MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
+MICROSLIP_FORCE_SHARE = 0.5
+MICROSLIP_FORCE_TOLERANCE = 1e-4
 #: Rounding of a place in a table, as part of a cell. Asked for less than rounding leaves, rollers that cold oil without
 #: heating grips at 1e-17 m/s stop in steps of nanoseconds.
 PLACE_ROUNDING = 5e-16
 #: Safety factor on the residual predicted from the curvature of the forces in earlier steps, and what is left of that
 #: curvature when a newer one is smaller. With them a held roller takes 3.7 evaluations a step on average, not 6.
-BEND_SAFETY, FORGET = 3.0, 0.5
+BEND_SAFETY = 3.0
+FORGET = 0.5
 #: Part of the sum of force magnitudes up to which the second of two residuals may be left to a last correction without
 #: an evaluation. A larger one is no sign of convergence, however much larger the first was: but for the forces the
 #: stage equations are linear in slip, so a correction removes most of a residual that a poor guess made; and where the
@@ -79,7 +87,8 @@ BEND_SAFETY, FORGET = 3.0, 0.5
 LAST_REST = 0.5
 #: Step over relaxation time from which on a held roller's step has two stages, and the part of the sum of force magnitudes
 #: up to which it counts as being at its balance. Judgement: FIRM rollers at the bundled 20 Hz have 50 and more.
-QUASI_STATIC, SETTLED_FORCE = 30.0, 0.02
+QUASI_STATIC = 30.0
+SETTLED_FORCE = 0.02
 #: Most iterations of a held step; where they are not enough, the step is tried with three stages.
 HELD_ITERATIONS = 4
 #: Step over relaxation time from which on a roller with microslip is taken to follow its loads, for a first guess.
@@ -91,7 +100,8 @@ MOST_AHEAD = 3.0
 #: contour at the end of the ellipse.
 LIMIT_EXPONENT = 2.0 / 3.0
 #: Change of ln Q below which a step does not give the exponent, and the largest exponent that is accepted. Judgement.
-LEAST_CHANGE, STEEPEST = 1e-3, 3.0
+LEAST_CHANGE = 1e-3
+STEEPEST = 3.0
 #: Largest change of speed in a step, as a factor, over which slip is taken to be in proportion to it. Out of standstill
 #: the slip before the step is the tolerance of its balance and not in proportion to speed.
 MOST_QUICKENING = 5.0
@@ -102,7 +112,8 @@ SECANT_ITERATIONS = 200
 
 #: Largest relative change of slip in a step taken where traction may fall with slip, and the change, as part of the
 #: raceway speed, that is always small. Skids of 0.36 m/s follow SciPy's Radau with them.
-HOT_CHANGE, SMALL_CHANGE = 0.2, 1e-6
+HOT_CHANGE = 0.2
+SMALL_CHANGE = 1e-6
 
 # --- Load zone --------------------------------------------------------------------------------------------------------
 
@@ -118,6 +129,7 @@ SETTLED = 1e-6
 
 #: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
 #: must be for the power there to be meaningful. With them peaks on the bundled histories are good to 0.6 % at 2e-4.
-PEAK_PARTS, RESOLVED = 10, 3.0
+PEAK_PARTS = 10
+RESOLVED = 3.0
 #: Part of its slip that a roller keeps, at most, over a step in which it snaps back. Judgement.
 SNAP = 0.7

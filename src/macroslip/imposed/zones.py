@@ -17,7 +17,9 @@ from macroslip.mechanics.loads import interference
 from macroslip.mechanics.raceway import raceway_traction
 from macroslip.ring.orbit import instant
 
-FREE, EDGE, FIRM = 0, 1, 2
+FREE = 0
+EDGE = 1
+FIRM = 2
 
 
 @jit
@@ -63,7 +65,9 @@ def firm_interference(body, tables, ring_speed):
     Infinite if no load of the tables holds it firmly (a law with bounded slope): then no interval is `FIRM`.
     """
     firm_rate = tuning.FIRM_RATE_MICROSLIP if body.microslip else tuning.FIRM_RATE
-    low, high, load = 1e-3, math.inf, body.highest_load
+    low = 1e-3
+    high = math.inf
+    load = body.highest_load
     for _ in range(100):
         if relaxation_rate(body, tables, load, ring_speed) >= firm_rate:
             high = load
@@ -97,7 +101,8 @@ def classify(body, motion, start_angle, firm, classes):
     )
     for k in range(motion.time.size - 1):
         after = interference_at(body, motion, start_angle, k, motion.time[k + 1])
-        near, far = motion.displacement[k], motion.displacement[k + 1]
+        near = motion.displacement[k]
+        far = motion.displacement[k + 1]
         span = abs(body.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
         turn = span * max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
         quickening = span * abs(motion.shaft_speed[k + 1] - motion.shaft_speed[k])

@@ -31,7 +31,8 @@ from macroslip.mechanics.film_sharing import film_load_is_negligible
 from macroslip.ring.balance import RingGeometry
 
 #: Least load of planes [N], and least speed of oil's as part of the fastest.
-_LIGHTEST, _SLOWEST = 1e-4, 1e-4
+_LIGHTEST = 1e-4
+_SLOWEST = 1e-4
 
 #: A contact of a roller: its tables, the numbers of the paper's closed form, the part of rolling resistance's shear that acts
 #: along the ring's motion (`push`), and what curvature and contact angle make of lag and skew moment in its power.
@@ -110,7 +111,8 @@ class TableReport(NamedTuple):
 
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
     """Geometry and stiffness for the ring balance; `model` is a roller of the first row."""
-    count, rows = bearing.rollers_per_row, row_names(bearing)
+    count = bearing.rollers_per_row
+    rows = row_names(bearing)
     angles = np.concatenate([initial_angles(row, count) for row in rows])
     signs = np.repeat([AXIAL_SIGNS[row] for row in rows], count)
     return RingGeometry(
@@ -151,7 +153,8 @@ def roller_model(
     weight = mass * GRAVITY if gravity else 0.0
     density = lubricant.fill_factor * lubricant.density if drag else 0.0
     area = 2.0 * radius * bearing.roller_length
-    second, third = bearing.out_of_round_second or 0.0, bearing.out_of_round_third or 0.0
+    second = bearing.out_of_round_second or 0.0
+    third = bearing.out_of_round_third or 0.0
     crest = bearing.out_of_round_angle or 0.0
     return RollerModel(
         radius=radius,
@@ -187,7 +190,9 @@ def with_tables(
 
     Takes the models by row, of the same bearing, oil and laws, and the largest gap between a roller and its spar [m].
     """
-    tables, found, errors = Tables(), {}, []
+    tables = Tables()
+    found = {}
+    errors = []
     first = np.zeros(1, BODY)
     model = next(iter(models.values()))
     for name in ("inner", "outer", "cage"):
@@ -211,7 +216,8 @@ def _write_contact(
 ) -> list[TableErrors]:
     """Write the tables and numbers of one contact; the errors of its traction's table, if it has one."""
     errors = []
-    record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
+    record["boundary_friction"] = contact.boundary_friction
+    record["full_slip"] = contact.full_slip
     slowest = _SLOWEST * box.fastest
     if contact.closed_form is not None:
         write_plane(
@@ -245,7 +251,8 @@ def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
     body["microslip"] = laws.inner.shape.microslip
     body["oily"] = laws.inner.rolling is not None
     body["faded_load"] = math.inf
-    body["highest_load"], body["highest_speed"] = box.load, box.fastest
+    body["highest_load"] = box.load
+    body["highest_speed"] = box.fastest
     for name in ("inner", "outer"):
         shape = getattr(laws, name).shape
         if shape.microslip:

@@ -28,9 +28,12 @@ if TYPE_CHECKING:
 
 #: Longest step of the slip over the speed of the rings, and what may be left of the spin moment over radius, and change of the
 #: axial tractions, over the load.
-_LONGEST, _LEFT, _STILL = 0.01, 1e-7, 1e-6
+_LONGEST = 0.01
+_LEFT = 1e-7
+_STILL = 1e-6
 #: Iterations: at most, and from which on changes of the axial tractions are halved, for contacts that would swing.
-_ITERATIONS, _DAMPED = 80, 20
+_ITERATIONS = 80
+_DAMPED = 20
 #: Difference of slip over the speed of the rings, for the slope of the spin moment.
 _STEP = 1e-6
 #: Skew up to which states are computed [rad]: an unguided roller beyond it is lost.
@@ -84,7 +87,8 @@ def _resistance_on(laws: RollerLaws, load, speed) -> tuple[np.ndarray, np.ndarra
     for contact, sign in ((laws.inner, 1.0), (laws.outer, -1.0)):
         if contact.rolling is not None:
             shear = -np.copysign(light_contact(contact.rolling, load, np.abs(speed))[1], speed)
-            total, push = total + shear, push + sign * (1.0 - 2.0 * contact.rolling.share_1) * shear
+            total = total + shear
+            push = push + sign * (1.0 - 2.0 * contact.rolling.share_1) * shear
     return np.asarray(total), np.asarray(push)
 
 
@@ -149,19 +153,26 @@ def equilibrium(
     )
     beside = push
     push = push.copy()
-    slip, axial = np.zeros(load.size), np.zeros((2, load.size))
-    last_spin, taken = np.zeros(load.size), np.zeros(load.size)
+    slip = np.zeros(load.size)
+    axial = np.zeros((2, load.size))
+    last_spin = np.zeros(load.size)
+    taken = np.zeros(load.size)
     if start is not None:
         slip, axial = (
             np.nan_to_num(one).reshape(-1, load.size) for one in (start.slip, start.tractions)
         )
         slip = slip[0].copy()
-    tilt, shift, left = np.empty(load.size), np.empty(load.size), np.empty(load.size)
+    tilt = np.empty(load.size)
+    shift = np.empty(load.size)
+    left = np.empty(load.size)
     moments, power, rough = (np.empty((load.size, 2)) for _ in range(3))
     inward = np.empty(load.size)
-    bend, r, going = pair.inner.along, pair.inner.roller_radius, np.arange(load.size)
+    bend = pair.inner.along
+    r = pair.inner.roller_radius
+    going = np.arange(load.size)
     for iteration in range(_ITERATIONS):
-        here, u = slip[going], ring_speed[going]
+        here = slip[going]
+        u = ring_speed[going]
         tilt[going], shift[going], middles = placed(pair, load[going], axial[:, going])
         step = _STEP * np.abs(u)
         # Each state, and the same with a little more slip.
@@ -198,7 +209,8 @@ def equilibrium(
         # Behind a zero at most half of the way back: where the slope falls to both sides, whole steps would swing for ever.
         most = np.where(spin * last_spin[going] < 0.0, 0.5 * np.abs(taken[going]), longest[going])
         change = np.clip(spin / np.maximum(slope, np.abs(spin) / longest[going]), -most, most)
-        last_spin[going], taken[going] = spin, change
+        last_spin[going] = spin
+        taken[going] = change
         slip[going] = np.where(moving, here - change, here)
         going = going[moving]
         if not going.size:
@@ -250,7 +262,8 @@ def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = Non
     """
     if guidance == "none":
         return Pocket(LARGEST_SKEW if play is None else play, np.inf, 0.0)
-    r, half = geometry.roller_radius(bearing), 0.5 * bearing.roller_length
+    r = geometry.roller_radius(bearing)
+    half = 0.5 * bearing.roller_length
     bend = 1.0 / bearing.outer_raceway_radius if guidance == "conforming-pocket" else 0.0
     curvature = 1.0 / geometry.roller_contour_radius(bearing) - bend
     nearer = 1.0 - bend * r

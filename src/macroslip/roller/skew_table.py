@@ -27,7 +27,11 @@ if TYPE_CHECKING:
     from macroslip.contact.laws import RollerLaws
 
 #: Lightest load [N], distances between nodes of ln Q, u^¼ [(m/s)^¼] and asinh(ψ/ψ0), and ψ0 [rad].
-_LIGHTEST, _LOAD, _SPEED, _SKEW, _SCALE = 2e3, 0.2, 0.06, 0.3, 2e-4
+_LIGHTEST = 2e3
+_LOAD = 0.2
+_SPEED = 0.06
+_SKEW = 0.3
+_SCALE = 2e-4
 #: Least speed of a table as part of the fastest; below it, powers are in proportion to speed, and moments do not change.
 _SLOWEST = 0.1
 #: Iterations for a rest between two nodes.
@@ -116,8 +120,10 @@ def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
 
 def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: float) -> np.ndarray:
     """Quantities at all loads and skews at one speed [m/s], shape (loads, skews, 12)."""
-    loads, angles = np.exp(load.nodes), _SCALE * np.sinh(skew.nodes[skew.cells // 2 :])
-    pair, both = raceways(laws, bearing, 1), np.array([-1.0, 1.0])[:, None]
+    loads = np.exp(load.nodes)
+    angles = _SCALE * np.sinh(skew.nodes[skew.cells // 2 :])
+    pair = raceways(laws, bearing, 1)
+    both = np.array([-1.0, 1.0])[:, None]
     states: list[Equilibrium] = []
     for angle in angles:
         at = equilibrium(pair, laws, loads, -speed, both * angle, states[-1] if states else None)
@@ -134,11 +140,10 @@ def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: fl
 
 def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: float) -> np.ndarray:
     """Quantities of the table, shape (2, loads, 12)."""
-    per_moment, per_power = load ** (-4.0 / 3.0), 1.0 / (load * speed)[:, None]
-    added, rough = (
-        (at.power - straight.power) * per_power,
-        (at.asperity_power - straight.asperity_power) * per_power,
-    )
+    per_moment = load ** (-4.0 / 3.0)
+    per_power = 1.0 / (load * speed)[:, None]
+    added = (at.power - straight.power) * per_power
+    rough = (at.asperity_power - straight.asperity_power) * per_power
     return np.stack(
         [
             at.moment * per_moment, added[..., 0], added[..., 1], at.axial / load,
@@ -163,10 +168,8 @@ def _at(table, part, load, speed, place):
 @jit_inline
 def raceway_push(table, load, ring_speed):
     """Force of the raceways on a straight roller along the orbit [N], which presses on a spar beside weight and drag."""
-    place, column = (
-        cell_of(table.load, math.log(load)),
-        cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed)))),
-    )
+    place = cell_of(table.load, math.log(load))
+    column = cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed))))
     return -math.copysign(load, ring_speed) * _at(table, 1, place, column, 0.0)[2]
 
 
@@ -193,26 +196,39 @@ def turned(table, guide, load, ring_speed, push):
     size = abs(ring_speed)
     i, t, _ = cell_of(table.load, math.log(load))
     k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(size)))
-    row, column, heavy = (i, t), (k, s), load ** (4.0 / 3.0)
+    row = (i, t)
+    column = (k, s)
+    heavy = load ** (4.0 / 3.0)
     press = abs(push) / heavy
     first = _at(table, 0, row, column, 0.0)
     way = math.copysign(1.0, first[0])
     end = math.asinh(guide.largest / _SCALE)
-    low, high, excess, beyond = 0.0, 0.0, way * first[0], way * first[0]
+    low = 0.0
+    high = 0.0
+    excess = way * first[0]
+    beyond = way * first[0]
     while beyond > 0.0 and high < end:
-        low, excess = high, beyond
+        low = high
+        excess = beyond
         high = min(low + 1.0 / table.skew.per_spacing, end)
         beyond = way * _at(table, 0, row, column, way * high)[0] - press * _arm(guide, high)
     place = high
     if beyond <= 0.0 and high > 0.0:
         # Regula falsi, which halves the value at an end that stays (Illinois).
-        side, place = 0, low + (high - low) * excess / (excess - beyond)
+        side = 0
+        place = low + (high - low) * excess / (excess - beyond)
         for _ in range(_ITERATIONS):
             left = way * _at(table, 0, row, column, way * place)[0] - press * _arm(guide, place)
             if left > 0.0:
-                low, excess, beyond, side = place, left, 0.5 * beyond if side > 0 else beyond, 1
+                low = place
+                excess = left
+                beyond = 0.5 * beyond if side > 0 else beyond
+                side = 1
             else:
-                high, beyond, excess, side = place, left, 0.5 * excess if side < 0 else excess, -1
+                high = place
+                beyond = left
+                excess = 0.5 * excess if side < 0 else excess
+                side = -1
             place = low + (high - low) * excess / (excess - beyond)
     value = _at(table, 0, row, column, way * place)
     other = _at(table, 1, row, column, way * place)
@@ -221,10 +237,17 @@ def turned(table, guide, load, ring_speed, push):
     rest = heavy * (value[0] - way * press * _arm(guide, place))
     held, left = (rest, 0.0) if beyond > 0.0 else (0.0, abs(rest))
     # Straight, nothing is added, not even by rounding.
-    tilt, shift, slip, power, axial = 0.0, 0.0, 0.0, 0.0, 0.0
+    tilt = 0.0
+    shift = 0.0
+    slip = 0.0
+    power = 0.0
+    axial = 0.0
     if place > 0.0:
-        power, axial = load * size, guide.side * load * value[3]
-        tilt, shift, slip = guide.side * other[0], guide.side * other[3], -ring_speed * change[0]
+        power = load * size
+        axial = guide.side * load * value[3]
+        tilt = guide.side * other[0]
+        shift = guide.side * other[3]
+        slip = -ring_speed * change[0]
     mirror = -guide.side * math.copysign(1.0, ring_speed)
     return Turned(
         mirror * angle, mirror * held, power * value[1], power * value[2], axial, tilt,

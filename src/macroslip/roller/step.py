@@ -9,7 +9,8 @@ from macroslip.compiled import jit_inline
 #: Most stages of a step.
 STAGES = 3
 _AT_STAGES = (STAGES,)
-_BY_INTERFACE, _BY_RACEWAY = (STAGES, 3), (STAGES, 2)
+_BY_INTERFACE = (STAGES, 3)
+_BY_RACEWAY = (STAGES, 2)
 
 #: A step. Interfaces are in the order inner, outer, cage; arrays are over stages, of which the first `stages` count and the last
 #: is the step's end. Signs as in `macroslip.mechanics`.
@@ -62,19 +63,17 @@ def write_stage(row, k, body, at, forces, slip, power):
     row.inner_slip[k] = row.outer_slip[k] = slip
     row.inner_speed[k] = row.outer_speed[k] = at.ring_speed
     row.cage_speed[k] = at.ring_speed - slip
-    row.inner_load[k], row.outer_load[k], row.elastic_load[k] = (
-        at.inner_load,
-        at.outer_load,
-        at.elastic_load,
-    )
+    row.inner_load[k] = at.inner_load
+    row.outer_load[k] = at.outer_load
+    row.elastic_load[k] = at.elastic_load
     row.cage_load[k] = forces.cage_load
-    row.force[k, 0], row.force[k, 1], row.force[k, 2] = forces.inner, forces.outer, forces.cage
+    row.force[k, 0] = forces.inner
+    row.force[k, 1] = forces.outer
+    row.force[k, 2] = forces.cage
     for i in range(3):
-        row.power[k, i], row.rolling[k, i], row.rough[k, i] = (
-            power[i],
-            forces.rolling[i],
-            forces.rough[i],
-        )
+        row.power[k, i] = power[i]
+        row.rolling[k, i] = forces.rolling[i]
+        row.rough[k, i] = forces.rough[i]
     row.lag_power[k, 0] = at.ring_speed * body.inner.curvature * forces.lag[0]
     row.lag_power[k, 1] = at.ring_speed * body.outer.curvature * forces.lag[1]
     row.skew_power[k, 0] = -at.ring_speed * body.inner.spin * forces.skew[0]

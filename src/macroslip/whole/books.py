@@ -39,15 +39,20 @@ _ENERGY_SIGNS = {
 @jit_inline
 def add_flows(assembly, shaft_speed, k, span, space, flows):
     """Add what flows during `span` [s] in the state of the solved stage `k` to `flows`, shape (13,)."""
-    bearing, places, rollers, cages, moments = (
-        assembly.bearing[0], assembly.places, space.rollers, space.cages, space.moments[k]
-    )  # fmt: skip
+    bearing = assembly.bearing[0]
+    places = assembly.places
+    rollers = space.rollers
+    cages = space.cages
+    moments = space.moments[k]
     pitch = bearing.pitch_radius
     arm = bearing.lever * pitch
     for j in range(places.size):
-        place, at, own = places[j], moments[j], rollers[j].y[FIRST + k]
+        place = places[j]
+        at = moments[j]
+        own = rollers[j].y[FIRST + k]
         orbital = 0.5 * (own[0] - own[1] + at.ring)
-        lag_in, lag_out = at.pull_inner - at.spin_inner, at.pull_outer - at.spin_outer
+        lag_in = at.pull_inner - at.spin_inner
+        lag_out = at.pull_outer - at.spin_outer
         cage = cages[place.cage].y[FIRST + k]
         flows[0] -= span * (pitch * at.pull_inner - arm * at.spin_inner)
         flows[1] += span * (pitch * at.pull_outer + arm * at.spin_outer)
@@ -95,7 +100,9 @@ class Books:
         self.times = times
         self.flows = np.full((times.size, len(FLOWS)), np.nan)
         self.stocks = np.full((times.size, len(STOCKS)), np.nan)
-        self._bearing, self._sum, self.driven = bearing, np.zeros(len(FLOWS)), 0.0
+        self._bearing = bearing
+        self._sum = np.zeros(len(FLOWS))
+        self.driven = 0.0
 
     def add(self, part: Part) -> None:
         """Book a part of the integration."""
@@ -140,16 +147,20 @@ class Books:
 
 def _stocks(bearing: WholeBearing, part: Part, rows: np.ndarray) -> np.ndarray:
     """Angular momentum, kinetic and elastic energy at the ends of steps, shape (rows, 3)."""
-    steps, whole = part.steps[rows], part.bearing[rows]
+    steps = part.steps[rows]
+    whole = part.bearing[rows]
     last = np.maximum(steps["stages"][:, 0] - 1, 0)
     every = np.arange(rows.size)
-    slip_in, slip_out = steps["inner_slip"][every, :, last], steps["outer_slip"][every, :, last]
+    slip_in = steps["inner_slip"][every, :, last]
+    slip_out = steps["outer_slip"][every, :, last]
     shaft_speed = whole["shaft_speed"][every, last][:, None]
     ring = shaft_speed * bearing.places["inner_radius"]
-    orbital, spinning = 0.5 * (slip_in - slip_out + ring), -0.5 * (slip_in + slip_out + ring)
+    orbital = 0.5 * (slip_in - slip_out + ring)
+    spinning = -0.5 * (slip_in + slip_out + ring)
     cages = whole["cages"][:, : bearing.cages]
     turning = cages[..., 0] + 0.5 * shaft_speed * bearing.inner_radius
-    pitch, mass = bearing.pitch_radius, bearing.roller_mass
+    pitch = bearing.pitch_radius
+    mass = bearing.roller_mass
     momentum = mass * pitch * (orbital + 0.5 * bearing.lever * spinning).sum(axis=1)
     kinetic = 0.5 * mass * (orbital**2 + 0.5 * spinning**2).sum(axis=1)
     kinetic += (

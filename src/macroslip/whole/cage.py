@@ -20,17 +20,13 @@ ARRANGEMENTS = ("one", "per-row")
 #: Whether a cage is free to move off the bearing's axis.
 AXES = ("free", "pinned")
 #: What holds rollers against skew, and whether a spar that presses straightens them.
-GUIDANCES, ALIGNMENTS = (
-    ("conforming-pocket", "straight-bars", "guide-ring", "none"),
-    ("spar", "none"),
-)
+GUIDANCES = ("conforming-pocket", "straight-bars", "guide-ring", "none")
+ALIGNMENTS = ("spar", "none")
 #: Keys that go with skew alone.
 SKEW_KEYS = ("guidance", "skew_play", "alignment")
 #: What guides the cage, and keys of a ring's land that does.
-GUIDED_BY, _LAND = (
-    ("rollers", "inner-ring", "outer-ring"),
-    ("land_diameter", "land_width", "land_clearance"),
-)
+GUIDED_BY = ("rollers", "inner-ring", "outer-ring")
+_LAND = ("land_diameter", "land_width", "land_clearance")
 #: Damping of dry contacts by default [s/m].
 _DAMPING = 50.0
 #: Where rollers are in their pockets at the start.
@@ -261,6 +257,7 @@ def inner_radii(bearing: Bearing, diameter_deviation: np.ndarray) -> np.ndarray:
     >>> round(float((thick - nominal) / nominal / 1e-3), 3)
     -0.111
     """
-    inner, outer = geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing)
+    inner = geometry.inner_contact_radius(bearing)
+    outer = geometry.outer_contact_radius(bearing)
     slope = math.cos(bearing.contact_angle) / inner * outer / bearing.pitch_radius
     return inner * (1.0 - slope * 0.5 * diameter_deviation)

@@ -97,7 +97,8 @@ def whole_bearing(
     Raises InputError if the pockets do not fit, and as `roller_model`.
     """
     cage.check_fit(bearing)
-    count, names = bearing.rollers_per_row, row_names(bearing)
+    count = bearing.rollers_per_row
+    names = row_names(bearing)
     models = {
         row: roller_model(
             bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, gravity=gravity, drag=drag, laws=laws

@@ -34,7 +34,8 @@ from macroslip.whole.cage import Cage
 _ROUGHNESS_FILMS = 3.0
 #: Stiffness [N/m] and damping [N s/m] of the radial stop, estimates: it yields some micrometres to the cage's weight and does
 #: not bounce.
-STIFFNESS, DAMPING = 1e8, 1e5
+STIFFNESS = 1e8
+DAMPING = 1e5
 
 
 class Pocket(NamedTuple):
@@ -114,7 +115,9 @@ def spar_push(pocket, gap, closing):
 
     The gap g [m] is negative where the bodies press on each other; `closing` is −g' [m/s].
     """
-    push, by_gap, by_closing = 0.0, 0.0, 0.0
+    push = 0.0
+    by_gap = 0.0
+    by_closing = 0.0
     if gap < 0.0:
         yielding = 1.0 + pocket.damping * closing
         if yielding > 0.0:

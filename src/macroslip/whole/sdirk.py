@@ -195,25 +195,22 @@ def steps_of(
             raise InputError("it is not finite", where=f"start, {name}", allowed="finite numbers")
     stops = np.ascontiguousarray(stops, dtype=float)
     memory = np.zeros(1, MEMORY)
-    memory["time"], memory["shaft_speed"], memory["step"] = (
-        motion.time[0],
-        motion.shaft_speed[0],
-        tuning.FIRST_STEP,
-    )
+    memory["time"] = motion.time[0]
+    memory["shaft_speed"] = motion.shaft_speed[0]
+    memory["step"] = tuning.FIRST_STEP
     space = new_space(assembly, memory)
     space.rollers["y"][:, STATE] = np.column_stack(
         [start.slip_inner, start.slip_outer, start.offset]
     )
     space.cages["y"][:, STATE, 0] = start.cage_lead
     limits = _limits(assembly, motion, float(stops[-1]), tolerance)
-    limits["max_steps"], limits["rests"] = max_steps, rests
+    limits["max_steps"] = max_steps
+    limits["rests"] = rests
     count = assembly.places.size
     rows = max(_BUFFER // (STEP.itemsize * count), 16)
-    steps, whole, offset = (
-        np.zeros((rows, count), STEP),
-        np.zeros(rows, BEARING_STEP),
-        np.zeros((rows, count)),
-    )
+    steps = np.zeros((rows, count), STEP)
+    whole = np.zeros(rows, BEARING_STEP)
+    offset = np.zeros((rows, count))
     status = UNDER_WAY
     while status == UNDER_WAY:
         status, done = integrate(assembly, motion, stops, limits, space, steps, whole, offset)
@@ -222,7 +219,8 @@ def steps_of(
 
 def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) -> np.ndarray:
     """Bounds for a relative tolerance and the largest raceway speed of the history."""
-    bearing, body = assembly.bearing[0], assembly.bodies[0]
+    bearing = assembly.bearing[0]
+    body = assembly.bodies[0]
     fastest = np.abs(motion.shaft_speed).max()
     scale = max(
         float(fastest * bearing["orbit_ratio"] * bearing["outer_radius"]), tuning.LEAST_SPEED
@@ -234,10 +232,8 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     limits["allowed_speed"] = (
         tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
     )
-    limits["power"], limits["force"] = (
-        tuning.POWER_SHARE * tolerance,
-        tuning.FORCE_SHARE * tolerance,
-    )
+    limits["power"] = tuning.POWER_SHARE * tolerance
+    limits["force"] = tuning.FORCE_SHARE * tolerance
     limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
     limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
     limits["longest_rest"] = tuning.LONGEST_REST
@@ -276,23 +272,21 @@ def _guess(y, k, step, span, lost):
 @jit_inline
 def _write_stage(assembly, k, time, weight, space, row):
     """Write the solved stage `k` of a step at `time` into the rollers' records, with its weight [s]."""
-    bearing, moments, sheets, rollers = (
-        assembly.bearing[0],
-        space.moments[k],
-        space.sheets[0],
-        space.rollers,
-    )
-    inner_ratio, outer_ratio = (
-        bearing.pitch_radius / bearing.inner_radius,
-        bearing.pitch_radius / bearing.outer_radius,
-    )
+    bearing = assembly.bearing[0]
+    moments = space.moments[k]
+    sheets = space.sheets[0]
+    rollers = space.rollers
+    inner_ratio = bearing.pitch_radius / bearing.inner_radius
+    outer_ratio = bearing.pitch_radius / bearing.outer_radius
     for j in range(row.size):
-        step, at, sheet, own = row[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
-        at_inner, at_outer = (
-            (at.inner_load, at.inner_speed, own[0]),
-            (at.outer_load, at.outer_speed, own[1]),
-        )
-        shear_in, shear_out = shear_from(sheet.inner, *at_inner), shear_from(sheet.outer, *at_outer)
+        step = row[j]
+        at = moments[j]
+        sheet = sheets[j]
+        own = rollers[j].y[FIRST + k]
+        at_inner = (at.inner_load, at.inner_speed, own[0])
+        at_outer = (at.outer_load, at.outer_speed, own[1])
+        shear_in = shear_from(sheet.inner, *at_inner)
+        shear_out = shear_from(sheet.outer, *at_outer)
         shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
         inner = raceway_powers(
             sheet.inner, inner_ratio, at.spin_inner, at.pull_inner, shear_in, *at_inner
@@ -300,33 +294,44 @@ def _write_stage(assembly, k, time, weight, space, row):
         outer = raceway_powers(
             sheet.outer, outer_ratio, at.spin_outer, at.pull_outer, shear_out, *at_outer
         )
-        step.time[k], step.weight[k] = time, weight
+        step.time[k] = time
+        step.weight[k] = weight
         step.inner_load[k], step.inner_speed[k], step.inner_slip[k] = at_inner
         step.outer_load[k], step.outer_speed[k], step.outer_slip[k] = at_outer
-        step.elastic_load[k], step.cage_load[k], step.cage_speed[k] = (
-            at.elastic_load,
-            at.push,
-            -at.sliding,
-        )
-        force, power, rolling, rough = step.force[k], step.power[k], step.rolling[k], step.rough[k]
+        step.elastic_load[k] = at.elastic_load
+        step.cage_load[k] = at.push
+        step.cage_speed[k] = -at.sliding
+        force = step.force[k]
+        power = step.power[k]
+        rolling = step.rolling[k]
+        rough = step.rough[k]
         # Without rolling resistance, as on an imposed orbit.
-        force[0], force[1] = at.spin_inner - shear_in, at.spin_outer - shear_out
+        force[0] = at.spin_inner - shear_in
+        force[1] = at.spin_outer - shear_out
         force[2] = at.friction - shear_cage
-        power[0], power[1] = inner[0] + inner[1] + inner[2], outer[0] + outer[1] + outer[2]
+        power[0] = inner[0] + inner[1] + inner[2]
+        power[1] = outer[0] + outer[1] + outer[2]
         power[2] = force[2] * at.sliding
-        rolling[0], rolling[1], rolling[2] = inner[3], outer[3], shear_cage * at.sliding
-        rough[0], rough[1] = inner[4], outer[4]
+        rolling[0] = inner[3]
+        rolling[1] = outer[3]
+        rolling[2] = shear_cage * at.sliding
+        rough[0] = inner[4]
+        rough[1] = outer[4]
         rough[2] = (
             sheet.cage.rough * abs(at.push) / sheet.cage.load if sheet.cage.load > 0.0 else 0.0
         )
-        step.lag_power[k, 0], step.lag_power[k, 1] = inner[1], outer[1]
-        step.skew_power[k, 0], step.skew_power[k, 1] = inner[2], outer[2]
+        step.lag_power[k, 0] = inner[1]
+        step.lag_power[k, 1] = outer[1]
+        step.skew_power[k, 0] = inner[2]
+        step.skew_power[k, 1] = outer[2]
 
 
 @jit_inline
 def _keep_rate(step, k, space):
     """Slopes of a solved stage."""
-    rollers, cages, moments = space.rollers, space.cages, space.moments[k]
+    rollers = space.rollers
+    cages = space.cages
+    moments = space.moments[k]
     for j in range(rollers.size):
         y = rollers[j].y
         for i in range(2):
@@ -344,23 +349,28 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
 
     Returns the largest residual [N], and whether the stages are solved.
     """
-    h, tolerance = end.time - start.time, math.inf
-    stages, step = 2, GAMMA * h
+    h = end.time - start.time
+    tolerance = math.inf
+    stages = 2
+    step = GAMMA * h
     if h == 0.0:
-        stages, step = 1, _INSTANT
+        stages = 1
+        step = _INSTANT
     else:
         tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
     space.numbers[0] = space.numbers[1]
     rests = space.rests
     for j in range(rests.size):
         rests[j].fresh = limits.rests == 0 or rests[j].rest < h or h == 0.0
-    worst, solved = 0.0, True
+    worst = 0.0
+    solved = True
     for k in range(stages):
         if solved:
             time = start.time + GAMMA * h if k == 0 else end.time
             interval = _interval_of(motion, time, start.interval)
             now = instant(motion, interval, time)
-            span, change = k * (1.0 - GAMMA) * h, now.shaft_speed - start.shaft_speed
+            span = k * (1.0 - GAMMA) * h
+            change = now.shaft_speed - start.shaft_speed
             for j in range(rests.size):
                 _guess(space.rollers[j].y, k, step, span, assembly.places[j].inner_radius * change)
             for c in range(space.cages.size):
@@ -400,15 +410,22 @@ def _off(y, i):
 @jit_inline
 def _step_error(assembly, limits, h, space):
     """Error of a solved step of `h` [s] over what is allowed."""
-    bearing, allowed, worst = assembly.bearing[0], limits.allowed_speed, 0.0
-    rollers, cages, blocks, borders = space.rollers, space.cages, space.blocks, space.borders
+    bearing = assembly.bearing[0]
+    allowed = limits.allowed_speed
+    worst = 0.0
+    rollers = space.rollers
+    cages = space.cages
+    blocks = space.blocks
+    borders = space.borders
     for j in range(rollers.size):
-        y, rest = rollers[j].y, blocks[j].rest
+        y = rollers[j].y
+        rest = blocks[j].rest
         for i in range(2):
             rest[i] = bearing.roller_mass / GAMMA * _off(y, i)
         worst = max(worst, abs(h * _off(y, 2)) / (allowed * tuning.PLACE_TIME))
     for c in range(cages.size):
-        y, rest = cages[c].y, borders[c].rest
+        y = cages[c].y
+        rest = borders[c].rest
         for i in range(3):
             rest[i] = bearing.cage_mass / GAMMA * _off(y, 0 if i == 0 else i + 1)
     size = 3 if bearing.translates else 1
@@ -436,7 +453,8 @@ def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_sca
     shear = shear_from(known, load, speed, slip)
     predicted = raceway_powers(known, ratio, spin, pull, shear, load, speed, slip)
     found = raceway_powers(sheet, ratio, sheet.spin, sheet.pull, sheet.shear, load, speed, slip)
-    wrong, power = 0.0, 0.0
+    wrong = 0.0
+    power = 0.0
     for k in range(4):
         wrong += predicted[k] - found[k]
         power += abs(found[k])
@@ -454,8 +472,11 @@ def _refresh(assembly, limits, time, space, power_scale):
     `power_scale` is the mean frictional power of a raceway contact so far [W]. Returns whether the forces of all resting
     rollers were near those predicted; otherwise the step has to be repeated.
     """
-    bearing, rests, moments = assembly.bearing[0], space.rests, space.moments[1]
-    sheets, known = space.sheets[0], space.sheets[1]
+    bearing = assembly.bearing[0]
+    rests = space.rests
+    moments = space.moments[1]
+    sheets = space.sheets[0]
+    known = space.sheets[1]
     for j in range(rests.size):
         one = rests[j]
         one.due = one.fresh or time - known[j].when >= one.rest
@@ -464,15 +485,17 @@ def _refresh(assembly, limits, time, space, power_scale):
     space.memory[0].evaluations += evaluate_marked(
         assembly, time, moments, space.rollers, FIRST + 1, rests, sheets
     )
-    inner_ratio, outer_ratio = (
-        bearing.pitch_radius / bearing.inner_radius,
-        bearing.pitch_radius / bearing.outer_radius,
-    )
+    inner_ratio = bearing.pitch_radius / bearing.inner_radius
+    outer_ratio = bearing.pitch_radius / bearing.outer_radius
     good = True
     for j in range(rests.size):
-        one, at, new, old = rests[j], moments[j], sheets[j], known[j]
+        one = rests[j]
+        at = moments[j]
+        new = sheets[j]
+        old = known[j]
         if one.due:
-            span, mass = time - old.when, bearing.roller_mass
+            span = time - old.when
+            mass = bearing.roller_mass
             inner = _contact_off(
                 old.inner,
                 new.inner,
@@ -519,7 +542,8 @@ def _touch_ahead(pocket, rollers, h):
     part = 1.0
     for j in range(rollers.size):
         y = rollers[j].y
-        offset, speed = y[STATE, 2], y[SLOPE, 2]
+        offset = y[STATE, 2]
+        speed = y[SLOPE, 2]
         if abs(offset) < pocket.half_gap and speed != 0.0:
             way = pocket.half_gap - offset if speed > 0.0 else pocket.half_gap + offset
             part = min(part, way / (abs(speed) * h))
@@ -533,10 +557,12 @@ def _impact_step(bearing, rollers):
     A mass m that runs at v into K δ^1.5 goes in by (5 m v²/4K)^0.4; the step is the time in which it travels a part of
     that.
     """
-    pocket, shortest = bearing.pocket, math.inf
+    pocket = bearing.pocket
+    shortest = math.inf
     for j in range(rollers.size):
         y = rollers[j].y
-        offset, speed = y[STATE, 2], y[SLOPE, 2]
+        offset = y[STATE, 2]
+        speed = y[SLOPE, 2]
         depth = abs(offset) - pocket.half_gap
         if depth > 0.0 and offset * speed > 0.0:
             deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
@@ -565,9 +591,12 @@ def _cut(bearing, rollers, step, left):
 @jit_inline
 def _leaves_tables(assembly, limits, space):
     """Whether a roller ends the step in a state that its tables do not hold."""
-    body, moments, rollers = assembly.bodies[0], space.moments[1], space.rollers
+    body = assembly.bodies[0]
+    moments = space.moments[1]
+    rollers = space.rollers
     for j in range(moments.size):
-        at, own = moments[j], rollers[j].y[LAST]
+        at = moments[j]
+        own = rollers[j].y[LAST]
         if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
             return True
         inner = math.sqrt(at.inner_speed * at.inner_speed + 0.25 * own[0] * own[0])
@@ -583,12 +612,17 @@ def _leaves_tables(assembly, limits, space):
 @jit_inline
 def _write_end(assembly, start, end, space, row, whole, offset):
     """Write the records' parts on a whole step and its end; a step without length is the start."""
-    bearing, memory, places = assembly.bearing[0], space.memory[0], assembly.places
+    bearing = assembly.bearing[0]
+    memory = space.memory[0]
+    places = assembly.places
     begins = end.time == start.time
     last = 0 if begins else 1
-    rollers, cages, moments = space.rollers, space.cages, space.moments[last]
+    rollers = space.rollers
+    cages = space.cages
+    moments = space.moments[last]
     pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
-    whole.start, whole.end = start.time, end.time
+    whole.start = start.time
+    whole.end = end.time
     for i in range(whole.flows.size):
         whole.flows[i] = 0.0
     for k in range(last + 1):
@@ -598,15 +632,16 @@ def _write_end(assembly, start, end, space, row, whole, offset):
         for i in range(6):
             whole.cages[c, i] = cages[c].y[FIRST + last, i]
     for j in range(row.size):
-        step, at, own = row[j], moments[j], rollers[j]
-        step.start, step.end, step.stages, step.pure_speed = (
-            start.time,
-            end.time,
-            last + 1,
-            pure_speed,
-        )
+        step = row[j]
+        at = moments[j]
+        own = rollers[j]
+        step.start = start.time
+        step.end = end.time
+        step.stages = last + 1
+        step.pure_speed = pure_speed
         # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
-        step.stretch, step.sampled = memory.steps, 1 if begins else 0
+        step.stretch = memory.steps
+        step.sampled = 1 if begins else 0
         for i in range(3):
             step.power_before[i] = step.power[0, i] if begins else own.power[i]
             own.power[i] = step.power[last, i]
@@ -630,13 +665,11 @@ def _take_over(y):
 @jit_inline
 def _advance(end, space, row):
     """Take over state, slopes and evaluations of an accepted step."""
-    memory, rollers, cages, rests, numbers = (
-        space.memory[0],
-        space.rollers,
-        space.cages,
-        space.rests,
-        space.numbers,
-    )
+    memory = space.memory[0]
+    rollers = space.rollers
+    cages = space.cages
+    rests = space.rests
+    numbers = space.numbers
     memory.steps += 1
     for j in range(row.size):
         for k in range(2):
@@ -646,7 +679,9 @@ def _advance(end, space, row):
         _take_over(rollers[j].y)
     for c in range(cages.size):
         _take_over(cages[c].y)
-    memory.time, memory.interval, memory.shaft_speed = end.time, end.interval, end.shaft_speed
+    memory.time = end.time
+    memory.interval = end.interval
+    memory.shaft_speed = end.shaft_speed
 
 
 @jit
@@ -672,8 +707,10 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
     count : int
         Rows that were written.
     """
-    limits, memory = bounds[0], space.memory[0]
-    rows, status = 0, UNDER_WAY
+    limits = bounds[0]
+    memory = space.memory[0]
+    rows = 0
+    status = UNDER_WAY
     while rows < wholes.size:
         while memory.next_stop < stops.size and stops[memory.next_stop] <= memory.time:
             memory.next_stop += 1
@@ -684,7 +721,8 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
             status = TOO_MANY_STEPS
             break
         stop = stops[memory.next_stop]
-        start, left = Clock(memory.time, memory.interval, memory.shaft_speed), stop - memory.time
+        start = Clock(memory.time, memory.interval, memory.shaft_speed)
+        left = stop - memory.time
         h = _cut(assembly.bearing[0], space.rollers, min(memory.step, limits.longest_step), left)
         if h < left and h <= 4e-16 * abs(start.time) + 1e-300:
             status = STEP_TOO_SMALL
@@ -694,12 +732,14 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         end = Clock(time, interval, instant(motion, interval, time).shaft_speed)
         if memory.begun == 0:
             end = start
-        row, whole = steps[rows], wholes[rows]
+        row = steps[rows]
+        whole = wholes[rows]
         worst, solved = _solve_stages(assembly, motion, limits, start, end, space, row, whole)
         if memory.begun == 0:
             space.numbers[1] = space.numbers[0]
             _write_end(assembly, start, end, space, row, whole, offsets[rows])
-            memory.begun, rows = 1, rows + 1
+            memory.begun = 1
+            rows = rows + 1
             continue
         error = _step_error(assembly, limits, h, space) if solved else math.inf
         if np.isnan(error) or (not worst < math.inf and h < 1e-12):
@@ -722,6 +762,7 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         memory.unbalanced = max(memory.unbalanced, worst)
         _write_end(assembly, start, end, space, row, whole, offsets[rows])
         _advance(end, space, row)
-        memory.step, memory.failed = h * min(1.0 if memory.failed else tuning.GROWTH, factor), 0
+        memory.step = h * min(1.0 if memory.failed else tuning.GROWTH, factor)
+        memory.failed = 0
         rows += 1
     return status, rows

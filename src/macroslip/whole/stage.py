@@ -85,7 +85,8 @@ class Space(NamedTuple):
 
 def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     """State and work space for a bearing; `memory` is the integrator's."""
-    count, cages = assembly.places.size, int(assembly.bearing[0]["cages"])
+    count = assembly.places.size
+    cages = int(assembly.bearing[0]["cages"])
     return Space(
         np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), MOMENT), *new_sheets(count), np.zeros(count, REST),
         np.zeros(count, BLOCK), np.zeros(cages, BORDER), memory,
@@ -130,7 +131,8 @@ def meet(bearing, contact, stage, at, own, star, cage, sheet):
     `contact` are a roller's body and the address of its tables, `own` and `cage` the unknowns of the roller and its cage, `star` the roller's y*.
     """
     shaft_speed = stage.shaft_speed
-    v_in, v_out = own[0], own[1]
+    v_in = own[0]
+    v_out = own[1]
     cage_turn = (cage[0] + 0.5 * shaft_speed * bearing.inner_radius) / bearing.pitch_radius
     off_axis = cage[4] * at.cosine + cage[5] * at.sine
     speed = (
@@ -149,7 +151,10 @@ def meet(bearing, contact, stage, at, own, star, cage, sheet):
     friction, by_sliding, by_push = cage_from(
         body, tables, sheet.cage, push, sliding, stage.cage_reach
     )
-    at.friction, at.push, at.sliding, at.pocket_speed = friction, push, sliding, speed
+    at.friction = friction
+    at.push = push
+    at.sliding = sliding
+    at.pocket_speed = speed
     give = by_speed + stage.step * by_offset
     return Meeting(
         push, friction, give, by_sliding, by_push, 1.0 - off_axis / bearing.pitch_radius, cage_turn
@@ -159,39 +164,51 @@ def meet(bearing, contact, stage, at, own, star, cage, sheet):
 @jit_inline
 def _write_block(inertia, at, sheet, met, block):
     """Inverse of a roller's block, and the derivatives by which its pocket's forces follow."""
-    block.give, block.by_sliding, block.by_push = met.give, met.by_sliding, met.by_push
-    spin_in, pull_in, spin_out, pull_out = 0.0, 0.0, 0.0, 0.0
+    block.give = met.give
+    block.by_sliding = met.by_sliding
+    block.by_push = met.by_push
+    spin_in = 0.0
+    pull_in = 0.0
+    spin_out = 0.0
+    pull_out = 0.0
     if at.inner_load > 0.0:
-        spin_in, pull_in = sheet.inner.spin_by_slip, sheet.inner.pull_by_slip
+        spin_in = sheet.inner.spin_by_slip
+        pull_in = sheet.inner.pull_by_slip
     if at.outer_load > 0.0:
-        spin_out, pull_out = sheet.outer.spin_by_slip, sheet.outer.pull_by_slip
+        spin_out = sheet.outer.spin_by_slip
+        pull_out = sheet.outer.pull_by_slip
     # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
-    shared, tilted = met.by_sliding, met.by_push * met.give
+    shared = met.by_sliding
+    tilted = met.by_push * met.give
     j11 = inertia + pull_in + 2.0 * spin_in + shared + tilted - 0.5 * met.give
     j12 = -pull_out + 2.0 * spin_out + shared - tilted + 0.5 * met.give
     j21 = -pull_in + 2.0 * spin_in + shared + tilted + 0.5 * met.give
     j22 = inertia + pull_out + 2.0 * spin_out + shared - tilted - 0.5 * met.give
     part = 1.0 / (j11 * j22 - j12 * j21)
     inverse = block.inverse
-    inverse[0], inverse[1], inverse[2], inverse[3] = (
-        j22 * part,
-        -j12 * part,
-        -j21 * part,
-        j11 * part,
-    )
+    inverse[0] = j22 * part
+    inverse[1] = -j12 * part
+    inverse[2] = -j21 * part
+    inverse[3] = j11 * part
 
 
 @jit_inline
 def _add_to_border(bearing, stage, at, met, block, border):
     """Add a roller to its cage's equations, and the cage to the roller's."""
-    matrix, rest, row, column = border.matrix, border.rest, block.row, block.column
-    lever, by_w = bearing.lever, -met.give
+    matrix = border.matrix
+    rest = border.rest
+    row = block.row
+    column = block.column
+    lever = bearing.lever
+    by_w = -met.give
     rest[0] += met.push * met.arm + met.friction * lever
-    half_push, half_friction = 0.5 * met.give, 0.5 * met.by_push * met.give
+    half_push = 0.5 * met.give
+    half_friction = 0.5 * met.by_push * met.give
     row[0, 0] = half_push * met.arm + lever * (0.5 * met.by_sliding + half_friction)
     row[1, 0] = -half_push * met.arm + lever * (0.5 * met.by_sliding - half_friction)
     friction_by_w = met.by_sliding * lever + met.by_push * by_w
-    column[0, 0], column[1, 0] = 2.0 * friction_by_w - by_w, 2.0 * friction_by_w + by_w
+    column[0, 0] = 2.0 * friction_by_w - by_w
+    column[1, 0] = 2.0 * friction_by_w + by_w
     matrix[0, 0] += met.arm * by_w + lever * friction_by_w
     if bearing.translates:
         cosine, sine = at.cosine, at.sine
@@ -199,16 +216,14 @@ def _add_to_border(bearing, stage, at, met, block, border):
         rest[2] += met.push * cosine
         by_p = met.give * (sine + stage.step * met.cage_turn * cosine)
         by_q = met.give * (-cosine + stage.step * met.cage_turn * sine)
-        row[0, 1], row[1, 1] = -sine * half_push, sine * half_push
-        row[0, 2], row[1, 2] = cosine * half_push, -cosine * half_push
-        column[0, 1], column[1, 1] = (
-            (2.0 * met.by_push - 1.0) * by_p,
-            (2.0 * met.by_push + 1.0) * by_p,
-        )
-        column[0, 2], column[1, 2] = (
-            (2.0 * met.by_push - 1.0) * by_q,
-            (2.0 * met.by_push + 1.0) * by_q,
-        )
+        row[0, 1] = -sine * half_push
+        row[1, 1] = sine * half_push
+        row[0, 2] = cosine * half_push
+        row[1, 2] = -cosine * half_push
+        column[0, 1] = (2.0 * met.by_push - 1.0) * by_p
+        column[1, 1] = (2.0 * met.by_push + 1.0) * by_p
+        column[0, 2] = (2.0 * met.by_push - 1.0) * by_q
+        column[1, 2] = (2.0 * met.by_push + 1.0) * by_q
         by_turn = met.arm + lever * met.by_push
         matrix[0, 1] += by_turn * by_p
         matrix[0, 2] += by_turn * by_q
@@ -221,12 +236,19 @@ def _add_to_border(bearing, stage, at, met, block, border):
 def eliminate(places, size, blocks, borders):
     """Take the rollers out of the cages' borders, once for all right-hand sides; a cage has `size` unknowns, one or three."""
     for j in range(places.size):
-        matrix, inverse = borders[places[j].cage].matrix, blocks[j].inverse
-        column, row = blocks[j].column, blocks[j].row
-        i0, i1, i2, i3 = inverse[0], inverse[1], inverse[2], inverse[3]
+        matrix = borders[places[j].cage].matrix
+        inverse = blocks[j].inverse
+        column = blocks[j].column
+        row = blocks[j].row
+        i0 = inverse[0]
+        i1 = inverse[1]
+        i2 = inverse[2]
+        i3 = inverse[3]
         for k in range(size):
-            ahead, behind = column[0, k], column[1, k]
-            first, second = i0 * ahead + i1 * behind, i2 * ahead + i3 * behind
+            ahead = column[0, k]
+            behind = column[1, k]
+            first = i0 * ahead + i1 * behind
+            second = i2 * ahead + i3 * behind
             for i in range(size):
                 matrix[i, k] -= row[0, i] * first + row[1, i] * second
 
@@ -237,12 +259,22 @@ def _solve_border(matrix, rest, size):
     if size == 1:
         rest[0] /= matrix[0, 0]
         return
-    m00, m01, m02 = matrix[0, 0], matrix[0, 1], matrix[0, 2]
-    m10, m11, m12 = matrix[1, 0], matrix[1, 1], matrix[1, 2]
-    m20, m21, m22 = matrix[2, 0], matrix[2, 1], matrix[2, 2]
-    c00, c01, c02 = m11 * m22 - m12 * m21, m12 * m20 - m10 * m22, m10 * m21 - m11 * m20
+    m00 = matrix[0, 0]
+    m01 = matrix[0, 1]
+    m02 = matrix[0, 2]
+    m10 = matrix[1, 0]
+    m11 = matrix[1, 1]
+    m12 = matrix[1, 2]
+    m20 = matrix[2, 0]
+    m21 = matrix[2, 1]
+    m22 = matrix[2, 2]
+    c00 = m11 * m22 - m12 * m21
+    c01 = m12 * m20 - m10 * m22
+    c02 = m10 * m21 - m11 * m20
     determinant = m00 * c00 + m01 * c01 + m02 * c02
-    r0, r1, r2 = rest[0], rest[1], rest[2]
+    r0 = rest[0]
+    r1 = rest[1]
+    r2 = rest[2]
     rest[0] = (r0 * c00 + r1 * (m02 * m21 - m01 * m22) + r2 * (m01 * m12 - m02 * m11)) / determinant
     rest[1] = (r0 * c01 + r1 * (m00 * m22 - m02 * m20) + r2 * (m02 * m10 - m00 * m12)) / determinant
     rest[2] = (r0 * c02 + r1 * (m01 * m20 - m00 * m21) + r2 * (m00 * m11 - m01 * m10)) / determinant
@@ -252,19 +284,25 @@ def _solve_border(matrix, rest, size):
 def solve(places, size, blocks, borders):
     """Turn `rest` of blocks and borders into the solution of the system that `eliminate` has prepared; parameters as there."""
     for j in range(places.size):
-        inverse, rest, row = blocks[j].inverse, blocks[j].rest, blocks[j].row
+        inverse = blocks[j].inverse
+        rest = blocks[j].rest
+        row = blocks[j].row
         first = inverse[0] * rest[0] + inverse[1] * rest[1]
         second = inverse[2] * rest[0] + inverse[3] * rest[1]
-        rest[0], rest[1] = first, second
+        rest[0] = first
+        rest[1] = second
         border_rest = borders[places[j].cage].rest
         for i in range(size):
             border_rest[i] -= row[0, i] * first + row[1, i] * second
     for c in range(borders.size):
         _solve_border(borders[c].matrix, borders[c].rest, size)
     for j in range(places.size):
-        inverse, rest, column = blocks[j].inverse, blocks[j].rest, blocks[j].column
+        inverse = blocks[j].inverse
+        rest = blocks[j].rest
+        column = blocks[j].column
         change = borders[places[j].cage].rest
-        first, second = 0.0, 0.0
+        first = 0.0
+        second = 0.0
         for k in range(size):
             first += column[0, k] * change[k]
             second += column[1, k] * change[k]
@@ -276,7 +314,8 @@ def solve(places, size, blocks, borders):
 def _begin_cage(bearing, stage, cage, star, border):
     """Parts of a cage's equations that no roller enters."""
     inertia = bearing.cage_mass / stage.step
-    matrix, rest = border.matrix, border.rest
+    matrix = border.matrix
+    rest = border.rest
     for i in range(3):
         for k in range(3):
             matrix[i, k] = inertia if i == k else 0.0
@@ -309,7 +348,10 @@ def _begin_cage(bearing, stage, cage, star, border):
 def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
     """Raceway forces at the present state of stage `k`, evaluated where slopes do not serve. Returns the evaluations."""
     for j in range(moments.size):
-        rest, at, sheet, own = rests[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
+        rest = rests[j]
+        at = moments[j]
+        sheet = sheets[j]
+        own = rollers[j].y[FIRST + k]
         at.spin_inner, at.pull_inner = raceway_from(
             sheet.inner, at.inner_load, at.inner_speed, own[0]
         )
@@ -322,17 +364,17 @@ def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
     evaluations = evaluate_marked(assembly, stage.time, moments, rollers, FIRST + k, rests, sheets)
     for j in range(moments.size):
         if rests[j].marked:
-            at, inner, outer = moments[j], sheets[j].inner, sheets[j].outer
+            at = moments[j]
+            inner = sheets[j].inner
+            outer = sheets[j].outer
             off = abs(at.spin_inner - inner.spin) + abs(at.pull_inner - inner.pull)
             off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
             # Slopes that predicted the force well enough serve until the stage is solved.
             rests[j].settled = off <= tuning.PREDICTED * stage.tolerance
-            at.spin_inner, at.pull_inner, at.spin_outer, at.pull_outer = (
-                inner.spin,
-                inner.pull,
-                outer.spin,
-                outer.pull,
-            )
+            at.spin_inner = inner.spin
+            at.pull_inner = inner.pull
+            at.spin_outer = outer.spin
+            at.pull_outer = outer.pull
     return evaluations
 
 
@@ -340,7 +382,8 @@ def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
 def _place_cages(stage, k, cages):
     """Lag and translations of the cages in stage `k`, which follow from their speeds."""
     for c in range(cages.size):
-        own, star = cages[c].y[FIRST + k], cages[c].y[STAR]
+        own = cages[c].y[FIRST + k]
+        star = cages[c].y[STAR]
         own[1] = star[1] + stage.step * own[0]
         own[4] = star[4] + stage.step * own[2]
         own[5] = star[5] + stage.step * own[3]
@@ -349,25 +392,38 @@ def _place_cages(stage, k, cages):
 @jit_inline
 def _assemble(assembly, stage, k, size, space):
     """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
-    rollers, cages, moments, sheets = space.rollers, space.cages, space.moments[k], space.sheets[0]
-    places, blocks, borders = assembly.places, space.blocks, space.borders
-    bearing, contact = assembly.bearing[0], (assembly.bodies[0], address(assembly))
+    rollers = space.rollers
+    cages = space.cages
+    moments = space.moments[k]
+    sheets = space.sheets[0]
+    places = assembly.places
+    blocks = space.blocks
+    borders = space.borders
+    bearing = assembly.bearing[0]
+    contact = (assembly.bodies[0], address(assembly))
     _place_cages(stage, k, cages)
     for c in range(cages.size):
         _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], borders[c])
     memory = space.memory[0]
     memory.evaluations += _raceway_forces(assembly, stage, k, moments, rollers, space.rests, sheets)
     memory.iterations += 1
-    inertia, worst, finite = bearing.roller_mass / stage.step, 0.0, True
+    inertia = bearing.roller_mass / stage.step
+    worst = 0.0
+    finite = True
     for j in range(moments.size):
-        c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
-        own, star = rollers[j].y[FIRST + k], rollers[j].y[STAR]
+        c = places[j].cage
+        at = moments[j]
+        sheet = sheets[j]
+        block = blocks[j]
+        own = rollers[j].y[FIRST + k]
+        star = rollers[j].y[STAR]
         met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], sheet)
         friction = at.spin_inner + at.spin_outer + met.friction
         drive = slip_drive(friction, at.pull_inner, at.pull_outer, met.push, at.tangential)
         rest_in = inertia * (own[0] - star[0]) + drive.turning - drive.driving
         rest_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
-        block.rest[0], block.rest[1] = rest_in, rest_out
+        block.rest[0] = rest_in
+        block.rest[1] = rest_out
         worst = max(worst, abs(rest_in), abs(rest_out))
         # `max` may ignore a NaN.
         finite = finite and abs(rest_in) + abs(rest_out) < math.inf
@@ -384,13 +440,18 @@ def _assemble(assembly, stage, k, size, space):
 @jit_inline
 def _update(k, size, space):
     """Subtract a solution from the unknowns of stage `k`."""
-    rollers, cages, blocks, borders = space.rollers, space.cages, space.blocks, space.borders
+    rollers = space.rollers
+    cages = space.cages
+    blocks = space.blocks
+    borders = space.borders
     for j in range(rollers.size):
-        own, change = rollers[j].y[FIRST + k], blocks[j].rest
+        own = rollers[j].y[FIRST + k]
+        change = blocks[j].rest
         own[0] -= change[0]
         own[1] -= change[1]
     for c in range(cages.size):
-        cage, change = cages[c].y[FIRST + k], borders[c].rest
+        cage = cages[c].y[FIRST + k]
+        change = borders[c].rest
         cage[0] -= change[0]
         if size == 3:
             cage[2] -= change[1]
@@ -400,22 +461,23 @@ def _update(k, size, space):
 @jit_inline
 def _follow(assembly, stage, k, space):
     """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
-    bearing, places, rollers, cages = (
-        assembly.bearing[0],
-        assembly.places,
-        space.rollers,
-        space.cages,
-    )
-    moments, sheets, blocks, borders = (
-        space.moments[k],
-        space.sheets[0],
-        space.blocks,
-        space.borders,
-    )
+    bearing = assembly.bearing[0]
+    places = assembly.places
+    rollers = space.rollers
+    cages = space.cages
+    moments = space.moments[k]
+    sheets = space.sheets[0]
+    blocks = space.blocks
+    borders = space.borders
     for j in range(blocks.size):
-        c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
-        cage, border = cages[c].y[FIRST + k], borders[c].rest
-        v_in, v_out = -block.rest[0], -block.rest[1]
+        c = places[j].cage
+        at = moments[j]
+        sheet = sheets[j]
+        block = blocks[j]
+        cage = cages[c].y[FIRST + k]
+        border = borders[c].rest
+        v_in = -block.rest[0]
+        v_out = -block.rest[1]
         if at.inner_load > 0.0:
             at.spin_inner += sheet.inner.spin_by_slip * v_in
             at.pull_inner += sheet.inner.pull_by_slip * v_in
@@ -448,9 +510,13 @@ def solve_stage(assembly, stage, k, space):
     Returns the largest residual [N], or the part that the last update is predicted to leave of it; above the tolerance or
     not finite where the stage is not solved. The matrix is left prepared for further right-hand sides.
     """
-    places, blocks, borders, rests = assembly.places, space.blocks, space.borders, space.rests
+    places = assembly.places
+    blocks = space.blocks
+    borders = space.borders
+    rests = space.rests
     size = 3 if assembly.bearing[0].translates else 1
-    worst, before = math.inf, math.inf
+    worst = math.inf
+    before = math.inf
     for j in range(blocks.size):
         rests[j].settled = False
     for _ in range(tuning.ITERATIONS):

@@ -88,23 +88,24 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
     A pocket is at θ = θ_0 + nominal orbit + ∫w dt/r~, and its roller at φ = θ + (x − a sin θ + b cos θ)/r~. The
     difference is at most some milliradians, and enters the roller's load and weight to first order.
     """
-    bearing, bodies, places, tables = (
-        assembly.bearing[0],
-        assembly.bodies,
-        assembly.places,
-        address(assembly),
-    )
+    bearing = assembly.bearing[0]
+    bodies = assembly.bodies
+    places = assembly.places
+    tables = address(assembly)
     pitch = bearing.pitch_radius
     for c in range(bearing.cages):
         cage = cages[c].y[which]
         turn[c] = bearing.orbit_ratio * now.shaft_angle + cage[1] / pitch
         turn_cosine, turn_sine = math.cos(turn[c]), math.sin(turn[c])
-        a, b = cage[4], cage[5]
+        a = cage[4]
+        b = cage[5]
         for j in range(moments.size):
-            place, at = places[j], moments[j]
+            place = places[j]
+            at = moments[j]
             if place.cage != c:
                 continue
-            body, own = bodies[place.row], rollers[j].y[which]
+            body = bodies[place.row]
+            own = rollers[j].y[which]
             cosine = place.cosine * turn_cosine - place.sine * turn_sine
             sine = place.sine * turn_cosine + place.cosine * turn_sine
             at.cosine, at.sine = cosine, sine
@@ -156,10 +157,15 @@ def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
 
     Returns the evaluations.
     """
-    bodies, places, tables, evaluations = assembly.bodies, assembly.places, address(assembly), 0
+    bodies = assembly.bodies
+    places = assembly.places
+    tables = address(assembly)
+    evaluations = 0
     for j in range(rests.size):
         if rests[j].marked:
-            body, at, sheet = bodies[places[j].row], moments[j], sheets[j]
+            body = bodies[places[j].row]
+            at = moments[j]
+            sheet = sheets[j]
             own = rollers[j].y[which]
             _evaluate(body, body.inner, tables, at.inner_load, at.inner_speed, own[0], sheet.inner)
             _evaluate(body, body.outer, tables, at.outer_load, at.outer_speed, own[1], sheet.outer)
@@ -173,7 +179,9 @@ def raceway_from(sheet, load, speed, slip):
     """Spin force and pull [N] from the sheet's slopes at another load [N], ring speed and slip [m/s]."""
     if load <= 0.0:
         return 0.0, 0.0
-    dv, dq, du = slip - sheet.slip, load - sheet.load, speed - sheet.speed
+    dv = slip - sheet.slip
+    dq = load - sheet.load
+    du = speed - sheet.speed
     spin = sheet.spin + sheet.spin_by_slip * dv + sheet.spin_by_load * dq + sheet.spin_by_speed * du
     pull = sheet.pull + sheet.pull_by_slip * dv + sheet.pull_by_load * dq + sheet.pull_by_speed * du
     return spin, pull
@@ -252,9 +260,12 @@ def cage_from(body, tables, sheet, push, sliding, part):
         sheet.force = found.friction + found.resistance
         sheet.by_slip = found.friction_by_slip + found.resistance_by_slip
         sheet.by_load = found.friction_by_load + found.resistance_by_load
-        sheet.shear, sheet.shear_by_slip = found.resistance, found.resistance_by_slip
-        sheet.shear_by_load, sheet.rough = found.resistance_by_load, found.asperity_power
-        sheet.slip, sheet.load = sliding, load
+        sheet.shear = found.resistance
+        sheet.shear_by_slip = found.resistance_by_slip
+        sheet.shear_by_load = found.resistance_by_load
+        sheet.rough = found.asperity_power
+        sheet.slip = sliding
+        sheet.load = load
     force = (
         sheet.force + sheet.by_slip * (sliding - sheet.slip) + sheet.by_load * (load - sheet.load)
     )

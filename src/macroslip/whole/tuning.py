@@ -11,29 +11,36 @@ from __future__ import annotations
 
 #: First step [s], most growth of a step, and its least part after an error. Judgement, near Hairer and Wanner's RADAU5,
 #: IV.8: error control corrects the first step within a few.
-FIRST_STEP, GROWTH, LEAST_PART = 1e-4, 3.0, 0.2
+FIRST_STEP = 1e-4
+GROWTH = 3.0
+LEAST_PART = 0.2
 #: Part of a step after stages that were not solved, and the safety factor on the step that the error allows (Hairer and
 #: Wanner, IV.8: 0.8 to 0.9). Judgement.
-UNSOLVED_PART, SAFETY = 0.25, 0.85
+UNSOLVED_PART = 0.25
+SAFETY = 0.85
 #: Longest step [s]. The error of a step does not see which of the rollers that no ring presses carry the cage: at 0.05 s, the
 #: sample interval of the bundled loads, rows of such rollers were off by up to 4 %, at a quarter of it by .4 %.
 LONGEST_STEP = 0.0125
 #: Part of the deepest indentation below which a dry impact has just begun, and part of it in the first step then. Judgement.
-BEGUN, IMPACT_PART = 0.1, 0.5
+BEGUN = 0.1
+IMPACT_PART = 0.5
 
 # --- Error ------------------------------------------------------------------------------------------------------------
 
 #: Error of speed that a step may make in tolerances of the raceway speed, error of power where slopes predict it and
 #: force [N] left unbalanced in tolerances. Energies of the page's cases are good to 1e-3 with them at the default
 #: tolerance, 2e-4, with squeeze films and dry impacts under either set of laws.
-SPEED_SHARE, POWER_SHARE, FORCE_SHARE = 5.0, 3.0, 1.0
+SPEED_SHARE = 5.0
+POWER_SHARE = 3.0
+FORCE_SHARE = 1.0
 #: Factor on the error of speed with dry impacts: most of it is made while spars ring after a touch, where its sign is random.
 #: With it the line above holds for dry impacts too.
 RINGING = 2.0
 #: Factor on the tolerance without microslip: rollers that grip wander through their pockets, and which of them touch depends on
 #: small errors. At 1/4 the rows of one random case in twenty are off by 0.3 to 0.5 % at the default tolerance, with it by 0.1 %.
 #: With dry impacts, whose steps are short already, it would take seven times as long as at 1/4.
-GRIPPED, GRIPPED_DRY = 1.0 / 16.0, 1.0 / 4.0
+GRIPPED = 1.0 / 16.0
+GRIPPED_DRY = 1.0 / 4.0
 #: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale. Judgement.
 LEAST_SPEED = 1e-3
 #: Time [s] in which an error of speed becomes one of place. Judgement.
@@ -43,7 +50,8 @@ PLACE_TIME = 0.02
 
 #: Newton iterations before a step counts as unsolved, and tolerances by which the slopes may be off at the last evaluation, for
 #: Newton's next update is far smaller. Judgement.
-ITERATIONS, PREDICTED = 12, 10.0
+ITERATIONS = 12
+PREDICTED = 10.0
 #: Least part of a residual that is taken to be left by the next update. Newton's iteration squares it, but slopes of
 #: contacts are those of a state nearby. Judgement.
 PREDICTED_REST = 1e-3
@@ -52,12 +60,16 @@ PREDICTED_REST = 1e-3
 
 #: Longest time between evaluations of a roller's tractions [s], the sample interval of the bundled loads; the most and the
 #: least factor by which it changes, and the safety factor on it. Judgement.
-LONGEST_REST, REST_GROWTH, REST_PART, REST_SAFETY = 0.05, 2.0, 0.3, 0.8
+LONGEST_REST = 0.05
+REST_GROWTH = 2.0
+REST_PART = 0.3
+REST_SAFETY = 0.8
 #: How many times its allowance a predicted force may be off before no slopes serve in the repeated or next step. Judgement.
 FAR_OFF = 30.0
 #: Relative change of a raceway's load over which the time between evaluations shortens, and that beyond which slopes no
 #: longer serve. Judgement.
-LOAD_CHANGE, LOAD_REACH = 0.2, 0.25
+LOAD_CHANGE = 0.2
+LOAD_REACH = 0.25
 #: Change of a raceway's force by slip over its load beyond which its slopes no longer serve, at a tolerance of 2e-4. It has to
 #: be far below the coefficients of friction, where tractions bend: at 0.03, through a fall of the shaft's speed within 20 ms,
 #: gripped rollers followed their slopes past the bend until their next evaluation was due, and a row was off by 7 %. From 0.01
