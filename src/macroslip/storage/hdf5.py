@@ -1,8 +1,9 @@
-"""HDF5 files of unknown origin: from a damaged one the library may never return, or it may end the whole process.
+"""HDF5 files of unknown origin, from which the library may never return.
 
-A flipped byte can make a list within the file point at itself, which HDF5 follows for ever, without reacting to an interrupt.
-So a process of its own reads the file first, with bounds on its time and memory. A link leads to another file, a pipe, or many times
-to the same numbers, past these bounds: a file whose content is not all in itself, once, is refused.
+A flipped byte can make a list within the file point at itself, which HDF5 follows for ever, without
+reacting to an interrupt, or it may end the whole process. So a process of its own reads the file
+first, with bounds on its time and memory. A link leads to another file, a pipe, or many times to
+the same numbers, past these bounds: a file whose content is not all in itself, once, is refused.
 """
 
 from __future__ import annotations
@@ -15,10 +16,14 @@ from pathlib import Path
 from macroslip.errors import InputError
 from macroslip.machine import process_environment
 
-#: Processor time [s] for a file, and bytes read in a second beside it; time by the clock is ten times longer.
-_SECONDS, _RATE = 5.0, 10e6
-#: Bytes that a file may announce for each byte it has: well beyond what compression gains on numbers.
-_MOST_EXPANSION, _MOST_SMALL = 200, 50_000_000
+#: Processor time [s] for a file; time by the clock is ten times longer.
+_SECONDS = 5.0
+#: Bytes read in a second beside it.
+_RATE = 10e6
+#: Bytes that a file may announce for each byte it has: well beyond what compression gains.
+_MOST_EXPANSION = 200
+#: Bytes that any file may announce.
+_MOST_SMALL = 50_000_000
 
 _READER = f"""
 import os, sys
@@ -36,7 +41,9 @@ for path in paths:
     most = max(small, expansion * os.path.getsize(path))
     with h5py.File(path, "r") as file:
         announced = 0
-        link = file.visititems_links(lambda name, link: None if isinstance(link, h5py.HardLink) else name)
+        def name_of_link(name, link):
+            return None if isinstance(link, h5py.HardLink) else name
+        link = file.visititems_links(name_of_link)
         if link is not None:
             raise ValueError(f"{{link}} is a link to another place")
         def visit(name, found):
@@ -57,7 +64,7 @@ for path in paths:
 
 
 def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
-    """Refuse the first of files that the HDF5 library cannot read to its end in bounded time and memory, or that holds links."""
+    """Refuse the first of files that HDF5 cannot read to its end in bounds, or that holds links."""
     seconds = sum(_SECONDS + path.stat().st_size / _RATE for path in paths)
     command = [
         sys.executable,
