@@ -60,17 +60,28 @@ def direct_loads(d, shaft_angle=0.0, play=PLAY, stiffness=STIFFNESS):
     return stiffness * np.maximum(approach, 0.0) ** 1.5
 
 
+def balance_of(ring, shaft_angle, force, start=(0.0, 0.0, 0.0)):
+    """Displacement and unbalanced force of one sample."""
+    angle = np.array([float(shaft_angle)])
+    d, unbalanced = balance(ring, angle, np.array([force]), np.array([start], dtype=float))
+    return d[0], unbalanced[0]
+
+
+def loads_of(ring, shaft_angle, d):
+    """Roller loads of one sample."""
+    return roller_loads(ring, np.array([float(shaft_angle)]), np.asarray(d)[None])[0]
+
+
 def solve(force, shaft_angle=0.0, start=(0.0, 0.0, 0.0), **geometry):
     """Displacement and roller loads, with what every solution has to satisfy checked on the way."""
-    force, d = np.asarray(force, dtype=float), np.array(start, dtype=float)
-    unbalanced = balance(ring(**geometry), shaft_angle, force, d)
+    force = np.asarray(force, dtype=float)
+    d, unbalanced = balance_of(ring(**geometry), shaft_angle, force, start)
     assert unbalanced <= 1e-10 * np.linalg.norm(force) + 1e-7
     loads = direct_loads(d, shaft_angle, **geometry)
     # Roller loads summed here, independently; rounding of angles and roots leaves a few 1e-12 of the summed loads.
     residual = np.linalg.norm(normals(shaft_angle).T @ loads - force)
     assert residual <= 1.1e-10 * np.linalg.norm(force) + 1e-7 + 1e-10 * loads.sum()
-    reported = np.empty(2 * COUNT)
-    roller_loads(ring(**geometry), shaft_angle, d, reported)
+    reported = loads_of(ring(**geometry), shaft_angle, d)
     assert reported == pytest.approx(loads, rel=1e-7, abs=1e-7 * loads.max() + 1e-9)
     return d, loads
 
@@ -124,8 +135,7 @@ def test_series_equals_single_solutions():
     shaft_angle = np.cumsum(rng.uniform(0.0, 0.3, count))
     force = rng.normal(size=(count, 3)) * 10.0 ** rng.uniform(-2.0, 6.5, (count, 1))
     force[10] = force[30] = 0.0
-    displacement, unbalanced = np.empty((count, 3)), np.empty(count)
-    balance_series(ring(), shaft_angle, force, np.zeros(3), displacement, unbalanced)
+    displacement, unbalanced = balance_series(ring(), shaft_angle, force)
     size = np.linalg.norm(force, axis=1)
     assert np.all(unbalanced <= 1e-10 * size + 1e-7)
     for k in range(count):
@@ -143,10 +153,8 @@ def test_series_equals_single_solutions():
 
 
 def test_bearing_without_contact_angle_has_no_axial_balance():
-    force, d = np.array([0.0, 0.0, 1e3]), np.zeros(3)
-    assert not balance(ring(alpha=0.0), 0.0, force, d) <= 1.0
-    force[:] = 0.0, -3e5, 0.0
-    assert balance(ring(alpha=0.0), 0.0, force, np.zeros(3)) <= 1e-4
+    assert not balance_of(ring(alpha=0.0), 0.0, [0.0, 0.0, 1e3])[1] <= 1.0
+    assert balance_of(ring(alpha=0.0), 0.0, [0.0, -3e5, 0.0])[1] <= 1e-4
 
 
 @pytest.fixture(scope="module")
@@ -179,14 +187,13 @@ def test_motion_balances_every_sample_with_rollers_where_they_are(bearing, model
     )
     assert motion.shaft_angle == pytest.approx([0.0, 0.02, 0.04], rel=1e-14, abs=0.0)
     found = ring_geometry(bearing, model)
-    loads = np.empty(2 * COUNT)
     peak = 0.0
     for k in range(3):
         turned = angles + found.orbit_ratio * motion.shaft_angle[k]
         n = np.column_stack(
             [np.cos(turned) * math.cos(ALPHA), np.sin(turned) * math.cos(ALPHA), found.axial]
         )
-        roller_loads(found, motion.shaft_angle[k], motion.displacement[k], loads)
+        loads = loads_of(found, motion.shaft_angle[k], motion.displacement[k])
         assert n.T @ loads == pytest.approx(force[k], abs=1e-8 * np.linalg.norm(force[k]))
         peak = max(peak, loads.max())
     assert largest == pytest.approx(peak, rel=1e-14, abs=0.0)
@@ -266,16 +273,13 @@ def oval_loads(found, bearing, d, shaft_angle=0.0):
 )
 def test_ring_out_of_round_is_balanced_by_loads_of_its_own_definition(waves, bearing, lubricant):
     oval = bearing.replace(**{f"out_of_round_{key}": value for key, value in waves.items()})
-    found, force, d = (
-        ring_geometry(oval, roller_model(oval, lubricant, 1, tilt=0.0)),
-        np.array([2e4, -4e5, 1e5]),
-        np.zeros(3),
-    )
-    assert balance(found, 3.0, force, d) <= 1e-4
+    found = ring_geometry(oval, roller_model(oval, lubricant, 1, tilt=0.0))
+    force = np.array([2e4, -4e5, 1e5])
+    d, unbalanced = balance_of(found, 3.0, force)
+    assert unbalanced <= 1e-4
     n, expected = oval_loads(found, oval, d, 3.0)
     assert n.T @ expected == pytest.approx(force, abs=1e-3)
-    loads = np.empty(2 * COUNT)
-    roller_loads(found, 3.0, d, loads)
+    loads = loads_of(found, 3.0, d)
     assert loads == pytest.approx(expected, rel=1e-9, abs=1e-3)
     # An independent root of the equations of force, from another start.
     root = fsolve(

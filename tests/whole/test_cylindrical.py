@@ -77,10 +77,9 @@ def test_its_file_is_read_as_one_row_of_crowned_rollers_on_straight_raceways():
 
 def test_its_load_zone_carries_the_load_as_a_search_for_the_displacement_finds():
     model = roller_model(BEARING, OIL, 1, tilt=0.0)
-    ring, place = ring_geometry(BEARING, model), np.zeros(3)
-    balance(ring, 0.0, np.array([0.0, -50e3, 0.0]), place)
-    found = np.empty(18)
-    roller_loads(ring, 0.0, place, found)
+    ring, angle = ring_geometry(BEARING, model), np.zeros(1)
+    place, _ = balance(ring, angle, np.array([[0.0, -50e3, 0.0]]), np.zeros((1, 3)))
+    found = roller_loads(ring, angle, place)[0]
     below = -np.sin(-0.5 * np.pi + 2.0 * np.pi * np.arange(18) / 18)
 
     def load(drop):

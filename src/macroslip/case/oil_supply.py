@@ -171,11 +171,10 @@ def _inner_raceway(
 
     model = roller_model(bearing, oil, 1, tilt=0.0)
     ring = ring_geometry(bearing, model)
-    place = np.zeros(3)
-    balance(ring, 0.0, np.array(force), place)
-    found = np.empty(ring.cosine.size)
-    roller_loads(ring, 0.0, place, found)
-    row = max(found.reshape(bearing.rows, -1), key=np.sum)
+    angle = np.zeros(1)
+    displacement, _ = balance(ring, angle, np.array([force]), np.zeros((1, 3)))
+    loads = roller_loads(ring, angle, displacement)[0]
+    row = max(loads.reshape(bearing.rows, -1), key=np.sum)
     loaded = row[row > 0.0]
     return (
         float(loaded.mean()) if loaded.size else 0.0

@@ -8,19 +8,26 @@ smallest. The radial clearance is c = P_d/2 + c2 cos 2(φ − ψ) + c3 cos 3(φ 
 of round. Π is convex, so every minimum is global and the roller loads are unique; d itself is not where too few rollers
 are loaded to hold the ring, and then the solution nearest to the start is as good as any. Levenberg's damping of the
 Newton step deals with those singular cases and vanishes in the others.
+
+All samples of a load history are solved together, as arrays over them: first a few of them from the middle of the play,
+then the others from displacements between these.
 """
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_inline
 
 #: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts as failed.
-_WARM_ITERATIONS, _COLD_ITERATIONS = 40, 200
+_WARM_ITERATIONS = 40
+_COLD_ITERATIONS = 200
+#: Distances of the samples of a series that are solved first, second and so on, each from between those before; and
+#: samples that are solved together.
+_DISTANCES = (64, 16, 4, 1)
+_TOGETHER = 1024
 #: Push [m] after which no roller will be touched any more (thrust on a bearing without contact angle).
 _LONGEST_PUSH = 1e3
 
@@ -50,7 +57,7 @@ def radial_clearance(ring, cosine, sine):
     Examples
     --------
     >>> oval = RingGeometry(np.ones(1), np.zeros(1), np.zeros(1), 1.0, 1e-4, 1e11, 0.45, 2e-5)
-    >>> [round(1e6 * radial_clearance(oval, math.cos(phi), math.sin(phi)), 9) for phi in (0.0, 0.5 * math.pi)]
+    >>> [round(1e6 * radial_clearance(oval, np.cos(phi), np.sin(phi)), 9) for phi in (0.0, 0.5 * np.pi)]
     [120.0, 80.0]
     """
     twice_x, twice_y = cosine * cosine - sine * sine, 2.0 * cosine * sine
@@ -61,161 +68,248 @@ def radial_clearance(ring, cosine, sine):
     return ring.radial_play + second + third
 
 
-@jit_inline
-def _energy_gradient_hessian(ring, turn_cosine, turn_sine, d, force, gradient, hessian):
-    """Π; fills its gradient (unbalanced force) and Hessian."""
-    energy = 0.0
-    for i in range(3):
-        energy -= force[i] * d[i]
-        gradient[i] = -force[i]
-        for k in range(3):
-            hessian[i, k] = 0.0
-    cosine_alpha = ring.cos_contact_angle
-    for j in range(ring.cosine.size):
-        cosine = ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine
-        sine = ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine
-        n_x, n_y, n_z = cosine * cosine_alpha, sine * cosine_alpha, ring.axial[j]
-        play = radial_clearance(ring, cosine, sine) * cosine_alpha
-        approach = n_x * d[0] + n_y * d[1] + n_z * d[2] - play
-        if approach > 0.0:
-            root = math.sqrt(approach)
-            load = ring.stiffness * approach * root
-            slope = 1.5 * ring.stiffness * root
-            energy += 0.4 * load * approach
-            gradient[0] += load * n_x
-            gradient[1] += load * n_y
-            gradient[2] += load * n_z
-            hessian[0, 0] += slope * n_x * n_x
-            hessian[0, 1] += slope * n_x * n_y
-            hessian[0, 2] += slope * n_x * n_z
-            hessian[1, 1] += slope * n_y * n_y
-            hessian[1, 2] += slope * n_y * n_z
-            hessian[2, 2] += slope * n_z * n_z
-    return energy
+class _Contacts(NamedTuple):
+    """Contacts of the rollers with the ring at n samples."""
+
+    normals: np.ndarray  #: n_j [-], shape (n, 3, rollers)
+    play: np.ndarray  #: c(φ_j) cos α [m], shape (n, rollers)
+    stiffness: float  #: K [N/m^1.5]
+
+    def rows(self, index: np.ndarray) -> _Contacts:
+        """Those at some of the samples."""
+        if index.size == len(self.play):
+            return self
+        return _Contacts(self.normals[index], self.play[index], self.stiffness)
+
+    def approach(self, displacement: np.ndarray) -> np.ndarray:
+        """Approach δ_j₊ of every roller [m], not negative, shape (n, rollers)."""
+        along = np.matmul(displacement[:, None], self.normals)[:, 0]
+        return np.maximum(along - self.play, 0.0)
 
 
-@jit_inline
-def _damped_newton_step(hessian, gradient, damping, step):
-    """Solve (H + damping·1) step = −gradient by Cholesky factors of the symmetric 3 × 3 matrix."""
-    l11 = math.sqrt(hessian[0, 0] + damping)
-    l21 = hessian[0, 1] / l11
-    l31 = hessian[0, 2] / l11
-    l22 = math.sqrt(hessian[1, 1] + damping - l21 * l21)
-    l32 = (hessian[1, 2] - l31 * l21) / l22
-    l33 = math.sqrt(hessian[2, 2] + damping - l31 * l31 - l32 * l32)
-    y1 = -gradient[0] / l11
-    y2 = (-gradient[1] - l21 * y1) / l22
-    y3 = (-gradient[2] - l31 * y1 - l32 * y2) / l33
-    step[2] = y3 / l33
-    step[1] = (y2 - l32 * step[2]) / l22
-    step[0] = (y1 - l21 * step[1] - l31 * step[2]) / l11
+class _Balance(NamedTuple):
+    """Π [J] at n samples, its gradient, the unbalanced force [N], and its Hessian [N/m]."""
+
+    energy: np.ndarray  #: Shape (n,)
+    gradient: np.ndarray  #: Shape (n, 3)
+    hessian: np.ndarray  #: Shape (n, 3, 3)
+
+    def replace(self, index: np.ndarray, other: _Balance, chosen: np.ndarray) -> None:
+        """Take the values of the chosen samples of another balance in place of those at the indices."""
+        for own, new in zip(self, other, strict=True):
+            own[index] = new[chosen]
 
 
-@jit_inline
-def _trace(matrix):
-    return matrix[0, 0] + matrix[1, 1] + matrix[2, 2]
+def _contacts(ring: RingGeometry, shaft_angle: np.ndarray) -> _Contacts:
+    """Contacts at shaft angles [rad], shape (n,): rollers have moved on by `orbit_ratio` times the angle."""
+    turn_cosine = np.cos(ring.orbit_ratio * shaft_angle)[:, None]
+    turn_sine = np.sin(ring.orbit_ratio * shaft_angle)[:, None]
+    cosine = ring.cosine * turn_cosine - ring.sine * turn_sine
+    sine = ring.sine * turn_cosine + ring.cosine * turn_sine
+    axial = np.broadcast_to(ring.axial, cosine.shape)
+    radial = ring.cos_contact_angle
+    normals = np.stack([cosine * radial, sine * radial, axial], axis=1)
+    play = radial_clearance(ring, cosine, sine) * radial
+    return _Contacts(normals, play, ring.stiffness)
 
 
-@jit_inline
-def _length(vector):
-    return math.sqrt(vector[0] ** 2 + vector[1] ** 2 + vector[2] ** 2)
+def _evaluate(contacts: _Contacts, force: np.ndarray, displacement: np.ndarray) -> _Balance:
+    """Π, its gradient and Hessian at displacements [m] under forces [N], both of shape (n, 3)."""
+    approach = contacts.approach(displacement)
+    slope = contacts.stiffness * np.sqrt(approach)
+    load = slope * approach
+    energy = 0.4 * (load * approach).sum(axis=1) - (force * displacement).sum(axis=1)
+    gradient = np.matmul(contacts.normals, load[..., None])[..., 0] - force
+    weighted = contacts.normals * (1.5 * slope)[:, None]
+    hessian = np.matmul(weighted, contacts.normals.transpose(0, 2, 1))
+    return _Balance(energy, gradient, hessian)
 
 
-@jit_inline
-def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_iterations):
-    """Damped Newton steps downhill in Π from `displacement`; returns the unbalanced force [N] that is left."""
-    gradient, hessian, step = np.empty(3), np.empty((3, 3)), np.empty(3)
-    trial, trial_gradient, trial_hessian = np.empty(3), np.empty(3), np.empty((3, 3))
+def _damped_newton_step(
+    hessian: np.ndarray, gradient: np.ndarray, damping: np.ndarray
+) -> np.ndarray:
+    """Solve (H + damping·1) step = −gradient by Cholesky factors of the symmetric 3 × 3 matrices, shape (n, 3)."""
+    l11 = np.sqrt(hessian[:, 0, 0] + damping)
+    l21 = hessian[:, 0, 1] / l11
+    l31 = hessian[:, 0, 2] / l11
+    l22 = np.sqrt(hessian[:, 1, 1] + damping - l21 * l21)
+    l32 = (hessian[:, 1, 2] - l31 * l21) / l22
+    l33 = np.sqrt(hessian[:, 2, 2] + damping - l31 * l31 - l32 * l32)
+    y1 = -gradient[:, 0] / l11
+    y2 = (-gradient[:, 1] - l21 * y1) / l22
+    y3 = (-gradient[:, 2] - l31 * y1 - l32 * y2) / l33
+    z = y3 / l33
+    y = (y2 - l32 * z) / l22
+    x = (y1 - l21 * y - l31 * z) / l11
+    return np.stack([x, y, z], axis=1)
+
+
+def _trace(matrices: np.ndarray) -> np.ndarray:
+    return np.trace(matrices, axis1=1, axis2=2)
+
+
+def _length(vectors: np.ndarray) -> np.ndarray:
+    return np.sqrt((vectors * vectors).sum(axis=1))
+
+
+def _tolerance(force: np.ndarray) -> np.ndarray:
+    """Unbalanced force [N] at which a balance has converged, shape (n,)."""
+    return 1e-10 * _length(force) + 1e-7
+
+
+def _push_into_contact(
+    ring: RingGeometry, contacts: _Contacts, force: np.ndarray, displacement: np.ndarray
+) -> _Balance:
+    """Push rings without a loaded roller along the load until rollers push back; `displacement` is changed in place."""
     magnitude = _length(force)
-    # Without a loaded roller there is no stiffness: push the ring along the load until the rollers push back harder.
     push = (magnitude / ring.stiffness) ** (2.0 / 3.0) + abs(ring.radial_play)
+    is_pushed = magnitude > _tolerance(force)
+    found = _evaluate(contacts, force, displacement)
     while True:
-        energy = _energy_gradient_hessian(
-            ring, turn_cosine, turn_sine, displacement, force, gradient, hessian
-        )
-        if not (magnitude > tolerance and _trace(hessian) == 0.0 and push < _LONGEST_PUSH):
-            break
-        for i in range(3):
-            displacement[i] += push * force[i] / magnitude
-        push *= 2.0
-    relative = 1e-6
+        is_free = is_pushed & (_trace(found.hessian) == 0.0) & (push < _LONGEST_PUSH)
+        free = np.flatnonzero(is_free)
+        if not free.size:
+            return found
+        displacement[free] += (push[free] / magnitude[free])[:, None] * force[free]
+        push[free] *= 2.0
+        pushed = _evaluate(contacts.rows(free), force[free], displacement[free])
+        found.replace(free, pushed, np.arange(free.size))
+
+
+@np.errstate(invalid="ignore", divide="ignore", over="ignore")
+def _descend(
+    ring: RingGeometry,
+    contacts: _Contacts,
+    force: np.ndarray,
+    displacement: np.ndarray,
+    most_iterations: int,
+) -> np.ndarray:
+    """Damped Newton steps downhill in Π from `displacement`, changed in place; returns the unbalanced forces left [N]."""
+    tolerance = _tolerance(force)
+    found = _push_into_contact(ring, contacts, force, displacement)
+    relative = np.full(len(force), 1e-6)
     for _ in range(most_iterations):
-        unbalanced = _length(gradient)
-        if unbalanced <= tolerance:
+        unbalanced = _length(found.gradient)
+        active = np.flatnonzero(unbalanced > tolerance)
+        if not active.size:
             break
-        _damped_newton_step(hessian, gradient, relative * _trace(hessian), step)
-        for i in range(3):
-            trial[i] = displacement[i] + step[i]
-        trial_energy = _energy_gradient_hessian(
-            ring, turn_cosine, turn_sine, trial, force, trial_gradient, trial_hessian
-        )
-        slope = gradient[0] * step[0] + gradient[1] * step[1] + gradient[2] * step[2]
-        trial_unbalanced = _length(trial_gradient)
-        in_contact = _trace(trial_hessian) > 0.0 or trial_unbalanced <= tolerance
+        gradient = found.gradient[active]
+        hessian = found.hessian[active]
+        step = _damped_newton_step(hessian, gradient, relative[active] * _trace(hessian))
+        trial = displacement[active] + step
+        tried = _evaluate(contacts.rows(active), force[active], trial)
+        left = _length(tried.gradient)
+        expected = found.energy[active] + 1e-4 * (gradient * step).sum(axis=1)
+        in_contact = (_trace(tried.hessian) > 0.0) | (left <= tolerance[active])
         # Close to the solution the energy no longer resolves the progress that the unbalanced force still shows.
-        if in_contact and (
-            trial_energy <= energy + 1e-4 * slope or trial_unbalanced <= 0.5 * unbalanced
-        ):
-            energy = trial_energy
-            for i in range(3):
-                displacement[i] = trial[i]
-            gradient, trial_gradient = trial_gradient, gradient
-            hessian, trial_hessian = trial_hessian, hessian
-            relative = max(0.1 * relative, 1e-14)
-        else:
-            relative = max(10.0 * relative, 1e-8)
-    return _length(gradient)
+        is_better = (tried.energy <= expected) | (left <= 0.5 * unbalanced[active])
+        is_taken = in_contact & is_better
+        taken = active[is_taken]
+        displacement[taken] = trial[is_taken]
+        found.replace(taken, tried, is_taken)
+        relative[taken] = np.maximum(0.1 * relative[taken], 1e-14)
+        refused = active[~is_taken]
+        relative[refused] = np.maximum(10.0 * relative[refused], 1e-8)
+    return _length(found.gradient)
 
 
-@jit
-def balance(ring, shaft_angle, force, displacement):
-    """Ring displacement that carries a load, found from the given start and written in its place.
+def balance(
+    ring: RingGeometry, shaft_angle: np.ndarray, force: np.ndarray, start: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Ring displacements that carry loads, found from given starts.
 
-    Gives the unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver converged.
-    Rollers have moved on by orbit_ratio times the shaft angle [rad]; `force` is the load on the inner ring in the
-    bearing frame [N], `displacement` the start, overwritten by the solution [m], both of shape (3,).
+    Parameters
+    ----------
+    ring : RingGeometry
+    shaft_angle : ndarray, shape (n,)
+        Shaft angles [rad]; rollers have moved on by `orbit_ratio` times them.
+    force : ndarray, shape (n, 3)
+        Loads on the inner ring in the bearing frame [N].
+    start : ndarray, shape (n, 3)
+        Displacements from which the search starts [m].
+
+    Returns
+    -------
+    displacement : ndarray, shape (n, 3)
+        Where the rollers carry the load [m].
+    unbalanced : ndarray, shape (n,)
+        Unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver converged.
+
+    Examples
+    --------
+    >>> ring = RingGeometry(np.array([0.0]), np.array([-1.0]), np.zeros(1), 1.0, 1e-4, 1e11, 0.45)
+    >>> found, left = balance(ring, np.zeros(1), np.array([[0.0, -1e5, 0.0]]), np.zeros((1, 3)))
+    >>> float(round(1e6 * found[0, 1], 6))
+    -200.0
     """
-    turn_cosine = math.cos(ring.orbit_ratio * shaft_angle)
-    turn_sine = math.sin(ring.orbit_ratio * shaft_angle)
-    magnitude = _length(force)
-    tolerance = 1e-10 * magnitude + 1e-7
-    unbalanced = math.inf
-    for iterations in (_WARM_ITERATIONS, _COLD_ITERATIONS):
-        if unbalanced <= tolerance:
-            break
+    contacts = _contacts(ring, shaft_angle)
+    displacement = np.array(start, dtype=float)
+    unbalanced = _descend(ring, contacts, force, displacement, _WARM_ITERATIONS)
+    failed = np.flatnonzero(~(unbalanced <= _tolerance(force)))
+    if failed.size:
         # A start at the far side of the play would have to slide round the whole bearing; from the middle it is short.
-        if iterations == _COLD_ITERATIONS:
-            for i in range(3):
-                displacement[i] = 0.0
-        unbalanced = _descend(
-            ring, turn_cosine, turn_sine, force, displacement, tolerance, iterations
+        displacement[failed] = 0.0
+        again = displacement[failed]
+        unbalanced[failed] = _descend(
+            ring, contacts.rows(failed), force[failed], again, _COLD_ITERATIONS
         )
-    return unbalanced
+        displacement[failed] = again
+    return displacement, unbalanced
 
 
-@jit
-def balance_series(ring, shaft_angle, force, current, displacement, unbalanced):
-    """`balance` over a series, each sample started from its predecessor.
+def balance_series(
+    ring: RingGeometry, shaft_angle: np.ndarray, force: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """`balance` over a load history: a few samples from the middle of the play, the others from between these.
 
-    `current` [m], shape (3,), is the start of the first sample and then the displacement of the last; `displacement`,
-    shape (n, 3), and `unbalanced`, shape (n,), are filled with the displacements [m] and the forces that are left [N].
+    Parameters
+    ----------
+    ring : RingGeometry
+    shaft_angle : ndarray, shape (n,)
+        Shaft angles [rad].
+    force : ndarray, shape (n, 3)
+        Loads on the inner ring in the bearing frame [N].
+
+    Returns
+    -------
+    displacement : ndarray, shape (n, 3)
+        Where the rollers carry the load [m].
+    unbalanced : ndarray, shape (n,)
+        Unbalanced force that is left [N].
     """
-    for k in range(shaft_angle.size):
-        unbalanced[k] = balance(ring, shaft_angle[k], force[k], current)
-        for i in range(3):
-            displacement[k, i] = current[i]
+    count = shaft_angle.size
+    displacement = np.zeros((count, 3))
+    unbalanced = np.full(count, np.inf)
+    known = np.zeros(0, int)
+    for distance in _DISTANCES:
+        wanted = np.append(np.arange(0, count - 1, distance), count - 1)
+        samples = np.setdiff1d(wanted, known, assume_unique=True)
+        if known.size:
+            lines = (np.interp(samples, known, line) for line in displacement[known].T)
+            displacement[samples] = np.stack(list(lines), axis=1)
+        for first in range(0, samples.size, _TOGETHER):
+            piece = samples[first : first + _TOGETHER]
+            displacement[piece], unbalanced[piece] = balance(
+                ring, shaft_angle[piece], force[piece], displacement[piece]
+            )
+        known = wanted
+    return displacement, unbalanced
 
 
-@jit
-def roller_loads(ring, shaft_angle, displacement, loads):
-    """Load of every roller [N] at a ring displacement [m], written into `loads`, shape (n,)."""
-    turn_cosine = math.cos(ring.orbit_ratio * shaft_angle)
-    turn_sine = math.sin(ring.orbit_ratio * shaft_angle)
-    for j in range(ring.cosine.size):
-        cosine = ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine
-        sine = ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine
-        radial = (
-            cosine * displacement[0] + sine * displacement[1] - radial_clearance(ring, cosine, sine)
-        )
-        approach = radial * ring.cos_contact_angle + ring.axial[j] * displacement[2]
-        loads[j] = ring.stiffness * approach**1.5 if approach > 0.0 else 0.0
+def roller_loads(
+    ring: RingGeometry, shaft_angle: np.ndarray, displacement: np.ndarray
+) -> np.ndarray:
+    """Load of every roller [N] at shaft angles [rad], shape (n,), and displacements [m], shape (n, 3); shape (n, rollers).
+
+    Examples
+    --------
+    >>> ring = RingGeometry(np.array([0.0, 1.0]), np.array([-1.0, 0.0]), np.zeros(2), 1.0, 1e-4, 1e11, 0.45)
+    >>> roller_loads(ring, np.zeros(1), np.array([[0.0, -2e-4, 0.0]])).round(6).tolist()
+    [[100000.0, 0.0]]
+    """
+    loads = np.empty((shaft_angle.size, ring.cosine.size))
+    for first in range(0, shaft_angle.size, _TOGETHER):
+        piece = slice(first, first + _TOGETHER)
+        approach = _contacts(ring, shaft_angle[piece]).approach(displacement[piece])
+        loads[piece] = ring.stiffness * approach * np.sqrt(approach)
+    return loads

@@ -11,7 +11,6 @@ import math
 import numpy as np
 
 from macroslip.bearing import Bearing
-from macroslip.compiled import jit
 from macroslip.errors import InputError, MacroslipError
 from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.ring.balance import RingGeometry, balance_series, radial_clearance, roller_loads
@@ -29,17 +28,13 @@ _NEGLIGIBLE_FORCE = 1e-3
 _SAMPLES_AT_A_TIME = 20_000
 
 
-@jit
-def largest_load(ring, angle, displacement):
+def largest_load(
+    ring: RingGeometry, angle: np.ndarray, displacement: np.ndarray
+) -> tuple[float, int]:
     """Largest roller load in a series [N], and the index of its sample."""
-    loads = np.empty(ring.cosine.size)
-    largest, sample = 0.0, 0
-    for k in range(angle.size):
-        roller_loads(ring, angle[k], displacement[k], loads)
-        for j in range(loads.size):
-            if loads[j] > largest:
-                largest, sample = loads[j], k
-    return largest, sample
+    largest = roller_loads(ring, angle, displacement).max(axis=1)
+    sample = int(largest.argmax())
+    return float(largest[sample]), sample
 
 
 def ring_motion(
@@ -68,13 +63,12 @@ def ring_motion(
     if more is not None:
         force += more
     displacement, unbalanced = np.empty_like(force), np.empty(time.size)
-    largest, sample, current = 0.0, 0, np.zeros(3)
+    largest = 0.0
+    sample = 0
     # In pieces, so that an interrupt need not wait for the end of a long history.
     for start in range(0, time.size, _SAMPLES_AT_A_TIME):
         piece = slice(start, start + _SAMPLES_AT_A_TIME)
-        balance_series(
-            ring, angle[piece], force[piece], current, displacement[piece], unbalanced[piece]
-        )
+        displacement[piece], unbalanced[piece] = balance_series(ring, angle[piece], force[piece])
         load, place = largest_load(ring, angle[piece], displacement[piece])
         if load > largest:
             largest, sample = load, start + place
@@ -110,10 +104,7 @@ def elastic_loads(
     """Elastic load of every roller of both rows at the samples of a motion [N], shape (n, rollers)."""
     if isinstance(loads, RollerLoads):
         return ring.stiffness * np.maximum(_given_approach(loads, ring, motion), 0.0) ** 1.5
-    found = np.empty((motion.time.size, ring.cosine.size))
-    for line, angle, place in zip(found, motion.shaft_angle, motion.displacement, strict=True):
-        roller_loads(ring, angle, place, line)
-    return found
+    return roller_loads(ring, motion.shaft_angle, motion.displacement)
 
 
 def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[Motion]:

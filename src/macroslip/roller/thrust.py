@@ -14,15 +14,14 @@ from macroslip.roller.skew_table import Guide, SkewTable, raceway_push, turned
 
 
 @jit
-def _forces(table, guides, ring, body, angle, speed, displacement, found):
+def _forces(table, guides, ring, body, angle, speed, roller_load, found):
     """Sum up forces over the rollers of both rows, downwind first; `body` is weight [N], drag [N s²] and u2 over −Ω [m]."""
-    loads = np.empty(ring.cosine.size)
     weight, drag, radius = body
     for k in range(angle.size):
         orbit_speed = ring.orbit_ratio * speed[k]
         if orbit_speed == 0.0:
             continue
-        roller_loads(ring, angle[k], displacement[k], loads)
+        loads = roller_load[k]
         turn = ring.orbit_ratio * angle[k]
         turn_cosine, turn_sine = math.cos(turn), math.sin(turn)
         for j in range(loads.size):
@@ -73,7 +72,7 @@ def thrust(
         body,
         motion.shaft_angle,
         motion.shaft_speed,
-        motion.displacement,
+        roller_loads(ring, motion.shaft_angle, motion.displacement),
         found,
     )
     return found
