@@ -57,7 +57,7 @@ def radial_clearance(ring, cosine, sine):
     Examples
     --------
     >>> oval = RingGeometry(np.ones(1), np.zeros(1), np.zeros(1), 1.0, 1e-4, 1e11, 0.45, 2e-5)
-    >>> [round(1e6 * radial_clearance(oval, np.cos(phi), np.sin(phi)), 9) for phi in (0.0, 0.5 * np.pi)]
+    >>> [float(round(1e6 * radial_clearance(oval, np.cos(phi), np.sin(phi)), 9)) for phi in (0.0, np.pi / 2)]
     [120.0, 80.0]
     """
     twice_x, twice_y = cosine * cosine - sine * sine, 2.0 * cosine * sine
