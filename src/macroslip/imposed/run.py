@@ -52,11 +52,13 @@ def radau_limits(
     max_steps: int,
     heaviest: float,
     window: float,
+    longest_turn: float = tuning.LONGEST_TURN,
 ) -> np.ndarray:
     """Bounds of the Radau integrator that hold for all rollers of a case.
 
     `tolerance` is relative, of slip and energy; `heaviest` the largest load of a roller with weight and centrifugal
-    force [N], `window` the window's start [s]. The roller may be of either row.
+    force [N], `window` the window's start [s], `longest_turn` the largest part of an orbit turned in one step [rad].
+    The roller may be of either row.
     """
     body = roller.body[0]
     tables = roller.tables
@@ -65,7 +67,7 @@ def radau_limits(
     speed = max(float(fastest * body["outer_radius"]), REST_SPEED)
     longest = 0.1 * float(motion.time[-1] - motion.time[0])
     if fastest > 0.0:
-        longest = min(longest, tuning.LONGEST_TURN / fastest)
+        longest = min(longest, longest_turn / fastest)
     # By the closed form a ring that turns slower has its films end at less slip, which is looked at in every step.
     ring = 0.0 if body["closed_form"] else speed
     cold = surely_rising(body, tables, heaviest, heaviest, ring) if heaviest > 0.0 else np.inf

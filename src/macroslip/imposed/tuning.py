@@ -16,6 +16,9 @@ EDGE_STEP = 1e-3
 #: Largest part of an orbit turned in one step [rad], so that a step has stages under different directions of gravity:
 #: in a coast, steps of a tenth of an orbit keep the tolerance.
 LONGEST_TURN = 0.6
+#: The same of rollers that skew. What skew adds to the power of a step is looked up where the step has its stages, and jumps
+#: where a roller leaves its spar for its stop, which the error of a step does not see.
+LONGEST_SKEWED_TURN = 0.018
 #: Most growth of a step, its least part after an error, and its part after stages that were not solved; the first two
 #: as in Hairer and Wanner's RADAU5, IV.8, the third a judgement.
 GROWTH = 5.0

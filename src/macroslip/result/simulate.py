@@ -16,9 +16,11 @@ from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.contact.table import larger
 from macroslip.imposed.run import Outcome, Problem, fixed_step, radau_limits, steps_of
 from macroslip.imposed.status import OUTSIDE_TABLES
+from macroslip.imposed.tuning import LONGEST_SKEWED_TURN, LONGEST_TURN
 from macroslip.machine import usable_processors
 from macroslip.measures.cage import CageMeasures
 from macroslip.measures.roller import RollerMeasures, Row, Wanted
+from macroslip.measures.skew import Skewing
 from macroslip.result.dataset import Measured, to_dataset, whole_dataset
 from macroslip.result.heat_balance import case_at_balance
 from macroslip.result.prepared import Prepared, prepare
@@ -112,8 +114,8 @@ def _imposed_orbits(
         for enlargement in range(_ENLARGED + 1):
             rollers, made = with_tables(ready.models, ready.box)
             report = report or made
-            problems = {row: _problem(ready, rollers[row]) for row in names}
             skews = skewing(case, ready.model.laws, ready.box)
+            problems = {row: _problem(ready, rollers[row], skews.get(row)) for row in names}
             rows = {
                 row: Row(ready.models[row], rollers[row], ready.motion, wanted, skews.get(row))
                 for row in names
@@ -154,10 +156,11 @@ def _finished(pending: set, progress: Callable | None, done: int, total: int):
             progress(done, total)
 
 
-def _problem(ready: Prepared, roller: Roller) -> Problem:
+def _problem(ready: Prepared, roller: Roller, skewing: Skewing | None) -> Problem:
     integrator = ready.case.integrator
     motion = ready.motion
     if isinstance(integrator, Radau):
+        turns = skewing is not None and skewing.guide.largest > 0.0
         limits = radau_limits(
             roller,
             motion,
@@ -165,6 +168,7 @@ def _problem(ready: Prepared, roller: Roller) -> Problem:
             max_steps=integrator.max_steps,
             heaviest=ready.heaviest,
             window=float(ready.edges[0]),
+            longest_turn=LONGEST_SKEWED_TURN if turns else LONGEST_TURN,
         )
         stops = np.unique(np.concatenate([ready.edges, ready.trace_time, [ready.end]]))
         return Problem(roller, motion, limits, stops)
