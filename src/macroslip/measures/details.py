@@ -16,6 +16,7 @@ A roller of a whole bearing is ahead of pure rolling, or behind: φ is its own.
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -523,24 +524,18 @@ def _look_at_cage(body, tables, contact, look, extreme):
         )
 
 
-@jit
-def _heat_entries(rows, effusivity, extreme):
+def _heat_entries(rows: np.ndarray, effusivity: float, extreme: np.ndarray) -> None:
     """Raise the temperatures of entries [K]: rows have entry, orbit, time [s] and, by raceway, what is hottest as `_LOOK` has it."""
-    start = 0
-    for n in range(1, rows.shape[0] + 1):
-        if n < rows.shape[0] and rows[n, 0] == rows[start, 0]:
+    columns = np.ascontiguousarray(rows.T)
+    edges = np.flatnonzero(np.diff(columns[0], prepend=0.0, append=0.0))
+    for first, last in itertools.pairwise(edges):
+        orbit = int(columns[1, first])
+        if orbit < 0:
             continue
-        orbit, entry = int(rows[start, 1]), rows[start:n].T
-        for i in range(2 if orbit >= 0 else 0):
-            power, half, roller, ring = (
-                entry[3 + 4 * i],
-                entry[4 + 4 * i],
-                entry[5 + 4 * i],
-                entry[6 + 4 * i],
-            )
-            rise = transient_flash(entry[2], power, half, roller, ring, effusivity, effusivity)
+        for i in range(2):
+            band = (columns[3 + 4 * i + k, first:last] for k in range(4))
+            rise = transient_flash(columns[2, first:last], *band, effusivity, effusivity)
             extreme[orbit, i, 0] = max(extreme[orbit, i, 0], rise)
-        start = n
 
 
 class Looker:
