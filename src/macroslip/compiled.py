@@ -24,7 +24,8 @@ def jit(function: Callable) -> Callable:
         raise MacroslipError(
             "NUMBA_DISABLE_JIT: compiling is switched off. Remove this variable of the environment."
         )
-    folder, before = kernel_folder(), numba.config.CACHE_DIR
+    folder = kernel_folder()
+    before = numba.config.CACHE_DIR
     if folder is not None:
         numba.config.CACHE_DIR = str(folder)
         try:

@@ -371,7 +371,8 @@ def _sizes(bearing: Bearing, source: Source) -> Iterator[InputError]:
         expected["mass"] = bearing.density * volume
     for key, value in expected.items():
         given = getattr(bearing, key)
-        lowest, highest = value / _SIZE_FACTOR, value * _SIZE_FACTOR
+        lowest = value / _SIZE_FACTOR
+        highest = value * _SIZE_FACTOR
         if given is not None and not lowest <= given <= highest:
             yield InputError(
                 f"{key} is {bearing.written(key)}, and rings and rollers of this size have "

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from macroslip.cli.options import AsJson, By, Quiet, Weibull
+from macroslip.cli.options import AsJson, By, Quiet
+from macroslip.cli.options import Weibull as WeibullOption
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError, safe_text
 from macroslip.storage.files import check_not_input, check_regular
@@ -32,7 +33,7 @@ def aggregate(
             help="The folder for the tables; those of the same names are replaced.",
         ),
     ],
-    weibull: Weibull = None,
+    weibull: WeibullOption = None,
     probabilities: Annotated[
         Path | None,
         typer.Option(help="CSV table with the columns bin and probability, instead of --weibull."),

@@ -29,7 +29,8 @@ from macroslip.lubricant.base_oil import BASE_OILS
 from macroslip.lubricant.inlet import Inlet, derive, moved_inlet, scaled_range
 
 #: Inlet temperatures [K] over which `Lubricant.at` uses Walther's line: -20 to 150 degC.
-COLDEST, HOTTEST = 253.15, 423.15
+COLDEST = 253.15
+HOTTEST = 423.15
 _Optional = float | None
 #: Keys that a file may give instead of a value at the inlet.
 _SOURCES: Mapping[str, tuple[str, ...]] = {

@@ -18,8 +18,11 @@ class CageMeasures:
     """Measures of pockets and cages."""
 
     def __init__(self, bearing: WholeBearing, wanted: Wanted, times: np.ndarray):
-        count, cages = bearing.places.size, bearing.cages
-        self._bearing, self._window, self._times = bearing, wanted.edges[0], times
+        count = bearing.places.size
+        cages = bearing.cages
+        self._bearing = bearing
+        self._window = wanted.edges[0]
+        self._times = times
         #: By side of the pocket, shape (n, 2): ∫|N| dt [N s], largest |N| [N] and time with a push [s] in the window.
         self.impulse, self.largest, self.time = (np.zeros((count, 2)) for _ in range(3))
         #: Largest |N| in the window by place on the orbit [N], shape (n, places).
@@ -47,9 +50,11 @@ class CageMeasures:
         self._trace(part)
 
     def _add_pushes(self, part: Part, counted: np.ndarray) -> None:
-        steps, whole = part.steps[counted], part.bearing[counted]
+        steps = part.steps[counted]
+        whole = part.bearing[counted]
         for k in range(2):
-            push, weight = steps["cage_load"][..., k], steps["weight"][..., k]
+            push = steps["cage_load"][..., k]
+            weight = steps["weight"][..., k]
             turn = whole["turn"][:, k][:, self._bearing.places["cage"]]
             place = ((turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * SECTORS).astype(
                 int
@@ -64,7 +69,8 @@ class CageMeasures:
 
     def _add_slip(self, part: Part, counted: np.ndarray) -> None:
         whole = part.bearing[counted]
-        speed, span = whole["shaft_speed"][:, 1], whole["end"] - whole["start"]
+        speed = whole["shaft_speed"][:, 1]
+        span = whole["end"] - whole["start"]
         turns = speed != 0.0
         nominal = self._bearing.orbit_ratio * speed[turns] * self._bearing.pitch_radius
         for c in range(self._bearing.cages):
@@ -77,7 +83,9 @@ class CageMeasures:
         _, rows, places = np.intersect1d(part.bearing["end"], self._times, return_indices=True)
         if not rows.size:
             return
-        bearing, whole, steps = self._bearing, part.bearing[rows], part.steps[rows]
+        bearing = self._bearing
+        whole = part.bearing[rows]
+        steps = part.steps[rows]
         last = np.maximum(steps["stages"][:, 0] - 1, 0)
         every = np.arange(rows.size)
         speed = whole["shaft_speed"][every, last]
@@ -85,13 +93,13 @@ class CageMeasures:
         self.traces[places, :, 0] = (
             cages[..., 0] + 0.5 * speed[:, None] * bearing.inner_radius
         ) / bearing.pitch_radius
-        self.traces[places, :, 1], self.traces[places, :, 2] = cages[..., 1], cages[..., 4]
-        self.traces[places, :, 3], self.traces[places, :, 4] = (
-            cages[..., 5],
-            whole["torque"][:, : bearing.cages],
-        )
+        self.traces[places, :, 1] = cages[..., 1]
+        self.traces[places, :, 2] = cages[..., 4]
+        self.traces[places, :, 3] = cages[..., 5]
+        self.traces[places, :, 4] = whole["torque"][:, : bearing.cages]
         self.offset[places] = part.offset[rows]
-        inner, outer = steps["inner_slip"][every, :, last], steps["outer_slip"][every, :, last]
+        inner = steps["inner_slip"][every, :, last]
+        outer = steps["outer_slip"][every, :, last]
         ring = speed[:, None] * (bearing.places["inner_radius"] - 0.5 * bearing.inner_radius)
         ring -= 0.5 * speed[:, None] * bearing.places["inner_radius"]
         self.deviation[places] = (0.5 * (inner - outer) + ring) / bearing.pitch_radius

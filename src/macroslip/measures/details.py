@@ -60,12 +60,15 @@ FILM_EDGES = (0.5, 1.0, 1.5, 2.0, 3.0, 5.0)
 SLIP_EDGES = (-0.1, -0.03, -0.01, -0.003, -0.001, 0.0, 0.001, 0.003, 0.01, 0.03, 0.1)
 #: A roller that the rings begin to press enters the load zone until its middle slips by less than this part of the speed, or
 #: for this way [rad].
-_SETTLED, _ENTRY = 0.01, 0.35
+_SETTLED = 0.01
+_ENTRY = 0.35
 #: A roller's contacts are looked at after a change of a raceway's power by this part of the largest looked at in its orbit, a rise
 #: of its power per area, of the cage's power or of the slide-roll ratio above the highest there by this part, and in any case
 #: after this way [rad]. On 14B and 24A over 600 s, against looks at every step: extremes at the raceways are low by 0.5 % on
 #: average and 18 % at most, and up to 0.5 % of the energy lies at other stations.
-_CHANGE, _RISE, _TURN = 0.1, 0.03, 0.35
+_CHANGE = 0.1
+_RISE = 0.03
+_TURN = 0.35
 #: Least share of asperities by which their energy is spread along the roller: quotients of less overflow.
 _LEAST_SHARE = 1e-30
 #: Looks from one at the quadrature's error to the next, which takes as long as five hundred others.
@@ -161,14 +164,17 @@ class Details(NamedTuple):
 
 def new_details(edges: np.ndarray) -> Details:
     """Nothing yet, for orbits with these edges [s]."""
-    orbits, maps = edges.size - 1, np.zeros(1, _MAPS)
+    orbits = edges.size - 1
+    maps = np.zeros(1, _MAPS)
     sizes = ((orbits, 3, len(EXTREMES)), (2, 2), orbits, (orbits, 2, len(EXTREMES)))
     views = [maps[name][0] for name in Details._fields[Details._fields.index("maps") + 1 :]]
     found = Details._make([edges, *map(np.zeros, sizes), np.zeros(1, _MEMORY), maps, *views])
     found.extreme[..., EXTREMES.index("film_ratio")] = found.entry_extreme[
         ..., EXTREMES.index("film_ratio")
     ] = np.inf
-    found.memory["orbit"], found.memory["time"], found.memory["pressed"] = -1, np.nan, np.nan
+    found.memory["orbit"] = -1
+    found.memory["time"] = np.nan
+    found.memory["pressed"] = np.nan
     return found
 
 
@@ -207,11 +213,11 @@ def _density(power, load):
 @jit_inline
 def _compared(step, last):
     """The values that are compared with `highest`."""
-    power, speed, slip = step.power[last], step.outer_speed[last], step.outer_slip[last]
-    inner, outer = (
-        _density(power[0], step.inner_load[last]),
-        _density(power[1], step.outer_load[last]),
-    )
+    power = step.power[last]
+    speed = step.outer_speed[last]
+    slip = step.outer_slip[last]
+    inner = _density(power[0], step.inner_load[last])
+    outer = _density(power[1], step.outer_load[last])
     return (
         power[0],
         power[1],
@@ -225,8 +231,10 @@ def _compared(step, last):
 @jit_inline
 def _is_due(step, last, memory, outer_radius, spacing):
     """Whether enough way has passed since the last look, power has changed enough, or a value is a new highest one."""
-    highest, values = memory.highest, _compared(step, last)
-    change, rise = _CHANGE * spacing, 1.0 + _RISE * spacing
+    highest = memory.highest
+    values = _compared(step, last)
+    change = _CHANGE * spacing
+    rise = 1.0 + _RISE * spacing
     due = abs(step.outer_speed[last]) * (step.end - memory.time) >= _TURN * spacing * outer_radius
     for i in range(2):
         due = due or abs(values[i] - memory.power[i]) > change * highest[i]
@@ -238,28 +246,31 @@ def _is_due(step, last, memory, outer_radius, spacing):
 @jit_inline
 def _remember(step, last, orbit, memory):
     """Keep the numbers that decide on the next look."""
-    values, highest = _compared(step, last), memory.highest
+    values = _compared(step, last)
+    highest = memory.highest
     if orbit != memory.orbit:
         highest[:] = 0.0
     for i in range(6):
         highest[i] = max(highest[i], values[i])
-    memory.count, memory.orbit, memory.time = memory.count + 1, orbit, step.end
+    memory.count = memory.count + 1
+    memory.orbit = orbit
+    memory.time = step.end
     memory.ahead = step.ahead
     for i in range(2):
-        memory.power[i], memory.energy[i], memory.moment[i], memory.rough[i] = (
-            values[i],
-            0.0,
-            0.0,
-            0.0,
-        )
+        memory.power[i] = values[i]
+        memory.energy[i] = 0.0
+        memory.moment[i] = 0.0
+        memory.rough[i] = 0.0
 
 
 @jit_inline
 def _enter(step, last, memory, outer_radius):
     """Notice that the rings begin to press the roller, and when it is gripped or let go again."""
-    load, speed = step.elastic_load[last], step.outer_speed[last]
+    load = step.elastic_load[last]
+    speed = step.outer_speed[last]
     if memory.pressed == 0.0 and load > 0.0:
-        memory.entries, memory.since = memory.entries + 1, step.start
+        memory.entries = memory.entries + 1
+        memory.since = step.start
         memory.entry = memory.entries
     elif memory.entry > 0:
         slip = max(abs(step.inner_slip[last]), abs(step.outer_slip[last]))
@@ -281,7 +292,8 @@ def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
         if step.start < edges[0] or step.weight[step.stages - 1] + step.weight[0] <= 0.0:
             continue
         if math.isnan(memory.time):
-            memory.time, memory.ahead = step.start, step.ahead
+            memory.time = step.start
+            memory.ahead = step.ahead
         middle = 0.5 * (step.start + step.end)
         for i in range(2):
             energy = 0.0
@@ -290,7 +302,9 @@ def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
                 memory.rough[i] += step.weight[k] * step.rough[k, i]
             memory.energy[i] += energy
             memory.moment[i] += energy * (middle - memory.time)
-        orbit, last, known = orbit_at(edges, middle, memory.orbit), step.stages - 1, memory.entries
+        orbit = orbit_at(edges, middle, memory.orbit)
+        last = step.stages - 1
+        known = memory.entries
         _enter(step, last, memory, outer_radius)
         if orbit >= 0:
             entries[orbit] += memory.entries - known
@@ -301,7 +315,8 @@ def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
             or _is_due(step, last, memory, outer_radius, spacing)
         ):
             look = looks[found]
-            look.orbit, look.number = orbit, memory.count
+            look.orbit = orbit
+            look.number = memory.count
             _begin(look, memory, step)
             _remember(step, last, orbit, memory)
             found += 1
@@ -311,11 +326,15 @@ def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
 @jit
 def _begin(look, memory, step):
     """Write what has been kept since the look before into one at the end of a step, with the state there."""
-    look.since, look.time, look.entry = memory.time, step.end, memory.entry
-    look.ahead[0], look.ahead[1] = memory.ahead, step.ahead
+    look.since = memory.time
+    look.time = step.end
+    look.entry = memory.entry
+    look.ahead[0] = memory.ahead
+    look.ahead[1] = step.ahead
     for i in range(2):
         kept = memory.energy[i] * (step.end - memory.time)
-        look.energy[i], look.rough[i] = memory.energy[i], memory.rough[i]
+        look.energy[i] = memory.energy[i]
+        look.rough[i] = memory.rough[i]
         look.mean_time[i] = min(max(memory.moment[i] / kept, 0.0), 1.0) if kept > 0.0 else 0.5
     write_end(step, look.at)
 
@@ -323,7 +342,8 @@ def _begin(look, memory, step):
 @jit_inline
 def _share(way, sector, mean_time):
     """Part of a way [sectors] in a sector, if it is passed linearly faster or slower so as to have the mean time."""
-    start, end = min(way), max(way)
+    start = min(way)
+    end = max(way)
     if math.floor(start) == math.floor(end):
         return 1.0
     growth = min(max(3.0 * (2.0 * mean_time - 1.0), -1.0), 1.0)
@@ -346,16 +366,16 @@ def _spread(maps, interface, way, mean_time, spent, before, after):
         )
     lowest = math.floor(min(way))
     for n in range(math.floor(max(way)) - lowest + 1):
-        share, even = _share(way, lowest + n, mean_time), _share(way, lowest + n, 0.5)
+        share = _share(way, lowest + n, mean_time)
+        even = _share(way, lowest + n, 0.5)
         sector = int((lowest + n) % SECTORS)
-        energy, rough = (
-            maps.surface_energy[interface, sector],
-            maps.surface_asperities[interface, sector],
-        )
+        energy = maps.surface_energy[interface, sector]
+        rough = maps.surface_asperities[interface, sector]
         work = maps.surface_work[interface, sector]
         maps.surface_passes[interface, sector] += even * abs(way[1] - way[0])
         for k in range(STATIONS):
-            old, new = before.power[k], after.power[k]
+            old = before.power[k]
+            new = after.power[k]
             energy[k, 1 if old > 0.0 else 0, before.regime] += share * spent[0] * abs(old)
             energy[k, 1 if new > 0.0 else 0, after.regime] += share * spent[1] * abs(new)
             rough[k] += share * (spent[2] * before.rough[k] + spent[3] * after.rough[k])
@@ -376,42 +396,54 @@ def _look_along(maps, interface, contact, state, look, passes, along):
 
     `state` has load [N], u2 and slip [m/s]. Returns the largest power per area [W/m²], slip [m/s], and class of Λ.
     """
-    patch, film, share, power = (
-        contact.patch,
-        look.film[interface],
-        look.share[interface],
-        look.at.power[interface],
-    )
+    patch = contact.patch
+    film = look.film[interface]
+    share = look.share[interface]
+    power = look.at.power[interface]
     load, ring_speed, slip = state
-    mean, film_class = ring_speed - 0.5 * slip, 0
+    mean = ring_speed - 0.5 * slip
+    film_class = 0
     while film_class < len(FILM_EDGES) and film >= FILM_EDGES[film_class] * contact.roughness:
         film_class += 1
-    entrainment, pressed = (
-        math.copysign(max(abs(mean), LOWEST_SPEED), mean),
-        look.at.elastic_load > 0.0,
-    )
+    entrainment = math.copysign(max(abs(mean), LOWEST_SPEED), mean)
+    pressed = look.at.elastic_load > 0.0
     root = load ** (1.0 / 3.0)
-    across, half_along, pressure = patch.across * root, patch.along * root, patch.pressure * root
+    across = patch.across * root
+    half_along = patch.along * root
+    pressure = patch.pressure * root
     line = look.lines[interface]
-    middle, v0, v1, v2, w0, w1, w2 = line[0], line[1], line[2], line[3], line[4], line[5], line[6]
-    width, node = 2.0 * patch.half_length / STATIONS, film_node(contact.chords, film)
+    middle = line[0]
+    v0 = line[1]
+    v1 = line[2]
+    v2 = line[3]
+    w0 = line[4]
+    w1 = line[5]
+    w2 = line[6]
+    width = 2.0 * patch.half_length / STATIONS
+    node = film_node(contact.chords, film)
     boundary = 0.75 * patch.boundary_friction * max(share, _LEAST_SHARE) * load / across
-    hot, hottest, densest, fastest = look.hot[interface], 0.0, 0.0, 0.0
-    along.total = along.rough_total = along.work_total = 0.0
+    hot = look.hot[interface]
+    hottest = 0.0
+    densest = 0.0
+    fastest = 0.0
+    along.total = 0.0
+    along.rough_total = 0.0
+    along.work_total = 0.0
     for k in range(STATIONS):
         left = k * width - patch.half_length
         # The part of the station under the ellipse, so that the lightest contact too lies in the two middle ones.
-        first, last = max(left, middle - across), min(left + width, middle + across)
+        first = max(left, middle - across)
+        last = min(left + width, middle + across)
         if last - first < 1e-6 * width:
             along.power[k] = along.rough[k] = along.work[k] = along.density[k] = 0.0
             continue
-        station, covered = 0.5 * (first + last), (last - first) / width
+        station = 0.5 * (first + last)
+        covered = (last - first) / width
         height = 1.0 - (station - middle) * (station - middle) / (across * across)
-        local, chord = v0 + station * (v2 * station + v1), math.sqrt(height)
-        speed, half_width = (
-            math.hypot(local, w0 + station * (w2 * station + w1)),
-            half_along * chord,
-        )
+        local = v0 + station * (v2 * station + v1)
+        chord = math.sqrt(height)
+        speed = math.hypot(local, w0 + station * (w2 * station + w1))
+        half_width = half_along * chord
         per_length = 0.75 * height / across * power
         asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
         if contact.chorded:
@@ -423,16 +455,15 @@ def _look_along(maps, interface, contact, state, look, passes, along):
             )
             per_length = pull * speed + asperities
         # Of power only its share of all stations counts; of p |v| its size does.
-        along.power[k], along.rough[k] = (
-            math.copysign(per_length * covered, local),
-            asperities * covered,
-        )
+        along.power[k] = math.copysign(per_length * covered, local)
+        along.rough[k] = asperities * covered
         along.work[k] = 0.75 * height / across * load * speed * covered * width
         along.total += abs(along.power[k])
         along.rough_total += along.rough[k]
         along.work_total += along.work[k]
         if pressed:
-            slip_class, ratio = 0, math.copysign(speed, local) / entrainment
+            slip_class = 0
+            ratio = math.copysign(speed, local) / entrainment
             while slip_class < len(SLIP_EDGES) and ratio >= SLIP_EDGES[slip_class]:
                 slip_class += 1
             maps.film_slip[interface, film_class, slip_class, 0] += (
@@ -442,8 +473,11 @@ def _look_along(maps, interface, contact, state, look, passes, along):
         density = along.density[k] = per_length / (2.0 * half_width)
         # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
         if per_length * density > hottest:
-            hottest, hot[0], hot[1] = per_length * density, per_length, half_width
-        densest, fastest = max(densest, density), max(fastest, speed)
+            hottest = per_length * density
+            hot[0] = per_length
+            hot[1] = half_width
+        densest = max(densest, density)
+        fastest = max(fastest, speed)
     along.regime = 1 if film >= contact.roughness else 0
     return densest, fastest, abs(entrainment)
 
@@ -454,20 +488,28 @@ def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
     body, tables = roller
     for n in range(looks.size):
         look = looks[n]
-        at, span = look.at, look.time - look.since
+        at = look.at
+        span = look.time - look.since
         states = (
             (at.inner_load, at.inner_speed, at.inner_slip),
             (at.outer_load, at.outer_speed, at.outer_slip),
         )
         for i in range(2):
-            ratio, load = body.orbit_ratio - (1.0 if i == 0 else 0.0), states[i][0]
+            ratio = body.orbit_ratio - (1.0 if i == 0 else 0.0)
+            load = states[i][0]
             start = (start_angle + ratio * look.turned[0] + look.ahead[0]) * _PER_ANGLE
             end = (start_angle + ratio * look.turned[1] + look.ahead[1]) * _PER_ANGLE
-            hot, last = look.hot[i], maps.last[i]
-            hot[0], hot[1], hot[2], hot[3] = 0.0, 1.0, states[i][1] - states[i][2], states[i][1]
-            before, after = maps.along[2 * i + last], maps.along[2 * i + 1 - last]
+            hot = look.hot[i]
+            last = maps.last[i]
+            hot[0] = 0.0
+            hot[1] = 1.0
+            hot[2] = states[i][1] - states[i][2]
+            hot[3] = states[i][1]
+            before = maps.along[2 * i + last]
+            after = maps.along[2 * i + 1 - last]
             # As power lay, or lies, where it is known only once.
-            late = late_rough = 0.0
+            late = 0.0
+            late_rough = 0.0
             if load > 0.0:
                 densest, fastest, mean = _look_along(
                     maps, i, contacts[i], states[i], look, abs(end - start) / SECTORS, after
@@ -502,22 +544,26 @@ def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
             if load > 0.0:
                 maps.last[i] = 1 - last
             else:
-                before.work[:], before.work_total = 0.0, 0.0
+                before.work[:] = 0.0
+                before.work_total = 0.0
         _look_at_cage(body, tables, contacts[2], look, extreme)
 
 
 @jit_inline
 def _look_at_cage(body, tables, contact, look, extreme):
     """Find power and extremes of the cage's contact, without the oil of its pocket, whose force is far larger than that of a light contact."""
-    hot, surface, load = look.hot[2], look.at.cage_speed, abs(look.at.cage_load)
-    hot[0], hot[1], hot[2], hot[3] = 0.0, 1.0, surface, 0.0
+    hot = look.hot[2]
+    surface = look.at.cage_speed
+    load = abs(look.at.cage_load)
+    hot[0] = 0.0
+    hot[1] = 1.0
+    hot[2] = surface
+    hot[3] = 0.0
     if load > 0.0:
         root = load ** (1.0 / 3.0)
         force = cage_friction(body, tables, load, surface, log_speed(surface)).force
-        hot[0], hot[1] = (
-            0.75 * abs(surface * force) / (contact.patch.across * root),
-            contact.patch.along * root,
-        )
+        hot[0] = 0.75 * abs(surface * force) / (contact.patch.across * root)
+        hot[1] = contact.patch.along * root
         ratio = abs(surface) / max(0.5 * abs(surface), LOWEST_SPEED)
         _raise(
             extreme, look.orbit, 2, hot[0] / (2.0 * hot[1]), ratio, look.film[2] / contact.roughness
@@ -555,38 +601,39 @@ class Looker:
         start_angle: float,
         skew: SkewMeasures | None = None,
     ):
-        self.details, self._spacing, self._start_angle = (
-            new_details(wanted.edges),
-            wanted.spacing,
-            start_angle,
-        )
-        self._roller, self._laws, self._contacts, self._motion, self._skew = (
-            roller,
-            laws,
-            contacts,
-            motion,
-            skew,
-        )
-        self._last, self._looks = np.zeros(1, STEP), Batch(_LOOK)
+        self.details = new_details(wanted.edges)
+        self._spacing = wanted.spacing
+        self._start_angle = start_angle
+        self._roller = roller
+        self._laws = laws
+        self._contacts = contacts
+        self._motion = motion
+        self._skew = skew
+        self._last = np.zeros(1, STEP)
+        self._looks = Batch(_LOOK)
         #: Rows for `_heat_entries` of the entry under way.
         self._entering = np.zeros((0, 11))
 
     def add(self, steps: np.ndarray, j: int) -> None:
         """Take up the steps of roller `j` in a buffer."""
         self._last = steps[-1:, j].copy()
-        looks, memory = self._looks.room(len(steps), self._look), self.details.memory[0]
-        radius, found = float(self._roller.body[0]["outer_radius"]), self.details
+        looks = self._looks.room(len(steps), self._look)
+        memory = self.details.memory[0]
+        radius = float(self._roller.body[0]["outer_radius"])
+        found = self.details
         self._looks.count += _choose(
             steps, j, found.edges, found.entries, memory, radius, self._spacing, looks
         )
 
     def finish(self) -> None:
         """Spread what has been kept since the last look."""
-        memory, last = self.details.memory[0], self._last[0]
+        memory = self.details.memory[0]
+        last = self._last[0]
         if memory["time"] < last["end"]:
             look = self._looks.room(1, self._look)[0]
             # Not one of those at which the quadrature is checked.
-            look["orbit"], look["number"] = memory["orbit"], 1
+            look["orbit"] = memory["orbit"]
+            look["number"] = 1
             _begin(look, memory, last)
             self._looks.count += 1
         self._looks.empty(self._look)
@@ -602,19 +649,19 @@ class Looker:
         lines = looks["lines"]
         lines[...] = 0.0
         for i, name in enumerate(RACEWAYS):
-            patch, speed, slip = (
-                self._contacts[i].patch,
-                looks["at"][f"{name}_speed"],
-                looks["at"][f"{name}_slip"],
-            )
-            lines[:, i, 1], lines[:, i, 2] = slip, -speed * patch.spin_ratio
+            patch = self._contacts[i].patch
+            speed = looks["at"][f"{name}_speed"]
+            slip = looks["at"][f"{name}_slip"]
+            lines[:, i, 1] = slip
+            lines[:, i, 2] = -speed * patch.spin_ratio
             if patch.microslip:
                 fall = speed * patch.curvature_ratio - slip / patch.roller_radius
                 lines[:, i, 3] = fall / (2.0 * patch.contour_radius)
         if self._skew:
             self._skew.turn(looks)
         looks["turned"] = angle_at(self._motion, np.stack([looks["since"], looks["time"]], axis=1))
-        found, steel = self.details, self._contacts[0].effusivity
+        found = self.details
+        steel = self._contacts[0].effusivity
         roller = self._roller.body[0], self._roller.tables.ctypes.data
         _look(
             looks,
@@ -653,10 +700,8 @@ class Looker:
                 )
                 if load <= 0.0 or not law.shape.microslip or law.fluid is None:
                     continue
-                state, span = (
-                    (load, float(look["film"][i]), ring_speed, slip),
-                    look["time"] - look["since"],
-                )
+                state = (load, float(look["film"][i]), ring_speed, slip)
+                span = look["time"] - look["since"]
                 used = patch_power(self._contacts[i].patch, self._contacts[i].chords, *state)
                 fine = fine_power(self._contacts[i].patch, law.fluid, *state)
                 self.details.quadrature[i] += span * fine, span * abs(used - fine)

@@ -33,13 +33,11 @@ class Row:
         wanted: Wanted,
         skewing: Skewing | None = None,
     ):
-        self.model, self.roller, self.motion, self.wanted, self.skewing = (
-            model,
-            roller,
-            motion,
-            wanted,
-            skewing,
-        )
+        self.model = model
+        self.roller = roller
+        self.motion = motion
+        self.wanted = wanted
+        self.skewing = skewing
         self.contacts = prepare(model.laws) if wanted.details else None
 
 
@@ -53,7 +51,8 @@ class RollerMeasures:
         wanted = row.wanted
         self.row = row
         self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
-        self.law_times, self._states = np.zeros((3, 3)), Batch(END)
+        self.law_times = np.zeros((3, 3))
+        self._states = Batch(END)
         self.skew = SkewMeasures(row.skewing, row.roller, wanted.edges[0]) if row.skewing else None
         places = row.contacts, row.motion, start_angle, self.skew
         self.looker = (
@@ -138,7 +137,8 @@ class RollerMeasures:
 
     def traces(self) -> dict[str, np.ndarray]:
         """Traces by name, over time, and over interface or raceway; NaN from where an integration ended early."""
-        found, model = np.full(self.row.wanted.trace_time.size, np.nan, END), self.row.model
+        found = np.full(self.row.wanted.trace_time.size, np.nan, END)
+        model = self.row.model
         known = np.concatenate([np.zeros(0, END), *self._traced])
         found[: known.size] = known
         return {

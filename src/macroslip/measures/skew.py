@@ -37,7 +37,8 @@ def _power_of_ends(roller, stop, push, speed):
     surface passes them at `speed` [m/s].
     """
     body, tables = roller
-    power, rough = 0.0, 0.0
+    power = 0.0
+    rough = 0.0
     if stop > 0.0:
         for load, sign in ((stop + abs(push), 1.0), (stop, 1.0), (abs(push), -1.0)):
             found = cage_forces(body, tables, load, speed, log_speed(speed))
@@ -56,10 +57,15 @@ def _add(skewing, roller, steps, j, places, window, totals):
             step.power_before[i] += before[i]
         counted = step.start >= window and step.end > step.start
         for k in range(step.stages):
-            load, weight, inner, outer, ends = step.elastic_load[k], step.weight[k], 0.0, 0.0, 0.0
+            load = step.elastic_load[k]
+            weight = step.weight[k]
+            inner = 0.0
+            outer = 0.0
+            ends = 0.0
             if load > 0.0:
                 found = turned(table, guide, load, step.outer_speed[k], step.cage_load[k])
-                inner, outer = found.inner_power, found.outer_power
+                inner = found.inner_power
+                outer = found.outer_power
                 ends, rough = _power_of_ends(
                     roller, abs(found.held) / guide.arm, step.cage_load[k], step.cage_speed[k]
                 )
@@ -81,7 +87,9 @@ def _add(skewing, roller, steps, j, places, window, totals):
                     place[3] += weight * (inner + outer)
             # Rows between the stages of a step come before it and have its start.
             if k == step.stages - 1 and not (step.weight[0] == 0.0 and step.end > step.start):
-                before[0], before[1], before[2] = inner, outer, ends
+                before[0] = inner
+                before[1] = outer
+                before[2] = ends
 
 
 @jit
@@ -90,13 +98,14 @@ def _follow(table, guide, loads, speeds, pushes, found):
     for n in range(loads.size):
         if loads[n] > 0.0:
             at = turned(table, guide, loads[n], speeds[n], pushes[n])
-            found[n, 0], found[n, 1], found[n, 2] = at.skew, at.tilt, at.axial
-            found[n, 3], found[n, 4], found[n, 5] = (
-                at.inner_moment,
-                at.outer_moment,
-                abs(at.held) / guide.arm,
-            )
-            found[n, 6], found[n, 7] = at.shift, at.slip
+            found[n, 0] = at.skew
+            found[n, 1] = at.tilt
+            found[n, 2] = at.axial
+            found[n, 3] = at.inner_moment
+            found[n, 4] = at.outer_moment
+            found[n, 5] = abs(at.held) / guide.arm
+            found[n, 6] = at.shift
+            found[n, 7] = at.slip
         elif not math.isnan(loads[n]):
             found[n, 2:] = 0.0
 
@@ -119,8 +128,11 @@ class SkewMeasures:
     """
 
     def __init__(self, skewing: Skewing, roller: Roller, window: float):
-        self._skewing, self._roller, self._window = skewing, roller, window
-        self._sums, self._before = np.zeros(4), np.zeros(3)
+        self._skewing = skewing
+        self._roller = roller
+        self._window = window
+        self._sums = np.zeros(4)
+        self._before = np.zeros(3)
         self.by_place = np.zeros((SECTORS, 1 + len(BY_PLACE)))
 
     def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
@@ -132,14 +144,13 @@ class SkewMeasures:
     def turn(self, looks: np.ndarray) -> None:
         """Let the contacts of looks slide as those of the skewed roller, where the rings press it."""
         at = looks["at"]
-        found, pressed = self._states(at), at["elastic_load"] > 0.0
+        found = self._states(at)
+        pressed = at["elastic_load"] > 0.0
         skew, tilt, shift, more = found[pressed][:, [0, 1, 6, 7]].T
         for i, (name, one) in enumerate(zip(RACEWAYS, self._skewing.pair, strict=True)):
-            speed, slip, middle = (
-                at[f"{name}_speed"][pressed],
-                at[f"{name}_slip"][pressed],
-                one.middle(tilt, shift),
-            )
+            speed = at[f"{name}_speed"][pressed]
+            slip = at[f"{name}_slip"][pressed]
+            middle = one.middle(tilt, shift)
             lines = slip_lines(one, speed, slip + more, skew, middle, tilt)
             looks["lines"][pressed, i] = np.stack([middle, *lines[:6]], axis=-1)
 

@@ -19,14 +19,16 @@ INTERFACES = ("inner", "outer", "cage")
 RACEWAYS = INTERFACES[:2]
 #: A kink has no parabola; what one may add to the samples is bounded by this factor. And how uneven samples may be for
 #: a parabola: where spacing changes more, a fast transient has just ended, and a parabola would extrapolate it.
-HIGHEST_RISE, MOST_UNEVEN = 1.1, 4.0
+HIGHEST_RISE = 1.1
+MOST_UNEVEN = 4.0
 #: Part of the largest raceway speed of a history below which the ratio of spins is not taken: through standstill both
 #: spins pass zero, one a little after the other, and their ratio is any number.
 SPIN_RATIO_SPEED = 0.1
 #: Raceway speed [m/s] below which it never is: a rotor on its brake trembles, and its rollers neither roll nor slip.
 STANDSTILL = 1e-3
 #: Buffers of steps for whose records a batch has room, and least number of records.
-_BUFFERS, _LEAST_BATCH = 4, 1024
+_BUFFERS = 4
+_LEAST_BATCH = 1024
 
 
 #: The state at the end of a step; fields as of `STEP`. The time from `start` [s] counts with it: 0 before the window, and for a
@@ -45,22 +47,29 @@ def write_end(step, found):
     """Write the state at the end of a step to a record of `END`, but for the time that counts with it."""
     last = step.stages - 1
     found.pure_speed = step.pure_speed
-    found.inner_slip, found.outer_slip = step.inner_slip[last], step.outer_slip[last]
-    found.inner_speed, found.outer_speed = step.inner_speed[last], step.outer_speed[last]
-    found.cage_speed, found.cage_load = step.cage_speed[last], step.cage_load[last]
-    found.inner_load, found.outer_load = step.inner_load[last], step.outer_load[last]
+    found.inner_slip = step.inner_slip[last]
+    found.outer_slip = step.outer_slip[last]
+    found.inner_speed = step.inner_speed[last]
+    found.outer_speed = step.outer_speed[last]
+    found.cage_speed = step.cage_speed[last]
+    found.cage_load = step.cage_load[last]
+    found.inner_load = step.inner_load[last]
+    found.outer_load = step.outer_load[last]
     found.elastic_load = step.elastic_load[last]
     for i in range(3):
-        found.force[i], found.power[i] = step.force[last, i], step.power[last, i]
+        found.force[i] = step.force[last, i]
+        found.power[i] = step.power[last, i]
         found.rolling[i] = step.rolling[last, i]
-    found.skew_power[0], found.skew_power[1] = step.skew_power[last, 0], step.skew_power[last, 1]
+    found.skew_power[0] = step.skew_power[last, 0]
+    found.skew_power[1] = step.skew_power[last, 1]
 
 
 class Batch:
     """Records that are gathered until they are enough for work on arrays."""
 
     def __init__(self, kind: np.dtype):
-        self._records, self.count = np.zeros(0, kind), 0
+        self._records = np.zeros(0, kind)
+        self.count = 0
 
     def room(self, count: int, work: Callable[[np.ndarray], None]) -> np.ndarray:
         """Room for `count` records behind the `self.count` ones; where there is none, `work` takes these first."""
@@ -158,7 +167,8 @@ def vertex(ta, pa, tb, pb, tc, pc):
 @jit_inline
 def _follow(samples, peak, time, powers):
     """Take up the powers at a new time; raise the orbit's peaks to them and to the parabolas through three of them."""
-    before, after = samples[1, 0] - samples[0, 0], time - samples[1, 0]
+    before = samples[1, 0] - samples[0, 0]
+    after = time - samples[1, 0]
     even = (
         before > 0.0
         and after > 0.0
@@ -168,13 +178,15 @@ def _follow(samples, peak, time, powers):
     for interface in range(3):
         power = powers[interface]
         peak[interface] = max(peak[interface], power)
-        first, middle = samples[0, interface + 1], samples[1, interface + 1]
+        first = samples[0, interface + 1]
+        middle = samples[1, interface + 1]
         if even and middle > first and middle > power and HIGHEST_RISE * middle > peak[interface]:
             top = vertex(samples[0, 0], first, samples[1, 0], middle, time, power)
             peak[interface] = max(peak[interface], min(top, HIGHEST_RISE * middle))
         samples[0, interface + 1] = middle
         samples[1, interface + 1] = power
-    samples[0, 0], samples[1, 0] = samples[1, 0], time
+    samples[0, 0] = samples[1, 0]
+    samples[1, 0] = time
 
 
 @jit_inline
@@ -208,13 +220,15 @@ def book(steps, j, totals, states):
     """
     edges = totals.edges
     for n in range(steps.shape[0]):
-        step, state = steps[n, j], states[n]
+        step = steps[n, j]
+        state = states[n]
         write_end(step, state)
         state.span = 0.0
         if step.start < edges[0]:
             continue
         orbit = orbit_at(edges, 0.5 * (step.start + step.end), totals.place[0])
-        span, films = 0.0, 0.0
+        span = 0.0
+        films = 0.0
         for k in range(step.stages):
             weight = step.weight[k]
             span += weight
@@ -228,7 +242,8 @@ def book(steps, j, totals, states):
                 if orbit >= 0:
                     totals.orbit_energy[orbit, i] += energy
             for i in range(2):
-                lag, skew = weight * step.lag_power[k, i], weight * step.skew_power[k, i]
+                lag = weight * step.lag_power[k, i]
+                skew = weight * step.skew_power[k, i]
                 totals.mechanism_energy[i, 0] -= lag + skew
                 totals.mechanism_energy[i, 1] += lag
                 totals.mechanism_energy[i, 2] += skew
@@ -237,14 +252,18 @@ def book(steps, j, totals, states):
         if step.weight[0] > 0.0:
             state.span = span
         _book_peaks(step, totals, orbit)
-        totals.place[0], totals.place[1] = orbit, step.stretch
-        last, pure = step.stages - 1, step.pure_speed
+        totals.place[0] = orbit
+        totals.place[1] = step.stretch
+        last = step.stages - 1
+        pure = step.pure_speed
         if step.weight[last] > 0.0 and pure != 0.0 and abs(pure) >= totals.spin_ratio[1]:
             surface = step.outer_speed[last] - step.outer_slip[last]
-            ratio, way = surface / pure, math.copysign(1.0, pure)
+            ratio = surface / pure
+            way = math.copysign(1.0, pure)
             if totals.spin_ratio[2] == -way:
                 ratio = -np.inf
-            totals.spin_ratio[0], totals.spin_ratio[2] = min(totals.spin_ratio[0], ratio), way
+            totals.spin_ratio[0] = min(totals.spin_ratio[0], ratio)
+            totals.spin_ratio[2] = way
 
 
 def law_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
@@ -253,7 +272,8 @@ def law_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
     times = np.zeros((3, len(INTERFACES)))
     for i, (law, load, speed) in enumerate(loaded_contacts(counted, laws)):
         loaded = load > 0.0
-        span, load = counted["span"][loaded], load[loaded]
+        span = counted["span"][loaded]
+        load = load[loaded]
         times[0, i] = span.sum()
         times[1, i] = span[~law.film_in_range(load, speed[loaded])].sum()
         times[2, i] = span[~law.asperity_share_in_range(load)].sum()

@@ -96,7 +96,9 @@ class Macroslip:
         """
         import pandas as pd
 
-        result, found, unknown = self._result, {}, xr.DataArray(float("nan"))
+        result = self._result
+        found = {}
+        unknown = xr.DataArray(float("nan"))
         for numbers in row_numbers(result):
             one = result.sel(row=numbers["name"])
             by_interface = one.energy.mean("roller", skipna=False)
@@ -284,7 +286,8 @@ class Plot:
         density = energy_density(self._result)
         units = "J/mm²"
         if quantity == "power":
-            density, units = self._result.surface_power_density, "W/mm²"
+            density = self._result.surface_power_density
+            units = "W/mm²"
         panels = [(values, units, title) for title, values in draw.raceways(density).items()]
         return self._panels(axes, draw.plot_map, panels, (9.0, 6.0))
 

@@ -145,11 +145,15 @@ def plot_bearing(axes: Axes, still: xr.Dataset, bearing: Bearing) -> Axes:
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Circle
 
-    radius, pitch = geometry.roller_radius(bearing), bearing.pitch_radius
-    outer, most = geometry.outer_contact_radius(bearing), max(float(still.roller_load.max()), 1.0)
-    reach, rollers = 1.4 * outer, []
+    radius = geometry.roller_radius(bearing)
+    pitch = bearing.pitch_radius
+    outer = geometry.outer_contact_radius(bearing)
+    most = max(float(still.roller_load.max()), 1.0)
+    reach = 1.4 * outer
+    rollers = []
     for k, row in enumerate(still.row.values.tolist()):
-        one, centre = still.sel(row=row), 2.0 * k * reach
+        one = still.sel(row=row)
+        centre = 2.0 * k * reach
         for ring in (outer, geometry.inner_contact_radius(bearing)):
             axes.add_patch(Circle((centre, 0.0), ring, fill=False, edgecolor=GREY, linewidth=1.2))
         place = np.array([-np.sin(np.radians(one.angle)), -np.cos(np.radians(one.angle))])
@@ -214,7 +218,8 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
         one = 1e2 * share.sel(row=row)
         # An interface that never carries load has no share.
         known = one.notnull().any("roller").values
-        one, x = one.isel(interface=known), x[known]
+        one = one.isel(interface=known)
+        x = x[known]
         mean, low, high = (getattr(one, name)("roller").values for name in ("mean", "min", "max"))
         axes.bar(x, mean, width, **style)
         axes.errorbar(
@@ -596,9 +601,11 @@ def plot_skew_over_orbit(axes: Axes, result: xr.Dataset) -> Axes:
     Takes a result with `skew_by_position` [rad] and `skew_power_by_position` [W].
     """
     angle = (np.degrees(result.position.values) + 90.0) % 360.0
-    order, power = np.argsort(angle), axes.twinx()
+    order = np.argsort(angle)
+    power = axes.twinx()
     for row in result.row.values.tolist():
-        colour, one = ROW[row]["color"], result.sel(row=row)
+        colour = ROW[row]["color"]
+        one = result.sel(row=row)
         axes.plot(
             angle[order], 1e3 * one.skew_by_position.values[order], color=colour, label=f"{row} row"
         )

@@ -56,7 +56,8 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     """
     from matplotlib import colormaps
 
-    time, quantities = scene.time.values, []
+    time = scene.time.values
+    quantities = []
     power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(
         axis=(0, 1)
     )

@@ -22,7 +22,8 @@ _SPECTRUM_PIECE = 100.0
 
 def plot_bearing_load(axes: Axes, loads: BearingLoads) -> Axes:
     """Radial load and thrust on the main bearing [kN] over time."""
-    radial, thrust = np.hypot(loads.force[:, 0], loads.force[:, 1]), loads.force[:, 2]
+    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
+    thrust = loads.force[:, 2]
     axes.plot(loads.time, radial / 1e3, color=BLUE, linewidth=0.8, label="radial load")
     axes.plot(loads.time, thrust / 1e3, color=ORANGE, linewidth=0.8, label="thrust")
     axes.legend(frameon=False, fontsize=9, loc="upper right")

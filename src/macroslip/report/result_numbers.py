@@ -295,7 +295,8 @@ def rating_text(value: xr.DataArray) -> str:
     >>> rating_text(xr.DataArray(1.5e5, attrs={"units": "N"}))
     '150 kN'
     """
-    found, units = float(value), value.attrs.get("units", "")
+    found = float(value)
+    units = value.attrs.get("units", "")
     if not np.isfinite(found):
         return "unlimited" if found > 0.0 else "–"
     if units == "N":

@@ -98,7 +98,8 @@ def plot_effects(axes: Axes, found: xr.Dataset, quantity: str) -> Axes:
     one = found.sel(quantity=quantity)
     one = one.isel(parameter=np.argsort(np.abs(np.nan_to_num(one.main_effect.values)))[-10:])
     names = [str(name).replace(".", "\n").replace("_", " ") for name in one.parameter.values]
-    effect, error = 100.0 * one.main_effect.values, 200.0 * one.main_effect_error.values
+    effect = 100.0 * one.main_effect.values
+    error = 200.0 * one.main_effect_error.values
     axes.barh(
         names,
         effect,

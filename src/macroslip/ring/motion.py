@@ -56,13 +56,15 @@ def ring_motion(
     if isinstance(loads, RollerLoads):
         motion = Motion(time, speed, angle, np.zeros((time.size, 3)))
         given = elastic_loads(loads, ring, motion)
-        largest, sample = float(given.max()), int(given.max(axis=1).argmax())
+        largest = float(given.max())
+        sample = int(given.max(axis=1).argmax())
         _refuse(largest, highest_load, f"{loads.source}, t = {time[sample]:g} s", bearing)
         return motion, largest
     force = np.column_stack([np.interp(time, loads.time, component) for component in loads.force.T])
     if more is not None:
         force += more
-    displacement, unbalanced = np.empty_like(force), np.empty(time.size)
+    displacement = np.empty_like(force)
+    unbalanced = np.empty(time.size)
     largest = 0.0
     sample = 0
     # In pieces, so that an interrupt need not wait for the end of a long history.
@@ -71,7 +73,8 @@ def ring_motion(
         displacement[piece], unbalanced[piece] = balance_series(ring, angle[piece], force[piece])
         load, place = largest_load(ring, angle[piece], displacement[piece])
         if load > largest:
-            largest, sample = load, start + place
+            largest = load
+            sample = start + place
     excess = unbalanced - _BALANCE_TOLERANCE * np.linalg.norm(force, axis=1) - _NEGLIGIBLE_FORCE
     worst = int(np.argmax(excess))
     if not excess[worst] <= 0.0:
@@ -126,7 +129,8 @@ def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[
 
 def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> np.ndarray:
     """Approach of every roller [m] at the samples of a motion, shape (n, rollers): linear in angle and time."""
-    count, full = ring.cosine.size // 2, 2.0 * math.pi
+    count = ring.cosine.size // 2
+    full = 2.0 * math.pi
     known = loads.approach(ring.stiffness, max(ring.radial_play, 0.0) * ring.cos_contact_angle)
     before = np.clip(
         np.searchsorted(loads.time, motion.time, side="right") - 1, 0, loads.time.size - 2

@@ -88,7 +88,8 @@ def instant(motion, interval, time):
     share = since / span
     speed = motion.shaft_speed[interval]
     rise = motion.shaft_speed[interval + 1] - speed
-    near, far = motion.displacement[interval], motion.displacement[interval + 1]
+    near = motion.displacement[interval]
+    far = motion.displacement[interval + 1]
     return Instant(
         speed + rise * share,
         motion.shaft_angle[interval] + (speed + 0.5 * rise * share) * since,
@@ -122,7 +123,8 @@ def merged_times(times: np.ndarray, anchors: np.ndarray) -> np.ndarray:
     [0.3, 0.5]
     """
     after = np.clip(np.searchsorted(anchors, times), 1, max(anchors.size - 1, 1))
-    below, above = anchors[after - 1], anchors[np.minimum(after, anchors.size - 1)]
+    below = anchors[after - 1]
+    above = anchors[np.minimum(after, anchors.size - 1)]
     nearest = np.where(times - below <= above - times, below, above)
     rounding = TIME_ROUNDING * max(abs(anchors[0]), abs(anchors[-1]))
     return np.where(np.abs(times - nearest) <= rounding, nearest, times)
@@ -155,7 +157,8 @@ def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.
     >>> travel(np.array([0.0, 2.0]), np.array([1.0, -1.0]), 0.5).tolist()
     [0.0, 0.5]
     """
-    near, far = shaft_speed[:-1] * orbit_ratio, shaft_speed[1:] * orbit_ratio
+    near = shaft_speed[:-1] * orbit_ratio
+    far = shaft_speed[1:] * orbit_ratio
     span = np.diff(time)
     straight = 0.5 * np.abs(near + far) * span
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -175,12 +178,14 @@ def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -
     turns = np.flatnonzero(speed[:-1] * speed[1:] < 0.0)
     zeros = time[turns] + np.diff(time)[turns] * speed[turns] / (speed[turns] - speed[turns + 1])
     # Between these times the speed has one sign and goes straight.
-    time, speed = np.insert(time, turns + 1, zeros), np.insert(np.abs(speed), turns + 1, 0.0)
+    time = np.insert(time, turns + 1, zeros)
+    speed = np.insert(np.abs(speed), turns + 1, 0.0)
     path = travel(time, speed, 1.0)
     # Rounding of the sum may take a little from the last orbit of a whole number; it is given back.
     count = math.floor(path[-1] / (2.0 * math.pi) * (1.0 + 4e-16 * (time.size + 10)))
     targets = np.minimum(2.0 * math.pi * np.arange(1, count + 1), path[-1])
     k = np.searchsorted(path, targets, side="left") - 1
-    since, rise = targets - path[k], (speed[k + 1] - speed[k]) / (time[k + 1] - time[k])
+    since = targets - path[k]
+    rise = (speed[k + 1] - speed[k]) / (time[k + 1] - time[k])
     root = np.sqrt(np.maximum(speed[k] ** 2 + 2.0 * rise * since, 0.0))
     return np.minimum(time[k] + 2.0 * since / (speed[k] + root), time[k + 1])

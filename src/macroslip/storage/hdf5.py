@@ -86,13 +86,12 @@ def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
         )
         if done.returncode == 0:
             return
-        begun, lines = done.stdout, [line for line in done.stderr.splitlines() if line.strip()]
+        begun = done.stdout
+        lines = [line for line in done.stderr.splitlines() if line.strip()]
         reason = lines[-1] if done.returncode == 1 and lines else "the HDF5 library came to no end"
     except subprocess.TimeoutExpired as late:
-        begun, reason = (
-            (late.stdout or b"").decode(errors="replace"),
-            "the HDF5 library came to no end",
-        )
+        begun = (late.stdout or b"").decode(errors="replace")
+        reason = "the HDF5 library came to no end"
     number = max(0, len(begun.splitlines()) - 1)
     raise InputError(
         f"the file cannot be read as netCDF or HDF5 ({reason})",
