@@ -21,10 +21,15 @@ def main() -> int:
         "-o", "--output", type=Path, default=Path("results"), help="folder to write to"
     )
     parser.add_argument("--threads", type=int, help="threads; all processors if not given")
+    parser.add_argument(
+        "--all", action="store_true", help="the sample over estimated values beside the study"
+    )
     given = parser.parse_args()
     try:
         with command_progress(quiet=False) as report:
-            summary = reproduce(given.output, threads=given.threads, progress=report)
+            summary = reproduce(
+                given.output, threads=given.threads, progress=report, sampled=given.all
+            )
     except MacroslipError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

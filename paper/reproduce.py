@@ -66,9 +66,19 @@ def of_model(name: str, model: str) -> str:
 
 
 def compute_model(
-    name: str, directory: Path, threads: int | None, report: Report, reused: list[str]
+    name: str,
+    directory: Path,
+    threads: int | None,
+    report: Report,
+    reused: list[str],
+    *,
+    sampled: bool,
 ) -> ModelRun:
-    """Compute one model; studies go on from what is there of them, and `reused` takes the names of those that were whole."""
+    """Compute one model; studies go on from what is there of them.
+
+    `reused` takes the names of studies that were whole. Where it is `sampled`, the sample over estimated values is
+    computed too, of contacts with microslip.
+    """
     laws, found = MODELS[name], {}
 
     def results(prefix: str, stage: str, *, may_fail: bool = False) -> Path:
@@ -84,8 +94,10 @@ def compute_model(
     _, detail = next(stored_results(results("detail", "one case in detail")))
     traced = turns(detail, laws, threads, partial(report, f"single rollers ({name})"))
     if laws.microslip:
+        found["parts"] = studies.dissipation(study)
+    if laws.microslip and sampled:
         sample = uncertainty(results("uncertainty", "uncertainty", may_fail=True))
-        found = {"parts": studies.dissipation(study), "uncertainty": uncertainty_summary(sample)}
+        found["uncertainty"] = uncertainty_summary(sample)
     return ModelRun(
         study=study,
         numbers=studies.paper_numbers(study),
@@ -244,9 +256,15 @@ def as_json(summary: dict[str, Any]) -> str:
 
 
 def reproduce(
-    directory: Path, *, threads: int | None = None, progress: Report | None = None
+    directory: Path,
+    *,
+    threads: int | None = None,
+    progress: Report | None = None,
+    sampled: bool = False,
 ) -> dict[str, Any]:
     """Compute, judge and draw the paper's study; return what `summary.json` holds, where NaN is None.
+
+    With `sampled` the sample over values that were estimated is computed too, which takes as long as a model's study.
 
     Its studies are computed as any study is: a run that was stopped goes on where it ended, and what an earlier run into
     the same folder computed is used again as long as its inputs and the program are the same. All other files are written
@@ -266,7 +284,7 @@ def reproduce(
     reused: list[str] = []
     with published_together(directory, SUMMARY) as folder:
         runs = {
-            name: compute_model(name, directory / STUDIES, threads, report, reused)
+            name: compute_model(name, directory / STUDIES, threads, report, reused, sampled=sampled)
             for name in MODELS
         }
         _, detail = next(stored_results(directory / STUDIES / f"detail_{PAPER}"))

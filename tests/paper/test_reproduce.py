@@ -4,6 +4,7 @@ import html
 import json
 import re
 import shutil
+from functools import partial
 from pathlib import Path
 from unittest.mock import patch
 
@@ -65,7 +66,7 @@ def quick(small):
         )
         patched.setattr(reproduce, "turns", few_turns)
         patched.setattr(reproduce, "experiments", few_experiments)
-        yield reproduce.reproduce
+        yield partial(reproduce.reproduce, sampled=True)
 
 
 @pytest.fixture(scope="module")
@@ -161,6 +162,16 @@ def test_all_that_is_written_is_documented(written):
         for name in names
         if f"`{name}`" not in documented and f"`figure_{name}`" not in documented
     ] == []
+
+
+def test_without_the_sample_nothing_of_it_is_written(quick, written, monkeypatch, tmp_path):
+    target = tmp_path / "results"
+    shutil.copytree(written[0] / "studies", target / "studies")
+    monkeypatch.setattr(reproduce, "save", lambda *arguments: None)
+    summary = quick(target, sampled=False)
+    assert not [name for name in summary["figures"] if name.startswith("uncertainty")]
+    assert "uncertainty_physical" not in summary["reused"] and len(summary["reused"]) == 4
+    assert 'href="#uncertainty"' not in (target / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_failed_roller_is_seen_on_the_page_and_never_averaged_over(
