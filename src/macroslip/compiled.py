@@ -13,8 +13,8 @@ from numba.extending import register_jitable
 from macroslip.errors import MacroslipError
 from macroslip.storage.kernels import kernel_folder
 
-#: Options of everything that is compiled; division by zero gives inf or NaN as in NumPy. Nothing that is compiled so is called
-#: from C, and an entry for that would be a twelfth of the work.
+#: Options of everything that is compiled; division by zero gives inf or NaN as in NumPy. Nothing
+#: that is compiled so is called from C, and an entry for that would be a twelfth of the work.
 _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 
@@ -29,7 +29,8 @@ def jit(function: Callable) -> Callable:
     if folder is not None:
         numba.config.CACHE_DIR = str(folder)
         try:
-            # Numba refuses to store a function that has no file, and one whose folder in ours cannot be written.
+            # Numba refuses to store a function that has no file, and one whose folder in ours
+            # cannot be written.
             with contextlib.suppress(RuntimeError):
                 dispatcher = numba.njit(cache=True, **_OPTIONS)(function)
                 if Path(dispatcher.stats.cache_path).is_relative_to(folder):
@@ -42,8 +43,9 @@ def jit(function: Callable) -> Callable:
 def jit_inline(function: Callable) -> Callable:
     """Make a part of compiled functions, which is compiled into them; called from Python it is a plain function.
 
-    It is not stored, nor can Python call what is compiled of it: both would be work. The compiler chooses where it stays a
-    call, because parts copied into all their callers are optimised anew in each.
+    It is not stored, nor can Python call what is compiled of it: both would be work. The compiler
+    chooses where it stays a call, because parts copied into all their callers are optimised anew in
+    each.
     """
     return register_jitable(**_OPTIONS)(function)
 

@@ -1,8 +1,9 @@
 """Length of a step: bounds that are known beforehand, and the estimated errors of slip and energy of a step that was tried.
 
-Energy is a sum over three instants of a step. Where power is smooth, the embedded estimate is far above the error of the
-sum. Where power has a kink inside the step, or falls to zero at its end with an infinite slope, estimate and error are of
-the same size, and the estimate may be small by accident.
+Energy is a sum over three instants of a step. Where power is smooth, the embedded estimate is far
+above the error of the sum. Where power has a kink inside the step, or falls to zero at its end with
+an infinite slope, estimate and error are of the same size, and the estimate may be small by
+accident.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ _ROOT_6 = math.sqrt(6.0)
 _THIRD = np.linalg.solve(
     np.vander(NODES, 3, increasing=True).T, np.array([1.0 - 1.0 / EIGENVALUE, 0.5, 1.0 / 3.0])
 )
-#: Weights of (third-order rule with weight 1/EIGENVALUE at the start) − (Radau rule), at nodes 0, c1, c2, 1.
+#: Weights of (third-order rule with weight 1/EIGENVALUE at the start) − (Radau rule), at nodes 0,
+#: c1, c2, 1.
 EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
 
 
@@ -45,7 +47,8 @@ def cubic(x, g0, g1, g2, g3):
 def crossing(g0, g1, g2, g3):
     """First change of sign of the cubic through a step's nodes, as a part of the step; 1 if there is none inside.
 
-    It is given by its values at the start and at the three stages; a change next to an end, by `AT_END`, is none.
+    It is given by its values at the start and at the three stages; a change next to an end, by
+    `AT_END`, is none.
 
     Examples
     --------
@@ -87,9 +90,9 @@ def _lean(at):
 def first_cusp(work):
     """Part of a step at which traction first has a cusp because a light contact's load passes through zero; else 1.
 
-    At the cage it is predicted with the traction at the start, whose change is small against the roller's weight. A
-    roller without elastic load has another where it leans over from one raceway to the other. Where the shaft turns back
-    all friction has one.
+    At the cage it is predicted with the traction at the start, whose change is small against the
+    roller's weight. A roller without elastic load has another where it leans over from one raceway
+    to the other. Where the shaft turns back all friction has one.
     """
     at = work.at
     one = work.stage_at[0]
@@ -116,8 +119,8 @@ def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
 def slip_error(path, work):
     """Estimated error of slip of a step [m/s].
 
-    The embedded estimate is one number and may vanish by accident, especially where grip ceases between two stages; so the
-    equation's defect is looked at between them.
+    The embedded estimate is one number and may vanish by accident, especially where grip ceases
+    between two stages; so the equation's defect is looked at between them.
     """
     microslip = path.body.microslip
     firm = work.zone == FIRM
@@ -148,7 +151,8 @@ def slip_error(path, work):
 def missed_way(path, work):
     """Error of the method's quadrature for the way of the rings past the roller in a step [m]; it is known exactly.
 
-    Speed is linear between the samples of the loads, and friction follows it: kinks of both lie at the same instants.
+    Speed is linear between the samples of the loads, and friction follows it: kinks of both lie at
+    the same instants.
     """
     before = instant(path.motion, work.interval, work.time)
     after = instant(path.motion, work.end_interval, work.times[2])
@@ -191,7 +195,8 @@ def energy_error(path, work):
         return error  # the raceways' power, beside which the cage's is little, has no cusp there
     # The cage's load is all but gone at one end of the step: a look between the stages.
     look_between(path, work, tuning.CUSP_LOOK)
-    # Between stages the polynomial of slip is far from balance; for the cage, balance is pure rolling.
+    # Between stages the polynomial of slip is far from balance; for the cage, balance is pure
+    # rolling.
     slip = 0.0 if work.zone == FIRM else work.there_slip
     evaluate(path, work.there, slip, work.push)
     work.count[2] += 1
@@ -204,9 +209,10 @@ def energy_error(path, work):
 def held_energy_error(energy, length, before, after):
     """Estimated error of the energy of a held step [J], from powers at its ends [W].
 
-    Simpson's rule is off in proportion to the fourth power of the step, the trapezoidal rule to the second; the square of
-    twice what they differ by relatively has the order of the one, and for a power that grows as an exponential eighty
-    times its error. Errors of a rising and of a falling power are of one sign and add up, hence the margin.
+    Simpson's rule is off in proportion to the fourth power of the step, the trapezoidal rule to the
+    second; the square of twice what they differ by relatively has the order of the one, and for a
+    power that grows as an exponential eighty times its error. Errors of a rising and of a falling
+    power are of one sign and add up, hence the margin.
     """
     difference = 2.0 * energy - length * (before + after)
     return difference * difference / abs(energy) if energy != 0.0 else math.inf

@@ -1,8 +1,9 @@
 """The paper's two Euler methods on the spin, over a whole history at a fixed step.
 
-Explicit Euler is unstable in the load zone (the paper's Appendix A). Backward Euler has a hidden parameter, where its
-iteration stops: a change of spin that looks negligible is a large force in a gripped contact, because dF/dv reaches
-1e13 N s/m there. Slip is formed as u2 − r ω and so carries the round-off of the surface speeds; that is part of both methods.
+Explicit Euler is unstable in the load zone (the paper's Appendix A). Backward Euler has a hidden
+parameter, where its iteration stops: a change of spin that looks negligible is a large force in a
+gripped contact, because dF/dv reaches 1e13 N s/m there. Slip is formed as u2 − r ω and so carries
+the round-off of the surface speeds; that is part of both methods.
 """
 
 from __future__ import annotations
@@ -24,8 +25,9 @@ from macroslip.roller.step import write_stage
 #: step : [s]
 #: implicit : 1 for backward Euler, 0 for explicit Euler
 #: tolerance : of the nonlinear iteration of backward Euler, relative change of spin
-#: largest_slip : slip beyond which the integration stops as unstable [m/s]. Friction pulls a roller's surface towards the speed of
-#:     the rings and of the cage only, so its true slip never leaves the range these speeds span.
+#: largest_slip : slip beyond which the integration stops as unstable [m/s]. Friction pulls a
+#:     roller's surface towards the speed of the rings and of the cage only, so its true slip never
+#:     leaves the range these speeds span.
 #: end : of the integration [s]; the last step is shortened to meet it
 RULE = np.dtype(
     [("step", "f8"), ("implicit", "i8"), ("tolerance", "f8"), ("largest_slip", "f8"), ("end", "f8")]
@@ -46,10 +48,11 @@ def _defect(path, work, spin, step):
 def backward_euler_step(path, work, step, tolerance):
     """Spin after one implicit step of I_z' dω/dt = r (F_i + F_o + F_c) (16), with the station at its end in the first stage.
 
-    The iteration is the secant method started from the last spin, as MINPACK's hybrid method reduces to in one unknown,
-    held inside a bracket once there is one. It stops when ω changes by less than `tolerance` of itself. Gives ω after
-    the step, relative to the orbiting frame [rad/s], NaN if the iteration did not stop; and the force [N] that the
-    stopped iteration leaves unbalanced.
+    The iteration is the secant method started from the last spin, as MINPACK's hybrid method
+    reduces to in one unknown, held inside a bracket once there is one. It stops when ω changes by
+    less than `tolerance` of itself. Gives ω after the step, relative to the orbiting frame [rad/s],
+    NaN if the iteration did not stop; and the force [N] that the stopped iteration leaves
+    unbalanced.
     """
     to_force = path.body.radius / (step * path.body.mobility)
     older = work.spin
@@ -85,8 +88,8 @@ def backward_euler_step(path, work, step, tolerance):
 def integrate_fixed_step(path, work, steps):
     """Integrate the spin of one roller with explicit or backward Euler, until its history ends or the buffer is full.
 
-    As `macroslip.imposed.solve.integrate`, with a `RULE` for limits and one stage a step: the state at which its forces are
-    evaluated, its start or its end.
+    As `macroslip.imposed.solve.integrate`, with a `RULE` for limits and one stage a step: the state
+    at which its forces are evaluated, its start or its end.
     """
     body = path.body
     motion = path.motion

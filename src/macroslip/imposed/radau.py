@@ -1,20 +1,22 @@
 """Steps of a roller's slip: Radau IIA (order 5, L-stable), and two-stage collocation where a roller is firmly held.
 
-The stage equations are those of v(t) = v0 + [u2(t) − u2(t0)] − (r²/I_z') ∫ F dt: the ring's speed u2 enters by its exact
-difference and only the forces are integrated numerically. Multiplied by the inverse of the method's matrix and divided
-by h r²/I_z' they read, in newtons,
+The stage equations are those of v(t) = v0 + [u2(t) − u2(t0)] − (r²/I_z') ∫ F dt: the ring's speed
+u2 enters by its exact difference and only the forces are integrated numerically. Multiplied by the
+inverse of the method's matrix and divided by h r²/I_z' they read, in newtons,
 
     R_i = Σ_j (A⁻¹)_ij (v_j − v0 − u2_j + u2_0)/(h r²/I_z') + F_i + F_o + F_c |_i = 0,
 
-so a tolerance on the residual is a tolerance on force, however stiff the contact. Every stage has its own derivative of
-the force, and Newton's matrix A⁻¹/(h r²/I_z') + diag(F') is exact.
+so a tolerance on the residual is a tolerance on force, however stiff the contact. Every stage has
+its own derivative of the force, and Newton's matrix A⁻¹/(h r²/I_z') + diag(F') is exact.
 
-A firmly held roller with microslip slips as the balance of the instant asks. There collocation at the middle and the end of
-the step, with the energy by Simpson's rule, takes two force evaluations in place of three, and is no worse, since slip
-forgets what it was within a small part of the step: L-stable, and of order 2 where slip has a memory (its stability function is
-(1 + z/4)/(1 − 3z/4 + z²/4)).
+A firmly held roller with microslip slips as the balance of the instant asks. There collocation at
+the middle and the end of the step, with the energy by Simpson's rule, takes two force evaluations
+in place of three, and is no worse, since slip forgets what it was within a small part of the step:
+L-stable, and of order 2 where slip has a memory (its stability function is (1 + z/4)/(1 − 3z/4 +
+z²/4)).
 
-Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), doi:10.1007/978-3-642-05221-7.
+Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996),
+doi:10.1007/978-3-642-05221-7.
 """
 
 from __future__ import annotations
@@ -91,7 +93,8 @@ class Path(NamedTuple):
 #: cold_slip : slip below which traction rises with slip at every load of the history [m/s]
 #: firm : interference from which on the roller is firmly held [m]
 #: window : start of the window [s]
-#: grain : change of a slip near zero that does not change its place in a table [m/s]; 0 without tables of traction
+#: grain : change of a slip near zero that does not change its place in a table [m/s]; 0 without
+#:     tables of traction
 LIMITS = np.dtype(
     [
         ("tolerance", "f8"), ("max_steps", "i8"), ("speed_scale", "f8"), ("energy_scale", "f8"), ("longest_step", "f8"),
@@ -99,22 +102,26 @@ LIMITS = np.dtype(
     ]
 )  # fmt: skip
 
-#: All that an integration has in hand, one record that its functions read and write; it goes on from there in the next call.
+#: All that an integration has in hand, one record that its functions read and write; it goes on
+#: from there in the next call.
 #:
-#: The roller now: time [s], sample interval that holds it, slip [m/s], station, forces and powers of its interfaces [W].
-#: The step that is tried: length [s], scale 1/(h r²/I_z') [N s/m], sample interval in which it ends, whether it is held, that is of
-#: two stages at its middle and end beside its start; times [s], weights and stations of its stages.
-#: Its solution: whether it converged, slip v at the stages [m/s] and its increments by forces s = v − v0 − (u2 − u2_0) [m/s],
-#: forces, the largest force left at a stage [N], powers [W], their sums at the start and the stages [W], and the energy [J].
-#: A look at another place: station, forces, powers [W], slip [m/s] and the rate of its increment [m/s].
-#: Known from steps before: the power of the load that the slip of a held roller follows; residual left by Newton's correction over
-#: the square of the correction (`bend`, [N s²/m²], infinite while it is not known); length of the last step of three stages
-#: [s], 0 where another has come since, and its increments.
-#: The stretch: step to try next [s], time at which a step must end [s], class of the sample interval (−1 before the first), last of
-#: the sample intervals of this class that follow one another, index of the first stop ahead, length of the sample interval [s],
-#: whether the last attempt was rejected, and a number that changes where loads have a kink.
-#: So far: whether it has begun; steps, rejections and force evaluations; largest force left unbalanced [N]; energy spent [J], in the
-#: window from there on; largest raceway power since the roller had no load [W]; spin of the Euler methods [rad/s].
+#: The roller now: time [s], sample interval that holds it, slip [m/s], station, forces and powers
+#: of its interfaces [W]. The step that is tried: length [s], scale 1/(h r²/I_z') [N s/m], sample
+#: interval in which it ends, whether it is held, that is of two stages at its middle and end beside
+#: its start; times [s], weights and stations of its stages. Its solution: whether it converged,
+#: slip v at the stages [m/s] and its increments by forces s = v − v0 − (u2 − u2_0) [m/s], forces,
+#: the largest force left at a stage [N], powers [W], their sums at the start and the stages [W],
+#: and the energy [J]. A look at another place: station, forces, powers [W], slip [m/s] and the rate
+#: of its increment [m/s]. Known from steps before: the power of the load that the slip of a held
+#: roller follows; residual left by Newton's correction over the square of the correction (`bend`,
+#: [N s²/m²], infinite while it is not known); length of the last step of three stages [s], 0 where
+#: another has come since, and its increments. The stretch: step to try next [s], time at which a
+#: step must end [s], class of the sample interval (−1 before the first), last of the sample
+#: intervals of this class that follow one another, index of the first stop ahead, length of the
+#: sample interval [s], whether the last attempt was rejected, and a number that changes where loads
+#: have a kink. So far: whether it has begun; steps, rejections and force evaluations; largest force
+#: left unbalanced [N]; energy spent [J], in the window from there on; largest raceway power since
+#: the roller had no load [W]; spin of the Euler methods [rad/s].
 WORK = np.dtype(
     [
         ("time", "f8"), ("interval", "i8"), ("slip", "f8"), ("at", STATION), ("forces", FORCES), ("powers", "f8", (3,)),
@@ -198,7 +205,8 @@ def set_step(path, work, length, held):
 def shift(forces, change):
     """Change the forces by a small change of slip [m/s], to first order.
 
-    The change of the cage's force and of rolling resistance is all given to the cage; the rest is left as it is.
+    The change of the cage's force and of rolling resistance is all given to the cage; the rest is
+    left as it is.
     """
     inner = forces.inner_slope * change
     outer = forces.outer_slope * change
@@ -314,7 +322,8 @@ def solve_stages(path, work):
     limits = path.limits
     force_part = force_tolerance(limits.tolerance, path.body.microslip)
     round_off = 4e-15 * scale * (limits.speed_scale + abs(work.slip))
-    # Without microslip a roller that grips slips too little for its forces to bend in the same way twice.
+    # Without microslip a roller that grips slips too little for its forces to bend in the same way
+    # twice.
     smooth = path.body.microslip or work.zone == FREE
     work.converged = 0
     work.left = math.inf
@@ -340,8 +349,9 @@ def solve_stages(path, work):
             return
         if not math.isfinite(size) or (iteration > 2 and size > 0.9 * work.left):
             return
-        # Newton's residuals shrink quadratically: the next one is predicted from the last two, or with a known bend from
-        # the first correction, and where it is small enough the forces follow to first order, without an evaluation.
+        # Newton's residuals shrink quadratically: the next one is predicted from the last two, or
+        # with a known bend from the first correction, and where it is small enough the forces
+        # follow to first order, without an evaluation.
         if iteration > 0:
             foreseen = size * size / work.left
             if iteration == 1:
@@ -374,7 +384,8 @@ def follows_loads(path, work, length):
 def held_update(scale, d2, d3, rest_2, rest_3):
     """Solve the two linearised stage equations: changes of slip at the middle and at the end [m/s].
 
-    R_2 = scale (v_3 − …) + F_2 and R_3 = scale (3 v_3 − 4 v_2 + …) + F_3, with F' = d [N s/m] and `scale` = 1/(h r²/I_z').
+    R_2 = scale (v_3 − …) + F_2 and R_3 = scale (3 v_3 − 4 v_2 + …) + F_3, with F' = d [N s/m] and
+    `scale` = 1/(h r²/I_z').
 
     Examples
     --------
@@ -402,7 +413,8 @@ def solve_held(path, work):
     force_part = force_tolerance(path.limits.tolerance, path.body.microslip)
     work.v[1] = held_slip(path.body.microslip, slip, at, middle, work.exponent)
     evaluate(path, middle, work.v[1], second)
-    # The middle first, with the end as far ahead as the middle: its solution makes a good guess of the end.
+    # The middle first, with the end as far ahead as the middle: its solution makes a good guess of
+    # the end.
     rest = scale * 2.0 * (work.v[1] - slip - (middle.ring_speed - at.ring_speed)) + net_force(
         second
     )
@@ -453,8 +465,8 @@ def solve_held(path, work):
 def held_slip(microslip, slip, at, later, exponent):
     """Guess of the slip of a firmly held roller at a later station from its slip now.
 
-    With microslip the middle slips so that the two sides of the lines of pure rolling balance: in proportion to speed,
-    and to a power of the load that `held_exponent` measures.
+    With microslip the middle slips so that the two sides of the lines of pure rolling balance: in
+    proportion to speed, and to a power of the load that `held_exponent` measures.
     """
     if not microslip or at.elastic_load <= 0.0 or at.ring_speed == 0.0 or later.elastic_load <= 0.0:
         return slip
@@ -487,9 +499,10 @@ def held_exponent(at, slip, later, later_slip, exponent):
 def guess(path, work):
     """Write the slip at the stages [m/s] to start Newton's iteration from.
 
-    Where slip is smooth, the polynomial of the step before is continued. Otherwise a roller that drifts under small forces
-    continues with the acceleration of the forces at the start, and one stuck to the cage keeps its spin; any other starts
-    from the slip before the step, which `held_slip` changes with the load if the roller follows its loads.
+    Where slip is smooth, the polynomial of the step before is continued. Otherwise a roller that
+    drifts under small forces continues with the acceleration of the forces at the start, and one
+    stuck to the cage keeps its spin; any other starts from the slip before the step, which
+    `held_slip` changes with the load if the roller follows its loads.
     """
     h = work.length
     slip = work.slip
@@ -549,9 +562,9 @@ def surely_rising(body, tables, inner_load, outer_load, speed):
 def is_continuous(path, work):
     """Whether the solved stages of a step are sure to be the root that is continuous with the slip before it.
 
-    Below the slip at which some part of a contact passes its peak of traction, forces rise with slip and the stage equations
-    have one root. Above it, a step is accepted only where slip changes so little, and traction falls so gently, that the
-    root found is the continuous one.
+    Below the slip at which some part of a contact passes its peak of traction, forces rise with
+    slip and the stage equations have one root. Above it, a step is accepted only where slip changes
+    so little, and traction falls so gently, that the root found is the continuous one.
     """
     slip = work.slip
     limits = path.limits
@@ -561,7 +574,8 @@ def is_continuous(path, work):
     inner = at.inner_load
     outer = at.outer_load
     for k in range(3):
-        # More than one root is possible only where traction falls with slip faster than the step allows.
+        # More than one root is possible only where traction falls with slip faster than the step
+        # allows.
         if work.stage_forces[k].slope < -0.5 * work.scale:
             return False
         change = max(change, abs(work.v[k] - slip))

@@ -56,9 +56,9 @@ def radau_limits(
 ) -> np.ndarray:
     """Bounds of the Radau integrator that hold for all rollers of a case.
 
-    `tolerance` is relative, of slip and energy; `heaviest` the largest load of a roller with weight and centrifugal
-    force [N], `window` the window's start [s], `longest_turn` the largest part of an orbit turned in one step [rad].
-    The roller may be of either row.
+    `tolerance` is relative, of slip and energy; `heaviest` the largest load of a roller with weight
+    and centrifugal force [N], `window` the window's start [s], `longest_turn` the largest part of
+    an orbit turned in one step [rad]. The roller may be of either row.
     """
     body = roller.body[0]
     tables = roller.tables
@@ -68,7 +68,8 @@ def radau_limits(
     longest = 0.1 * float(motion.time[-1] - motion.time[0])
     if fastest > 0.0:
         longest = min(longest, longest_turn / fastest)
-    # By the closed form a ring that turns slower has its films end at less slip, which is looked at in every step.
+    # By the closed form a ring that turns slower has its films end at less slip, which is looked at
+    # in every step.
     ring = 0.0 if body["closed_form"] else speed
     cold = surely_rising(body, tables, heaviest, heaviest, ring) if heaviest > 0.0 else np.inf
     firm = firm_interference(body, tables.ctypes.data, speed)
@@ -97,8 +98,9 @@ def fixed_step(
 def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator[np.ndarray]:
     """Integrate one roller from pure rolling on.
 
-    Yields steps that follow one another, arrays of `STEP` of shape (n, 1), in a buffer that the next ones overwrite.
-    The first sample has the roller at φ = `start_angle` [rad]; `outcome` is filled when the last buffer has been given.
+    Yields steps that follow one another, arrays of `STEP` of shape (n, 1), in a buffer that the
+    next ones overwrite. The first sample has the roller at φ = `start_angle` [rad]; `outcome` is
+    filled when the last buffer has been given.
     """
     motion = problem.motion
     limits = problem.limits[0]

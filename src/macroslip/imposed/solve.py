@@ -1,7 +1,7 @@
 """The production integrator: steps of a roller's slip with error control, ending on every edge of the load zone.
 
-It computes steps and nothing else. They go into a buffer; when that is full the function returns, and goes on where it was
-when it is called again with the same record of work.
+It computes steps and nothing else. They go into a buffer; when that is full the function returns,
+and goes on where it was when it is called again with the same record of work.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ def _follows_acceleration(work):
 def _rebalance(path, work):
     """Take a firmly held roller to just after a sample, where the shaft's acceleration changes at once.
 
-    The transition takes the relaxation time, for which `firm_interference` gives a bound; here it takes none. A roller
-    that still skids, or has not settled yet, is left as it is.
+    The transition takes the relaxation time, for which `firm_interference` gives a bound; here it
+    takes none. A roller that still skids, or has not settled yet, is left as it is.
     """
     body = path.body
     motion = path.motion
@@ -100,23 +100,27 @@ def _next_stretch(path, stops, classes, work):
     work.sample_step = sample_step = motion.time[interval + 1] - motion.time[interval]
     jumps = not path.body.microslip
     last = interval
-    # From where an earlier search ended: a run may have as many intervals as the history, and is searched at every barrier.
+    # From where an earlier search ended: a run may have as many intervals as the history, and is
+    # searched at every barrier.
     work.run_end = max(work.run_end, interval)
     while work.run_end < classes.size - 1 and classes[work.run_end + 1] == zone:
         work.run_end += 1
-    # With microslip the power of a held roller has a kink at every sample; without, that of a cage that carries little.
+    # With microslip the power of a held roller has a kink at every sample; without, that of a cage
+    # that carries little.
     kinks = zone == FIRM and (not jumps or _follows_acceleration(work))
     if zone != EDGE and work.step > 2.0 * sample_step and not kinks:
         last = max(interval, min(work.run_end, last_before(motion.time, stop)))
         if zone == FIRM and last > interval and motion.time[last + 1] > stop:
-            # The last step before a stop crosses no sample, so that tractions at the stop are those of the instant.
+            # The last step before a stop crosses no sample, so that tractions at the stop are those
+            # of the instant.
             last -= 1
     work.barrier = min(motion.time[last + 1], stop)
     if jumps and work.at.interference > path.limits.firm and time == motion.time[interval]:
         _rebalance(path, work)
     if zone == EDGE:
         work.barrier = edge_time(path.body, motion, path.start_angle, interval, time, work.barrier)
-        # With microslip forces are as smooth there as before, unless rings press on the roller anew.
+        # With microslip forces are as smooth there as before, unless rings press on the roller
+        # anew.
         if before != EDGE and (jumps or before != FIRM):
             work.step = min(work.step, tuning.EDGE_STEP)
 
@@ -147,8 +151,8 @@ def _attempt(path, work):
         energy_off = energy_error(path, work)
     since = path.limits.window if work.time >= path.limits.window else path.motion.time[0]
     mean_power = (work.spent + work.energy) / (work.times[2] - since)
-    # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a sample interval may
-    # be off by what is allowed in that part.
+    # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a
+    # sample interval may be off by what is allowed in that part.
     share = max(work.length, tuning.SHORT_PART * work.sample_step)
     limits = path.limits
     worth = max(mean_power * share, work.energy, tuning.NO_ENERGY * limits.energy_scale)
@@ -167,7 +171,8 @@ def _reject(path, work, error):
         return
     part = tuning.UNSOLVED_PART
     if error < math.inf:
-        # With microslip a step that is too long crosses the kink of the loads at a sample: its error is of second order.
+        # With microslip a step that is too long crosses the kink of the loads at a sample: its
+        # error is of second order.
         part = max(
             tuning.LEAST_PART,
             tuning.SAFETY / math.sqrt(error) if path.body.microslip else step_factor(error),
@@ -207,8 +212,8 @@ def _may_peak_inside(path, work, resolved):
 def _film_ends_at(work, resolved):
     """Part of the step at which the entrainment of a sliding roller passes zero, 1 where it does not.
 
-    The film ends there, and power has a cusp, but in tables, which smooth it. A gripped roller's passes zero with the ring's
-    speed, and its slip between the stages is far from balance.
+    The film ends there, and power has a cusp, but in tables, which smooth it. A gripped roller's
+    passes zero with the ring's speed, and its slip between the stages is far from balance.
     """
     if min(abs(work.slip), abs(work.v[2])) <= resolved:
         return 1.0
@@ -221,8 +226,8 @@ def _film_ends_at(work, resolved):
 def _write_samples(path, work, resolved, cusp, rows):
     """Write rows without weight at places between the stages, where power may have a peak; returns how many.
 
-    One of them is at the part `cusp` of the step. A slip that is small against what a step may be off says nothing of the
-    power there.
+    One of them is at the part `cusp` of the step. A slip that is small against what a step may be
+    off says nothing of the power there.
     """
     row = 0
     stage = 0
@@ -315,10 +320,11 @@ def _begin(path, work, row):
 def integrate(path, stops, classes, work, steps):
     """Integrate the slip of one roller, until its history ends or the buffer is full.
 
-    Gives a `Status`, UNDER_WAY where the buffer is full, and the number of rows that were written. `path` has `LIMITS`;
-    `stops` are times at which a step must end [s], rising, the last being the end of the integration; `classes` of
-    sample intervals, shape (n − 1,), are those of `classify`. A record of `WORK` has zeros but for the slip at the
-    first sample, and then is as the last call left it; `steps`, shape (m,), are filled from the start.
+    Gives a `Status`, UNDER_WAY where the buffer is full, and the number of rows that were written.
+    `path` has `LIMITS`; `stops` are times at which a step must end [s], rising, the last being the
+    end of the integration; `classes` of sample intervals, shape (n − 1,), are those of `classify`.
+    A record of `WORK` has zeros but for the slip at the first sample, and then is as the last call
+    left it; `steps`, shape (m,), are filled from the start.
     """
     time, speed, angle, displacement = path.motion
     motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]

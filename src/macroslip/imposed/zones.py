@@ -1,9 +1,9 @@
 """Where on its way a roller is loaded, so that no step of an integrator can pass over a load zone or over its edge.
 
-Every interval between load samples belongs to one of three classes. `FREE`: no elastic load throughout; only the
-smooth body forces act. `FIRM`: so much load throughout that slip relaxes within a small part of a millisecond;
-the slip then follows the instant's balance of forces. `EDGE`: anything else; here steps must end at samples and at the
-instant the load begins or ends.
+Every interval between load samples belongs to one of three classes. `FREE`: no elastic load
+throughout; only the smooth body forces act. `FIRM`: so much load throughout that slip relaxes
+within a small part of a millisecond; the slip then follows the instant's balance of forces. `EDGE`:
+anything else; here steps must end at samples and at the instant the load begins or ends.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ FIRM = 2
 def relaxation_rate(body, tables, load, ring_speed):
     """Rate (r²/I_z') d(F_i + F_o)/dv [1/s] at the slip at which F_i + F_o = 0, under `load` [N].
 
-    `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a Newton iteration held
-    within the slips that occur in the contact finds it.
+    `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a
+    Newton iteration held within the slips that occur in the contact finds it.
     """
     slip = 0.0
     low = -math.inf
@@ -62,7 +62,8 @@ def relaxation_rate(body, tables, load, ring_speed):
 def firm_interference(body, tables, ring_speed):
     """Interference [m] above which a roller is firmly held at raceway speeds up to `ring_speed` [m/s].
 
-    Infinite if no load of the tables holds it firmly (a law with bounded slope): then no interval is `FIRM`.
+    Infinite if no load of the tables holds it firmly (a law with bounded slope): then no interval
+    is `FIRM`.
     """
     firm_rate = tuning.FIRM_RATE_MICROSLIP if body.microslip else tuning.FIRM_RATE
     low = 1e-3
@@ -91,9 +92,9 @@ def interference_at(body, motion, start_angle, interval, time):
 def classify(body, motion, start_angle, firm, classes):
     """Write the class of every sample interval, of a roller at φ = `start_angle` at first, into `classes`, shape (n − 1,).
 
-    Between two samples δ differs from the chord by at most |δ''| Δt²/8. The roller's turning, its acceleration and the
-    ring's motion bound |δ''| by (φ'² + |φ''|) (|d| + 4 |c2| + 9 |c3|) + 2 |φ'| |d'|, c2 and c3 the waves of a ring out of
-    round, and the classes keep that margin.
+    Between two samples δ differs from the chord by at most |δ''| Δt²/8. The roller's turning, its
+    acceleration and the ring's motion bound |δ''| by (φ'² + |φ''|) (|d| + 4 |c2| + 9 |c3|) + 2 |φ'|
+    |d'|, c2 and c3 the waves of a ring out of round, and the classes keep that margin.
     """
     before = interference_at(body, motion, start_angle, 0, motion.time[0])
     waves = 4.0 * math.hypot(body.second_x, body.second_y) + 9.0 * math.hypot(

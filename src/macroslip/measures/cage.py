@@ -23,19 +23,22 @@ class CageMeasures:
         self._bearing = bearing
         self._window = wanted.edges[0]
         self._times = times
-        #: By side of the pocket, shape (n, 2): ∫|N| dt [N s], largest |N| [N] and time with a push [s] in the window.
+        #: By side of the pocket, shape (n, 2): ∫|N| dt [N s], largest |N| [N] and time with a push
+        #: [s] in the window.
         self.impulse, self.largest, self.time = (np.zeros((count, 2)) for _ in range(3))
         #: Largest |N| in the window by place on the orbit [N], shape (n, places).
         self.largest_by_place = np.zeros((count, SECTORS))
-        #: ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window, shape (c, 3).
+        #: ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window,
+        #: shape (c, 3).
         self.slip = np.zeros((cages, 3))
-        #: Of momentum and energy, at the times of traces, or of the window's start and the ends of its orbits.
+        #: Of momentum and energy, at the times of traces, or of the window's start and the ends of
+        #: its orbits.
         self.books = Books(bearing, times)
-        #: Speed of the cage [rad/s], its lag [m], its displacement along X0 and Y0 [m], and the rollers' torque on it [N m],
-        #: shape (m, c, 5).
+        #: Speed of the cage [rad/s], its lag [m], its displacement along X0 and Y0 [m], and the
+        #: rollers' torque on it [N m], shape (m, c, 5).
         self.traces = np.full((times.size, cages, 5), np.nan)
-        #: Traces of the rollers, shape (m, n): way ahead of the middle of the pocket [m], and orbit speed less that of pure
-        #: rolling [rad/s].
+        #: Traces of the rollers, shape (m, n): way ahead of the middle of the pocket [m], and orbit
+        #: speed less that of pure rolling [rad/s].
         self.offset, self.deviation = (np.full((times.size, count), np.nan) for _ in range(2))
 
     def add(self, part: Part) -> None:

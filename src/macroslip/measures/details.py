@@ -1,17 +1,20 @@
 """Details of the contacts: where on them energy is dissipated, and their extremes.
 
-By stations along the roller and places of the raceways, with the part of asperities and the work of pressure times slip; the
-largest flash temperature, power per area and slide-roll ratio and the least film ratio in each orbit, and while rollers enter
-the load zone; and how long, and for how many passes, films were thin at which slide-roll ratio.
+By stations along the roller and places of the raceways, with the part of asperities and the work of
+pressure times slip; the largest flash temperature, power per area and slide-roll ratio and the
+least film ratio in each orbit, and while rollers enter the load zone; and how long, and for how
+many passes, films were thin at which slide-roll ratio.
 
-A contact is evaluated station by station (a look) where its power has changed, a value is a new highest one, or some way has been
-travelled: at every step it would cost more than the forces. Between two looks the energies of the raceways are kept, and when
-they were spent. A look spreads them over the way since the one before, as if power had passed linearly in time from how it
-lay along the roller at that one to how it lies now.
+A contact is evaluated station by station (a look) where its power has changed, a value is a new
+highest one, or some way has been travelled: at every step it would cost more than the forces.
+Between two looks the energies of the raceways are kept, and when they were spent. A look spreads
+them over the way since the one before, as if power had passed linearly in time from how it lay
+along the roller at that one to how it lies now.
 
-The outer raceway is at rest, and the angle of a place on it is φ, from +X0 towards +Y0. The inner raceway turns with
-the shaft, and the angle of a place on it is counted from where +X0 was at the first sample: φ less the shaft's angle.
-A roller of a whole bearing is ahead of pure rolling, or behind: φ is its own.
+The outer raceway is at rest, and the angle of a place on it is φ, from +X0 towards +Y0. The inner
+raceway turns with the shaft, and the angle of a place on it is counted from where +X0 was at the
+first sample: φ less the shaft's angle. A roller of a whole bearing is ahead of pure rolling, or
+behind: φ is its own.
 """
 
 from __future__ import annotations
@@ -51,34 +54,39 @@ if TYPE_CHECKING:
 #: Sectors of a raceway, 5° each, and stations along the roller's length.
 STATIONS = 24
 _PER_ANGLE = SECTORS / (2.0 * math.pi)
-#: Meaning of `Details.surface_energy` by its last two positions, and of `Details.extreme` by its last.
+#: Meaning of `Details.surface_energy` by its last two positions, and of `Details.extreme` by its
+#: last.
 SLIP_SIGNS = ("negative", "positive")
 FILM_REGIMES = ("below 1", "1 and above")
 EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
-#: Upper edges of classes of Λ and of the slide-roll ratio (ring less roller over their mean: above 0 the ring is faster).
+#: Upper edges of classes of Λ and of the slide-roll ratio (ring less roller over their mean: above
+#: 0 the ring is faster).
 FILM_EDGES = (0.5, 1.0, 1.5, 2.0, 3.0, 5.0)
 SLIP_EDGES = (-0.1, -0.03, -0.01, -0.003, -0.001, 0.0, 0.001, 0.003, 0.01, 0.03, 0.1)
-#: A roller that the rings begin to press enters the load zone until its middle slips by less than this part of the speed, or
-#: for this way [rad].
+#: A roller that the rings begin to press enters the load zone until its middle slips by less than
+#: this part of the speed, or for this way [rad].
 _SETTLED = 0.01
 _ENTRY = 0.35
-#: A roller's contacts are looked at after a change of a raceway's power by this part of the largest looked at in its orbit, a rise
-#: of its power per area, of the cage's power or of the slide-roll ratio above the highest there by this part, and in any case
-#: after this way [rad]. On 14B and 24A over 600 s, against looks at every step: extremes at the raceways are low by 0.5 % on
-#: average and 18 % at most, and up to 0.5 % of the energy lies at other stations.
+#: A roller's contacts are looked at after a change of a raceway's power by this part of the largest
+#: looked at in its orbit, a rise of its power per area, of the cage's power or of the slide-roll
+#: ratio above the highest there by this part, and in any case after this way [rad]. On 14B and 24A
+#: over 600 s, against looks at every step: extremes at the raceways are low by 0.5 % on average and
+#: 18 % at most, and up to 0.5 % of the energy lies at other stations.
 _CHANGE = 0.1
 _RISE = 0.03
 _TURN = 0.35
-#: Least share of asperities by which their energy is spread along the roller: quotients of less overflow.
+#: Least share of asperities by which their energy is spread along the roller: quotients of less
+#: overflow.
 _LEAST_SHARE = 1e-30
 #: Looks from one at the quadrature's error to the next, which takes as long as five hundred others.
 _FINE = 4096
 
-#: State from look to look: number of looks, orbit of the last one, its time [s] (NaN before the first), angle of the roller ahead
-#: of pure rolling [rad], power at the raceways then [W]; the highest values in its orbit: powers of the interfaces [W], power
-#: over load^(2/3) at the raceways, and slide-roll ratio; energy since then [J], its moment about that time [J s] and the part
-#: of asperities [J] by raceway; elastic load at the end of the last step [N] (NaN before the first), number of the entry
-#: under way (0 for none), how many there were, and when it began [s].
+#: State from look to look: number of looks, orbit of the last one, its time [s] (NaN before the
+#: first), angle of the roller ahead of pure rolling [rad], power at the raceways then [W]; the
+#: highest values in its orbit: powers of the interfaces [W], power over load^(2/3) at the raceways,
+#: and slide-roll ratio; energy since then [J], its moment about that time [J s] and the part of
+#: asperities [J] by raceway; elastic load at the end of the last step [N] (NaN before the first),
+#: number of the entry under way (0 for none), how many there were, and when it began [s].
 _MEMORY = np.dtype(
     [
         ("count", "i8"), ("orbit", "i8"), ("time", "f8"), ("ahead", "f8"), ("power", "f8", (2,)), ("highest", "f8", (6,)),
@@ -86,12 +94,14 @@ _MEMORY = np.dtype(
         ("pressed", "f8"), ("entry", "i8"), ("entries", "i8"), ("since", "f8"),
     ]
 )  # fmt: skip
-#: A look: its orbit, number, and the number of the entry it belongs to; time of the look before and its own [s]; angles of the
-#: roller ahead of pure rolling, and of the shaft, at both [rad]; of the raceways energy since the look before [J], the share
-#: of the time at which it was spent in the mean, and asperities' energy [J]; the state; film [m] and asperities' share of the
-#: contacts; of the raceways the ellipse's middle along the roller [m] and the six numbers of `contact.skewed.SlipLines`, of which a
-#: straight roller has three; and, found by `_look`, power per length [W/m] and half-width [m] where contacts are hottest, with
-#: the speeds of roller and counterpart there [m/s].
+#: A look: its orbit, number, and the number of the entry it belongs to; time of the look before and
+#: its own [s]; angles of the roller ahead of pure rolling, and of the shaft, at both [rad]; of the
+#: raceways energy since the look before [J], the share of the time at which it was spent in the
+#: mean, and asperities' energy [J]; the state; film [m] and asperities' share of the contacts; of
+#: the raceways the ellipse's middle along the roller [m] and the six numbers of
+#: `contact.skewed.SlipLines`, of which a straight roller has three; and, found by `_look`, power
+#: per length [W/m] and half-width [m] where contacts are hottest, with the speeds of roller and
+#: counterpart there [m/s].
 _LOOK = np.dtype(
     [
         ("orbit", "i8"), ("number", "i8"), ("entry", "i8"), ("since", "f8"), ("time", "f8"), ("ahead", "f8", (2,)),
@@ -99,8 +109,9 @@ _LOOK = np.dtype(
         ("at", END), ("film", "f8", (3,)), ("share", "f8", (3,)), ("lines", "f8", (2, 7)), ("hot", "f8", (3, 4)),
     ]
 )  # fmt: skip
-#: How power lies along the roller at a raceway at a look: by station power with the sign of slip [W], that of asperities [W],
-#: ∫ p |v| dA [W] and power per area [W/m²]; sums of the first three; film regime.
+#: How power lies along the roller at a raceway at a look: by station power with the sign of slip
+#: [W], that of asperities [W], ∫ p |v| dA [W] and power per area [W/m²]; sums of the first three;
+#: film regime.
 _ALONG = np.dtype(
     [
         ("power", "f8", (STATIONS,)), ("rough", "f8", (STATIONS,)), ("work", "f8", (STATIONS,)), ("density", "f8", (STATIONS,)),
@@ -108,8 +119,9 @@ _ALONG = np.dtype(
     ]
 )  # fmt: skip
 _PLACES = (2, SECTORS, STATIONS)
-#: Sums over the looks, fields of `Details`; and by raceway two records of how power lies, of which `last` is of the last look with
-#: load: a record in place of arrays, whose references would be counted at every look.
+#: Sums over the looks, fields of `Details`; and by raceway two records of how power lies, of which
+#: `last` is of the last look with load: a record in place of arrays, whose references would be
+#: counted at every look.
 _MAPS = np.dtype(
     [
         ("station_energy", "f8", (2, STATIONS)), ("surface_energy", "f8", (*_PLACES, len(SLIP_SIGNS), len(FILM_REGIMES))),
@@ -140,7 +152,8 @@ class Details(NamedTuple):
 
     edges: np.ndarray  #: As of `Totals` [s]
     extreme: np.ndarray  #: `EXTREMES` [K, W/m², 1, 1] over complete orbit and interface
-    #: By raceway, of some looks: energy by a finer quadrature, and what the one in use is off by [J]
+    #: By raceway, of some looks: energy by a finer quadrature, and what the one in use is off by
+    #: [J]
     quadrature: np.ndarray
     entries: np.ndarray  #: Entries into the load zone, by orbit
     #: As `extreme`, of raceways that enter: slide-roll ratio of the middle, transient temperature
@@ -158,7 +171,8 @@ class Details(NamedTuple):
     surface_work: np.ndarray
     surface_passes: np.ndarray  #: Passes over each sector by raceway [-], parts of a pass included
     working_load: np.ndarray  #: By raceway: ∫∫ p |v| dA dt times load [J N], and itself [J]
-    #: By raceway, class of Λ and of slip: time under the rings' load times the part of the length [s]; passes
+    #: By raceway, class of Λ and of slip: time under the rings' load times the part of the length
+    #: [s]; passes
     film_slip: np.ndarray
 
 
@@ -356,9 +370,10 @@ def _share(way, sector, mean_time):
 def _spread(maps, interface, way, mean_time, spent, before, after):
     """Give energies to the stations, and to the places of the raceway that were passed, as power lay before and as it lies now.
 
-    Along the roller they are in proportion to the powers; along the way, from one sector to another, they are linear, with
-    the mean time that they have. `spent` has energy [J] and energy of asperities [J] over their power, and the time of the
-    work of pressure and slip [s], each before and now.
+    Along the roller they are in proportion to the powers; along the way, from one sector to
+    another, they are linear, with the mean time that they have. `spent` has energy [J] and energy
+    of asperities [J] over their power, and the time of the work of pressure and slip [s], each
+    before and now.
     """
     for k in range(STATIONS):
         maps.station_energy[interface, k] += spent[0] * abs(before.power[k]) + spent[1] * abs(
@@ -394,7 +409,8 @@ def _raise(extremes, orbit, interface, density, ratio, film_ratio):
 def _look_along(maps, interface, contact, state, look, passes, along):
     """Find how power lies along the roller at a loaded raceway, and the station that is hottest.
 
-    `state` has load [N], u2 and slip [m/s]. Returns the largest power per area [W/m²], slip [m/s], and class of Λ.
+    `state` has load [N], u2 and slip [m/s]. Returns the largest power per area [W/m²], slip [m/s],
+    and class of Λ.
     """
     patch = contact.patch
     film = look.film[interface]
@@ -431,7 +447,8 @@ def _look_along(maps, interface, contact, state, look, passes, along):
     along.work_total = 0.0
     for k in range(STATIONS):
         left = k * width - patch.half_length
-        # The part of the station under the ellipse, so that the lightest contact too lies in the two middle ones.
+        # The part of the station under the ellipse, so that the lightest contact too lies in the
+        # two middle ones.
         first = max(left, middle - across)
         last = min(left + width, middle + across)
         if last - first < 1e-6 * width:
@@ -587,8 +604,8 @@ def _heat_entries(rows: np.ndarray, effusivity: float, extreme: np.ndarray) -> N
 class Looker:
     """Looks at the contacts of one roller, buffer after buffer.
 
-    `contacts` are those of `prepare`, of the same laws; the roller is at φ = `start_angle` at the first sample [rad], and
-    has `skew` if it skews.
+    `contacts` are those of `prepare`, of the same laws; the roller is at φ = `start_angle` at the
+    first sample [rad], and has `skew` if it skews.
     """
 
     def __init__(

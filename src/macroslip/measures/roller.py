@@ -173,7 +173,8 @@ def _films(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
 def _skew_moments(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
     """Skew moments of both raceways [N m], from their power, which is −u2 s times them; NaN at standstill.
 
-    A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer one.
+    A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer
+    one.
     """
     found = np.zeros((at.size, 2))
     for i, (name, sign) in enumerate((("inner", 1.0), ("outer", -1.0))):

@@ -33,8 +33,8 @@ class Skewing(NamedTuple):
 def _power_of_ends(roller, stop, push, speed):
     """Power of friction that a stop adds at the cage, and the asperities' part of it [W].
 
-    Spars hold the roller with an end each, by the force `stop` [N]; one of them presses with `push` [N] beside. The roller's
-    surface passes them at `speed` [m/s].
+    Spars hold the roller with an end each, by the force `stop` [N]; one of them presses with `push`
+    [N] beside. The roller's surface passes them at `speed` [m/s].
     """
     body, tables = roller
     power = 0.0

@@ -17,22 +17,25 @@ from macroslip.ring.orbit import last_before
 MECHANISMS = ("sliding", "curvature", "contact angle")
 INTERFACES = ("inner", "outer", "cage")
 RACEWAYS = INTERFACES[:2]
-#: A kink has no parabola; what one may add to the samples is bounded by this factor. And how uneven samples may be for
-#: a parabola: where spacing changes more, a fast transient has just ended, and a parabola would extrapolate it.
+#: A kink has no parabola; what one may add to the samples is bounded by this factor. And how uneven
+#: samples may be for a parabola: where spacing changes more, a fast transient has just ended, and a
+#: parabola would extrapolate it.
 HIGHEST_RISE = 1.1
 MOST_UNEVEN = 4.0
-#: Part of the largest raceway speed of a history below which the ratio of spins is not taken: through standstill both
-#: spins pass zero, one a little after the other, and their ratio is any number.
+#: Part of the largest raceway speed of a history below which the ratio of spins is not taken:
+#: through standstill both spins pass zero, one a little after the other, and their ratio is any
+#: number.
 SPIN_RATIO_SPEED = 0.1
-#: Raceway speed [m/s] below which it never is: a rotor on its brake trembles, and its rollers neither roll nor slip.
+#: Raceway speed [m/s] below which it never is: a rotor on its brake trembles, and its rollers
+#: neither roll nor slip.
 STANDSTILL = 1e-3
 #: Buffers of steps for whose records a batch has room, and least number of records.
 _BUFFERS = 4
 _LEAST_BATCH = 1024
 
 
-#: The state at the end of a step; fields as of `STEP`. The time from `start` [s] counts with it: 0 before the window, and for a
-#: row without weight.
+#: The state at the end of a step; fields as of `STEP`. The time from `start` [s] counts with it: 0
+#: before the window, and for a row without weight.
 END = np.dtype(
     [
         ("span", "f8"), ("pure_speed", "f8"), ("inner_slip", "f8"), ("outer_slip", "f8"), ("inner_speed", "f8"),
@@ -113,15 +116,17 @@ class Totals(NamedTuple):
     asperity_energy: np.ndarray  #: Part of the energy of friction by asperities [J]
     mechanism_energy: np.ndarray  #: Energy of friction by interface and mechanism [J]
     orbit_energy: np.ndarray  #: Energy by complete orbit and interface [J]
-    #: Largest power (33) in each complete orbit, and last in the rest of the window, by interface [W]
+    #: Largest power (33) in each complete orbit, and last in the rest of the window, by interface
+    #: [W]
     peak_power: np.ndarray
-    #: Smallest ω/ω_pure in the window [-], −inf once the shaft has turned back; speed of the rings from which on it has
-    #: a meaning [m/s]; and the sign of that speed, 0 before.
+    #: Smallest ω/ω_pure in the window [-], −inf once the shaft has turned back; speed of the rings
+    #: from which on it has a meaning [m/s]; and the sign of that speed, 0 before.
     spin_ratio: np.ndarray
     film_load: (
         np.ndarray
     )  #: Time [s], and the integral over it of the load that films carry beside the rings' [N s]
-    #: The last two times [s] and powers [W], newest last, for the parabola through three; shape (2, 4)
+    #: The last two times [s] and powers [W], newest last, for the parabola through three; shape (2,
+    #: 4)
     samples: np.ndarray
     place: np.ndarray  #: Orbit and stretch of the last step; -2 before the first
 
@@ -204,7 +209,8 @@ def _book_peaks(step, totals, orbit):
         # The power before the step may be the peak of an orbit that has just begun.
         for interface in range(3):
             peak[interface] = max(peak[interface], step.power_before[interface])
-    # Between the stages of a sampled step its samples count; they leave out what is not resolved, the end among it.
+    # Between the stages of a sampled step its samples count; they leave out what is not resolved,
+    # the end among it.
     for k in range(step.stages - 1 if step.sampled else 0, step.stages):
         _follow(samples, peak, step.time[k], step.power[k])
 
@@ -213,10 +219,11 @@ def _book_peaks(step, totals, orbit):
 def book(steps, j, totals, states):
     """Add the steps of roller `j` in a buffer to its energies E = ∫P dt (34), peaks and other totals.
 
-    `steps` has the shape (n, rollers); `states`, shape (n,), is filled with the states at the ends of the steps.
+    `steps` has the shape (n, rollers); `states`, shape (n,), is filled with the states at the ends
+    of the steps.
 
-    Of the load that films carry beside that of the rings the lighter one of the two raceways' counts, which the roller's body
-    force does not load.
+    Of the load that films carry beside that of the rings the lighter one of the two raceways'
+    counts, which the roller's body force does not load.
     """
     edges = totals.edges
     for n in range(steps.shape[0]):

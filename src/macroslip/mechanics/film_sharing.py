@@ -47,12 +47,13 @@ def _log_film_excess(body, tables, log_q, outward, play, log_u):
 def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
     """Load q that the lighter of a roller's two raceway films carries [N].
 
-    A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the body force,
+    A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the
+    body force,
 
         [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
 
-    h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without load turns slowly; one
-    that grips has left its play, where q counts for little.
+    h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without
+    load turns slowly; one that grips has left its play, where q counts for little.
 
     Parameters
     ----------
@@ -88,7 +89,8 @@ def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
         following = log_q + step
         # A start at the root may leave the bounds by rounding.
         if abs(step) >= _CONVERGED and not low < following < high:
-            # Films that the play is too wide for carry nothing, which the lightest load shows at once.
+            # Films that the play is too wide for carry nothing, which the lightest load shows at
+            # once.
             wide = low < _LIGHTEST and excess <= 0.0
             following = _LIGHTEST if wide else 0.5 * (low + high)
         change = abs(following - log_q)
@@ -124,8 +126,8 @@ def film_load_is_negligible(body, tables, load, outward, ring_speed):
 def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
     """Load of the films on either raceway beside the elastic load and the body force [N].
 
-    As the play vanishes q rises to a load q0 that films carry without play; a roller that the rings press with Q_e has
-    q0 exp(−Q_e/q0) of it left, so that loads are continuous.
+    As the play vanishes q rises to a load q0 that films carry without play; a roller that the rings
+    press with Q_e has q0 exp(−Q_e/q0) of it left, so that loads are continuous.
 
     Parameters
     ----------

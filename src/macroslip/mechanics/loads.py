@@ -44,9 +44,10 @@ def elastic_load(body, approach):
 def normal_body_force(body, sine, orbital_speed):
     """Weight (18)-(20) and centrifugal force (21)-(23) along the contact normal, positive outward [N].
 
-    Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along Z0. Both forces are summed first; a sum that
-    points outward loads the outer raceway, inward the inner one. A roller with play can lean on only one ring, so that
-    the sum and not each force for itself is what a raceway feels.
+    Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along Z0. Both forces are summed
+    first; a sum that points outward loads the outer raceway, inward the inner one. A roller with
+    play can lean on only one ring, so that the sum and not each force for itself is what a raceway
+    feels.
     """
     radial = body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine
     return radial * body.cos_contact_angle + body.weight_along_axis * body.sin_contact_angle

@@ -14,7 +14,8 @@ from macroslip.mechanics.traction import uniform_traction
 class RacewayForces(NamedTuple):
     """Forces of a raceway contact on the roller, with slopes by slip Δu, ring speed u2 and load Q.
 
-    Slopes by slip and by speed are in N s/m, those by load without unit; each is taken with the others constant.
+    Slopes by slip and by speed are in N s/m, those by load without unit; each is taken with the
+    others constant.
     """
 
     friction: float  #: F in (16), the moment about the roller's axis over r, without rolling resistance [N]
@@ -153,7 +154,8 @@ def raceway_oil(law, tables, load, ring_speed, slip, log_mean):
 def raceway_forces(body, law, tables, load, ring_speed, slip, log_mean):
     """Forces of a loaded raceway contact on the roller.
 
-    Beside its shear the inclined pressure of rolling resistance pushes the roller's centre (`push`).
+    Beside its shear the inclined pressure of rolling resistance pushes the roller's centre
+    (`push`).
 
     Parameters
     ----------

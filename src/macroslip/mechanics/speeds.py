@@ -1,6 +1,7 @@
 """Speeds of the surfaces that meet in a roller's contacts, in the frame that orbits with the roller (28)-(31).
 
-The spin in (31) is the one relative to that frame, ω_rel = ω_z' − Ω cos α. The cage's spar is at rest in it.
+The spin in (31) is the one relative to that frame, ω_rel = ω_z' − Ω cos α. The cage's spar is at
+rest in it.
 """
 
 from __future__ import annotations

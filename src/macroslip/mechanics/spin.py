@@ -41,7 +41,8 @@ STATION = np.dtype(
 #: Tangential forces on a roller at a given slip Δu, and their slopes by it.
 FORCES = np.dtype(
     [
-        # F_i, F_o, F_c in (16), that is moments over r, positive where they drive the spin ω up [N].
+        # F_i, F_o, F_c in (16), that is moments over r, positive where they drive the spin ω up
+        # [N].
         ("inner", "f8"),
         ("outer", "f8"),
         ("cage", "f8"),
@@ -103,9 +104,9 @@ def station(body, tables, start_angle, now, at):
 def slip_forces(body, tables, at, slip, forces):
     """Write the forces of the raceways and the cage for the raceway slip Δu_in = Δu_out.
 
-    The roller's surface speed is u1 = u2 − Δu (31). The cage is at rest in the orbiting frame, Δu_c = −u1, and its normal
-    force balances everything tangential (32), F_i and F_o with what rolling resistance does: its shear and the push
-    of the inclined pressure.
+    The roller's surface speed is u1 = u2 − Δu (31). The cage is at rest in the orbiting frame, Δu_c
+    = −u1, and its normal force balances everything tangential (32), F_i and F_o with what rolling
+    resistance does: its shear and the push of the inclined pressure.
 
     Parameters
     ----------

@@ -25,7 +25,8 @@ class UniformTraction(NamedTuple):
 def asperity_friction(law, share, load, slip):
     """Friction of asperities with the same slip all over [N], its slopes by slip [N s/m] and by load [-].
 
-    Asperities carry the part `share` of the load; their friction coefficient rises to µ_b in proportion to slip.
+    Asperities carry the part `share` of the load; their friction coefficient rises to µ_b in
+    proportion to slip.
     """
     coefficient = law.boundary_friction * share
     if abs(slip) < law.full_slip:

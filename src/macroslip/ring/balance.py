@@ -2,15 +2,17 @@
 
 The displacement d = (dX, dY, dZ) makes the elastic energy less the work of the load,
 
-    Π(d) = Σ_j (2/5) K δ_j₊^2.5 − F·d,   δ_j = n_j·d − c(φ_j) cos α,   n_j = (cos φ_j cos α, sin φ_j cos α, s sin α),
+    Π(d) = Σ_j (2/5) K δ_j₊^2.5 − F·d,   δ_j = n_j·d − c(φ_j) cos α,   n_j = (cos φ_j cos α, sin φ_j
+    cos α, s sin α),
 
-smallest. The radial clearance is c = P_d/2 + c2 cos 2(φ − ψ) + c3 cos 3(φ − ψ), with the waves of an outer ring out
-of round. Π is convex, so every minimum is global and the roller loads are unique; d itself is not where too few rollers
-are loaded to hold the ring, and then the solution nearest to the start is as good as any. Levenberg's damping of the
-Newton step deals with those singular cases and vanishes in the others.
+smallest. The radial clearance is c = P_d/2 + c2 cos 2(φ − ψ) + c3 cos 3(φ − ψ), with the waves of
+an outer ring out of round. Π is convex, so every minimum is global and the roller loads are unique;
+d itself is not where too few rollers are loaded to hold the ring, and then the solution nearest to
+the start is as good as any. Levenberg's damping of the Newton step deals with those singular cases
+and vanishes in the others.
 
-All samples of a load history are solved together, as arrays over them: first a few of them from the middle of the play,
-then the others from displacements between these.
+All samples of a load history are solved together, as arrays over them: first a few of them from the
+middle of the play, then the others from displacements between these.
 """
 
 from __future__ import annotations
@@ -21,14 +23,16 @@ import numpy as np
 
 from macroslip.compiled import jit_inline
 
-#: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts as failed.
+#: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts
+#: as failed.
 _WARM_ITERATIONS = 40
 _COLD_ITERATIONS = 200
-#: Distances of the samples of a series that are solved first, second and so on, each from between those before; and
-#: samples that are solved together.
+#: Distances of the samples of a series that are solved first, second and so on, each from between
+#: those before; and samples that are solved together.
 _DISTANCES = (64, 16, 4, 1)
 _TOGETHER = 1024
-#: Push [m] after which no roller will be touched any more (thrust on a bearing without contact angle).
+#: Push [m] after which no roller will be touched any more (thrust on a bearing without contact
+#: angle).
 _LONGEST_PUSH = 1e3
 
 
@@ -201,7 +205,8 @@ def _descend(
         left = _length(tried.gradient)
         expected = found.energy[active] + 1e-4 * (gradient * step).sum(axis=1)
         in_contact = (_trace(tried.hessian) > 0.0) | (left <= tolerance[active])
-        # Close to the solution the energy no longer resolves the progress that the unbalanced force still shows.
+        # Close to the solution the energy no longer resolves the progress that the unbalanced force
+        # still shows.
         is_better = (tried.energy <= expected) | (left <= 0.5 * unbalanced[active])
         is_taken = in_contact & is_better
         taken = active[is_taken]
@@ -247,7 +252,8 @@ def balance(
     unbalanced = _descend(ring, contacts, force, displacement, _WARM_ITERATIONS)
     failed = np.flatnonzero(~(unbalanced <= _tolerance(force)))
     if failed.size:
-        # A start at the far side of the play would have to slide round the whole bearing; from the middle it is short.
+        # A start at the far side of the play would have to slide round the whole bearing; from the
+        # middle it is short.
         displacement[failed] = 0.0
         again = displacement[failed]
         unbalanced[failed] = _descend(

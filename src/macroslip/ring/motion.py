@@ -1,7 +1,7 @@
 """Motion of the inner ring under a load history: the ring balance at every sample, and loads it must not exceed.
 
-Loads of rollers that are given take the place of the balance; every roller then has a motion of its own, whose
-"displacement" is what gives it its approach where it is.
+Loads of rollers that are given take the place of the balance; every roller then has a motion of its
+own, whose "displacement" is what gives it its approach where it is.
 """
 
 from __future__ import annotations
@@ -16,12 +16,14 @@ from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.ring.balance import RingGeometry, balance_series, radial_clearance, roller_loads
 from macroslip.ring.orbit import Motion, shaft_angle, travel
 
-#: Largest part of a roller pitch turned between samples of the ring balance; loads sampled more coarsely get samples
-#: in between, because the ring moves with every roller that passes.
+#: Largest part of a roller pitch turned between samples of the ring balance; loads sampled more
+#: coarsely get samples in between, because the ring moves with every roller that passes.
 _SAMPLED_PITCH = 0.25
-#: The same where roller loads are given: between samples the approach of a roller on its way is then off by 1e-5 of it.
+#: The same where roller loads are given: between samples the approach of a roller on its way is
+#: then off by 1e-5 of it.
 _SAMPLED_GIVEN = 1.0 / 16.0
-#: Part of the load that the ring balance may leave unbalanced, and the force [N] below which that does not matter.
+#: Part of the load that the ring balance may leave unbalanced, and the force [N] below which that
+#: does not matter.
 _BALANCE_TOLERANCE = 1e-8
 _NEGLIGIBLE_FORCE = 1e-3
 #: Samples balanced between two checks for an interrupt: a few tenths of a second.
@@ -46,10 +48,10 @@ def ring_motion(
 ) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
-    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did not converge. Gives
-    the motion, and the largest elastic load of a roller in the history [N]. With loads of the rollers the ring is left
-    in the middle. `highest_load` is in N, and `more` a force on the ring beside its load at the samples of its motion
-    [N], shape (n, 3).
+    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did
+    not converge. Gives the motion, and the largest elastic load of a roller in the history [N].
+    With loads of the rollers the ring is left in the middle. `highest_load` is in N, and `more` a
+    force on the ring beside its load at the samples of its motion [N], shape (n, 3).
     """
     time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)
@@ -158,7 +160,8 @@ def _finely_sampled(
     path = np.diff(travel(loads.time, loads.shaft_speed, orbit_ratio))
     pieces = np.ceil(path / (part * 2.0 * np.pi / rollers_per_row) * (1.0 - 1e-9)).astype(int)
     if pieces.max() <= 1:
-        # Copies: the loads are read-only, which would be another type to the compiler and compile everything twice.
+        # Copies: the loads are read-only, which would be another type to the compiler and compile
+        # everything twice.
         return loads.time.copy(), loads.shaft_speed.copy()
     spans = zip(loads.time[:-1], loads.time[1:], np.maximum(pieces, 1), strict=True)
     pieces = [np.linspace(start, end, count, endpoint=False) for start, end, count in spans]

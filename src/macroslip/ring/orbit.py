@@ -1,8 +1,9 @@
 """The imposed motion: shaft speed, shaft angle and ring displacement between load samples, and when orbits are completed.
 
-Shaft speed and ring displacement are linear between samples; the shaft angle is the exact integral of the speed. So a
-roller's path and load are functions of time alone and do not depend on the integrator's steps. Rollers complete orbits
-whatever the shaft does: the path they travel counts, forth and back.
+Shaft speed and ring displacement are linear between samples; the shaft angle is the exact integral
+of the speed. So a roller's path and load are functions of time alone and do not depend on the
+integrator's steps. Rollers complete orbits whatever the shaft does: the path they travel counts,
+forth and back.
 """
 
 from __future__ import annotations
@@ -102,8 +103,8 @@ def instant(motion, interval, time):
 def merged_times(times: np.ndarray, anchors: np.ndarray) -> np.ndarray:
     """Times [s], of which those that differ from an anchor by rounding alone are the anchor.
 
-    Times that are the same in exact arithmetic, such as the end of the last orbit and that of the loads, are then the
-    same number, and no step of an integration lies between them.
+    Times that are the same in exact arithmetic, such as the end of the last orbit and that of the
+    loads, are then the same number, and no step of an integration lies between them.
 
     Parameters
     ----------
