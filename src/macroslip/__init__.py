@@ -1,4 +1,4 @@
-"""macroslip: slip, friction power and frictional energy of every roller of a wind-turbine main bearing.
+"""macroslip: slip and frictional energy of every roller of a wind-turbine main bearing.
 
 The public names are imported when they are first used, so that `import macroslip` is quick.
 """

@@ -17,7 +17,8 @@ PREPARING = "preparing (the first run of all compiles)"
 def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]:
     """Show a bar while the block runs; a notebook needs `ipywidgets` for it.
 
-    Gives a function for the argument `progress` of `macroslip.simulate`; `label` names the things that are counted.
+    Gives a function for the argument `progress` of `macroslip.simulate`; `label` names the things
+    that are counted.
 
     Examples
     --------

@@ -64,8 +64,9 @@ def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> 
 
     Notes
     -----
-    Neighbours do not hold each other, as they do in a half-space: a groove narrower than the contact is long loses its
-    load a little too fast. With c of `hertz_slices` the unworn contour carries Hertz' load per length.
+    Neighbours do not hold each other, as they do in a half-space: a groove narrower than the
+    contact is long loses its load a little too fast. With c of `hertz_slices` the unworn contour
+    carries Hertz' load per length.
 
     Examples
     --------
@@ -131,8 +132,9 @@ class Worn(NamedTuple):
 def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DEPTHS[-1]) -> Worn:
     """Wear of both raceways and the roller, with the pressure found anew after every `STEP`.
 
-    dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves the lines of pure
-    rolling, it does not follow. The roller wears in both contacts, and its worn profile counts in both.
+    dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves
+    the lines of pure rolling, it does not follow. The roller wears in both contacts, and its worn
+    profile counts in both.
 
     Parameters
     ----------

@@ -39,9 +39,9 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
 
     Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface`
     with the largest energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W],
-    the median over the orbits; `spin` [1], the lowest over pure rolling; `outside` [%], the share of
-    loaded time outside the film formula's range, of the raceway with more, and `outside_most` [%]
-    of any roller and interface; and how many `failed` of the `rollers`.
+    the median over the orbits; `spin` [1], the lowest over pure rolling; `outside` [%], the share
+    of loaded time outside the film formula's range, of the raceway with more, and `outside_most`
+    [%] of any roller and interface; and how many `failed` of the `rollers`.
     """
     return [_of_row(result.sel(row=name)) for name in result.row.values]
 

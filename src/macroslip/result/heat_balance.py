@@ -47,11 +47,11 @@ def balance_temperature(
 ) -> float:
     """Lowest temperature T [K] with power(T) = conductance (T - ambient), by Brent's method.
 
-    It is found to 1e-9 K. Steady state: the whole friction of the bearing leaves it in proportion to its excess
-    temperature. A large bearing takes hours to get there, so the mean power over a wind history
-    counts, not that of a gust. Where friction falls with temperature, as in full films, there is
-    one solution. Where it rises again, in mixed lubrication or under a preload by warm rings, there
-    may be several; a bearing that warms from its surroundings reaches the lowest.
+    It is found to 1e-9 K. Steady state: the whole friction of the bearing leaves it in proportion
+    to its excess temperature. A large bearing takes hours to get there, so the mean power over a
+    wind history counts, not that of a gust. Where friction falls with temperature, as in full
+    films, there is one solution. Where it rises again, in mixed lubrication or under a preload by
+    warm rings, there may be several; a bearing that warms from its surroundings reaches the lowest.
 
     Parameters
     ----------
@@ -128,8 +128,8 @@ def tabulated_power(
 ) -> Callable[[float], float]:
     """Friction power [W] over temperature [K], interpolated monotonically in a table.
 
-    By SciPy's PCHIP; constant beyond the table's ends. InputError unless there are two or more rising temperatures and as many
-    powers, none negative.
+    By SciPy's PCHIP; constant beyond the table's ends. InputError unless there are two or more
+    rising temperatures and as many powers, none negative.
 
     Examples
     --------
@@ -232,7 +232,7 @@ def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, b
 
 
 def _warmest_trial(case: Case, warmest: float) -> float:
-    """Temperature [K] at which the preload has grown by `_PRELOAD_STEP` from the warmest trial's."""
+    """Temperature [K] at which the preload is `_PRELOAD_STEP` above the warmest trial's."""
     heat = case.heat
     if heat is None or heat.ring_conductance is None:
         return math.inf
@@ -244,9 +244,9 @@ def _warmest_trial(case: Case, warmest: float) -> float:
 def case_at_balance(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     """The case at the temperature at which friction power = heat.to_oil (T − ambient).
 
-    Found by `next_temperature`. Three to five simulations, more under a preload, without traces and details of the contacts.
-    Load histories of minutes do not change the temperature of a bearing, so the balance is that of
-    their mean power if it lasted.
+    Found by `next_temperature`. Three to five simulations, more under a preload, without traces and
+    details of the contacts. Load histories of minutes do not change the temperature of a bearing,
+    so the balance is that of their mean power if it lasted.
     """
     known: dict[float, float] = {}
     while True:

@@ -1,4 +1,6 @@
-"""The folder of caches: what can be made again, each file under a name that tells all it depends on.
+"""The folder of caches: what can be made again.
+
+The name of each file tells all it depends on.
 
 A file holds a checksum of its name and content, so that one that was cut, changed or exchanged is
 none. It is written in one durable step, so that processes that write the same file leave a whole

@@ -1,4 +1,7 @@
-"""Output files, written aside and then renamed: each is whole or missing, none replaces a file that a user needs."""
+"""Output files, each whole or missing, none in place of a file that a user needs.
+
+They are written aside and then renamed.
+"""
 
 from __future__ import annotations
 
@@ -70,7 +73,9 @@ def flush_folder(folder: Path) -> None:
 
 
 def is_special(path: Path) -> bool:
-    """Whether a path leads to a pipe, a socket or a device, whose reader would wait for ever or find no end.
+    """True if a path leads to a pipe, a socket or a device.
+
+    Its reader would wait for ever or find no end.
 
     Raises OSError or ValueError if there is nothing, or nothing can have this name.
     """

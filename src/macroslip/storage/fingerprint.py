@@ -14,7 +14,7 @@ _ROOT = Path(__file__).parents[1]
 
 @functools.cache
 def fingerprint() -> str:
-    """Hash of the names and contents of all sources of the package and its tables, 64 hexadecimal digits."""
+    """Hash of the package's sources and tables by name and content: 64 hexadecimal digits."""
     digest = hashlib.sha256()
     for path in sorted([*_ROOT.rglob("*.py"), *_ROOT.rglob("*.csv")]):
         name = path.relative_to(_ROOT).as_posix().encode()

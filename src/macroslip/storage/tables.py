@@ -38,7 +38,10 @@ _locks: dict[str, threading.Lock] = {}
 
 
 def table_key(*parts: Any) -> str:
-    """Name of a table by all it depends on: numbers, arrays and named tuples of them, and the program."""
+    """Name of a table by all it depends on, the program included.
+
+    Parts are numbers, arrays and named tuples of them.
+    """
     digest = hashlib.sha256(fingerprint().encode())
     for text in map(_described, parts):
         digest.update(text.encode() + b"\0")

@@ -1,4 +1,4 @@
-"""The temperature at which the friction of all load histories of a study is what a bearing loses."""
+"""The temperature at which a bearing loses the friction of all loads of a study."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ _DIGITS = 3
 def study_at_balance(
     study: Study, directory: Path, compute: Callable[[Study, Path], None]
 ) -> Study:
-    """The study at the temperature at which mean friction power = conductance (T − ambient), of each group of runs.
+    """The study with each group of runs at its temperature of thermal balance.
+
+    There the mean friction power equals conductance (T − ambient).
 
     Ten minutes of wind do not change the temperature of a bearing whose time constant is hours; the
     mean power Σ w_k P_k of all load histories does, with w_k from `Study.weights`, together 1. All

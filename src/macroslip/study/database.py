@@ -109,7 +109,7 @@ class Database:
             yield
 
     def check_there(self) -> None:
-        """Stop if the file was removed or replaced: what is written now would end with this process.
+        """Stop if the file was removed or replaced, since what is written would be lost.
 
         Raises MacroslipError.
         """
@@ -226,7 +226,7 @@ def _is_sound(row: Sequence[Any]) -> bool:
 
 
 def read_runs(directory: Path) -> pd.DataFrame:
-    """The runs of a study in their order, as far as they are recorded, while others may be recorded.
+    """The recorded runs of a study in their order, while others may be recorded.
 
     The columns are `run`, the labels, the texts of `TEXTS` and the numbers of the summary, NaN
     where there is none. A row that was changed on the disk counts as not done. Raises InputError if

@@ -20,10 +20,10 @@ _FEWEST = 4
 
 
 def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """Spearman's rank correlation of results with each value of a sample, and its probability by chance.
+    """Spearman's rank correlation of results with each value of a sample, and its p-value.
 
-    Both have the shape (parameters,): NaN where a value or the results do not change, and for fewer than three points.
-    `values` has the shape (n, parameters), `results` (n,).
+    Both have the shape (parameters,): NaN where a value or the results do not change, and for fewer
+    than three points. `values` has the shape (n, parameters), `results` (n,).
 
     `scipy.stats.spearmanr`.
 
@@ -45,7 +45,9 @@ def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray
 
 
 def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """Mean of the results in the upper half of each value less that in its lower half, and the standard error.
+    """Main effects of each value of a sample, and their standard errors.
+
+    An effect is the mean of the results in the upper half of a value less that in its lower half.
 
     `values` has the shape (n, parameters), `results` (n,).
 
@@ -78,14 +80,15 @@ def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.D
 
     Raises InputError if the study has no sample, or a label or a weight is wrong.
 
-    Over (quantity, parameter) there are `main_effect`, mean of the upper half of the parameter's values less that of
-    the lower half, in parts of the mean [1], its standard error `main_effect_error`, Spearman's `rank_correlation` and
-    its `probability` by chance; over (quantity, quantile) `range`, in the coordinate `units`; and `points` of the
-    sample. Where bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean over the
-    sample in each.
+    Over (quantity, parameter) there are `main_effect`, mean of the upper half of the parameter's
+    values less that of the lower half, in parts of the mean [1], its standard error
+    `main_effect_error`, Spearman's `rank_correlation` and its `probability` by chance; over
+    (quantity, quantile) `range`, in the coordinate `units`; and `points` of the sample. Where
+    bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean
+    over the sample in each.
 
-    Points without a value are left out, and quantities with fewer than four. An effect beside a standard error of its size
-    is none.
+    Points without a value are left out, and quantities with fewer than four. An effect beside a
+    standard error of its size is none.
     """
     names = sampled_parameters(study)
     if not names:

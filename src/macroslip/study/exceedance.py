@@ -1,4 +1,4 @@
-"""How often an orbit of a roller exceeds an energy or a power, and how often the bearing's load a range."""
+"""How often an orbit exceeds an energy or a power, and the bearing's load a range."""
 
 from __future__ import annotations
 

@@ -22,7 +22,9 @@ FORMATS = ("csv", "parquet")
 
 
 def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
-    """Variables with all coordinates they have, one line a value of the largest; units are in the headings.
+    """Variables with all their coordinates as a table, with units in the headings.
+
+    It has one line for each value of the largest variable.
 
     Examples
     --------
@@ -44,9 +46,9 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
 def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFrame]:
     """All tables of a study by name; docs/studies.md lists their columns.
 
-    Without weights there are `cases`, `failures`, `worst`, `percentiles`, `designs` and, of a sample, `effects`; with
-    them also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where results keep its variables, and, if the study
-    counts cycles, `cycles`.
+    Without weights there are `cases`, `failures`, `worst`, `percentiles`, `designs` and, of a
+    sample, `effects`; with them also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where
+    results keep its variables, and, if the study counts cycles, `cycles`.
     """
     summary = study.drop_vars(
         [name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}]
@@ -92,7 +94,10 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
 
 
 def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> list[Path]:
-    """Write tables, each to a file of its name in the folder, as `csv` or `parquet`; files of the same names are replaced."""
+    """Write tables to files of their names in the folder, as `csv` or `parquet`.
+
+    Files of the same names are replaced.
+    """
     import io
 
     def harmless(value: Any) -> Any:

@@ -166,7 +166,7 @@ def worst(
 
 
 def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
-    """Frictional energy at the places of the raceways over a lifetime, and the largest power per area of all cases.
+    """Maps of frictional energy of the raceways over a lifetime, and the largest power per area.
 
     As `lifetime_energy`, at every place and for every sign of slip and film regime, as if all
     sectors of a raceway had been passed equally often. Raises InputError if a label or a

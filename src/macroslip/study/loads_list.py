@@ -1,4 +1,4 @@
-"""The load histories of a study: where each is, and the fields it is labelled with, from file names or a table."""
+"""The load histories of a study: their files, and labels from file names or a table."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _PIECES = re.compile(r"\*\*/|\*|\?|\{[^{}]*\}|[^*?{]+|\{")
 
 @dataclass(frozen=True)
 class Load:
-    """One load history: its path as the study has it or name of a bundled case, and its labels, numbers or text."""
+    """One load history: its path in the study or name of a bundled case, and its labels."""
 
     name: str
     fields: Mapping[str, Any]
@@ -105,7 +105,9 @@ class Pattern:
         )
 
     def files(self, folder: Path) -> tuple[list[tuple[str, dict[str, Any]]], list[str]]:
-        """Find the files of a folder, in which a relative pattern starts: paths with fields, sorted, relative if it is.
+        """Find the files that the pattern matches: sorted paths, each with its fields.
+
+        A relative pattern starts in `folder`, and its paths are then relative too.
 
         Second come files that the wildcards find but whose fields cannot be read, as `{seed:d}`
         from a name with `seedA`. Raises InputError if the pattern names a folder.

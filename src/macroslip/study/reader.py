@@ -137,7 +137,7 @@ def _column(runs: pd.DataFrame, name: str) -> np.ndarray:
 def _of_results(
     directory: Path, runs: pd.DataFrame
 ) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
-    """Variables, coordinates and attributes of the results, opened as far as is needed to list them."""
+    """Variables, coordinates and attributes of the results, opened as far as listing needs."""
     keys, checksums = (_column(runs, name) for name in ("key", "detail"))
     kinds, texts = pd.factorize(np.where(checksums != "", _column(runs, "layout"), np.array(None)))
     if not len(texts):
@@ -245,5 +245,8 @@ def _cut(whole: np.ndarray, inner: tuple[Any, ...]) -> np.ndarray:
 
 @functools.lru_cache(maxsize=8)
 def _result(opened: str, directory: Path, key: str, checksum: str) -> xr.Dataset:
-    """A result; the last few of an opened study are kept: several variables of a case are often read in turn."""
+    """A result, the last few of which are kept in memory.
+
+    Several variables of a case are often read in turn.
+    """
     return read_result(directory, key, checksum)

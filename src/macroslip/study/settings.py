@@ -1,4 +1,7 @@
-"""Values that runs of a study have in place of the base case's, one by one, in grids and in samples; and the case they make."""
+"""Values that runs of a study have in place of the base case's, and the case they make.
+
+They are given one by one, in grids and in samples.
+"""
 
 from __future__ import annotations
 
@@ -286,7 +289,7 @@ def read_loads(source: str, path: str, cut: Mapping[str, Any]) -> HubLoads | Bea
 
 @input_section("range", "interval of a sampled parameter", positional=True)
 class Range:
-    """Interval of a sampled parameter, on whose scale all values, or all logarithms, are equally likely."""
+    """Interval of a sampled parameter: all values, or all logarithms, are equally likely."""
 
     low: Annotated[float, Quantity("lower end; its unit goes into unit")]
     high: Annotated[float, Quantity("upper end; its unit goes into unit")]
@@ -364,7 +367,7 @@ class Sample:
             raise InputError(f"count is {self.count}", allowed=allowed, remedy=remedy)
 
     def with_ranges_of(self, records: Mapping[str, Record]) -> Sample:
-        """The sample with the ranges that the files of bearing and lubricant give, in place of the word.
+        """The sample with the ranges of the bearing's and lubricant's files in place of the word.
 
         Raises InputError if a value has no range there, or is a count.
         """

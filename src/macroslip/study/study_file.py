@@ -41,7 +41,7 @@ _REMEDY = "Write a study file that runs with: macroslip init --example study"
 
 @dataclass(frozen=True)
 class Run:
-    """One run of a study: its load history, names of the others within the study, and values of what varies."""
+    """One run of a study: its loads, names of bearing, lubricant and model, and varied values."""
 
     load: Load
     bearing: str
@@ -61,7 +61,7 @@ class Run:
 
     @property
     def name(self) -> str:
-        """Hash of what distinguishes this run from the others of its study: 32 hexadecimal digits."""
+        """Hash of what distinguishes this run within its study: 32 hexadecimal digits."""
         return self._hash([self.load.name, self.bearing, self.lubricant, self.model], "")
 
     def _hash(self, labels: list[str], but: str) -> str:
@@ -143,7 +143,9 @@ class Study:
         return self._runs(self.loads.loads)
 
     def mixed_runs(self) -> Iterator[Run]:
-        """Yield the runs, those with the same loads together, so that any stretch of them is a sample of the whole.
+        """Yield the runs in an order of which any stretch is a sample of the whole.
+
+        Runs with the same loads follow one another.
 
         Load files come sorted by wind speed, and rough wind takes several times as long as calm
         wind: in their own order the rate so far would not hold for the rest.
@@ -164,7 +166,8 @@ class Study:
     def case_of(self, run: Run | None = None) -> tuple[Case, dict[str, float]]:
         """The case of a run, by default the base case, without its loads; and how to read these.
 
-        Of an event all rollers are computed: what lasts a short time falls on the few places where rollers then are.
+        Of an event all rollers are computed: what lasts a short time falls on the few places where
+        rollers then are.
         """
         known = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
         records = {

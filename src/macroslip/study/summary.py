@@ -1,4 +1,4 @@
-"""The numbers that a study keeps of a case: of each row of rollers, of the case, of its rating, and cycles of its load."""
+"""The numbers that a study keeps of a case: of rows, the case, its rating and load cycles."""
 
 from __future__ import annotations
 
@@ -121,7 +121,8 @@ RANGE_EDGES = np.logspace(0.0, 8.0, 321)
 def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     """The numbers of a case by the names of `NUMBERS`, but for times of computation.
 
-    Values that a failed roller enters are NaN, and so are means of peaks and energies per orbit without a complete orbit.
+    Values that a failed roller enters are NaN, and so are means of peaks and energies per orbit
+    without a complete orbit.
     """
     # An orbit without values stands for none.
     of_orbits = result[["orbit_energy", "peak_power"]].pad(
@@ -191,7 +192,7 @@ def damage_values(result: xr.Dataset) -> dict[str, xr.DataArray]:
 
 
 def rating_values(case: Case) -> dict[str, float]:
-    """The numbers of a rating; NaN for a case without a rating, or a bearing that lacks values for it."""
+    """The numbers of a rating, NaN for a case without a rating or a bearing without its values."""
     nothing = dict.fromkeys(RATING_VARIABLES, math.nan)
     if not case.rating:
         return nothing
@@ -217,14 +218,15 @@ def rating_values(case: Case) -> dict[str, float]:
 def load_cycles(loads: BearingLoads) -> xr.Dataset:
     """Count the cycles of a load history by classes of range.
 
-    Cycles of the axial load move load from one row of rollers to the other and back, and a row that is unloaded is a row
-    that slips; cycles of the radial load load housing, shaft and ring seats.
+    Cycles of the axial load move load from one row of rollers to the other and back, and a row that
+    is unloaded is a row that slips; cycles of the radial load load housing, shaft and ring seats.
 
-    `load_cycles` over (component, load_range) are those of the whole history, which is taken as repeating, so that
-    every cycle closes; `load_range` is the geometric middle of a class [N].
+    `load_cycles` over (component, load_range) are those of the whole history, which is taken as
+    repeating, so that every cycle closes; `load_range` is the geometric middle of a class [N].
 
-    `fatpack.find_rainflow_ranges`, 256 levels between the smallest and the largest load; smaller ripples do not count.
-    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17.
+    `fatpack.find_rainflow_ranges`, 256 levels between the smallest and the largest load; smaller
+    ripples do not count. ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis,
+    doi:10.1520/E1049-85R17.
 
     Examples
     --------

@@ -531,7 +531,10 @@ def binned(
 
 
 def is_parameter(study: xr.Dataset, label: str) -> bool:
-    """Whether the study varies what a label names, as it does `drivetrain.tilt` or `oil_supply`; fields of loads have no dot."""
+    """True if the study varies what a label names, such as `drivetrain.tilt` or `oil_supply`.
+
+    Fields of loads have no dot.
+    """
     varied = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
     keys = (
         varied.get("grid") or {},

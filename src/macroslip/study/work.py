@@ -1,4 +1,7 @@
-"""One run of a study, from its load file to a stored result: the same in threads, processes and clusters."""
+"""One run of a study, from its load file to a stored result.
+
+It is the same in threads, processes and clusters.
+"""
 
 from __future__ import annotations
 
@@ -38,12 +41,14 @@ class StoreError(MacroslipError):
 
 
 def program() -> str:
-    """Hash of the program as far as results depend on it: its sources, and registered laws of the user's own."""
+    """Hash of the program's sources and of registered laws of the user's own."""
     return hashlib.sha256("\0".join([fingerprint(), *own_laws()]).encode()).hexdigest()
 
 
 def case_key(case: Case, options: Mapping[str, Any]) -> str:
-    """Hash of the full input of a case, of the program, and of all that is stored beyond the result of `simulate`.
+    """Hash of a case's full input, of the program and of the options of storage.
+
+    The options are all that is stored beyond the result of `simulate`.
 
     Only the numbers of the loads enter, not their source: a file may be moved, renamed or
     converted.

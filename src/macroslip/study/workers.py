@@ -1,4 +1,4 @@
-"""Who does the runs: threads of this process, processes of this machine, or the workers of a Dask scheduler.
+"""Workers for runs: threads, processes of this machine, or those of a Dask scheduler.
 
 A bounded number of runs is under way, whatever the size of the study.
 """
@@ -55,7 +55,7 @@ _GONE = "the scheduler is gone. Nothing that was reported done is lost; go on wi
 
 
 class ThisProcess:
-    """Several runs at once in threads of this process, or one after the other in the thread that waits.
+    """Several runs at once in threads of this process, or one by one in the waiting thread.
 
     All workers have `free_places`, how many more runs they take now; `submit`, to begin at most as
     many; and `wait`, until something is done: runs with their results, nothing when nothing is
@@ -103,7 +103,10 @@ class ThisProcess:
 
 
 def end_in_worker() -> None:
-    """End without a word in a worker that imports a script without main guard: the process that began it reports it."""
+    """End silently in a worker that imports a script without main guard.
+
+    The process that began the worker reports it.
+    """
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         sys.exit(1)
 
@@ -191,7 +194,7 @@ class _Seat:
         self._process = next(iter(set(multiprocessing.active_children()) - before), None)
 
     def has_ended_itself(self) -> bool:
-        """Whether the process, which has died, is known to have left by a failure of its own and not by a signal."""
+        """True if the dead process is known to have ended by its own failure, not by a signal."""
         end = time.monotonic() + _PATIENCE
         # The pool's own thread waits for the process too; until it has noted the exit code, there
         # is none here.
@@ -209,7 +212,10 @@ class _Seat:
 
 @contextmanager
 def _safe_start() -> Iterator[None]:
-    """Processes started in the block find no module in the current folder, and leave Ctrl-C to this process."""
+    """Let processes started in the block import nothing from this folder and ignore Ctrl-C.
+
+    Ctrl-C is left to this process.
+    """
     safe = process_environment()
     path = list(sys.path)
     before = {name: os.environ.get(name) for name in safe}
@@ -245,7 +251,9 @@ def _killed(task: Task) -> dict[str, Any]:
 
 
 def look_for(scheduler: str) -> None:
-    """Check that a scheduler responds, before there is a client: one that cannot connect cannot be closed either.
+    """Check that a scheduler responds, before there is a client.
+
+    A client that cannot connect cannot be closed either.
 
     Raises InputError if there is none at the address, and MacroslipError if Dask is not installed.
     """
@@ -373,7 +381,7 @@ class Dask:
         return self._threads
 
     def _bundle(self) -> int:
-        """Runs that are sent together, so that with runs of a second or longer the scheduler keeps up."""
+        """Number of runs sent together, so that the scheduler keeps up with runs over a second."""
         return max(1, round(self._threads / _TASKS_PER_SECOND))
 
 

@@ -1,4 +1,7 @@
-"""A year of each design of a study: energy, entries, wear and mixed film by wind speed and event, and one life."""
+"""A year of each design of a study by wind speed and event, and one life.
+
+The year holds energy, entries, wear and mixed film.
+"""
 
 from __future__ import annotations
 
@@ -29,8 +32,8 @@ class Column(NamedTuple):
 
 
 _PEAK = "largest frictional power of any run"
-#: Rates of criteria that a year sums up, and numbers of which the largest counts: by name the number of a run, unit of
-#: the year's, and meaning.
+#: Rates of criteria that a year sums up, and numbers of which the largest counts: by name the
+#: number of a run, unit of the year's, and meaning.
 SUMS = {
     one.name: (one.run_name, one.year_unit, one.year_meaning)
     for one in YEARLY
@@ -165,11 +168,11 @@ def _lives(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any
 
 
 def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
-    """The designs side by side, of `year`, the least energy first; and sentences on what is not known.
+    """The designs of `year` side by side, the least energy first, and what is not known.
 
-    The table has a line a group, with its number as index: its labels, the columns of `DESIGN_COLUMNS` and the lives [h].
-    Energy and entries are of both rows, the others of the worse one. NaN where something is not known; a criterion that
-    no run has is left out.
+    The table has a line a group, with its number as index: its labels, the columns of
+    `DESIGN_COLUMNS` and the lives [h]. Energy and entries are of both rows, the others of the worse
+    one. NaN where something is not known; a criterion that no run has is left out.
     """
     labels = {str(name): one.values for name, one in found.coords.items() if one.dims == ("group",)}
     table = pd.DataFrame(labels, index=range(found.sizes["group"]))
@@ -211,7 +214,9 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
 
 
 def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str]:
-    """Names of groups by the labels in which they differ, all but choices with the last part of their key and their unit.
+    """Names of groups by the labels in which they differ.
+
+    All labels but choices are named with the last part of their key and their unit.
 
     Examples
     --------
