@@ -1,4 +1,7 @@
-"""How functions are compiled: on first call, without fast-math, cached on disk, releasing the lock of the interpreter."""
+"""How functions are compiled: on first call, without fast-math.
+
+They are cached on disk and release the lock of the interpreter.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +44,7 @@ def jit(function: Callable) -> Callable:
 
 
 def jit_inline(function: Callable) -> Callable:
-    """Make a part of compiled functions, which is compiled into them; called from Python it is a plain function.
+    """Make a part of compiled functions; called from Python it is a plain function.
 
     It is not stored, nor can Python call what is compiled of it: both would be work. The compiler
     chooses where it stays a call, because parts copied into all their callers are optimised anew in

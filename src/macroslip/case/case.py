@@ -281,9 +281,10 @@ class Case:
         return tuple(self.rollers)
 
     def as_dict(self) -> dict[str, Any]:
-        """The full input as plain data, by the keys of a case file; without keys that have no effect.
+        """The full input as plain data, by the keys of a case file.
 
-        Of the load series there are its source, extent and a hash of all its numbers.
+        Keys that have no effect are left out. Of the load series there are its source, extent and a
+        hash of all its numbers.
         """
         values = {one.name: _plain(getattr(self, one.name)) for one in fields(self)}
         values["loads"] = _told(self.loads)

@@ -126,11 +126,30 @@ def build_case(
     records: Mapping[str, Record] | None = None,
     series: Callable[[LoadSource], HubLoads | BearingLoads | RollerLoads] | None = None,
 ) -> Case:
-    """Make a case of the content of a case file; raises InputError with all that is wrong.
+    """Build a case from the content of a case file.
 
-    Relative paths start at `folder`. `records`: `bearing` and `lubricant` that have been read
-    already, in place of those that the file names; `series` makes the loads of their section, which
-    are read by default.
+    Parameters
+    ----------
+    data : mapping
+        Content of the case file by its keys.
+    source : Source
+        Where it was written, for messages.
+    folder : Path
+        Where relative paths start.
+    records : mapping, optional
+        `bearing` and `lubricant` that have been read already, in place of those that the file
+        names.
+    series : callable, optional
+        Makes the loads of their section; they are read by default.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    InputError
+        If anything is wrong, with all that is.
     """
     place = Place(source)
     known = records or {}

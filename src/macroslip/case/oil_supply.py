@@ -76,9 +76,22 @@ def inlet_supply(given: str | float | None, oil: Lubricant, laws: Laws) -> str |
 
 
 def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, laws: Laws) -> None:
-    """Refuse a supply that no law uses.
+    """Refuse an oil supply that no law uses, or that the bearing lacks diameters for.
 
-    SKF's replenishment needs the bearing's diameters, and a bearing without is refused too.
+    Parameters
+    ----------
+    given : str, float or None
+        Supply that a case gives: `flooded`, `skf`, or film over flooded film [-]; None where it
+        gives none.
+    bearing : Bearing
+    oil : Lubricant
+    laws : Laws
+
+    Raises
+    ------
+    InputError
+        If the laws have neither a starved film nor rolling resistance, or if SKF's replenishment is
+        asked for and the bearing has no bore or outside diameter.
     """
     supply = inlet_supply(given, oil, laws)
     if supply not in (FLOODED, 1.0) and not laws.asks_for_oil:
@@ -107,15 +120,26 @@ def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, la
 def oil_gap(
     supply: str | float, bearing: Bearing, oil: Lubricant, loads: BearingLoads, laws: Laws
 ) -> float:
-    """The gap from which on inlets are full [m].
+    """Gap from which on inlets are full, from the inner raceway under the mean load and speed.
 
-    It follows from the state of the inner raceway under the mean load and speed.
+    The mean load is that of the loaded rollers of the row with the larger share, under the mean
+    force on the inner ring. Means are over the angle that the shaft turns, so that time at rest
+    does not count.
 
-    The supply is `flooded`; `skf`: as much as makes the rolling resistance SKF's replenishment
-    factor times the flooded one; or film over flooded film. The mean load is that of the loaded
-    rollers of the row with the larger share, under the mean force on the inner ring. Means are over
-    the angle that the shaft turns, so that time at rest does not count. 1 m counts as flooded,
-    without load or motion as well.
+    Parameters
+    ----------
+    supply : str or float
+        `flooded`; `skf`: as much as makes the rolling resistance SKF's replenishment factor times
+        the flooded one; or film over flooded film [-].
+    bearing : Bearing
+    oil : Lubricant
+    loads : BearingLoads
+    laws : Laws
+
+    Returns
+    -------
+    float
+        The gap [m]. 1 m counts as flooded, and is given without load or motion as well.
     """
     turned = np.abs(loads.shaft_speed) * np.convolve(np.diff(loads.time), [0.5, 0.5])
     if not turned.any():

@@ -1,4 +1,4 @@
-"""Length of a step: bounds that are known beforehand, and the estimated errors of slip and energy of a step that was tried.
+"""Step control: bounds known before a step, and error estimates of slip and energy after it.
 
 Energy is a sum over three instants of a step. Where power is smooth, the embedded estimate is far
 above the error of the sum. Where power has a kink inside the step, or falls to zero at its end with
@@ -32,7 +32,20 @@ EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
 
 @jit_inline
 def cubic(x, g0, g1, g2, g3):
-    """Value at x of the cubic through the values at 0, c1, c2 and 1."""
+    """Cubic interpolation through the values at the nodes of a Radau step.
+
+    Parameters
+    ----------
+    x : float
+        Part of the step, 0 at its start and 1 at its end [-].
+    g0, g1, g2, g3 : float
+        Values at 0, c1, c2 and 1, of any unit.
+
+    Returns
+    -------
+    float
+        Value at x, of the same unit.
+    """
     a = NODES[0]
     b = NODES[1]
     return (
@@ -45,10 +58,18 @@ def cubic(x, g0, g1, g2, g3):
 
 @jit_inline
 def crossing(g0, g1, g2, g3):
-    """First change of sign of the cubic through a step's nodes, as a part of the step; 1 if there is none inside.
+    """First sign change of the cubic through a step's nodes, as a part of the step.
 
-    It is given by its values at the start and at the three stages; a change next to an end, by
-    `AT_END`, is none.
+    Parameters
+    ----------
+    g0, g1, g2, g3 : float
+        Values at the start of the step and at its three stages, of any unit.
+
+    Returns
+    -------
+    float
+        Part of the step, in (0, 1) [-]; 1 if no sign changes inside the step. A change next to an
+        end, by `AT_END`, is none.
 
     Examples
     --------
@@ -88,11 +109,11 @@ def _lean(at):
 
 @jit
 def first_cusp(work):
-    """Part of a step at which traction first has a cusp because a light contact's load passes through zero; else 1.
+    """Part of a step at which traction first has a cusp, as a light contact's load passes zero.
 
-    At the cage it is predicted with the traction at the start, whose change is small against the
-    roller's weight. A roller without elastic load has another where it leans over from one raceway
-    to the other. Where the shaft turns back all friction has one.
+    It is 1 if there is none. At the cage it is predicted with the traction at the start, whose
+    change is small against the roller's weight. A roller without elastic load has another where it
+    leans over from one raceway to the other. Where the shaft turns back all friction has one.
     """
     at = work.at
     one = work.stage_at[0]
@@ -110,7 +131,28 @@ def first_cusp(work):
 
 @jit_inline
 def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
-    """Estimated error of the slip after the step [m/s] (Hairer & Wanner IV.8), filtered by the least slope [N s/m]."""
+    """Embedded error estimate of the slip after a Radau step, filtered by the least slope.
+
+    Parameters
+    ----------
+    scale : float
+        1/(h r²/I_z') [N s/m].
+    slope : float
+        Least slope of the net force by slip in the step, ≥ 0 [N s/m].
+    force_0 : float
+        Net force at the start of the step [N].
+    z1, z2, z3 : float
+        Increments of slip by forces at the stages [m/s].
+
+    Returns
+    -------
+    float
+        Estimated error with its sign [m/s].
+
+    References
+    ----------
+    Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8.
+    """
     rest = ((13.0 + 7.0 * _ROOT_6) * z1 + (13.0 - 7.0 * _ROOT_6) * z2 + z3) / 3.0
     return -(force_0 + scale * rest) / (scale * EIGENVALUE + slope)
 
@@ -149,10 +191,10 @@ def slip_error(path, work):
 
 @jit
 def missed_way(path, work):
-    """Error of the method's quadrature for the way of the rings past the roller in a step [m]; it is known exactly.
+    """Error of the method's quadrature for the way of the rings past the roller in a step [m].
 
-    Speed is linear between the samples of the loads, and friction follows it: kinks of both lie at
-    the same instants.
+    The way is known exactly. Speed is linear between the samples of the loads, and friction follows
+    it: kinks of both lie at the same instants.
     """
     before = instant(path.motion, work.interval, work.time)
     after = instant(path.motion, work.end_interval, work.times[2])
@@ -207,12 +249,26 @@ def energy_error(path, work):
 
 @jit_inline
 def held_energy_error(energy, length, before, after):
-    """Estimated error of the energy of a held step [J], from powers at its ends [W].
+    """Error estimate of the energy of a held step, from the trapezoidal and Simpson's rule.
 
     Simpson's rule is off in proportion to the fourth power of the step, the trapezoidal rule to the
     second; the square of twice what they differ by relatively has the order of the one, and for a
     power that grows as an exponential eighty times its error. Errors of a rising and of a falling
     power are of one sign and add up, hence the margin.
+
+    Parameters
+    ----------
+    energy : float
+        Energy of the step by Simpson's rule [J].
+    length : float
+        Length of the step [s].
+    before, after : float
+        Powers at the start and at the end of the step [W].
+
+    Returns
+    -------
+    float
+        Estimated error, ≥ 0 [J]; infinite where the energy is zero.
     """
     difference = 2.0 * energy - length * (before + after)
     return difference * difference / abs(energy) if energy != 0.0 else math.inf

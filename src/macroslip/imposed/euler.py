@@ -20,23 +20,28 @@ from macroslip.mechanics.spin import net_force
 from macroslip.ring.orbit import interval_of
 from macroslip.roller.step import write_stage
 
-#: Rule and bounds.
-#:
-#: step : [s]
-#: implicit : 1 for backward Euler, 0 for explicit Euler
-#: tolerance : of the nonlinear iteration of backward Euler, relative change of spin
-#: largest_slip : slip beyond which the integration stops as unstable [m/s]. Friction pulls a
-#:     roller's surface towards the speed of the rings and of the cage only, so its true slip never
-#:     leaves the range these speeds span.
-#: end : of the integration [s]; the last step is shortened to meet it
+#: Rule and bounds of the Euler methods.
 RULE = np.dtype(
-    [("step", "f8"), ("implicit", "i8"), ("tolerance", "f8"), ("largest_slip", "f8"), ("end", "f8")]
+    [
+        # Length of a step [s].
+        ("step", "f8"),
+        # 1 for backward Euler, 0 for explicit Euler.
+        ("implicit", "i8"),
+        # Relative change of spin at which the iteration of backward Euler stops [-].
+        ("tolerance", "f8"),
+        # Slip beyond which the integration stops as unstable [m/s]. Friction pulls a roller's
+        # surface towards the speed of the rings and of the cage only, so its true slip never leaves
+        # the range these speeds span.
+        ("largest_slip", "f8"),
+        # End of the integration [s]; the last step is shortened to meet it.
+        ("end", "f8"),
+    ]
 )
 
 
 @jit_inline
 def _defect(path, work, spin, step):
-    """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s] at the end of a step [s], for a spin there [rad/s]."""
+    """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s] after a step [s], for a spin [rad/s]."""
     body = path.body
     at = work.stage_at[0]
     evaluate(path, at, at.ring_speed - body.radius * spin, work.push)
@@ -46,13 +51,27 @@ def _defect(path, work, spin, step):
 
 @jit_inline
 def backward_euler_step(path, work, step, tolerance):
-    """Spin after one implicit step of I_z' dω/dt = r (F_i + F_o + F_c) (16), with the station at its end in the first stage.
+    """Implicit Euler step of the spin equation I_z' dω/dt = r (F_i + F_o + F_c) (16).
 
     The iteration is the secant method started from the last spin, as MINPACK's hybrid method
-    reduces to in one unknown, held inside a bracket once there is one. It stops when ω changes by
-    less than `tolerance` of itself. Gives ω after the step, relative to the orbiting frame [rad/s],
-    NaN if the iteration did not stop; and the force [N] that the stopped iteration leaves
-    unbalanced.
+    reduces to in one unknown, held inside a bracket once there is one.
+
+    Parameters
+    ----------
+    path : macroslip.imposed.radau.Path
+    work : record of `macroslip.imposed.radau.WORK`
+        State before the step; its first stage holds the station at the end of the step.
+    step : float
+        Length of the step, > 0 [s].
+    tolerance : float
+        Relative change of ω at which the iteration stops [-].
+
+    Returns
+    -------
+    spin : float
+        ω after the step, relative to the orbiting frame [rad/s]; NaN if the iteration did not stop.
+    unbalanced : float
+        Force that the stopped iteration leaves unbalanced [N]; infinite if it did not stop.
     """
     to_force = path.body.radius / (step * path.body.mobility)
     older = work.spin
@@ -86,10 +105,11 @@ def backward_euler_step(path, work, step, tolerance):
 
 @jit
 def integrate_fixed_step(path, work, steps):
-    """Integrate the spin of one roller with explicit or backward Euler, until its history ends or the buffer is full.
+    """Integrate the spin of one roller with explicit or backward Euler.
 
-    As `macroslip.imposed.solve.integrate`, with a `RULE` for limits and one stage a step: the state
-    at which its forces are evaluated, its start or its end.
+    It ends with the history, or where the buffer is full. As `macroslip.imposed.solve.integrate`,
+    with a `RULE` for limits and one stage a step: the state at which its forces are evaluated, its
+    start or its end.
     """
     body = path.body
     motion = path.motion

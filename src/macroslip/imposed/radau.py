@@ -1,4 +1,4 @@
-"""Steps of a roller's slip: Radau IIA (order 5, L-stable), and two-stage collocation where a roller is firmly held.
+"""Steps of a roller's slip: Radau IIA (order 5, L-stable), and two-stage collocation if held.
 
 The stage equations are those of v(t) = v0 + [u2(t) − u2(t0)] − (r²/I_z') ∫ F dt: the ring's speed
 u2 enters by its exact difference and only the forces are integrated numerically. Multiplied by the
@@ -74,79 +74,173 @@ class Path(NamedTuple):
     """The way of one roller and how it is to be integrated."""
 
     body: Any  #: Record of a roller
-    tables: (
-        int  #: Address of the flat array of its tables: an array would be counted at every look-up
-    )
+    #: Address of the flat array of its tables: an array would be counted at every look-up
+    tables: int
     flat: np.ndarray  #: The array itself
     motion: Any
     start_angle: float  #: Position φ at the first sample [rad]
     limits: Any  #: Record of `LIMITS`, or of `macroslip.imposed.euler.RULE`
 
 
-#: Tolerance and bounds, the same for all rollers of a case.
-#:
-#: tolerance : relative, of slip against the raceway speed and of energy per step [-]
-#: max_steps : steps after which the integration gives up
-#: speed_scale : largest raceway speed |u2| of the history [m/s]
-#: energy_scale : twice the kinetic energy of a roller's spin at that speed, I_z' u2²/r² [J]
-#: longest_step : [s]
-#: cold_slip : slip below which traction rises with slip at every load of the history [m/s]
-#: firm : interference from which on the roller is firmly held [m]
-#: window : start of the window [s]
-#: grain : change of a slip near zero that does not change its place in a table [m/s]; 0 without
-#:     tables of traction
+#: Tolerance and bounds of the integration, the same for all rollers of a case.
 LIMITS = np.dtype(
     [
-        ("tolerance", "f8"), ("max_steps", "i8"), ("speed_scale", "f8"), ("energy_scale", "f8"), ("longest_step", "f8"),
-        ("cold_slip", "f8"), ("firm", "f8"), ("window", "f8"), ("grain", "f8"),
+        # Relative tolerance, of slip against the raceway speed and of energy per step [-].
+        ("tolerance", "f8"),
+        # Steps after which the integration gives up.
+        ("max_steps", "i8"),
+        # Largest raceway speed |u2| of the history [m/s].
+        ("speed_scale", "f8"),
+        # Twice the kinetic energy of a roller's spin at that speed, I_z' u2²/r² [J].
+        ("energy_scale", "f8"),
+        # Length of the longest step [s].
+        ("longest_step", "f8"),
+        # Slip below which traction rises with slip at every load of the history [m/s].
+        ("cold_slip", "f8"),
+        # Interference from which on the roller is firmly held [m].
+        ("firm", "f8"),
+        # Start of the window [s].
+        ("window", "f8"),
+        # Change of a slip near zero that does not change its place in a table [m/s]; 0 without
+        # tables of traction.
+        ("grain", "f8"),
     ]
-)  # fmt: skip
+)
 
-#: All that an integration has in hand, one record that its functions read and write; it goes on
-#: from there in the next call.
-#:
-#: The roller now: time [s], sample interval that holds it, slip [m/s], station, forces and powers
-#: of its interfaces [W]. The step that is tried: length [s], scale 1/(h r²/I_z') [N s/m], sample
-#: interval in which it ends, whether it is held, that is of two stages at its middle and end beside
-#: its start; times [s], weights and stations of its stages. Its solution: whether it converged,
-#: slip v at the stages [m/s] and its increments by forces s = v − v0 − (u2 − u2_0) [m/s], forces,
-#: the largest force left at a stage [N], powers [W], their sums at the start and the stages [W],
-#: and the energy [J]. A look at another place: station, forces, powers [W], slip [m/s] and the rate
-#: of its increment [m/s]. Known from steps before: the power of the load that the slip of a held
-#: roller follows; residual left by Newton's correction over the square of the correction (`bend`,
-#: [N s²/m²], infinite while it is not known); length of the last step of three stages [s], 0 where
-#: another has come since, and its increments. The stretch: step to try next [s], time at which a
-#: step must end [s], class of the sample interval (−1 before the first), last of the sample
-#: intervals of this class that follow one another, index of the first stop ahead, length of the
-#: sample interval [s], whether the last attempt was rejected, and a number that changes where loads
-#: have a kink. So far: whether it has begun; steps, rejections and force evaluations; largest force
-#: left unbalanced [N]; energy spent [J], in the window from there on; largest raceway power since
-#: the roller had no load [W]; spin of the Euler methods [rad/s].
+#: Mutable state of one integration: one record that its functions read and write, from which the
+#: next call goes on.
 WORK = np.dtype(
     [
-        ("time", "f8"), ("interval", "i8"), ("slip", "f8"), ("at", STATION), ("forces", FORCES), ("powers", "f8", (3,)),
-        ("length", "f8"), ("scale", "f8"), ("end_interval", "i8"), ("held", "i8"), ("times", "f8", (3,)),
-        ("weights", "f8", (3,)), ("stage_at", STATION, (3,)),
-        ("converged", "i8"), ("v", "f8", (3,)), ("s", "f8", (3,)), ("stage_forces", FORCES, (3,)), ("left", "f8"),
-        ("stage_powers", "f8", (3, 3)), ("totals", "f8", (4,)), ("energy", "f8"),
-        ("there", STATION), ("push", FORCES), ("push_powers", "f8", (3,)), ("there_slip", "f8"), ("there_rate", "f8"),
-        ("exponent", "f8"), ("bend", "f8"), ("last_length", "f8"), ("last_s", "f8", (3,)),
-        ("step", "f8"), ("barrier", "f8"), ("zone", "i8"), ("run_end", "i8"), ("next_stop", "i8"), ("sample_step", "f8"),
-        ("failed", "i8"), ("stretch", "i8"),
-        ("begun", "i8"), ("count", "i8", (3,)), ("unbalanced", "f8"), ("spent", "f8"), ("top_power", "f8"), ("spin", "f8"),
+        # --- The roller now
+        # Time [s].
+        ("time", "f8"),
+        # Index of the sample interval that holds it.
+        ("interval", "i8"),
+        # Slip Δu [m/s].
+        ("slip", "f8"),
+        # Station.
+        ("at", STATION),
+        # Forces on the roller.
+        ("forces", FORCES),
+        # Powers of its interfaces [W].
+        ("powers", "f8", (3,)),
+        # --- The step that is tried
+        # Length of the step [s].
+        ("length", "f8"),
+        # 1/(h r²/I_z') [N s/m].
+        ("scale", "f8"),
+        # Index of the sample interval in which it ends.
+        ("end_interval", "i8"),
+        # 1 where the step is held, that is of two stages at its middle and end beside its start.
+        ("held", "i8"),
+        # Times of its stages [s].
+        ("times", "f8", (3,)),
+        # Weights of its stages, as parts of the step [-].
+        ("weights", "f8", (3,)),
+        # Stations of its stages.
+        ("stage_at", STATION, (3,)),
+        # --- Its solution
+        # 1 where the stage equations were solved.
+        ("converged", "i8"),
+        # Slip at the stages [m/s].
+        ("v", "f8", (3,)),
+        # Increments of slip by forces, s = v − v0 − (u2 − u2_0) [m/s].
+        ("s", "f8", (3,)),
+        # Forces at the stages.
+        ("stage_forces", FORCES, (3,)),
+        # Largest force left unbalanced at a stage [N].
+        ("left", "f8"),
+        # Powers by stage and interface [W].
+        ("stage_powers", "f8", (3, 3)),
+        # Sums of the powers over the interfaces, at the start and at the stages [W].
+        ("totals", "f8", (4,)),
+        # Energy of the step [J].
+        ("energy", "f8"),
+        # --- A sample at another place of the step
+        # Station.
+        ("there", STATION),
+        # Forces.
+        ("push", FORCES),
+        # Powers of the interfaces [W].
+        ("push_powers", "f8", (3,)),
+        # Slip [m/s].
+        ("there_slip", "f8"),
+        # Derivative of the increment of slip by the part of the step [m/s].
+        ("there_rate", "f8"),
+        # --- Known from steps before
+        # Power of the load that the slip of a held roller follows [-].
+        ("exponent", "f8"),
+        # Residual left by Newton's correction over the square of the correction [N s²/m²]; infinite
+        # while it is not known.
+        ("bend", "f8"),
+        # Length of the last step of three stages [s]; 0 where a held one has come since.
+        ("last_length", "f8"),
+        # Increments of slip of the last step [m/s].
+        ("last_s", "f8", (3,)),
+        # --- The stretch
+        # Length of the step to try next [s].
+        ("step", "f8"),
+        # Time at which a step must end [s].
+        ("barrier", "f8"),
+        # Class of the sample interval; −1 before the first.
+        ("zone", "i8"),
+        # Index of the last of the sample intervals of this class that follow one another.
+        ("run_end", "i8"),
+        # Index of the first stop ahead.
+        ("next_stop", "i8"),
+        # Length of the sample interval [s].
+        ("sample_step", "f8"),
+        # 1 where the last attempt was rejected.
+        ("failed", "i8"),
+        # Number that changes where loads have a kink.
+        ("stretch", "i8"),
+        # --- So far
+        # 1 where the integration has begun.
+        ("begun", "i8"),
+        # Number of steps, rejections and force evaluations.
+        ("count", "i8", (3,)),
+        # Largest force left unbalanced by an accepted step [N].
+        ("unbalanced", "f8"),
+        # Energy spent [J]; in the window from there on.
+        ("spent", "f8"),
+        # Largest raceway power since the roller had no load [W].
+        ("top_power", "f8"),
+        # Spin ω of the Euler methods, relative to the orbiting frame [rad/s].
+        ("spin", "f8"),
     ]
-)  # fmt: skip
+)
 
 
 @jit_inline
 def locate(path, time, interval, found):
-    """Write the station at a time [s] in a sample interval."""
+    """Write the station of the roller at a time.
+
+    Parameters
+    ----------
+    path : Path
+    time : float
+        [s]
+    interval : int
+        Index of the sample interval that holds the time.
+    found : record of `macroslip.mechanics.spin.STATION`
+        Is written.
+    """
     station(path.body, path.tables, path.start_angle, instant(path.motion, interval, time), found)
 
 
 @jit_inline
 def evaluate(path, at, slip, found):
-    """Write the forces at a station and a slip [m/s]."""
+    """Write the forces on the roller at a station and a slip.
+
+    Parameters
+    ----------
+    path : Path
+    at : record of `macroslip.mechanics.spin.STATION`
+    slip : float
+        Δu at both raceways [m/s].
+    found : record of `macroslip.mechanics.spin.FORCES`
+        Is written.
+    """
     slip_forces(path.body, path.tables, at, slip, found)
 
 
@@ -161,7 +255,19 @@ def start_at(path, work):
 
 @jit_inline
 def frame(work, row, stages, end):
-    """Write the fields of a row on the whole step, which ends at `end` [s]."""
+    """Write the fields of a row that concern its whole step.
+
+    Parameters
+    ----------
+    work : record of `WORK`
+        State at the start of the step.
+    row : record of `macroslip.roller.step.STEP`
+        Is written.
+    stages : int
+        Number of stages of the row, 1 to 3.
+    end : float
+        End of the step [s].
+    """
     row.start = work.time
     row.end = end
     row.stages = stages
@@ -183,7 +289,18 @@ def write_point(path, work, row):
 
 @jit_inline
 def set_step(path, work, length, held):
-    """Set up a step of `length` [s] from now on, of three stages or held."""
+    """Set up the stages of a step that begins now.
+
+    Parameters
+    ----------
+    path : Path
+    work : record of `WORK`
+        State at the start of the step; length, scale, times, weights and stations are written.
+    length : float
+        Length of the step, > 0 [s].
+    held : bool
+        Whether the step is held, that is of two stages; it has three otherwise.
+    """
     work.length = length
     work.scale = 1.0 / (length * path.body.mobility)
     work.held = 1 if held else 0
@@ -218,7 +335,22 @@ def shift(forces, change):
 
 @jit_inline
 def residuals(scale, z1, z2, z3, f1, f2, f3):
-    """R_i [N] from stage increments z_i = v_i − v0 − (u2_i − u2_0) [m/s] and forces [N]; `scale` is 1/(h r²/I_z')."""
+    """Residuals of the three stage equations, as forces.
+
+    Parameters
+    ----------
+    scale : float
+        1/(h r²/I_z') [N s/m].
+    z1, z2, z3 : float
+        Stage increments z_i = v_i − v0 − (u2_i − u2_0) [m/s].
+    f1, f2, f3 : float
+        Net forces at the stages [N].
+
+    Returns
+    -------
+    tuple of float
+        R_1, R_2 and R_3 [N].
+    """
     return (
         scale * (A11 * z1 + A12 * z2 + A13 * z3) + f1,
         scale * (A21 * z1 + A22 * z2 + A23 * z3) + f2,
@@ -228,7 +360,24 @@ def residuals(scale, z1, z2, z3, f1, f2, f3):
 
 @jit_inline
 def newton_update(scale, d1, d2, d3, residual):
-    """Solve [scale A⁻¹ + diag(d)] Δ = −R. No pivoting: for d ≥ 0 all leading minors are positive."""
+    """Newton correction of the three stage slips: solves [scale A⁻¹ + diag(d)] Δ = −R.
+
+    There is no pivoting: for d ≥ 0 all leading minors are positive.
+
+    Parameters
+    ----------
+    scale : float
+        1/(h r²/I_z') [N s/m].
+    d1, d2, d3 : float
+        Slopes of the net force by slip at the stages [N s/m].
+    residual : tuple of float
+        R_1, R_2 and R_3 [N].
+
+    Returns
+    -------
+    tuple of float
+        Changes Δ of slip at the stages [m/s].
+    """
     m11 = scale * A11 + d1
     m12 = scale * A12
     m13 = scale * A13
@@ -247,7 +396,21 @@ def newton_update(scale, d1, d2, d3, residual):
 
 @jit_inline
 def collocation(part, z1, z2, z3):
-    """Increment of the collocation polynomial [m/s] at a part of the step, and its derivative by that part [m/s].
+    """Collocation polynomial of a step: increment of slip and its derivative.
+
+    Parameters
+    ----------
+    part : float
+        Part of the step [-]; above 1 the polynomial is continued beyond it.
+    z1, z2, z3 : float
+        Increments at the stages [m/s].
+
+    Returns
+    -------
+    increment : float
+        Increment at the part of the step [m/s].
+    rate : float
+        Its derivative by the part [m/s].
 
     Examples
     --------
@@ -281,7 +444,10 @@ def look_between(path, work, part):
 
 @jit_inline
 def force_tolerance(tolerance, microslip):
-    """Part of the sum of force magnitudes that may stay unbalanced, for the tolerance of the integration."""
+    """Part of the sum of force magnitudes that may stay unbalanced.
+
+    It goes with the tolerance of the integration.
+    """
     if not microslip:
         return tuning.FORCE_TOLERANCE
     return max(
@@ -292,13 +458,16 @@ def force_tolerance(tolerance, microslip):
 
 @jit_inline
 def _new_bend(bend, size, change):
-    """The bend after a correction has left a residual of `size` [N]; of what was known half is forgotten."""
+    """The bend after a correction has left a residual of `size` [N].
+
+    Half of what was known is forgotten.
+    """
     return max(size / (change * change), tuning.FORGET * bend if bend < math.inf else 0.0)
 
 
 @jit_inline
 def _evaluate_stages(path, work, first):
-    """Find the forces at the stages from number `first` on, and the increments of slip by forces."""
+    """Find the forces at the stages from `first` on, and the increments of slip by forces."""
     for k in range(first, 3):
         evaluate(path, work.stage_at[k], work.v[k], work.stage_forces[k])
         work.s[k] = work.v[k] - work.slip - (work.stage_at[k].ring_speed - work.at.ring_speed)
@@ -307,7 +476,7 @@ def _evaluate_stages(path, work, first):
 
 @jit_inline
 def _correct(work, change, first, shifted):
-    """Correct the slips from stage `first` on by `change` [m/s], and if they are `shifted`, the forces too."""
+    """Correct the slips from stage `first` on by `change` [m/s]; if `shifted`, the forces too."""
     for k in range(first, 3):
         work.v[k] += change[k]
         if shifted:
@@ -373,7 +542,10 @@ def solve_stages(path, work):
 
 @jit_inline
 def follows_loads(path, work, length):
-    """Whether a roller is at its balance and forgets its slip within a small part of a step of `length` [s]."""
+    """True if a roller is at its balance and forgets its slip within a small part of a step.
+
+    The step has `length` [s].
+    """
     if work.zone != FIRM or not path.body.microslip:
         return False
     held = path.body.mobility * work.forces.slope * length > tuning.QUASI_STATIC
@@ -382,10 +554,24 @@ def follows_loads(path, work, length):
 
 @jit_inline
 def held_update(scale, d2, d3, rest_2, rest_3):
-    """Solve the two linearised stage equations: changes of slip at the middle and at the end [m/s].
+    """Newton correction of the two stage slips of a held step.
 
-    R_2 = scale (v_3 − …) + F_2 and R_3 = scale (3 v_3 − 4 v_2 + …) + F_3, with F' = d [N s/m] and
-    `scale` = 1/(h r²/I_z').
+    It solves the linearised equations R_2 = scale (v_3 − …) + F_2 and R_3 = scale (3 v_3 − 4 v_2 +
+    …) + F_3.
+
+    Parameters
+    ----------
+    scale : float
+        1/(h r²/I_z') [N s/m].
+    d2, d3 : float
+        Slopes of the net force by slip at the middle and at the end, > 0 [N s/m].
+    rest_2, rest_3 : float
+        Residuals R_2 and R_3 [N].
+
+    Returns
+    -------
+    tuple of float
+        Changes of slip at the middle and at the end [m/s].
 
     Examples
     --------
@@ -399,7 +585,10 @@ def held_update(scale, d2, d3, rest_2, rest_3):
 
 @jit_inline
 def solve_held(path, work):
-    """Solve the stage equations of a held step; not converged where Newton would need a better guess than is available."""
+    """Solve the stage equations of a held step.
+
+    It is not converged where Newton would need a better guess than is available.
+    """
     scale = work.scale
     slip = work.slip
     at = work.at
@@ -463,10 +652,27 @@ def solve_held(path, work):
 
 @jit_inline
 def held_slip(microslip, slip, at, later, exponent):
-    """Guess of the slip of a firmly held roller at a later station from its slip now.
+    """First guess of the slip of a firmly held roller at a later station.
 
     With microslip the middle slips so that the two sides of the lines of pure rolling balance: in
     proportion to speed, and to a power of the load that `held_exponent` measures.
+
+    Parameters
+    ----------
+    microslip : bool
+        Whether the contacts have microslip; the guess is the slip now without.
+    slip : float
+        Slip now [m/s].
+    at, later : record of `macroslip.mechanics.spin.STATION`
+        Stations now and later.
+    exponent : float
+        Power of the elastic load that slip follows [-].
+
+    Returns
+    -------
+    float
+        Slip at the later station [m/s]; that of now where load or speed give no ratio, or where
+        speed grows by more than `MOST_QUICKENING`.
     """
     if not microslip or at.elastic_load <= 0.0 or at.ring_speed == 0.0 or later.elastic_load <= 0.0:
         return slip
@@ -481,7 +687,22 @@ def held_slip(microslip, slip, at, later, exponent):
 
 @jit_inline
 def held_exponent(at, slip, later, later_slip, exponent):
-    """The power of load with which the slip of a held roller has just changed; `exponent` where it cannot be measured."""
+    """Power of the elastic load that the slip of a held roller has just followed.
+
+    Parameters
+    ----------
+    at, later : record of `macroslip.mechanics.spin.STATION`
+        Stations before and after the change.
+    slip, later_slip : float
+        Slips at these stations [m/s].
+    exponent : float
+        Power known from before [-].
+
+    Returns
+    -------
+    float
+        The power, between ±`STEEPEST` [-]; that of before where it cannot be measured.
+    """
     if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
         return exponent
     change = math.log(later.elastic_load / at.elastic_load)
@@ -551,7 +772,23 @@ def _steady_slip(law, tables, closed_form, load, speed):
 
 @jit
 def surely_rising(body, tables, inner_load, outer_load, speed):
-    """Slip [m/s] up to which forces rise with slip at both raceways, at loads [N] and ring speeds up to `speed` [m/s]."""
+    """Slip up to which the friction of both raceways rises with slip.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : ndarray
+        The flat array of tables.
+    inner_load, outer_load : float
+        Normal loads of the raceways [N].
+    speed : float
+        Largest ring speed, ≥ 0 [m/s].
+
+    Returns
+    -------
+    float
+        Slip, > 0 [m/s]; infinite without load.
+    """
     return min(
         _steady_slip(body.inner, tables, body.closed_form, inner_load, speed),
         _steady_slip(body.outer, tables, body.closed_form, outer_load, speed),
@@ -560,7 +797,7 @@ def surely_rising(body, tables, inner_load, outer_load, speed):
 
 @jit
 def is_continuous(path, work):
-    """Whether the solved stages of a step are sure to be the root that is continuous with the slip before it.
+    """True if the stages of a step are sure to be the root continuous with the slip before it.
 
     Below the slip at which some part of a contact passes its peak of traction, forces rise with
     slip and the stage equations have one root. Above it, a step is accepted only where slip changes

@@ -56,9 +56,26 @@ def radau_limits(
 ) -> np.ndarray:
     """Bounds of the Radau integrator that hold for all rollers of a case.
 
-    `tolerance` is relative, of slip and energy; `heaviest` the largest load of a roller with weight
-    and centrifugal force [N], `window` the window's start [s], `longest_turn` the largest part of
-    an orbit turned in one step [rad]. The roller may be of either row.
+    Parameters
+    ----------
+    roller : Roller
+        A roller of either row.
+    motion : Motion
+        Of the inner ring.
+    tolerance : float
+        Relative tolerance of slip and energy, > 0 [-].
+    max_steps : int
+        Steps after which the integration gives up.
+    heaviest : float
+        Largest load of a roller with weight and centrifugal force [N].
+    window : float
+        Start of the window [s].
+    longest_turn : float, optional
+        Largest part of an orbit turned in one step [rad].
+
+    Returns
+    -------
+    ndarray of `LIMITS`, shape (1,)
     """
     body = roller.body[0]
     tables = roller.tables
@@ -88,7 +105,25 @@ def radau_limits(
 def fixed_step(
     roller: Roller, motion: Motion, *, step: float, end: float, tolerance: float | None = None
 ) -> np.ndarray:
-    """Rule of the Euler methods with this step [s] up to `end` [s]: backward Euler if it has a tolerance."""
+    """Rule of the Euler methods at a fixed step.
+
+    Parameters
+    ----------
+    roller : Roller
+    motion : Motion
+        Of the inner ring.
+    step : float
+        Length of a step, > 0 [s].
+    end : float
+        End of the integration [s].
+    tolerance : float, optional
+        Relative change of spin at which the iteration of backward Euler stops [-]; explicit Euler
+        without it.
+
+    Returns
+    -------
+    ndarray of `RULE`, shape (1,)
+    """
     body = roller.body[0]
     speeds = motion.shaft_speed * body["orbit_ratio"] * body["outer_radius"]
     largest = 1.01 * float(max(speeds.max(), 0.0) - min(speeds.min(), 0.0)) + 1e-9

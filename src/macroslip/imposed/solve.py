@@ -1,7 +1,8 @@
-"""The production integrator: steps of a roller's slip with error control, ending on every edge of the load zone.
+"""The production integrator: steps of a roller's slip with error control.
 
-It computes steps and nothing else. They go into a buffer; when that is full the function returns,
-and goes on where it was when it is called again with the same record of work.
+Steps end on every edge of the load zone. It computes steps and nothing else. They go into a buffer;
+when that is full the function returns, and goes on where it was when it is called again with the
+same record of work.
 """
 
 from __future__ import annotations
@@ -55,14 +56,14 @@ _ROWS = 2 + tuning.PEAK_PARTS // 3
 
 @jit_inline
 def _follows_acceleration(work):
-    """Whether the cage's load is tractions rather than weight and drag: those jump with the shaft's acceleration."""
+    """True if tractions make up the cage's load: they jump with the shaft's acceleration."""
     load = work.forces.cage_load
     return abs(load - work.at.tangential) > tuning.INERTIA_PART * abs(load)
 
 
 @jit_inline
 def _rebalance(path, work):
-    """Take a firmly held roller to just after a sample, where the shaft's acceleration changes at once.
+    """Take a firmly held roller to just after a sample, where the shaft's acceleration jumps.
 
     The transition takes the relaxation time, for which `firm_interference` gives a bound; here it
     takes none. A roller that still skids, or has not settled yet, is left as it is.
@@ -86,7 +87,10 @@ def _rebalance(path, work):
 
 @jit_inline
 def _next_stretch(path, stops, classes, work):
-    """At a barrier: the class of the interval that begins there, and the next barrier. None is left after the last stop."""
+    """Find the class of the interval that begins at a barrier, and the next barrier.
+
+    None is left after the last stop.
+    """
     time = work.time
     motion = path.motion
     while work.next_stop < stops.size and stops[work.next_stop] <= time:
@@ -127,7 +131,10 @@ def _next_stretch(path, stops, classes, work):
 
 @jit_inline
 def _attempt(path, work):
-    """Solve the step; returns its error over what is allowed, infinite where it was not solved on the continuous root."""
+    """Solve the step; returns error / tolerance.
+
+    It is infinite where the step was not solved on the continuous root.
+    """
     if work.held:
         solve_held(path, work)
     else:
@@ -164,7 +171,7 @@ def _attempt(path, work):
 
 @jit_inline
 def _reject(path, work, error):
-    """Try again after a step that was not taken: a held one with three stages, another one shorter."""
+    """Prepare another attempt: a held step with three stages, another one shorter."""
     work.count[1] += 1
     work.failed = 1
     if work.held:
@@ -196,7 +203,10 @@ def _leaves_tables(body, work):
 
 @jit_inline
 def _may_peak_inside(path, work, resolved):
-    """Whether the roller snaps back in the step, or slides with a power near the largest since it had no load."""
+    """True if the roller snaps back in the step, or slides with a power near its largest.
+
+    The largest is that since the roller had no load.
+    """
     if path.body.microslip or work.zone != EDGE:
         return False
     sliding = 0.0
@@ -210,7 +220,7 @@ def _may_peak_inside(path, work, resolved):
 
 @jit_inline
 def _film_ends_at(work, resolved):
-    """Part of the step at which the entrainment of a sliding roller passes zero, 1 where it does not.
+    """Part of the step at which the entrainment of a sliding roller passes zero, else 1.
 
     The film ends there, and power has a cusp, but in tables, which smooth it. A gripped roller's
     passes zero with the ring's speed, and its slip between the stages is far from balance.
@@ -224,7 +234,7 @@ def _film_ends_at(work, resolved):
 
 @jit_inline
 def _write_samples(path, work, resolved, cusp, rows):
-    """Write rows without weight at places between the stages, where power may have a peak; returns how many.
+    """Write rows without weight between the stages, where power may have a peak; returns how many.
 
     One of them is at the part `cusp` of the step. A slip that is small against what a step may be
     off says nothing of the power there.
@@ -318,13 +328,29 @@ def _begin(path, work, row):
 
 @jit
 def integrate(path, stops, classes, work, steps):
-    """Integrate the slip of one roller, until its history ends or the buffer is full.
+    """Integrate the slip of one roller with error control.
 
-    Gives a `Status`, UNDER_WAY where the buffer is full, and the number of rows that were written.
-    `path` has `LIMITS`; `stops` are times at which a step must end [s], rising, the last being the
-    end of the integration; `classes` of sample intervals, shape (n − 1,), are those of `classify`.
-    A record of `WORK` has zeros but for the slip at the first sample, and then is as the last call
-    left it; `steps`, shape (m,), are filled from the start.
+    It ends with the history, or where the buffer is full.
+
+    Parameters
+    ----------
+    path : Path
+        Its limits are a record of `LIMITS`.
+    stops : ndarray, shape (m,)
+        Times at which a step must end [s], rising, the last being the end of the integration.
+    classes : ndarray of int8, shape (n − 1,)
+        Classes of the n − 1 sample intervals, as `classify` writes them.
+    work : record of `WORK`
+        Zeros but for the slip at the first sample, and in later calls as the last call left it.
+    steps : ndarray of `macroslip.roller.step.STEP`, shape (k,)
+        Buffer, which is filled from the start.
+
+    Returns
+    -------
+    status : int
+        A `Status`; UNDER_WAY where the buffer is full.
+    count : int
+        Number of rows that were written.
     """
     time, speed, angle, displacement = path.motion
     motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]

@@ -8,8 +8,7 @@ and called one.
 
 from __future__ import annotations
 
-# --- Steps
-# ------------------------------------------------------------------------------------------------------------
+# --- Steps ----------------------------------------------------------------------------------------
 
 #: First step of the history and first step after entering an edge of the load zone [s]. Judgement:
 #: error control corrects either within three steps.
@@ -36,8 +35,7 @@ CUSP_PART = 0.03
 #: Part of a step next to its ends in which a zero of a force counts as lying on the end. Judgement.
 AT_END = 0.02
 
-# --- Error
-# ------------------------------------------------------------------------------------------------------------
+# --- Error ----------------------------------------------------------------------------------------
 
 #: Part of the cage's load that tractions may make up for steps of a held roller to cross samples,
 #: at which they jump with the shaft's acceleration. Judgement: a roller with weight is below it.
@@ -76,8 +74,7 @@ CUSP_WEIGHT = 1.0
 #: counts less. Judgement.
 FORGOTTEN = 1.0
 
-# --- Stage equations
-# --------------------------------------------------------------------------------------------------
+# --- Stage equations ------------------------------------------------------------------------------
 
 #: Most iterations of Newton at a step; it takes two on average.
 ITERATIONS = 12
@@ -129,8 +126,7 @@ MOST_QUICKENING = 5.0
 #: Most iterations of the secant method of backward Euler; it is held in a bracket that halves.
 SECANT_ITERATIONS = 200
 
-# --- Roots
-# ------------------------------------------------------------------------------------------------------------
+# --- Roots ----------------------------------------------------------------------------------------
 
 #: Largest relative change of slip in a step taken where traction may fall with slip, and the
 #: change, as part of the raceway speed, that is always small. Skids of 0.36 m/s follow SciPy's
@@ -138,8 +134,7 @@ SECANT_ITERATIONS = 200
 HOT_CHANGE = 0.2
 SMALL_CHANGE = 1e-6
 
-# --- Load zone
-# --------------------------------------------------------------------------------------------------------
+# --- Load zone ------------------------------------------------------------------------------------
 
 #: Relaxation rate of slip [1/s] from which on a roller counts as firmly held. Accelerations of a
 #: shaft are far below 1 m/s² at the raceway, so what slip lags behind balance is below 1e-4 m/s
@@ -152,8 +147,7 @@ FIRM_RATE_MICROSLIP = 1e3
 #: Judgement.
 SETTLED = 1e-6
 
-# --- Peaks and records
-# ------------------------------------------------------------------------------------------------
+# --- Peaks and records ----------------------------------------------------------------------------
 
 #: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a
 #: slip between stages must be for the power there to be meaningful. With them peaks on the bundled

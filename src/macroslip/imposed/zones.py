@@ -1,9 +1,10 @@
-"""Where on its way a roller is loaded, so that no step of an integrator can pass over a load zone or over its edge.
+"""Classes of load along a roller's way: without load, at the edge of the load zone, firmly held.
 
-Every interval between load samples belongs to one of three classes. `FREE`: no elastic load
-throughout; only the smooth body forces act. `FIRM`: so much load throughout that slip relaxes
-within a small part of a millisecond; the slip then follows the instant's balance of forces. `EDGE`:
-anything else; here steps must end at samples and at the instant the load begins or ends.
+No step of an integrator can pass over a load zone or over its edge. Every interval between load
+samples belongs to one of three classes. `FREE`: no elastic load throughout; only the smooth body
+forces act. `FIRM`: so much load throughout that slip relaxes within a small part of a millisecond;
+the slip then follows the instant's balance of forces. `EDGE`: anything else; here steps must end at
+samples and at the instant the load begins or ends.
 """
 
 from __future__ import annotations
@@ -24,10 +25,25 @@ FIRM = 2
 
 @jit
 def relaxation_rate(body, tables, load, ring_speed):
-    """Rate (r²/I_z') d(F_i + F_o)/dv [1/s] at the slip at which F_i + F_o = 0, under `load` [N].
+    """Relaxation rate of slip about its balance, (r²/I_z') d(F_i + F_o)/dv at F_i + F_o = 0.
 
-    `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a
-    Newton iteration held within the slips that occur in the contact finds it.
+    Without microslip the slip of balance is zero; with it, a Newton iteration held within the slips
+    that occur in the contact finds it.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    load : float
+        Load of both raceways, > 0 [N].
+    ring_speed : float
+        Speed of the raceways, ≥ 0 [m/s].
+
+    Returns
+    -------
+    float
+        Rate [1/s].
     """
     slip = 0.0
     low = -math.inf
@@ -60,10 +76,10 @@ def relaxation_rate(body, tables, load, ring_speed):
 
 @jit
 def firm_interference(body, tables, ring_speed):
-    """Interference [m] above which a roller is firmly held at raceway speeds up to `ring_speed` [m/s].
+    """Interference [m] above which a roller is firmly held.
 
-    Infinite if no load of the tables holds it firmly (a law with bounded slope): then no interval
-    is `FIRM`.
+    It holds for raceway speeds up to `ring_speed` [m/s]. Infinite if no load of the tables holds it
+    firmly (a law with bounded slope): then no interval is `FIRM`.
     """
     firm_rate = tuning.FIRM_RATE_MICROSLIP if body.microslip else tuning.FIRM_RATE
     low = 1e-3
@@ -82,7 +98,25 @@ def firm_interference(body, tables, ring_speed):
 
 @jit_inline
 def interference_at(body, motion, start_angle, interval, time):
-    """Interference δ [m] of a roller at `time` [s] in sample interval `interval`."""
+    """Elastic approach δ of a roller at a time.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    motion : Motion
+        Of the inner ring.
+    start_angle : float
+        Position φ at the first sample [rad].
+    interval : int
+        Index of the sample interval that holds the time.
+    time : float
+        [s]
+
+    Returns
+    -------
+    float
+        δ [m]; negative where there is play.
+    """
     now = instant(motion, interval, time)
     angle = start_angle + body.orbit_ratio * now.shaft_angle
     return interference(body, math.cos(angle), math.sin(angle), now)
@@ -90,11 +124,23 @@ def interference_at(body, motion, start_angle, interval, time):
 
 @jit
 def classify(body, motion, start_angle, firm, classes):
-    """Write the class of every sample interval, of a roller at φ = `start_angle` at first, into `classes`, shape (n − 1,).
+    """Write the load class of every sample interval of a roller.
 
     Between two samples δ differs from the chord by at most |δ''| Δt²/8. The roller's turning, its
     acceleration and the ring's motion bound |δ''| by (φ'² + |φ''|) (|d| + 4 |c2| + 9 |c3|) + 2 |φ'|
     |d'|, c2 and c3 the waves of a ring out of round, and the classes keep that margin.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    motion : Motion
+        Of the inner ring, with n samples.
+    start_angle : float
+        Position φ at the first sample [rad].
+    firm : float
+        Interference from which on the roller is firmly held [m].
+    classes : ndarray of int8, shape (n − 1,)
+        Is written: `FREE`, `EDGE` or `FIRM` by interval.
     """
     before = interference_at(body, motion, start_angle, 0, motion.time[0])
     waves = 4.0 * math.hypot(body.second_x, body.second_y) + 9.0 * math.hypot(
@@ -122,9 +168,25 @@ def classify(body, motion, start_angle, firm, classes):
 
 @jit
 def edge_time(body, motion, start_angle, interval, start, end):
-    """Time [s] just after the interference changes sign between `start` and `end` of one interval.
+    """Time just after the interference changes sign within a sample interval.
 
-    It is `end` if the signs there are the same; a load that comes and goes in between is missed.
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    motion : Motion
+        Of the inner ring.
+    start_angle : float
+        Position φ at the first sample [rad].
+    interval : int
+        Index of the sample interval.
+    start, end : float
+        Times in it between which the sign is followed [s].
+
+    Returns
+    -------
+    float
+        Time [s]; `end` if the signs at both times are the same. A load that comes and goes in
+        between is missed.
     """
     first = interference_at(body, motion, start_angle, interval, start)
     last = interference_at(body, motion, start_angle, interval, end)

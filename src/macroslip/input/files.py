@@ -92,10 +92,26 @@ class Place:
 def read_text(
     path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = ""
 ) -> str:
-    """Read a text file that a user has named; a pipe or a device, which never ends, is refused.
+    """Read a text file that a user has named.
 
-    Raises InputError if it cannot be read, in the words given, such as "the case file cannot be
-    read"; if it is no regular file, is longer than `MOST_BYTES`, or is not UTF-8.
+    Parameters
+    ----------
+    path : Path
+    what : str
+        Words for a failure, such as "the case file cannot be read".
+    where, allowed, remedy : str, optional
+        Parts of the message if the file cannot be read.
+
+    Returns
+    -------
+    str
+        Content of the file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read; if it is no regular file, such as a pipe or a device, which
+        never ends; if it is longer than `MOST_BYTES`, or is not UTF-8.
     """
 
     def unreadable(reason: str) -> InputError:
@@ -227,7 +243,7 @@ def _check_size(text: str, file: str) -> None:
 def _lines(
     mapping: CommentedMap, outer: tuple[object, ...] = ()
 ) -> Iterator[tuple[tuple[object, ...], int]]:
-    """Yield keys with their lines; a key merged in from an anchor has that of the entry around it."""
+    """Yield keys with their lines; a key merged from an anchor has the line of its entry."""
     for key in mapping.lc.data or {}:
         yield (*outer, key), mapping.lc.key(key)[0] + 1
     for key, entry in mapping.items():

@@ -59,10 +59,22 @@ def unknown_name(value: Any, names: Sequence[str], more: str = "") -> InputError
 def unknown_key(
     key: object, allowed: Iterable[str], *, where: str = "", inside: str = ""
 ) -> InputError:
-    """The error for a key that does not exist, with the closest key that does.
+    """Error for a key that does not exist, with the closest key that does.
 
-    `where` is file and line, `inside` the key of the section that contains it, empty at the top
-    level.
+    Parameters
+    ----------
+    key : object
+        The key that was written.
+    allowed : iterable of str
+        Keys that exist.
+    where : str, optional
+        File and line.
+    inside : str, optional
+        Key of the section that contains it; empty at the top level.
+
+    Returns
+    -------
+    InputError
 
     Examples
     --------

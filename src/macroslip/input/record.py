@@ -182,7 +182,31 @@ class _Entry(Form):
 def read_entry(
     key: str, entry: Any, dimension: Dimension, source: Source
 ) -> tuple[float, Provenance]:
-    """Value [SI] and provenance of an entry of a catalogue file; see `_Entry`."""
+    """Read one entry of a catalogue file.
+
+    Parameters
+    ----------
+    key : str
+        Key of the entry.
+    entry : object
+        Its value: text of number and unit, a plain number without unit, or a mapping.
+    dimension : Dimension
+        Dimension of the quantity.
+    source : Source
+        Where it was written, for messages.
+
+    Returns
+    -------
+    value : float
+        In SI units.
+    origin : Provenance
+        Value and unit as written, with tag, note and range.
+
+    Raises
+    ------
+    InputError
+        If the entry is no quantity of this dimension.
+    """
     field = Field(_Entry("", Quantity("", dimension)), True, False)
     origin = read_value(field, entry, Given(Place(source, (key,)), in_file=True))
     return dimension.to_si(origin.value, origin.unit), origin
@@ -324,9 +348,9 @@ class Record:
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
-        """Build a record from the content of a catalogue file, which `as_dict` gives; errors as `read`.
+        """Build a record from the content of a catalogue file, which `as_dict` gives.
 
-        `source` says where it was written, for messages.
+        Errors are those of `read`. `source` says where it was written, for messages.
         """
         source = source or Source()
         fields = _in_file(cls)
@@ -364,9 +388,10 @@ class Record:
         return record
 
     def require(self, *keys: str, purpose: str) -> None:
-        """Refuse a record that lacks quantities which a purpose needs, such as "the physical model".
+        """Refuse a record that lacks quantities which a purpose needs.
 
-        The InputError names all that are missing, and the form to add them in.
+        A purpose is text such as "the physical model". The InputError names all that are missing,
+        and the form to add them in.
 
         Examples
         --------
@@ -473,7 +498,7 @@ def fields_of(record: type[Record]) -> Fields:
 
 @functools.cache
 def _in_file(record: type[Record]) -> Fields:
-    """Fields as a file has them: quantities as entries, and sections; derived ones may be missing."""
+    """Fields as a file has them: quantities as entries, and sections; derived may be missing."""
     fields = {}
     for key, one in fields_of(record).items():
         form = one.form

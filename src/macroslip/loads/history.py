@@ -390,8 +390,25 @@ class BearingLoads(History):
     ) -> BearingLoads:
         """Read a table of main-bearing loads with units in its column names (Parquet, CSV).
 
-        `macroslip.loads.table` says which columns are needed. Parameters and errors are those of
-        `HubLoads.read`.
+        `macroslip.loads.table` says which columns are needed.
+
+        Parameters
+        ----------
+        path : path
+            ``.parquet`` or ``.csv``.
+        start, end : float, optional
+            Keep only this part of the file [s], on the file's own time axis, as `cut` does.
+        decimal, thousands : str, optional
+            Marks of numbers in text, as in `HubLoads.read`.
+
+        Returns
+        -------
+        BearingLoads
+
+        Raises
+        ------
+        InputError
+            As `HubLoads.read`.
         """
         remedy = (
             "Hub loads from OpenFAST become bearing loads by "

@@ -81,68 +81,135 @@ _LEAST_SHARE = 1e-30
 #: Looks from one at the quadrature's error to the next, which takes as long as five hundred others.
 _FINE = 4096
 
-#: State from look to look: number of looks, orbit of the last one, its time [s] (NaN before the
-#: first), angle of the roller ahead of pure rolling [rad], power at the raceways then [W]; the
-#: highest values in its orbit: powers of the interfaces [W], power over load^(2/3) at the raceways,
-#: and slide-roll ratio; energy since then [J], its moment about that time [J s] and the part of
-#: asperities [J] by raceway; elastic load at the end of the last step [N] (NaN before the first),
-#: number of the entry under way (0 for none), how many there were, and when it began [s].
+#: State from sample to sample of the contacts.
 _MEMORY = np.dtype(
     [
-        ("count", "i8"), ("orbit", "i8"), ("time", "f8"), ("ahead", "f8"), ("power", "f8", (2,)), ("highest", "f8", (6,)),
-        ("energy", "f8", (2,)), ("moment", "f8", (2,)), ("rough", "f8", (2,)),
-        ("pressed", "f8"), ("entry", "i8"), ("entries", "i8"), ("since", "f8"),
+        # Number of samples.
+        ("count", "i8"),
+        # Orbit of the last sample.
+        ("orbit", "i8"),
+        # Time of the last sample [s]; NaN before the first.
+        ("time", "f8"),
+        # Angle of the roller ahead of pure rolling at the last sample [rad].
+        ("ahead", "f8"),
+        # Power at the raceways at the last sample [W].
+        ("power", "f8", (2,)),
+        # Highest values in the orbit: powers of the three interfaces [W], power over load^(2/3) at
+        # both raceways [W/N^(2/3)], and slide-roll ratio [-].
+        ("highest", "f8", (6,)),
+        # Energy since the last sample by raceway [J].
+        ("energy", "f8", (2,)),
+        # Moment of that energy about the time of the last sample [J s].
+        ("moment", "f8", (2,)),
+        # Part of asperities in that energy [J].
+        ("rough", "f8", (2,)),
+        # Elastic load at the end of the last step [N]; NaN before the first.
+        ("pressed", "f8"),
+        # Number of the entry into the load zone under way; 0 for none.
+        ("entry", "i8"),
+        # Number of entries so far.
+        ("entries", "i8"),
+        # When the entry under way began [s].
+        ("since", "f8"),
     ]
-)  # fmt: skip
-#: A look: its orbit, number, and the number of the entry it belongs to; time of the look before and
-#: its own [s]; angles of the roller ahead of pure rolling, and of the shaft, at both [rad]; of the
-#: raceways energy since the look before [J], the share of the time at which it was spent in the
-#: mean, and asperities' energy [J]; the state; film [m] and asperities' share of the contacts; of
-#: the raceways the ellipse's middle along the roller [m] and the six numbers of
-#: `contact.skewed.SlipLines`, of which a straight roller has three; and, found by `_look`, power
-#: per length [W/m] and half-width [m] where contacts are hottest, with the speeds of roller and
-#: counterpart there [m/s].
+)
+#: A sample of the contacts.
 _LOOK = np.dtype(
     [
-        ("orbit", "i8"), ("number", "i8"), ("entry", "i8"), ("since", "f8"), ("time", "f8"), ("ahead", "f8", (2,)),
-        ("turned", "f8", (2,)), ("energy", "f8", (2,)), ("mean_time", "f8", (2,)), ("rough", "f8", (2,)),
-        ("at", END), ("film", "f8", (3,)), ("share", "f8", (3,)), ("lines", "f8", (2, 7)), ("hot", "f8", (3, 4)),
+        # Orbit it lies in; −1 outside all complete ones.
+        ("orbit", "i8"),
+        # Number of the sample.
+        ("number", "i8"),
+        # Number of the entry into the load zone it belongs to; 0 for none.
+        ("entry", "i8"),
+        # Time of the sample before [s].
+        ("since", "f8"),
+        # Time [s].
+        ("time", "f8"),
+        # Angles of the roller ahead of pure rolling at both times [rad].
+        ("ahead", "f8", (2,)),
+        # Angles of the shaft at both times [rad].
+        ("turned", "f8", (2,)),
+        # Energy since the sample before by raceway [J].
+        ("energy", "f8", (2,)),
+        # Part of the time since then at which that energy was spent in the mean, by raceway [-].
+        ("mean_time", "f8", (2,)),
+        # Part of asperities in that energy [J].
+        ("rough", "f8", (2,)),
+        # State at the sample.
+        ("at", END),
+        # Film thickness by interface [m].
+        ("film", "f8", (3,)),
+        # Asperities' share of the load by interface [-].
+        ("share", "f8", (3,)),
+        # By raceway, the middle of the ellipse along the roller [m] and the six numbers of
+        # `contact.skewed.SlipLines`, of which a straight roller has three.
+        ("lines", "f8", (2, 7)),
+        # By interface where it is hottest, found by `_look`: power per length [W/m], half-width
+        # [m], and speeds of roller and counterpart [m/s].
+        ("hot", "f8", (3, 4)),
     ]
-)  # fmt: skip
-#: How power lies along the roller at a raceway at a look: by station power with the sign of slip
-#: [W], that of asperities [W], ∫ p |v| dA [W] and power per area [W/m²]; sums of the first three;
-#: film regime.
+)
+#: How power lies along the roller at a raceway, at a sample.
 _ALONG = np.dtype(
     [
-        ("power", "f8", (STATIONS,)), ("rough", "f8", (STATIONS,)), ("work", "f8", (STATIONS,)), ("density", "f8", (STATIONS,)),
-        ("total", "f8"), ("rough_total", "f8"), ("work_total", "f8"), ("regime", "i8"),
+        # Power by station, with the sign of slip [W].
+        ("power", "f8", (STATIONS,)),
+        # Power of asperities by station [W].
+        ("rough", "f8", (STATIONS,)),
+        # ∫ p |v| dA by station [W].
+        ("work", "f8", (STATIONS,)),
+        # Power per area by station [W/m²].
+        ("density", "f8", (STATIONS,)),
+        # Sum of |power| [W].
+        ("total", "f8"),
+        # Sum of the power of asperities [W].
+        ("rough_total", "f8"),
+        # Sum of ∫ p |v| dA [W].
+        ("work_total", "f8"),
+        # Film regime: 1 where Λ is 1 and above, 0 below.
+        ("regime", "i8"),
     ]
-)  # fmt: skip
+)
 _PLACES = (2, SECTORS, STATIONS)
-#: Sums over the looks, fields of `Details`; and by raceway two records of how power lies, of which
-#: `last` is of the last look with load: a record in place of arrays, whose references would be
-#: counted at every look.
+#: Sums over the samples: the fields of `Details` of the same names. A record in place of arrays,
+#: whose references would be counted at every sample.
 _MAPS = np.dtype(
     [
-        ("station_energy", "f8", (2, STATIONS)), ("surface_energy", "f8", (*_PLACES, len(SLIP_SIGNS), len(FILM_REGIMES))),
-        ("surface_density", "f8", _PLACES), ("surface_asperities", "f8", _PLACES), ("surface_work", "f8", _PLACES),
-        ("surface_passes", "f8", (2, SECTORS)), ("working_load", "f8", (2, 2)), ("film_slip", "f8", (2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1, 2)),
-        ("along", _ALONG, (4,)), ("last", "i8", (2,)),
+        # Energy by raceway and station along the roller [J].
+        ("station_energy", "f8", (2, STATIONS)),
+        # Energy by raceway, sector, station, sign of slip and film regime [J].
+        ("surface_energy", "f8", (*_PLACES, len(SLIP_SIGNS), len(FILM_REGIMES))),
+        # Largest power per area by raceway, sector and station [W/m²].
+        ("surface_density", "f8", _PLACES),
+        # Energy of asperities by raceway, sector and station [J].
+        ("surface_asperities", "f8", _PLACES),
+        # ∫∫ p |v| dA dt by raceway, sector and station [J].
+        ("surface_work", "f8", _PLACES),
+        # Passes over each sector by raceway [-].
+        ("surface_passes", "f8", (2, SECTORS)),
+        # By raceway, ∫∫ p |v| dA dt times load [J N], and itself [J].
+        ("working_load", "f8", (2, 2)),
+        # By raceway, class of Λ and of the slide-roll ratio: time under load times the part of the
+        # length [s]; passes [-].
+        ("film_slip", "f8", (2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1, 2)),
+        # How power lies along the roller, two records a raceway.
+        ("along", _ALONG, (4,)),
+        # Which of the two, by raceway, is of the last sample with load.
+        ("last", "i8", (2,)),
     ]
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
 class Wanted:
     """Measures that are wanted."""
 
-    edges: (
-        np.ndarray
-    )  #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
+    #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
+    edges: np.ndarray
     highest_speed: float  #: Largest raceway speed of the history [m/s]
-    trace_time: (
-        np.ndarray
-    )  #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
+    #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
+    trace_time: np.ndarray
     details: bool  #: Whether contacts are looked at station by station
     spacing: float = 1.0  #: Changes between looks, over those of a roller on an imposed orbit
 
@@ -161,9 +228,8 @@ class Details(NamedTuple):
     memory: np.ndarray  #: Of `_MEMORY`, shape (1,)
     maps: np.ndarray  #: Of `_MAPS`, shape (1,); its fields are those that follow
     station_energy: np.ndarray  #: Energy by raceway and station along the roller [J]
-    surface_energy: (
-        np.ndarray
-    )  #: Energy by raceway, sector, station, sign of slip and film regime [J]
+    #: Energy by raceway, sector, station, sign of slip and film regime [J]
+    surface_energy: np.ndarray
     #: Largest power per area [W/m²] over raceway, sector and station, mean over the contact's width
     surface_density: np.ndarray
     surface_asperities: np.ndarray  #: Energy of asperities [J], as `surface_density`
@@ -193,7 +259,10 @@ def new_details(edges: np.ndarray) -> Details:
 
 
 class Contact(NamedTuple):
-    """A contact, as the functions below take it: its geometry, its oil's chords, whether these serve, and effusivity of steel."""
+    """A contact as the functions below take it.
+
+    It is its geometry, its oil's chords, whether these serve, and the effusivity of steel.
+    """
 
     patch: Patch
     chords: ChordTable
@@ -244,7 +313,10 @@ def _compared(step, last):
 
 @jit_inline
 def _is_due(step, last, memory, outer_radius, spacing):
-    """Whether enough way has passed since the last look, power has changed enough, or a value is a new highest one."""
+    """True if a new sample is due.
+
+    It is after enough way, enough change of power, or at a new highest value.
+    """
     highest = memory.highest
     values = _compared(step, last)
     change = _CHANGE * spacing
@@ -339,7 +411,7 @@ def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
 
 @jit
 def _begin(look, memory, step):
-    """Write what has been kept since the look before into one at the end of a step, with the state there."""
+    """Begin a sample at the end of a step: what was kept since the one before, and the state."""
     look.since = memory.time
     look.time = step.end
     look.entry = memory.entry
@@ -355,7 +427,7 @@ def _begin(look, memory, step):
 
 @jit_inline
 def _share(way, sector, mean_time):
-    """Part of a way [sectors] in a sector, if it is passed linearly faster or slower so as to have the mean time."""
+    """Part of a way [sectors] in a sector, passed linearly faster or slower with the mean time."""
     start = min(way)
     end = max(way)
     if math.floor(start) == math.floor(end):
@@ -368,12 +440,12 @@ def _share(way, sector, mean_time):
 
 @jit
 def _spread(maps, interface, way, mean_time, spent, before, after):
-    """Give energies to the stations, and to the places of the raceway that were passed, as power lay before and as it lies now.
+    """Give energies to the stations, and to the places of the raceway that were passed.
 
-    Along the roller they are in proportion to the powers; along the way, from one sector to
-    another, they are linear, with the mean time that they have. `spent` has energy [J] and energy
-    of asperities [J] over their power, and the time of the work of pressure and slip [s], each
-    before and now.
+    They are spread as power lay at the sample before and as it lies now. Along the roller they are
+    in proportion to the powers; along the way, from one sector to another, they are linear, with
+    the mean time that they have. `spent` has energy [J] and energy of asperities [J] over their
+    power, and the time of the work of pressure and slip [s], each before and now.
     """
     for k in range(STATIONS):
         maps.station_energy[interface, k] += spent[0] * abs(before.power[k]) + spent[1] * abs(
@@ -501,7 +573,10 @@ def _look_along(maps, interface, contact, state, look, passes, along):
 
 @jit
 def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
-    """Spread the energies of looks and raise the extremes; what is hottest is written to the looks."""
+    """Spread the energies of samples and raise the extremes.
+
+    What is hottest is written to the samples.
+    """
     body, tables = roller
     for n in range(looks.size):
         look = looks[n]
@@ -568,7 +643,10 @@ def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
 
 @jit_inline
 def _look_at_cage(body, tables, contact, look, extreme):
-    """Find power and extremes of the cage's contact, without the oil of its pocket, whose force is far larger than that of a light contact."""
+    """Find power and extremes of the cage's contact, without the oil of its pocket.
+
+    The force of that oil is far larger than the force of a light contact.
+    """
     hot = look.hot[2]
     surface = look.at.cage_speed
     load = abs(look.at.cage_load)
@@ -588,7 +666,10 @@ def _look_at_cage(body, tables, contact, look, extreme):
 
 
 def _heat_entries(rows: np.ndarray, effusivity: float, extreme: np.ndarray) -> None:
-    """Raise the temperatures of entries [K]: rows have entry, orbit, time [s] and, by raceway, what is hottest as `_LOOK` has it."""
+    """Raise the temperatures of entries to the load zone [K].
+
+    Rows have entry, orbit, time [s] and, by raceway, what is hottest as `_LOOK` has it.
+    """
     columns = np.ascontiguousarray(rows.T)
     edges = np.flatnonzero(np.diff(columns[0], prepend=0.0, append=0.0))
     for first, last in itertools.pairwise(edges):

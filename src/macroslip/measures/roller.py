@@ -1,4 +1,7 @@
-"""All that a result holds of one roller, gathered from its steps buffer by buffer; the same for both engines."""
+"""All that a result holds of one roller, gathered from its steps buffer by buffer.
+
+It is the same for both engines.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ from macroslip.roller.model import Roller, RollerModel
 
 
 class Row:
-    """Models, laws and contacts, as compiled code takes them, that the measures of a row's rollers share."""
+    """Models, laws and compiled contacts that the measures of a row's rollers share."""
 
     def __init__(
         self,
@@ -118,7 +121,7 @@ class RollerMeasures:
         return np.floor(angle / (2.0 * np.pi) % 1.0 * SECTORS).astype(int) % SECTORS
 
     def _trace(self, steps: np.ndarray, states: np.ndarray) -> None:
-        """Keep the states at the times of the traces: the first ends of steps that are not before them."""
+        """Keep the states at the times of the traces: at the first step end not before each."""
         times = self.row.wanted.trace_time
         if self._next_trace == times.size:
             return
@@ -136,7 +139,10 @@ class RollerMeasures:
             self._traced.append(states[places])
 
     def traces(self) -> dict[str, np.ndarray]:
-        """Traces by name, over time, and over interface or raceway; NaN from where an integration ended early."""
+        """Traces by name, over time, and over interface or raceway.
+
+        They are NaN from where an integration ended early.
+        """
         found = np.full(self.row.wanted.trace_time.size, np.nan, END)
         model = self.row.model
         known = np.concatenate([np.zeros(0, END), *self._traced])
@@ -171,10 +177,10 @@ def _films(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
 
 
 def _skew_moments(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
-    """Skew moments of both raceways [N m], from their power, which is −u2 s times them; NaN at standstill.
+    """Skew moments of both raceways [N m]; NaN at standstill.
 
-    A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer
-    one.
+    They follow from their power, which is −u2 s times them. A traction that drives the spin up acts
+    along +x at the inner raceway, along −x at the outer one.
     """
     found = np.zeros((at.size, 2))
     for i, (name, sign) in enumerate((("inner", 1.0), ("outer", -1.0))):

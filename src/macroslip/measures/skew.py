@@ -1,4 +1,7 @@
-"""Skew of one roller, from its steps: what it adds to their power, how its contacts slide, and mean values by place on the orbit."""
+"""Skew of one roller, from its steps.
+
+It adds to their power and makes its contacts slide; mean values are taken by place on the orbit.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +52,10 @@ def _power_of_ends(roller, stop, push, speed):
 
 @jit
 def _add(skewing, roller, steps, j, places, window, totals):
-    """Add skew's power to steps, and sum up; the first of `totals` holds what was added at the end of the last step [W]."""
+    """Add skew's power to steps, and sum up.
+
+    The first of `totals` holds what was added at the end of the last step [W].
+    """
     (table, guide), (before, sums, by_place) = skewing, totals
     for n in range(steps.shape[0]):
         step = steps[n, j]
@@ -94,7 +100,11 @@ def _add(skewing, roller, steps, j, places, window, totals):
 
 @jit
 def _follow(table, guide, loads, speeds, pushes, found):
-    """Write states: ψ, θ, axial force, moments of both raceways, force of a spar at the stop, δ and what is added to the slip."""
+    """Write states of a skewed roller.
+
+    They are ψ, θ, axial force, moments of both raceways, force of a spar at the stop, δ and the
+    slip that is added.
+    """
     for n in range(loads.size):
         if loads[n] > 0.0:
             at = turned(table, guide, loads[n], speeds[n], pushes[n])
@@ -124,7 +134,8 @@ class SkewMeasures:
     Attributes
     ----------
     by_place : ndarray, shape (sectors, 4)
-        Time under the rings' load [s], and integrals over it of ψ [rad s], axial force [N s] and added power [J].
+        Time under the rings' load [s], and integrals over it of ψ [rad s], axial force [N s] and
+        added power [J].
     """
 
     def __init__(self, skewing: Skewing, roller: Roller, window: float):
@@ -136,13 +147,16 @@ class SkewMeasures:
         self.by_place = np.zeros((SECTORS, 1 + len(BY_PLACE)))
 
     def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
-        """Add skew's power to the steps of roller `j`, whose stages are at these places on the orbit, in the buffer itself."""
+        """Add skew's power to the steps of roller `j`, in the buffer itself.
+
+        The stages of the steps are at these places on the orbit.
+        """
         roller = self._roller.body[0], self._roller.tables.ctypes.data
         totals = self._before, self._sums, self.by_place
         _add(self._skewing[:2], roller, steps, j, places, self._window, totals)
 
     def turn(self, looks: np.ndarray) -> None:
-        """Let the contacts of looks slide as those of the skewed roller, where the rings press it."""
+        """Let sampled contacts slide as those of the skewed roller, where the rings press it."""
         at = looks["at"]
         found = self._states(at)
         pressed = at["elastic_load"] > 0.0
@@ -170,7 +184,10 @@ class SkewMeasures:
         return float(self._sums[3])
 
     def traces(self, raw: np.ndarray) -> dict[str, np.ndarray]:
-        """Traces by name, from states of `END`; skew and tilt are NaN where the rings do not press the roller."""
+        """Traces by name, from states of `END`.
+
+        Skew and tilt are NaN where the rings do not press the roller.
+        """
         found = self._states(raw)
         names = ("skew_angle", "tilt", "axial_force")
         return dict(zip(names, found.T, strict=False)) | {

@@ -34,20 +34,50 @@ _BUFFERS = 4
 _LEAST_BATCH = 1024
 
 
-#: The state at the end of a step; fields as of `STEP`. The time from `start` [s] counts with it: 0
-#: before the window, and for a row without weight.
+#: The state at the end of a step; signs and interfaces are those of `STEP`.
 END = np.dtype(
     [
-        ("span", "f8"), ("pure_speed", "f8"), ("inner_slip", "f8"), ("outer_slip", "f8"), ("inner_speed", "f8"),
-        ("outer_speed", "f8"), ("cage_speed", "f8"), ("inner_load", "f8"), ("outer_load", "f8"), ("elastic_load", "f8"),
-        ("cage_load", "f8"), ("force", "f8", (3,)), ("power", "f8", (3,)), ("rolling", "f8", (3,)), ("skew_power", "f8", (2,)),
+        # Time from the start of the step that counts with the state [s]: 0 before the window, and
+        # for a row without weight.
+        ("span", "f8"),
+        # Speed u2 of the raceways past a roller in pure rolling [m/s].
+        ("pure_speed", "f8"),
+        # Slip Δu at the middle of the inner contact [m/s].
+        ("inner_slip", "f8"),
+        # Slip Δu at the middle of the outer contact [m/s].
+        ("outer_slip", "f8"),
+        # Speed u2 of the inner ring past the roller's centre [m/s].
+        ("inner_speed", "f8"),
+        # Speed u2 of the outer ring past the roller's centre [m/s].
+        ("outer_speed", "f8"),
+        # Speed of the roller's surface past the cage [m/s].
+        ("cage_speed", "f8"),
+        # Normal load of the inner contact, with body forces and films [N].
+        ("inner_load", "f8"),
+        # Normal load of the outer contact, with body forces and films [N].
+        ("outer_load", "f8"),
+        # Normal load of the rings alone [N].
+        ("elastic_load", "f8"),
+        # F_n,cage, positive where the cage pushes the roller along the orbit [N].
+        ("cage_load", "f8"),
+        # Friction by interface, without rolling resistance [N].
+        ("force", "f8", (3,)),
+        # Frictional power by interface [W].
+        ("power", "f8", (3,)),
+        # Power of rolling resistance by interface [W].
+        ("rolling", "f8", (3,)),
+        # Part of the raceways' power by the contact angle [W].
+        ("skew_power", "f8", (2,)),
     ]
-)  # fmt: skip
+)
 
 
 @jit_inline
 def write_end(step, found):
-    """Write the state at the end of a step to a record of `END`, but for the time that counts with it."""
+    """Write the state at the end of a step to a record of `END`.
+
+    The time that counts with it is not written.
+    """
     last = step.stages - 1
     found.pure_speed = step.pure_speed
     found.inner_slip = step.inner_slip[last]
@@ -75,7 +105,10 @@ class Batch:
         self.count = 0
 
     def room(self, count: int, work: Callable[[np.ndarray], None]) -> np.ndarray:
-        """Room for `count` records behind the `self.count` ones; where there is none, `work` takes these first."""
+        """Room for `count` records behind the `self.count` ones.
+
+        Where there is none, `work` takes these first.
+        """
         if self.count + count > self._records.size:
             self._hand_over(work)
         if count > self._records.size:
@@ -96,7 +129,10 @@ class Batch:
 def loaded_contacts(
     at: np.ndarray, laws: RollerLaws
 ) -> list[tuple[ContactLaws, np.ndarray, np.ndarray]]:
-    """Of each interface its laws, load [N], not negative, and entrainment speed [m/s], from `LOWEST_SPEED` on."""
+    """Laws, load [N] and entrainment speed [m/s] of every interface.
+
+    Loads are not negative, and speeds are from `LOWEST_SPEED` on.
+    """
     found = [
         (getattr(laws, name), at[f"{name}_load"], at[f"{name}_speed"] - 0.5 * at[f"{name}_slip"])
         for name in RACEWAYS
@@ -108,9 +144,8 @@ def loaded_contacts(
 class Totals(NamedTuple):
     """Sums over the steps of one roller. Interfaces are in the order inner, outer, cage."""
 
-    edges: (
-        np.ndarray
-    )  #: Times at which orbits of the window begin and end [s]; the window opens at the first
+    #: Times at which orbits of the window begin and end [s]; the window opens at the first
+    edges: np.ndarray
     energy: np.ndarray  #: Dissipated by friction (34) in the window by interface [J]
     rolling_energy: np.ndarray  #: Dissipated by rolling resistance, apart from friction [J]
     asperity_energy: np.ndarray  #: Part of the energy of friction by asperities [J]
@@ -122,9 +157,8 @@ class Totals(NamedTuple):
     #: Smallest ω/ω_pure in the window [-], −inf once the shaft has turned back; speed of the rings
     #: from which on it has a meaning [m/s]; and the sign of that speed, 0 before.
     spin_ratio: np.ndarray
-    film_load: (
-        np.ndarray
-    )  #: Time [s], and the integral over it of the load that films carry beside the rings' [N s]
+    #: Time [s], and the integral over it of the load that films carry beside the rings' [N s]
+    film_load: np.ndarray
     #: The last two times [s] and powers [W], newest last, for the parabola through three; shape (2,
     #: 4)
     samples: np.ndarray
@@ -132,7 +166,7 @@ class Totals(NamedTuple):
 
 
 def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
-    """Nothing yet, for orbits with these edges [s] and the largest raceway speed of the history [m/s]."""
+    """Empty totals for orbits with these edges [s] and this largest raceway speed [m/s]."""
     orbits = edges.size - 1
     shapes = (3, 3, 3, (3, len(MECHANISMS)), (orbits, 3), (orbits + 1, 3))
     ratio = np.array([np.inf, max(SPIN_RATIO_SPEED * highest_speed, STANDSTILL), 0.0])
@@ -143,7 +177,10 @@ def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
 
 @jit
 def orbit_at(edges, time, likely):
-    """Index of the complete orbit that holds `time`, or −1 outside all of them; `likely` is looked at first."""
+    """Index of the complete orbit that holds `time`, or −1 outside all of them.
+
+    The orbit `likely` is tried first.
+    """
     if likely >= 0 and edges[likely] <= time < edges[likely + 1]:
         return likely
     if time < edges[0] or time >= edges[-1]:
@@ -153,7 +190,19 @@ def orbit_at(edges, time, likely):
 
 @jit
 def vertex(ta, pa, tb, pb, tc, pc):
-    """Largest value of the parabola through three samples with ta < tb < tc and pb the largest.
+    """Largest value of the parabola through three samples of which the middle one is the largest.
+
+    Parameters
+    ----------
+    ta, tb, tc : float
+        Times, ta < tb < tc [s].
+    pa, pb, pc : float
+        Values at these times, pb the largest, of any unit.
+
+    Returns
+    -------
+    float
+        Largest value, ≥ pb, of the same unit.
 
     Examples
     --------
@@ -171,7 +220,10 @@ def vertex(ta, pa, tb, pb, tc, pc):
 
 @jit_inline
 def _follow(samples, peak, time, powers):
-    """Take up the powers at a new time; raise the orbit's peaks to them and to the parabolas through three of them."""
+    """Take up the powers at a new time and raise the orbit's peaks.
+
+    Peaks are raised to the powers and to the parabolas through three of them.
+    """
     before = samples[1, 0] - samples[0, 0]
     after = time - samples[1, 0]
     even = (
@@ -217,13 +269,20 @@ def _book_peaks(step, totals, orbit):
 
 @jit
 def book(steps, j, totals, states):
-    """Add the steps of roller `j` in a buffer to its energies E = ∫P dt (34), peaks and other totals.
-
-    `steps` has the shape (n, rollers); `states`, shape (n,), is filled with the states at the ends
-    of the steps.
+    """Add the steps of roller `j` in a buffer to its energies E = ∫P dt (34) and other totals.
 
     Of the load that films carry beside that of the rings the lighter one of the two raceways'
     counts, which the roller's body force does not load.
+
+    Parameters
+    ----------
+    steps : ndarray of `macroslip.roller.step.STEP`, shape (n, rollers)
+    j : int
+        Index of the roller.
+    totals : Totals
+        Energies [J], peaks of power [W] and other sums, which are raised.
+    states : ndarray of `END`, shape (n,)
+        Is filled with the states at the ends of the steps.
     """
     edges = totals.edges
     for n in range(steps.shape[0]):
@@ -274,7 +333,10 @@ def book(steps, j, totals, states):
 
 
 def law_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
-    """Time with load, and its parts outside the ranges of the film's and the asperities' law [s], over (3, interface)."""
+    """Time with load, and its parts outside the ranges of the laws [s], over (3, interface).
+
+    The laws are those of the film and of the asperities.
+    """
     counted = states[states["span"] > 0.0]
     times = np.zeros((3, len(INTERFACES)))
     for i, (law, load, speed) in enumerate(loaded_contacts(counted, laws)):
@@ -288,5 +350,8 @@ def law_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
 
 
 def spin_ratio(totals: Totals) -> float:
-    """Smallest ratio of spin to spin in pure rolling; NaN where there is none, or pure rolling passes zero."""
+    """Smallest ratio of spin to spin in pure rolling.
+
+    It is NaN where there is none, or where pure rolling passes zero.
+    """
     return float(totals.spin_ratio[0]) if math.isfinite(totals.spin_ratio[0]) else math.nan

@@ -20,7 +20,7 @@ class CageFriction(NamedTuple):
 
 
 class CageForces(NamedTuple):
-    """Forces of the cage's contact in (16), with slopes by the roller's slip Δu [N s/m] and by load [-]."""
+    """Forces of the cage's contact in (16), with slopes by slip Δu [N s/m] and by load [-]."""
 
     friction: float  #: F_c [N]
     resistance: float  #: Rolling resistance [N]
@@ -37,7 +37,7 @@ NO_CAGE_FORCES = CageForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @jit_evaluation
 def cage_load(tangential, inner_pull, outer_pull):
-    """Normal force of the cage F_n,cage (32) with its sign, positive where the cage pushes the roller along the orbit [N].
+    """Normal force of the cage F_n,cage (32) [N], positive where it pushes along the orbit.
 
     On an imposed orbit the cage balances everything tangential: F_g,x' + F_d,x' + F_i − F_o.
     """

@@ -24,7 +24,7 @@ _CONVERGED = 1e-5
 
 @jit_inline
 def _log_film_excess(body, tables, log_q, outward, play, log_u):
-    """Ln of the films' height over the space they have, at a load q of the lighter one, and its slope by ln q."""
+    """Ln of the films' height over their space at a load q of the lighter one, and d/d(ln q)."""
     load = math.exp(log_q)
     inner_load = load - min(outward, 0.0)
     outer_load = load + max(outward, 0.0)
@@ -67,7 +67,7 @@ def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
     ring_speed : float
         u2 [m/s].
     guess : float
-        Load at which the search begins [N], such as the load a moment before; where it is 0, at 1 N.
+        Load at which the search begins [N], such as the load a moment before; 1 N where it is 0.
 
     Returns
     -------

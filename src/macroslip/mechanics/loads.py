@@ -1,4 +1,4 @@
-"""Loads on a roller at a place of its orbit: elastic load of the rings and body forces (18)-(26), whatever its spin."""
+"""Loads on a roller on its orbit, whatever its spin: load of the rings, body forces (18)-(26)."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from macroslip.ring.balance import radial_clearance
 class RollerLoads(NamedTuple):
     """Loads on a roller at one place and time."""
 
-    interference: (
-        float  #: Elastic approach δ of ring, roller and ring [m]; negative where there is play
-    )
+    #: Elastic approach δ of ring, roller and ring [m]; negative where there is play
+    interference: float
     elastic_load: float  #: Load Q that the rings press on the roller [N]
     film_load: float  #: Load of the films that share a roller's play [N]
     inner_load: float  #: Normal load of the inner raceway, with body forces and films [N]
@@ -26,7 +25,21 @@ class RollerLoads(NamedTuple):
 
 @jit_evaluation
 def interference(body, cosine, sine, now):
-    """Elastic approach δ = (dX cos φ + dY sin φ − c(φ)) cos α + s dZ sin α of a roller at cos φ, sin φ [m]."""
+    """Elastic approach δ = (dX cos φ + dY sin φ − c(φ)) cos α + s dZ sin α of a roller [m].
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    cosine, sine : float
+        Of the roller's orbital position φ [-].
+    now : macroslip.ring.orbit.Instant
+        The ring's motion.
+
+    Returns
+    -------
+    float
+        δ [m]; negative where there is play.
+    """
     radial = now.displacement_x * cosine + now.displacement_y * sine
     radial -= radial_clearance(body, cosine, sine)
     return radial * body.cos_contact_angle + now.displacement_z * body.sin_contact_angle
@@ -34,7 +47,7 @@ def interference(body, cosine, sine, now):
 
 @jit_evaluation
 def elastic_load(body, approach):
-    """Load Q = K δ^1.5 of inner and outer contact in series [N] at an elastic approach [m]; 0 with play."""
+    """Load Q = K δ^1.5 of both contacts in series [N] at an elastic approach [m]; 0 with play."""
     if approach <= 0.0:
         return 0.0
     return body.stiffness * approach * math.sqrt(approach)
@@ -42,12 +55,12 @@ def elastic_load(body, approach):
 
 @jit_evaluation
 def normal_body_force(body, sine, orbital_speed):
-    """Weight (18)-(20) and centrifugal force (21)-(23) along the contact normal, positive outward [N].
+    """Weight (18)-(20) and centrifugal force (21)-(23) along the contact normal [N].
 
-    Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along Z0. Both forces are summed
-    first; a sum that points outward loads the outer raceway, inward the inner one. A roller with
-    play can lean on only one ring, so that the sum and not each force for itself is what a raceway
-    feels.
+    They are positive outward. Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along
+    Z0. Both forces are summed first; a sum that points outward loads the outer raceway, inward the
+    inner one. A roller with play can lean on only one ring, so that the sum and not each force for
+    itself is what a raceway feels.
     """
     radial = body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine
     return radial * body.cos_contact_angle + body.weight_along_axis * body.sin_contact_angle

@@ -1,4 +1,4 @@
-r"""Motion of a roller on its free orbit: the spin equation (16) and the orbit equation (17), coupled.
+r"""Motion of a roller on its free orbit: spin equation (16) and orbit equation (17), coupled.
 
 The moment about the bearing's axis (17), with (16) put into it, collapses to Newton's law for the
 roller's centre; the spin terms cancel (`tests/whole/test_equations.py` proves it by symbols). With
@@ -24,12 +24,14 @@ from macroslip.compiled import jit_inline
 
 
 class SlipDrive(NamedTuple):
-    """The two forces that change a roller's slips on a free orbit [N]: m v_in' = driving − turning − m r~_in Ω_in'."""
+    """The two forces that change a roller's slips on a free orbit [N].
+
+    The slip of the inner raceway obeys m v_in' = driving − turning − m r~_in Ω_in'.
+    """
 
     turning: float  #: 2 (S_i + S_o + F_c), which changes both slips by the spin
-    driving: (
-        float  #: N − G − P_i + P_o, which changes them by the centre's motion, with opposite signs
-    )
+    #: N − G − P_i + P_o, which changes them by the centre's motion, with opposite signs
+    driving: float
 
 
 @jit_inline

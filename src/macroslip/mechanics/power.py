@@ -17,7 +17,9 @@ class RacewayPower(NamedTuple):
 
 @jit_evaluation
 def raceway_power(law, slip, ring_speed, friction, lag, skew):
-    """Frictional power P = ∫τ v dA of a raceway contact (33) [W]; where slip is the same all over, F Δu.
+    """Frictional power P = ∫τ v dA of a raceway contact (33) [W].
+
+    Where slip is the same all over, it is F Δu.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Forces of a raceway contact on the roller: traction, the film beside the ellipse, and rolling resistance."""
+"""Forces of a raceway contact: traction, the film beside the ellipse, and rolling resistance."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ class RacewayForces(NamedTuple):
     others constant.
     """
 
-    friction: float  #: F in (16), the moment about the roller's axis over r, without rolling resistance [N]
+    #: F in (16), the moment about the roller's axis over r, without rolling resistance [N]
+    friction: float
     pull: float  #: Force on the roller's centre, along the friction [N]
     shear: float  #: Rolling resistance in (16) [N]
     friction_by_slip: float
@@ -43,7 +44,7 @@ _NO_TRACTION = Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class RacewayOil(NamedTuple):
-    """Forces of the oil beside the traction in (16) [N], with slopes as `RacewayForces` has them."""
+    """Forces of the oil beside the traction in (16) [N]; slopes are as in `RacewayForces`."""
 
     sliding: float  #: Of the film outside the ellipse
     shear: float  #: Rolling resistance

@@ -1,4 +1,4 @@
-"""Speeds of the surfaces that meet in a roller's contacts, in the frame that orbits with the roller (28)-(31).
+"""Speeds of the surfaces in a roller's contacts, in the frame that orbits with it (28)-(31).
 
 The spin in (31) is the one relative to that frame, ω_rel = ω_z' − Ω cos α. The cage's spar is at
 rest in it.
@@ -49,9 +49,9 @@ def outer_ring_speed(orbital_speed, outer_radius):
 
 @jit_inline
 def surface_speed(ring_speed, slip):
-    """Speed of the roller's surface (31) past the cage's spar at rest (30), u1 = ω_rel r = u2 − Δu [m/s].
+    """Speed of the roller's surface (31) past the cage's spar at rest (30) [m/s].
 
-    The slip at the cage is Δu_c = −u1.
+    It is u1 = ω_rel r = u2 − Δu. The slip at the cage is Δu_c = −u1.
 
     Parameters
     ----------

@@ -1,4 +1,7 @@
-"""Tangential forces of a roller on its imposed orbit, by which its spin changes: I_z' dω/dt = r (F_i + F_o + F_c) (16)."""
+"""Tangential forces of a roller on its imposed orbit, which change its spin (16).
+
+The spin obeys I_z' dω/dt = r (F_i + F_o + F_c).
+"""
 
 from __future__ import annotations
 
@@ -173,7 +176,24 @@ def magnitude(forces):
 
 @jit
 def powers(body, at, forces, slip, power):
-    """Write the frictional power (33) at inner, outer and cage interface [W] into `power`; return the sum."""
+    """Write the frictional power (33) at inner, outer and cage interface [W]; return the sum.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    at : record of `STATION`
+    forces : record of `FORCES`
+        Forces at this station and slip.
+    slip : float
+        Δu at both raceways [m/s].
+    power : ndarray, shape (3,)
+        Is written: power at inner, outer and cage interface [W].
+
+    Returns
+    -------
+    float
+        Sum of the three [W].
+    """
     ring_speed = at.ring_speed
     inner = raceway_power(body.inner, slip, ring_speed, forces.inner, forces.lag[0], forces.skew[0])
     outer = raceway_power(body.outer, slip, ring_speed, forces.outer, forces.lag[1], forces.skew[1])

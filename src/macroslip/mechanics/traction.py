@@ -1,4 +1,4 @@
-"""Traction of a contact whose slip is the same all over, by the paper's closed form, with friction of asperities."""
+"""Traction of a contact with uniform slip by the paper's closed form, with asperity friction."""
 
 from __future__ import annotations
 
@@ -23,10 +23,28 @@ class UniformTraction(NamedTuple):
 
 @jit_evaluation
 def asperity_friction(law, share, load, slip):
-    """Friction of asperities with the same slip all over [N], its slopes by slip [N s/m] and by load [-].
+    """Friction of asperities under uniform slip [N], its slopes by slip [N s/m] and load [-].
 
-    Asperities carry the part `share` of the load; their friction coefficient rises to µ_b in
-    proportion to slip.
+    The friction coefficient of asperities rises to µ_b in proportion to slip.
+
+    Parameters
+    ----------
+    law : record of `macroslip.roller.model.CONTACT`
+    share : float
+        Part of the load that asperities carry, 0 to 1 [-].
+    load : float
+        Normal load, ≥ 0 [N].
+    slip : float
+        Δu [m/s].
+
+    Returns
+    -------
+    friction : float
+        Friction with the sign of the slip [N].
+    by_slip : float
+        Its slope by slip [N s/m]; 0 at full slip.
+    by_load : float
+        Its slope by load at constant share [-].
     """
     coefficient = law.boundary_friction * share
     if abs(slip) < law.full_slip:

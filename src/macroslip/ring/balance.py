@@ -99,13 +99,13 @@ class _Balance(NamedTuple):
     hessian: np.ndarray  #: Shape (n, 3, 3)
 
     def replace(self, index: np.ndarray, other: _Balance, chosen: np.ndarray) -> None:
-        """Take the values of the chosen samples of another balance in place of those at the indices."""
+        """Replace the samples at the indices by the chosen samples of another balance."""
         for own, new in zip(self, other, strict=True):
             own[index] = new[chosen]
 
 
 def _contacts(ring: RingGeometry, shaft_angle: np.ndarray) -> _Contacts:
-    """Contacts at shaft angles [rad], shape (n,): rollers have moved on by `orbit_ratio` times the angle."""
+    """Contacts at shaft angles [rad], shape (n,); rollers move by `orbit_ratio` times the angle."""
     turn_cosine = np.cos(ring.orbit_ratio * shaft_angle)[:, None]
     turn_sine = np.sin(ring.orbit_ratio * shaft_angle)[:, None]
     cosine = ring.cosine * turn_cosine - ring.sine * turn_sine
@@ -132,7 +132,7 @@ def _evaluate(contacts: _Contacts, force: np.ndarray, displacement: np.ndarray) 
 def _damped_newton_step(
     hessian: np.ndarray, gradient: np.ndarray, damping: np.ndarray
 ) -> np.ndarray:
-    """Solve (H + damping·1) step = −gradient by Cholesky factors of the symmetric 3 × 3 matrices, shape (n, 3)."""
+    """Solve (H + damping·1) step = −gradient by Cholesky factors of H, shape (n, 3, 3)."""
     l11 = np.sqrt(hessian[:, 0, 0] + damping)
     l21 = hessian[:, 0, 1] / l11
     l31 = hessian[:, 0, 2] / l11
@@ -164,7 +164,10 @@ def _tolerance(force: np.ndarray) -> np.ndarray:
 def _push_into_contact(
     ring: RingGeometry, contacts: _Contacts, force: np.ndarray, displacement: np.ndarray
 ) -> _Balance:
-    """Push rings without a loaded roller along the load until rollers push back; `displacement` is changed in place."""
+    """Push rings without a loaded roller along the load until rollers push back.
+
+    `displacement` is changed in place.
+    """
     magnitude = _length(force)
     push = (magnitude / ring.stiffness) ** (2.0 / 3.0) + abs(ring.radial_play)
     is_pushed = magnitude > _tolerance(force)
@@ -188,7 +191,10 @@ def _descend(
     displacement: np.ndarray,
     most_iterations: int,
 ) -> np.ndarray:
-    """Damped Newton steps downhill in Π from `displacement`, changed in place; returns the unbalanced forces left [N]."""
+    """Damped Newton steps downhill in Π; returns the unbalanced forces left [N].
+
+    They start from `displacement`, which is changed in place.
+    """
     tolerance = _tolerance(force)
     found = _push_into_contact(ring, contacts, force, displacement)
     relative = np.full(len(force), 1e-6)
@@ -238,7 +244,8 @@ def balance(
     displacement : ndarray, shape (n, 3)
         Where the rollers carry the load [m].
     unbalanced : ndarray, shape (n,)
-        Unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver converged.
+        Unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver
+        converged.
 
     Examples
     --------
@@ -266,7 +273,9 @@ def balance(
 def balance_series(
     ring: RingGeometry, shaft_angle: np.ndarray, force: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """`balance` over a load history: a few samples from the middle of the play, the others from between these.
+    """Ring balance over a load history, by `balance`.
+
+    A few samples are solved from the middle of the play, the others from between these.
 
     Parameters
     ----------
@@ -305,7 +314,9 @@ def balance_series(
 def roller_loads(
     ring: RingGeometry, shaft_angle: np.ndarray, displacement: np.ndarray
 ) -> np.ndarray:
-    """Load of every roller [N] at shaft angles [rad], shape (n,), and displacements [m], shape (n, 3); shape (n, rollers).
+    """Load of every roller [N], shape (n, rollers), at n positions of the ring.
+
+    They are given by shaft angles [rad], shape (n,), and displacements [m], shape (n, 3).
 
     Examples
     --------

@@ -1,7 +1,8 @@
-"""Motion of the inner ring under a load history: the ring balance at every sample, and loads it must not exceed.
+"""Motion of the inner ring under a load history: the ring balance at every sample.
 
-Loads of rollers that are given take the place of the balance; every roller then has a motion of its
-own, whose "displacement" is what gives it its approach where it is.
+Roller loads above the permissible one are refused. Loads of rollers that are given take the place of
+the balance; every roller then has a motion of its own, whose "displacement" is what gives it its
+approach where it is.
 """
 
 from __future__ import annotations
@@ -46,12 +47,33 @@ def ring_motion(
     highest_load: float,
     more: np.ndarray | None = None,
 ) -> tuple[Motion, float]:
-    """Ring displacement at every load sample, with rollers where they are then.
+    """Ring displacement at every load sample, by the balance with the rollers at their places.
 
-    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did
-    not converge. Gives the motion, and the largest elastic load of a roller in the history [N].
-    With loads of the rollers the ring is left in the middle. `highest_load` is in N, and `more` a
-    force on the ring beside its load at the samples of its motion [N], shape (n, 3).
+    With loads of the rollers the ring is left in the middle.
+
+    Parameters
+    ----------
+    loads : BearingLoads or RollerLoads
+    bearing : Bearing
+    ring : RingGeometry
+    highest_load : float
+        Largest permissible load of a roller [N].
+    more : ndarray, shape (n, 3), optional
+        Force on the ring beside its load, at the n samples of its motion [N].
+
+    Returns
+    -------
+    motion : Motion
+        With samples close enough for the balance.
+    largest : float
+        Largest elastic load of a roller in the history [N].
+
+    Raises
+    ------
+    InputError
+        If the load of a roller exceeds `highest_load`.
+    MacroslipError
+        If a balance did not converge.
     """
     time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)
@@ -106,14 +128,20 @@ def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -
 def elastic_loads(
     loads: BearingLoads | RollerLoads, ring: RingGeometry, motion: Motion
 ) -> np.ndarray:
-    """Elastic load of every roller of both rows at the samples of a motion [N], shape (n, rollers)."""
+    """Elastic load of every roller of both rows [N], shape (n, rollers).
+
+    It is given at the samples of a motion.
+    """
     if isinstance(loads, RollerLoads):
         return ring.stiffness * np.maximum(_given_approach(loads, ring, motion), 0.0) ** 1.5
     return roller_loads(ring, motion.shaft_angle, motion.displacement)
 
 
 def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[Motion]:
-    """Motions that give every roller of both rows the loads of its places, in place of `ring_motion`'s."""
+    """Motions that give every roller of both rows the loads of its places.
+
+    They take the place of the motion of `ring_motion`.
+    """
     approach = _given_approach(loads, ring, motion)
     start = np.arctan2(ring.sine, ring.cosine)
     found = []
@@ -130,7 +158,10 @@ def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[
 
 
 def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> np.ndarray:
-    """Approach of every roller [m] at the samples of a motion, shape (n, rollers): linear in angle and time."""
+    """Approach of every roller [m], shape (n, rollers), linear in angle and time.
+
+    It is given at the samples of a motion.
+    """
     count = ring.cosine.size // 2
     full = 2.0 * math.pi
     known = loads.approach(ring.stiffness, max(ring.radial_play, 0.0) * ring.cos_contact_angle)
@@ -155,7 +186,7 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
 def _finely_sampled(
     loads: BearingLoads | RollerLoads, orbit_ratio: float, rollers_per_row: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Time and shaft speed of the same piecewise linear loads, with samples close enough for the balance."""
+    """Time and shaft speed of the same piecewise linear loads, sampled finely for the balance."""
     part = _SAMPLED_GIVEN if isinstance(loads, RollerLoads) else _SAMPLED_PITCH
     path = np.diff(travel(loads.time, loads.shaft_speed, orbit_ratio))
     pieces = np.ceil(path / (part * 2.0 * np.pi / rollers_per_row) * (1.0 - 1e-9)).astype(int)

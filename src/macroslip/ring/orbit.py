@@ -1,9 +1,9 @@
-"""The imposed motion: shaft speed, shaft angle and ring displacement between load samples, and when orbits are completed.
+"""The imposed motion: shaft speed, shaft angle and ring displacement between load samples.
 
-Shaft speed and ring displacement are linear between samples; the shaft angle is the exact integral
-of the speed. So a roller's path and load are functions of time alone and do not depend on the
-integrator's steps. Rollers complete orbits whatever the shaft does: the path they travel counts,
-forth and back.
+It gives the times too at which orbits are completed. Shaft speed and ring displacement are linear
+between samples; the shaft angle is the exact integral of the speed. So a roller's path and load are
+functions of time alone and do not depend on the integrator's steps. Rollers complete orbits
+whatever the shaft does: the path they travel counts, forth and back.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ class Motion(NamedTuple):
 
 
 def shaft_angle(time: np.ndarray, shaft_speed: np.ndarray) -> np.ndarray:
-    """Exact integral [rad] of a piecewise linear shaft speed [rad/s] over time [s], zero at the first sample.
+    """Exact integral [rad] of a piecewise linear shaft speed [rad/s] over time [s].
+
+    It is zero at the first sample.
 
     Examples
     --------
@@ -63,7 +65,10 @@ def last_before(times, time):
 
 @jit_inline
 def interval_of(motion, time, start):
-    """Index of the sample interval that holds `time` [s], searched from interval `start` in either direction."""
+    """Index of the sample interval that holds `time` [s].
+
+    It is searched from interval `start` in either direction.
+    """
     last = motion.time.size - 2
     k = start
     while k < last and time >= motion.time[k + 1]:
@@ -149,9 +154,10 @@ def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
 
 
 def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
-    """Angle travelled by the rollers along their orbit, ∫|Ω| dt [rad], exact for a piecewise linear shaft speed [rad/s].
+    """Angle travelled by the rollers along their orbit, ∫|Ω| dt [rad].
 
-    It is zero at the first of the times [s] and never falls; `orbit_ratio` is Ω/Ω_in.
+    It is exact for a piecewise linear shaft speed [rad/s]. It is zero at the first of the times [s]
+    and never falls; `orbit_ratio` is Ω/Ω_in.
 
     Examples
     --------
@@ -168,7 +174,9 @@ def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.
 
 
 def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
-    """Times at which the rollers have completed 1, 2, 3, … orbits [s], none if not one is completed; given as for `travel`.
+    """Times at which the rollers have completed 1, 2, 3, … orbits [s].
+
+    There is none if not one is completed; arguments are those of `travel`.
 
     Examples
     --------
