@@ -77,7 +77,7 @@ def files_named_in(path: Path) -> list[Path]:
 
 
 def names_key(path: Path, key: str) -> bool:
-    """Whether a case file that can be read has a key."""
+    """True if a readable case file has a key."""
     return key in _content(path)[0]
 
 

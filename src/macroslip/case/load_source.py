@@ -54,7 +54,7 @@ class ConstantBearingLoads:
 
 @input_section("loads", "loads, from exactly one source", one_of=LOAD_SOURCES)
 class LoadSource:
-    """Where the loads come from, and what to read of them."""
+    """Source of the loads, and the part to read of it."""
 
     bundled: Annotated[
         str | None, Choice("load case that comes with the package", lambda: bundled_cases("year"))

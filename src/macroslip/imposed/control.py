@@ -215,7 +215,7 @@ def _kink_error(path, work):
         fastest = max(fastest, abs(work.stage_at[k].ring_speed))
     missed = abs(missed_way(path, work))
     if fastest == 0.0:
-        # At rest where it is looked at; the shaft may have turned in between.
+        # At rest at all stages; the shaft may have turned in between.
         return math.inf if missed > 0.0 else 0.0
     totals = work.totals
     return tuning.KINK_WEIGHT * missed / fastest * max(totals[0], totals[1], totals[2], totals[3])
@@ -235,7 +235,7 @@ def energy_error(path, work):
         return error
     if work.zone == FIRM and path.body.microslip:
         return error  # the raceways' power, beside which the cage's is little, has no cusp there
-    # The cage's load is all but gone at one end of the step: a look between the stages.
+    # The cage's load is all but gone at one end of the step: power is evaluated between the stages.
     look_between(path, work, tuning.CUSP_LOOK)
     # Between stages the polynomial of slip is far from balance; for the cage, balance is pure
     # rolling.

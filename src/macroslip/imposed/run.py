@@ -21,7 +21,7 @@ from macroslip.roller.step import new_steps
 
 @dataclass
 class Outcome:
-    """How an integration went."""
+    """Outcome of an integration: its status, its effort and where it ended."""
 
     status: int = UNDER_WAY  #: A `Status`
     steps: int = 0
@@ -85,7 +85,7 @@ def radau_limits(
     longest = 0.1 * float(motion.time[-1] - motion.time[0])
     if fastest > 0.0:
         longest = min(longest, longest_turn / fastest)
-    # By the closed form a ring that turns slower has its films end at less slip, which is looked at
+    # By the closed form a ring that turns slower has its films end at less slip, which is evaluated
     # in every step.
     ring = 0.0 if body["closed_form"] else speed
     cold = surely_rising(body, tables, heaviest, heaviest, ring) if heaviest > 0.0 else np.inf

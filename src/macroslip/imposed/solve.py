@@ -50,7 +50,7 @@ from macroslip.mechanics.spin import net_force, powers
 from macroslip.ring.orbit import Motion, interval_of, last_before
 from macroslip.roller.step import write_stage
 
-#: Rows that a step may take: its own, and rows of looks between its stages.
+#: Rows that a step may take: its own, and rows of samples between its stages.
 _ROWS = 2 + tuning.PEAK_PARTS // 3
 
 
@@ -193,7 +193,7 @@ def _reject(path, work, error):
 
 @jit_inline
 def _leaves_tables(body, work):
-    """Whether the step ends in a state that the tables do not hold."""
+    """True if the step ends in a state outside the tables."""
     at = work.stage_at[2]
     slip = work.v[2]
     speed = math.sqrt(at.ring_speed * at.ring_speed + 0.25 * slip * slip)

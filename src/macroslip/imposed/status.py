@@ -1,4 +1,4 @@
-"""How the integration of a roller can end, each with the sentence that is shown to the user."""
+"""Outcomes of the integration of a roller, each with the sentence that is shown to the user."""
 
 from __future__ import annotations
 

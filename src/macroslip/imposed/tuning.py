@@ -17,7 +17,7 @@ EDGE_STEP = 1e-3
 #: Largest part of an orbit turned in one step [rad], so that a step has stages under different
 #: directions of gravity: in a coast, steps of a tenth of an orbit keep the tolerance.
 LONGEST_TURN = 0.6
-#: The same of rollers that skew. What skew adds to the power of a step is looked up where the step
+#: The same of rollers that skew. What skew adds to the power of a step is evaluated where the step
 #: has its stages, and jumps where a roller leaves its spar for its stop, which the error of a step
 #: does not see.
 LONGEST_SKEWED_TURN = 0.018
@@ -65,7 +65,7 @@ DEFECT_WEIGHT = 0.25
 #: as ENERGY_SHARE supposes: five times as much.
 KINK_WEIGHT = 7.5
 #: Part of the cage's load at one end of a step that is left at the other where power may have a
-#: cusp there; where in the step power is looked at, and the weight of what the cubic through the
+#: cusp there; where in the step power is evaluated, and the weight of what the cubic through the
 #: stages misses. For (1 - x)^0.6 to (1 - x)^0.9 times lines, the error is half to once that.
 FALLEN = 0.1
 CUSP_LOOK = 0.4

@@ -163,7 +163,7 @@ class Quantity(Form):
             raise InputError(f"it is {written}", allowed=known.range_text(unit), remedy=remedy)
 
     def holds(self, value: float) -> bool:
-        """Whether a value [SI] is in the range, whose ends are numbers."""
+        """True if a value [SI] is in the range, whose ends are numbers."""
         low = self.lowest < value if self.above else self.lowest <= value
         return low and (value < self.highest if self.below else value <= self.highest)  # pyright: ignore[reportOperatorIssue]
 

@@ -34,7 +34,7 @@ _OTHER_INTEGER = re.compile(r"[+-]?0[xob][\da-fA-F_]+")
 
 @dataclass(frozen=True)
 class Source:
-    """Where data were written: file name and line numbers (from 1) by key and inner keys."""
+    """Source of data: file name and line numbers (from 1) by key and inner keys."""
 
     file: str = ""
     lines: Mapping[tuple[object, ...], int] = field(default_factory=dict)

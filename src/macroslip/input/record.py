@@ -55,7 +55,7 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a value comes from, and how it was written."""
+    """Provenance of a value: its source, and its value and unit as written."""
 
     value: float  #: Number as written [unit]
     unit: str  #: Unit as written

@@ -21,7 +21,7 @@ NUMBER_PATTERN = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
 
 
 def is_finite_number(value: object) -> bool:
-    """Whether a value is a real, finite number; a truth value is none."""
+    """True if a value is a real, finite number; a truth value is none."""
     if isinstance(value, bool) or not isinstance(value, Real):
         return False
     try:

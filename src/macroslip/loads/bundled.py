@@ -21,7 +21,7 @@ ASSUMED = "its supervisor is assumed"
 
 @dataclass(frozen=True)
 class BundledCase:
-    """What is known of a bundled case."""
+    """Description of a bundled case."""
 
     name: str
     wind_speed: float  #: Nominal mean wind speed [m/s]
@@ -31,7 +31,7 @@ class BundledCase:
 
     @property
     def source(self) -> str:
-        """Where loads from it come from; of an event also that its supervisor is assumed."""
+        """Source of its loads; for an event also that its supervisor is assumed."""
         return f"bundled case {self.name}" + (f" (event, {ASSUMED})" if self.event else "")
 
     @property

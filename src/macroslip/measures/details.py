@@ -5,16 +5,16 @@ pressure times slip; the largest flash temperature, power per area and slide-rol
 least film ratio in each orbit, and while rollers enter the load zone; and how long, and for how
 many passes, films were thin at which slide-roll ratio.
 
-A contact is evaluated station by station (a look) where its power has changed, a value is a new
-highest one, or some way has been travelled: at every step it would cost more than the forces.
-Between two looks the energies of the raceways are kept, and when they were spent. A look spreads
-them over the way since the one before, as if power had passed linearly in time from how it lay
-along the roller at that one to how it lies now.
+A contact is evaluated station by station, which is called a sample (`look` in names), where its
+power has changed, a value is a new highest one, or some way has been travelled: at every step it
+would cost more than the forces. Between two samples the energies of the raceways are kept, and when
+they were spent. A sample spreads them over the way since the one before, as if power had passed
+linearly in time from how it lay along the roller at that one to how it lies now.
 
 The outer raceway is at rest, and the angle of a place on it is φ, from +X0 towards +Y0. The inner
 raceway turns with the shaft, and the angle of a place on it is counted from where +X0 was at the
-first sample: φ less the shaft's angle. A roller of a whole bearing is ahead of pure rolling, or
-behind: φ is its own.
+first load sample: φ less the shaft's angle. A roller of a whole bearing is ahead of pure rolling,
+or behind: φ is its own.
 """
 
 from __future__ import annotations
@@ -67,10 +67,10 @@ SLIP_EDGES = (-0.1, -0.03, -0.01, -0.003, -0.001, 0.0, 0.001, 0.003, 0.01, 0.03,
 #: this part of the speed, or for this way [rad].
 _SETTLED = 0.01
 _ENTRY = 0.35
-#: A roller's contacts are looked at after a change of a raceway's power by this part of the largest
-#: looked at in its orbit, a rise of its power per area, of the cage's power or of the slide-roll
-#: ratio above the highest there by this part, and in any case after this way [rad]. On 14B and 24A
-#: over 600 s, against looks at every step: extremes at the raceways are low by 0.5 % on average and
+#: A roller's contacts are sampled after a change of a raceway's power by this part of the largest
+#: sample in its orbit, a rise of its power per area, of the cage's power or of the slide-roll ratio
+#: above the highest there by this part, and in any case after this way [rad]. On 14B and 24A over
+#: 600 s, against samples at every step: extremes at the raceways are low by 0.5 % on average and
 #: 18 % at most, and up to 0.5 % of the energy lies at other stations.
 _CHANGE = 0.1
 _RISE = 0.03
@@ -78,7 +78,7 @@ _TURN = 0.35
 #: Least share of asperities by which their energy is spread along the roller: quotients of less
 #: overflow.
 _LEAST_SHARE = 1e-30
-#: Looks from one at the quadrature's error to the next, which takes as long as five hundred others.
+#: Samples from one evaluation of the quadrature's error to the next; it costs five hundred others.
 _FINE = 4096
 
 #: State from sample to sample of the contacts.
@@ -210,8 +210,8 @@ class Wanted:
     highest_speed: float  #: Largest raceway speed of the history [m/s]
     #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
     trace_time: np.ndarray
-    details: bool  #: Whether contacts are looked at station by station
-    spacing: float = 1.0  #: Changes between looks, over those of a roller on an imposed orbit
+    details: bool  #: Whether contacts are evaluated station by station
+    spacing: float = 1.0  #: Changes between samples, over those of a roller on an imposed orbit
 
 
 class Details(NamedTuple):
@@ -219,7 +219,7 @@ class Details(NamedTuple):
 
     edges: np.ndarray  #: As of `Totals` [s]
     extreme: np.ndarray  #: `EXTREMES` [K, W/m², 1, 1] over complete orbit and interface
-    #: By raceway, of some looks: energy by a finer quadrature, and what the one in use is off by
+    #: By raceway, of some samples: energy by a finer quadrature, and what the one in use is off by
     #: [J]
     quadrature: np.ndarray
     entries: np.ndarray  #: Entries into the load zone, by orbit
@@ -243,7 +243,7 @@ class Details(NamedTuple):
 
 
 def new_details(edges: np.ndarray) -> Details:
-    """Nothing yet, for orbits with these edges [s]."""
+    """Empty details for orbits with these edges [s]."""
     orbits = edges.size - 1
     maps = np.zeros(1, _MAPS)
     sizes = ((orbits, 3, len(EXTREMES)), (2, 2), orbits, (orbits, 2, len(EXTREMES)))
@@ -331,7 +331,7 @@ def _is_due(step, last, memory, outer_radius, spacing):
 
 @jit_inline
 def _remember(step, last, orbit, memory):
-    """Keep the numbers that decide on the next look."""
+    """Keep the numbers that decide on the next sample."""
     values = _compared(step, last)
     highest = memory.highest
     if orbit != memory.orbit:
@@ -371,7 +371,7 @@ def _enter(step, last, memory, outer_radius):
 
 @jit
 def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
-    """Begin the looks of a buffer; returns how many."""
+    """Begin the samples of a buffer; returns how many."""
     found = 0
     for n in range(steps.shape[0]):
         step = steps[n, j]
@@ -683,7 +683,7 @@ def _heat_entries(rows: np.ndarray, effusivity: float, extreme: np.ndarray) -> N
 
 
 class Looker:
-    """Looks at the contacts of one roller, buffer after buffer.
+    """Samples of the contacts of one roller, taken buffer after buffer.
 
     `contacts` are those of `prepare`, of the same laws; the roller is at φ = `start_angle` at the
     first sample [rad], and has `skew` if it skews.
@@ -724,7 +724,7 @@ class Looker:
         )
 
     def finish(self) -> None:
-        """Spread what has been kept since the last look."""
+        """Spread what has been kept since the last sample."""
         memory = self.details.memory[0]
         last = self._last[0]
         if memory["time"] < last["end"]:
@@ -738,7 +738,7 @@ class Looker:
         self._heat(self._entering)
 
     def _look(self, looks: np.ndarray) -> None:
-        """Look at the contacts."""
+        """Sample the contacts."""
         for i, (law, load, entrainment) in enumerate(loaded_contacts(looks["at"], self._laws)):
             loaded = load > 0.0
             film = law.film_thickness(load[loaded], entrainment[loaded])

@@ -99,7 +99,7 @@ class RollerMeasures:
         self.law_times += law_times(states, self.row.model.laws)
 
     def finish(self) -> None:
-        """Take up what is left in batches, and spread what has been kept since the last look."""
+        """Take up what is left in batches, and spread what is kept since the last sample."""
         self._last = self._last.copy()
         self._states.empty(self._add_law_times)
         if self.looker:

@@ -25,7 +25,7 @@ BY_PLACE = ("skew_by_position", "axial_force_by_position", "skew_power_by_positi
 
 
 class Skewing(NamedTuple):
-    """How the rollers of a row skew."""
+    """Skew of the rollers of a row: table of rests, guidance by the cage, and raceways."""
 
     table: SkewTable
     guide: Guide
@@ -170,7 +170,7 @@ class SkewMeasures:
 
     @property
     def energy(self) -> np.ndarray:
-        """What skew adds to the energy of inner and outer raceway in the window [J], shape (2,)."""
+        """Energy that skew adds at inner and outer raceway in the window [J], shape (2,)."""
         return self._sums[:2]
 
     @property

@@ -1,7 +1,7 @@
 """Motion of the inner ring under a load history: the ring balance at every sample.
 
-Roller loads above the permissible one are refused. Loads of rollers that are given take the place of
-the balance; every roller then has a motion of its own, whose "displacement" is what gives it its
+Roller loads above the permissible one are refused. Loads of rollers that are given take the place
+of the balance; every roller then has a motion of its own, whose "displacement" is what gives it its
 approach where it is.
 """
 
