@@ -281,7 +281,7 @@ def at_balance(case: Case, temperature: float) -> Case:
 
 
 def operating_clearance(case: Case, temperature: float) -> float:
-    """Diametral clearance [m] with the oil at a temperature [K] of the balance; below 0 a preload."""
+    """Diametral clearance at an oil temperature [K] of the balance [m]; below 0 a preload."""
     if case.heat is None or case.heat.ring_conductance is None:
         return case.bearing.diametral_clearance
     return case.bearing.diametral_clearance - clearance_change(case, temperature)

@@ -38,7 +38,7 @@ class Aggregation:
             raise InputError(what, allowed="a number above 0")
 
     def bins(self, study: xr.Dataset) -> Binning:
-        """Runs by group and bin, as `macroslip.study.weights.binned`; in one bin without weights."""
+        """Runs by group and bin, as `macroslip.study.weights.binned`; one bin without weights."""
         field = None if self.weights is None else self.field
         return binned(study, field, self.width, self.by)
 

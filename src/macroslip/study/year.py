@@ -26,7 +26,8 @@ EXPONENTS = (4, 10)
 class Column(NamedTuple):
     """A number of a design in a year."""
 
-    drawn: str  #: How rows and bins are drawn together, as in `macroslip.result.criteria.criterion.Yearly`
+    #: How rows and bins are drawn together, as in `macroslip.result.criteria.criterion.Yearly`
+    drawn: str
     unit: str
     meaning: str
 

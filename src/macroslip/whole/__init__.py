@@ -1,1 +1,1 @@
-"""The whole bearing: orbit and spin of all rollers together, pockets with play, and the cage or cages."""
+"""The whole bearing: orbit and spin of all rollers together, pockets with play, and cages."""

@@ -1,10 +1,11 @@
-"""Balances of angular momentum and energy: what the bearing holds, what has flowed in and out, and what does not balance.
+"""Balances of angular momentum and energy of the bearing: stocks, flows and residuals.
 
-Momentum Σ(m r~² Ω + I_z' cos α ω_z') + Σ I_c Ω_c changes by the torques alone that raceways, weight, drag and guide exert,
-and by that of the pushes on a cage off the axis. A step's torques are summed with the method's weights, so that the balances
-close to what Newton's method leaves unbalanced. Kinetic energy of rollers and cages and elastic energy of the spars change
-by the work of the shaft and of weights, less what friction and pockets dissipate; the residual is the error of the
-method.
+Momentum Σ(m r~² Ω + I_z' cos α ω_z') + Σ I_c Ω_c changes by the torques alone that raceways,
+weight, drag and guide exert, and by that of the pushes on a cage off the axis. A step's torques are
+summed with the method's weights, so that the balances close to what Newton's method leaves
+unbalanced. Kinetic energy of rollers and cages and elastic energy of the spars change by the work
+of the shaft and of weights, less what friction and pockets dissipate; the residual is the error of
+the method.
 """
 
 from __future__ import annotations
@@ -22,13 +23,28 @@ if TYPE_CHECKING:
     from macroslip.whole.model import WholeBearing
     from macroslip.whole.sdirk import Part
 
-#: Flows that are booked over time: angular impulses [N m s] and energies [J].
+#: Flows that are booked over time: angular impulses and energies.
 FLOWS = (
-    "inner_impulse", "outer_impulse", "body_impulse", "guide_impulse", "eccentric_impulse",
-    "shaft_work", "body_work", "cage_weight_work", "raceway_loss", "friction_loss", "guide_loss", "pocket_work", "support_work",
-)  # fmt: skip
-#: Stocks of the bearing: angular momentum [N m s], kinetic and elastic energy [J].
-STOCKS = ("momentum", "kinetic_energy", "elastic_energy")
+    "inner_impulse",  # of the inner raceway [N m s]
+    "outer_impulse",  # of the outer raceway [N m s]
+    "body_impulse",  # of weight and drag of the rollers [N m s]
+    "guide_impulse",  # of the cages' guides [N m s]
+    "eccentric_impulse",  # of pushes on a cage off the axis [N m s]
+    "shaft_work",  # of the shaft [J]
+    "body_work",  # of weight and drag of the rollers [J]
+    "cage_weight_work",  # of the cages' weight [J]
+    "raceway_loss",  # dissipated in the raceway contacts [J]
+    "friction_loss",  # dissipated by friction in the pockets [J]
+    "guide_loss",  # dissipated by the cages' guides [J]
+    "pocket_work",  # into the pockets, stored or dissipated [J]
+    "support_work",  # into the radial stop, stored or dissipated [J]
+)
+#: Stocks of the bearing.
+STOCKS = (
+    "momentum",  # angular momentum [N m s]
+    "kinetic_energy",  # of rollers and cages [J]
+    "elastic_energy",  # of spars and radial stop [J]
+)
 #: Flows that bring energy (+) or take it away (−).
 _ENERGY_SIGNS = {
     "shaft_work": 1.0, "body_work": 1.0, "cage_weight_work": 1.0, "raceway_loss": -1.0, "friction_loss": -1.0,
@@ -38,7 +54,22 @@ _ENERGY_SIGNS = {
 
 @jit_inline
 def add_flows(assembly, shaft_speed, k, span, space, flows):
-    """Add what flows during `span` [s] in the state of the solved stage `k` to `flows`, shape (13,)."""
+    """Add the impulses and energies that flow during a solved stage.
+
+    Parameters
+    ----------
+    assembly : macroslip.whole.model.Assembly
+    shaft_speed : float
+        Ω_in at the stage [rad/s].
+    k : int
+        Number of the stage, 0 or 1.
+    span : float
+        Weight of the stage in its step [s].
+    space : macroslip.whole.stage.Space
+        With the solved stage.
+    flows : ndarray, shape (13,)
+        Impulses [N m s] and energies [J], by `FLOWS`, to which those of the stage are added.
+    """
     bearing = assembly.bearing[0]
     places = assembly.places
     rollers = space.rollers
@@ -89,11 +120,15 @@ class Books:
     ----------
     times : ndarray, shape (m,)
         At which steps end, the start of the integration included [s].
-    flows, stocks : ndarray, shape (m, 13) and (m, 3)
-        Impulses [N m s] and energies [J] since the start, by `FLOWS`; and what the bearing holds, by `STOCKS`. NaN where
-        the integration did not arrive.
+    flows : ndarray, shape (m, 13)
+        Impulses [N m s] and energies [J] since the start, by `FLOWS`. NaN where the integration did
+        not arrive.
+    stocks : ndarray, shape (m, 3)
+        Angular momentum [N m s] and energies [J] of the bearing, by `STOCKS`. NaN where the
+        integration did not arrive.
     driven : float
-        Energy of the steps in which friction gave more than it took [J], which only an error can do.
+        Energy of the steps in which friction gave more than it took [J], which only an error can
+        do.
     """
 
     def __init__(self, bearing: WholeBearing, times: np.ndarray):
@@ -118,7 +153,7 @@ class Books:
         self.stocks[places] = _stocks(self._bearing, part, rows)
 
     def momentum_residual(self) -> np.ndarray:
-        """Change of angular momentum since the first time less the impulses of all torques [N m s], shape (m,)."""
+        """Change of angular momentum since the first time less all impulses [N m s], shape (m,)."""
         held = self.stocks[:, STOCKS.index("momentum")]
         impulse = self.flows[
             :, [k for k, name in enumerate(FLOWS) if name.endswith("_impulse")]
@@ -126,7 +161,7 @@ class Books:
         return (held - held[0]) - (impulse - impulse[0])
 
     def energy_residual(self) -> np.ndarray:
-        """Change of kinetic energy since the first time less what flowed in and out [J], shape (m,).
+        """Change of kinetic energy since the first time less all flows of energy [J], shape (m,).
 
         Work into pockets and supports holds what they store and what they dissipate.
         """
@@ -137,7 +172,7 @@ class Books:
         return (kinetic - kinetic[0]) - (flow - flow[0])
 
     def pocket_loss(self) -> np.ndarray:
-        """Energy dissipated by impacts and squeeze films, and by the cage's radial stop, since the first time [J]."""
+        """Energy dissipated by impacts, squeeze films and radial stop since the first time [J]."""
         stored = self.stocks[:, STOCKS.index("elastic_energy")]
         work = (
             self.flows[:, FLOWS.index("pocket_work")] + self.flows[:, FLOWS.index("support_work")]

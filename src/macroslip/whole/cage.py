@@ -42,29 +42,36 @@ class Cage:
     Parameters
     ----------
     gap : float
-        Diametral play of a roller in its pocket [m], ≥ 0: free way along the orbit between the two spars.
+        Diametral play of a roller in its pocket [m], ≥ 0: free way along the orbit between the two
+        spars.
     impact : "squeeze-film" or "dry"
         Whether oil between roller and spar resists their approach, or they meet dry.
     damping : float
         D of the dry contact [s/m], K δ^1.5 (1 + D δ'); larger takes more energy from an impact.
     film_fullness : float, optional
-        Of files before version 0.2; without effect, since the case's `oil_supply` says how full pockets are.
+        Of files before version 0.2; without effect, since the case's `oil_supply` says how full
+        pockets are.
     arrangement : "one" or "per-row"
         One cage for both rows, or two that turn on their own.
     mass : float
-        Mass of the cage [kg], of both together where each row has its own. It is a thin ring at the pitch radius.
+        Mass of the cage [kg], of both together where each row has its own. It is a thin ring at the
+        pitch radius.
     weight : bool
-        Whether the cage's weight acts. It rests on the rollers at either side, through two translations of the cage.
+        Whether the cage's weight acts. It rests on the rollers at either side, through two
+        translations of the cage.
     axis : "free" or "pinned", optional
-        Whether the cage's axis moves by these translations, or a frictionless guide holds it in the middle. None: free, but
-        pinned where `weight` is false.
+        Whether the cage's axis moves by these translations, or a frictionless guide holds it in the
+        middle. None: free, but pinned where `weight` is false.
     guide_friction : float
-        Friction force at the pitch radius that brakes each cage [N]; zero for a cage that only rollers guide.
+        Friction force at the pitch radius that brakes each cage [N]; zero for a cage that only
+        rollers guide.
     guided_by : "rollers", "inner-ring" or "outer-ring"
-        What holds the cage in the middle. A ring's land shears the oil between it and the cage as Petroff's concentric
-        bearing does, and drives or brakes the cage by it; the land stops the cage after half its clearance.
+        What holds the cage in the middle. A ring's land shears the oil between it and the cage as
+        Petroff's concentric bearing does, and drives or brakes the cage by it; the land stops the
+        cage after half its clearance.
     land_diameter, land_width, land_clearance : float, optional
-        Diameter of that land, width of both lands together, and diametral clearance between land and cage [m].
+        Diameter of that land, width of both lands together, and diametral clearance between land
+        and cage [m].
     offsets : "centred" or "random"
         Rollers start in the middle of their pockets, or anywhere in them with equal probability.
     diameter_scatter : float
@@ -72,10 +79,11 @@ class Cage:
     seed : int
         Of the random offsets and diameters.
     guidance : "conforming-pocket", "straight-bars", "guide-ring" or "none"
-        What stops skew: spars that follow the outer raceway's contour, straight ones, a guide ring beside straight spars, or
-        nothing up to 60 mrad.
+        What stops skew: spars that follow the outer raceway's contour, straight ones, a guide ring
+        beside straight spars, or nothing up to 60 mrad.
     skew_play : float, optional
-        Largest skew either way [rad]; None: from `gap`, the roller's length and its contour. A guide ring needs it.
+        Largest skew either way [rad]; None: from `gap`, the roller's length and its contour. A
+        guide ring needs it.
     alignment : "spar" or "none"
         Whether a spar that presses on a roller straightens it.
 
@@ -185,9 +193,22 @@ class Cage:
             )
 
     def land_drag(self, pitch_radius: float, viscosity: float) -> float:
-        """Force at the pitch radius [m] per difference of speeds there [N s/m] by the oil [Pa s] at a ring's land.
+        """Coefficient of the drag of the oil film at a ring's land, by Petroff's law.
 
-        4 π η R³ b/(c r~²), with c the diametral clearance: Petroff's shear η ΔΩ R/(c/2) on 2πRb. 0 where rollers guide.
+        4 π η R³ b/(c r~²), with c the diametral clearance: Petroff's shear η ΔΩ R/(c/2) on 2πRb.
+
+        Parameters
+        ----------
+        pitch_radius : float
+            r~ [m].
+        viscosity : float
+            η of the oil [Pa s].
+
+        Returns
+        -------
+        float
+            Force at the pitch radius over the difference of speeds there [N s/m], zero where
+            rollers guide.
 
         Examples
         --------
@@ -233,7 +254,7 @@ class Cage:
         return generator.uniform(-0.5 * self.gap, 0.5 * self.gap, count)
 
     def diameter_deviations(self, rows: int, count: int) -> np.ndarray:
-        """Deviations of the roller diameters from the mean of their row [m], shape (rows, count)."""
+        """Deviations of roller diameters from the mean of their row [m], shape (rows, count)."""
         if self.diameter_scatter == 0.0:
             return np.zeros((rows, count))
         drawn = np.random.default_rng([self.seed, 1]).normal(
@@ -245,9 +266,10 @@ class Cage:
 def inner_radii(bearing: Bearing, diameter_deviation: np.ndarray) -> np.ndarray:
     """Effective inner contact radius r~_in of rollers whose diameter deviates [m].
 
-    A thicker roller touches the outer raceway's sphere at the same place, has its centre further in and touches an inner
-    ring of smaller radius; pure rolling then has δΩ/Ω = −(r cos α/r~_in)(r~_out/r~) δr/r, −0.11 δr/r for the base bearing.
-    The model gives the roller the inner contact radius that turns it at this orbit speed and leaves all else.
+    A thicker roller touches the outer raceway's sphere at the same place, has its centre further in
+    and touches an inner ring of smaller radius; pure rolling then has
+    δΩ/Ω = −(r cos α/r~_in)(r~_out/r~) δr/r, −0.11 δr/r for the base bearing. The model gives the
+    roller the inner contact radius that turns it at this orbit speed and leaves all else.
 
     Examples
     --------

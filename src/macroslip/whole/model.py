@@ -1,4 +1,7 @@
-"""Everything about a bearing with its cages that does not change with time, and as records for compiled functions."""
+"""A bearing with its cages: all that does not change with time.
+
+It is prepared as a frozen object and as records for compiled functions.
+"""
 
 from __future__ import annotations
 
@@ -32,16 +35,15 @@ BEARING = np.dtype(
         ("pocket", POCKET),
     ]
 )
-#: Numbers that differ between rollers: index of row and cage; angle of the pocket at the first sample [rad] with cosine and
-#: sine; effective r~_in [m], see `macroslip.whole.cage.inner_radii`.
+#: Numbers that differ between rollers.
 PLACE = np.dtype(
     [
-        ("row", "i8"),
-        ("cage", "i8"),
-        ("angle", "f8"),
-        ("cosine", "f8"),
-        ("sine", "f8"),
-        ("inner_radius", "f8"),
+        ("row", "i8"),  # index of its row
+        ("cage", "i8"),  # index of its cage
+        ("angle", "f8"),  # of its pocket at the first sample [rad]
+        ("cosine", "f8"),  # of that angle
+        ("sine", "f8"),  # of that angle
+        ("inner_radius", "f8"),  # effective r~_in [m], see `macroslip.whole.cage.inner_radii`
     ]
 )
 
@@ -53,23 +55,22 @@ class WholeBearing:
     models: dict[str, RollerModel]  #: By row
     places: np.ndarray  #: Shape (n,). Rollers, downwind row first.
     pocket: Pocket
-    #: m [kg]; r, r~ and nominal r~_in, r~_out [m].
-    roller_mass: float
-    radius: float
-    pitch_radius: float
-    inner_radius: float
-    outer_radius: float
+    roller_mass: float  #: m [kg]
+    radius: float  #: r [m]
+    pitch_radius: float  #: r~ [m]
+    inner_radius: float  #: Nominal r~_in [m]
+    outer_radius: float  #: r~_out [m]
     orbit_ratio: float  #: Ω/Ω_in of pure rolling [-]
     lever: float  #: r cos α/r~ [-]
     cages: int  #: Number of cages, one or two
     cage_mass: float  #: Of one cage [kg]
     cage_weight: float  #: Weight of one cage in the bearing plane, along −Y0 [N]
     translates: bool  #: Whether the cages can leave the bearing's axis, see `macroslip.whole.cage`
-    radial_play: (
-        float  #: Distance by which a cage can leave the axis before rollers hold it radially [m]
-    )
+    #: Distance by which a cage can leave the axis before rollers hold it radially [m]
+    radial_play: float
     guide_friction: float  #: Brakes each cage at the pitch radius [N]
-    land_drag: float  #: Of a ring's land on each cage at the pitch radius [N s/m], see `macroslip.whole.cage.Cage`
+    #: Of a ring's land on each cage at the pitch radius [N s/m], see `macroslip.whole.cage.Cage`
+    land_drag: float
     land_turns: float  #: 1 where that ring is the inner one, which turns; otherwise 0
 
 
@@ -92,9 +93,31 @@ def whole_bearing(
     gravity: bool = True,
     drag: bool = True,
 ) -> WholeBearing:
-    """Prepare a bearing with its cages; parameters as for `macroslip.roller.model.roller_model`.
+    """Prepare a bearing with its cages.
 
-    Raises InputError if the pockets do not fit, and as `roller_model`.
+    Parameters
+    ----------
+    bearing : Bearing
+    lubricant : Lubricant
+    cage : Cage
+    tilt : float
+        Angle of the shaft [rad]; the hub end is up where it is positive.
+    laws : Laws
+        Laws of the contacts.
+    gravity : bool
+        Whether rollers, and the cage if `cage.weight` says so, have weight.
+    drag : bool
+        Whether oil drags on the rollers along their orbit.
+
+    Returns
+    -------
+    WholeBearing
+
+    Raises
+    ------
+    InputError
+        Pockets that do not fit between the rollers, unknown laws, values that the lubricant lacks,
+        or curvatures that do not make a Hertz contact.
     """
     cage.check_fit(bearing)
     count = bearing.rollers_per_row
@@ -141,11 +164,12 @@ def whole_bearing(
 def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]:
     """The bearing with tables of its contacts for the states of a box.
 
-    The oil in a pocket is as wide as its play leaves it; without play roughness keeps surfaces apart.
+    The oil in a pocket is as wide as its play leaves it; without play roughness keeps surfaces
+    apart.
     """
     pocket = bearing.pocket
-    # Rollers run through their play beside the motion of the rings: ahead as fast as they fall through it, and behind up to
-    # twice as fast, where oil brakes them too.
+    # Rollers run through their play beside the motion of the rings: ahead as fast as they fall
+    # through it, and behind up to twice as fast, where oil brakes them too.
     fall = math.sqrt(2.0 * GRAVITY * bearing.radial_play)
     box = box._replace(slowest=max(box.slowest - 2.0 * fall, 0.0), fastest=box.fastest + fall)
     rollers, report = rollers_with_tables(

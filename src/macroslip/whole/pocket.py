@@ -1,20 +1,25 @@
 """Forces between a roller and the two spars of its pocket, and the cage's radial guidance.
 
-The pocket offset x is the roller's way ahead of the middle of its pocket, along the orbit. The front spar is at
-x = c/2, the rear one at −c/2; N is their push on the roller along the orbit. A spar never pulls.
+The pocket offset x is the roller's way ahead of the middle of its pocket, along the orbit. The
+front spar is at x = c/2, the rear one at −c/2; N is their push on the roller along the orbit. A
+spar never pulls.
 
-Dry, a spar pushes with K δ^1.5 (1 + D δ'). A **squeeze film** resists the approach: between a cylinder of radius R and a
-plane, Reynolds' equation for a gap h + x²/(2R) that closes at V gives p = 6 η V R/(h + x²/(2R))², hence the force
-3√2 π η l V (R/h)^1.5. On opening the film cavitates and gives nothing. It would keep surfaces apart for ever. Real ones
-are rough: when the gap g falls below their roughness h_m, their asperities meet (Hertz, on −g) while oil is left in the
-valleys, so the film thickness of the formula is h_m + ½(g + √(g² + h_m²)). It tends to g + h_m in the open gap and to h_m
-in a loaded contact, without a corner, so that the film's damping is bounded by that at h_m.
+Dry, a spar pushes with K δ^1.5 (1 + D δ'). A **squeeze film** resists the approach: between a
+cylinder of radius R and a plane, Reynolds' equation for a gap h + x²/(2R) that closes at V gives
+p = 6 η V R/(h + x²/(2R))², hence the force 3√2 π η l V (R/h)^1.5. On opening the film cavitates and
+gives nothing. It would keep surfaces apart for ever. Real ones are rough: when the gap g falls
+below their roughness h_m, their asperities meet (Hertz, on −g) while oil is left in the valleys, so
+the film thickness of the formula is h_m + ½(g + √(g² + h_m²)). It tends to g + h_m in the open gap
+and to h_m in a loaded contact, without a corner, so that the film's damping is bounded by that at
+h_m.
 
-Pockets follow the rollers' contour, so a cage that leaves the bearing's axis by more than the radial play rests on
-rollers all round, which the raceways hold. The model replaces them by one elastic, damped stop at the distance of the gap.
-It is the same in every direction and has no friction of its own. Gripped rollers at either side, whose spars close at half
-of that distance, carry the cage first. Without the stop only the few gripped rollers would hold the cage and, with it, the
-weight of all other rollers. The stop's push on single rollers is small against their load and is neglected.
+Pockets follow the rollers' contour, so a cage that leaves the bearing's axis by more than the
+radial play rests on rollers all round, which the raceways hold. The model replaces them by one
+elastic, damped stop at the distance of the gap. It is the same in every direction and has no
+friction of its own. Gripped rollers at either side, whose spars close at half of that distance,
+carry the cage first. Without the stop only the few gripped rollers would hold the cage and, with
+it, the weight of all other rollers. The stop's push on single rollers is small against their load
+and is neglected.
 """
 
 from __future__ import annotations
@@ -30,11 +35,12 @@ from macroslip.constants import FLOODED_GAP
 from macroslip.lubricant import Lubricant
 from macroslip.whole.cage import Cage
 
-#: Composite roughness times this is the film in a loaded contact; beyond Λ = 3 surfaces count as apart.
+#: Composite roughness times this is the film in a loaded contact; beyond Λ = 3 surfaces count as
+#: apart.
 _ROUGHNESS_FILMS = 3.0
-#: Stiffness [N/m] and damping [N s/m] of the radial stop, estimates: it yields some micrometres to the cage's weight and does
-#: not bounce.
+#: Stiffness of the radial stop [N/m], an estimate: it yields some micrometres to the cage's weight.
 STIFFNESS = 1e8
+#: Damping of the radial stop [N s/m], an estimate: it does not bounce.
 DAMPING = 1e5
 
 
@@ -46,9 +52,8 @@ class Pocket(NamedTuple):
     damping: float  #: D [s/m]; zero with a squeeze film
     film: float  #: 3√2 π η l R^1.5 [N s √m]; zero without film
     least_film: float  #: h_m [m]
-    oil_gap: float = (
-        math.inf
-    )  #: h_e, gap from which on pockets hold no oil [m]; infinite where flooded
+    #: h_e, gap from which on pockets hold no oil [m]; infinite where flooded
+    oil_gap: float = math.inf
 
 
 #: A pocket as compiled functions take it.
@@ -56,7 +61,20 @@ POCKET = np.dtype([(name, "f8") for name in Pocket._fields])
 
 
 def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float:
-    """3√2 π η l R^1.5 [N s √m] of a long cylinder [m] and a plane in oil of η [Pa s]; over h^1.5 the resistance to approach.
+    """Coefficient 3√2 π η l R^1.5 of the squeeze film between a long cylinder and a plane [N s √m].
+
+    Over h^1.5 it is the resistance to approach.
+
+    Parameters
+    ----------
+    viscosity : float
+        η of the oil [Pa s].
+    length, radius : float
+        l and R of the cylinder [m].
+
+    Returns
+    -------
+    float
 
     Examples
     --------
@@ -67,7 +85,21 @@ def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float
 
 
 def prepare_pocket(cage: Cage, bearing: Bearing, lubricant: Lubricant, stiffness: float) -> Pocket:
-    """The spars of a cage; `stiffness` is that of the cage's Hertz contact [N/m^1.5]."""
+    """Prepare the numbers of the forces between a roller and the spars of its pocket.
+
+    Parameters
+    ----------
+    cage : Cage
+    bearing : Bearing
+    lubricant : Lubricant
+        Its viscosity is that of the squeeze film, its oil gap that of the pocket.
+    stiffness : float
+        K of the Hertz contact of roller and spar [N/m^1.5].
+
+    Returns
+    -------
+    Pocket
+    """
     dry = cage.impact == "dry"
     film = squeeze_coefficient(
         lubricant.viscosity, bearing.roller_length, geometry.roller_radius(bearing)
@@ -84,11 +116,24 @@ def prepare_pocket(cage: Cage, bearing: Bearing, lubricant: Lubricant, stiffness
 
 @jit_inline
 def squeeze_resistance(pocket, film):
-    """Resistance of the squeeze film to approach [N s/m] at its smallest gap h [m], and its derivative [N s/m²].
+    """Resistance of the squeeze film to approach, and its derivative by the gap.
 
-    Oil fills the gap as far as it is below h_e. With t = √(h_e/h − 1) the flooded film's resistance has the factor
-    (2/π) [atan t + t/(1 + t²) − 2t/(1 + t²)²]: Reynolds' pressure 6 η V R (1/h(x)² − 1/h_e²), V the speed of approach,
-    over |x| < √(2Rh) t.
+    Oil fills the gap as far as it is below h_e. With t = √(h_e/h − 1) the flooded film's resistance
+    has the factor (2/π) [atan t + t/(1 + t²) − 2t/(1 + t²)²]: Reynolds' pressure
+    6 η V R (1/h(x)² − 1/h_e²), V the speed of approach, over |x| < √(2Rh) t.
+
+    Parameters
+    ----------
+    pocket : Pocket
+    film : float
+        Smallest gap h > 0 of the film [m].
+
+    Returns
+    -------
+    resistance : float
+        Force over speed of approach [N s/m].
+    by_film : float
+        Its derivative by h [N s/m²].
 
     Examples
     --------
@@ -111,9 +156,24 @@ def squeeze_resistance(pocket, film):
 
 @jit_inline
 def spar_push(pocket, gap, closing):
-    """Push of one spar [N], and its derivatives by the gap [N/m] and by its closing speed [N s/m].
+    """Push of one spar on its roller, and its derivatives.
 
-    The gap g [m] is negative where the bodies press on each other; `closing` is −g' [m/s].
+    Parameters
+    ----------
+    pocket : Pocket
+    gap : float
+        g [m], negative where the bodies press on each other.
+    closing : float
+        −g' [m/s].
+
+    Returns
+    -------
+    push : float
+        Push, never below zero [N].
+    by_gap : float
+        Its derivative by the gap [N/m].
+    by_closing : float
+        Its derivative by the closing speed [N s/m].
     """
     push = 0.0
     by_gap = 0.0
@@ -138,7 +198,24 @@ def spar_push(pocket, gap, closing):
 
 @jit_inline
 def pocket_force(pocket, offset, speed):
-    """Push N of the pocket on its roller along the orbit [N], ∂N/∂x [N/m] and ∂N/∂x' [N s/m], at x [m] and x' [m/s].
+    """Push N of the pocket on its roller along the orbit, and its derivatives.
+
+    Parameters
+    ----------
+    pocket : Pocket
+    offset : float
+        x [m], positive where the roller is ahead of the middle of its pocket.
+    speed : float
+        x' [m/s].
+
+    Returns
+    -------
+    push : float
+        N, positive along the orbit [N].
+    by_offset : float
+        ∂N/∂x [N/m].
+    by_speed : float
+        ∂N/∂x' [N s/m].
 
     Examples
     --------
@@ -159,9 +236,16 @@ def elastic_energy(pocket: Pocket, offset: np.ndarray) -> np.ndarray:
 
 @jit_inline
 def guide_force(play, a, b, p, q):
-    """Push of the rollers on a cage that has left the axis by (a, b) [m] at the speed (p, q) [m/s].
+    """Push of the rollers on a cage that has left the bearing's axis.
 
-    `play` is the distance [m] that is free.
+    Parameters
+    ----------
+    play : float
+        Distance from the axis that is free [m].
+    a, b : float
+        Displacements of the cage along X0 and Y0 [m].
+    p, q : float
+        Speeds of the cage along X0 and Y0 [m/s].
 
     Returns
     -------

@@ -1,13 +1,16 @@
-"""The integration of the whole bearing by Alexander's method: two implicit stages, second order, L-stable.
+"""Integration of the whole bearing by Alexander's method of two implicit stages.
 
-Nodes γ and 1, γ = 1 − 1/√2, the last stage being the step's end. The error is the difference to a third-order quadrature of
-the slopes at the step's start and both stages, divided by the stage's matrix, which takes out what a gripped contact damps.
+It is of second order and L-stable.
 
-Tractions rest: at every evaluation the force predicted by the slopes of the evaluation before is compared with the one found,
-and the time to the next evaluation follows from the difference.
+Nodes γ and 1, γ = 1 − 1/√2, the last stage being the step's end. The error is the difference to a
+third-order quadrature of the slopes at the step's start and both stages, divided by the stage's
+matrix, which takes out what a gripped contact damps.
 
-It computes steps and nothing else. They go into buffers; when these are full the kernel returns, and goes on where it was when
-it is called again.
+Tractions rest: at every evaluation the force predicted by the slopes of the evaluation before is
+compared with the one found, and the time to the next evaluation follows from the difference.
+
+It computes steps and nothing else. They go into buffers; when these are full the kernel returns,
+and goes on where it was when it is called again.
 
 References
 ----------
@@ -63,7 +66,8 @@ from macroslip.whole.tractions import (
 
 #: Node of the first stage.
 GAMMA = 1.0 - math.sqrt(0.5)
-#: Weights of the slopes at start, first and second stage in (third-order quadrature) − (the method's).
+#: Weights of the slopes at start, first and second stage in (third-order quadrature) − (the
+#: method's).
 _E1 = (0.5 - 1.0 / 3.0) / (GAMMA * (1.0 - GAMMA))
 _E2 = 0.5 - GAMMA * _E1
 _ERROR = (1.0 - _E1 - _E2, _E1 - (1.0 - GAMMA), _E2 - GAMMA)
@@ -73,79 +77,94 @@ _INSTANT = 1e-12
 _BUFFER = 6 * 2**20
 
 #: Tolerance and bounds.
-#:
-#: allowed_speed : error of speed that a step may make [m/s]
-#: power : allowed relative error of power where slopes predict it
-#: force : largest force an iteration may leave unbalanced [N]
-#: rounding : of speeds [m/s]; times mass over step it is the force below which no iteration can get
-#: longest_step, longest_rest : of a step, and between evaluations of tractions [s]
-#: cage_reach : relative change of load or slip within which the slopes of a cage's contact serve
-#: slip_reach : change of a raceway's force by slip over its load, within which its slopes serve
-#: slowest : least speed of a raceway contact in its tables [m/s]
-#: rests : whether tractions may follow from slopes between evaluations
 LIMITS = np.dtype(
     [
-        *((name, "f8") for name in ("allowed_speed", "power", "force", "rounding", "longest_step", "longest_rest")),
-        ("cage_reach", "f8"), ("slip_reach", "f8"), ("slowest", "f8"), ("max_steps", "i8"), ("rests", "i8"),
+        *(
+            (name, "f8")
+            for name in (
+                "allowed_speed",  # error of speed that a step may make [m/s]
+                "power",  # allowed relative error of power where slopes predict it [-]
+                "force",  # largest force an iteration may leave unbalanced [N]
+                # Of speeds [m/s]; times mass over step it is the force below which no iteration
+                # can get.
+                "rounding",
+                "longest_step",  # longest step [s]
+                "longest_rest",  # longest time between evaluations of tractions [s]
+            )
+        ),
+        # Relative change of load or slip within which the slopes of a cage's contact serve [-].
+        ("cage_reach", "f8"),
+        # Change of a raceway's force by slip over its load within which its slopes serve [-].
+        ("slip_reach", "f8"),
+        ("slowest", "f8"),  # least speed of a raceway contact in its tables [m/s]
+        ("max_steps", "i8"),  # most steps, with those rejected
+        ("rests", "i8"),  # 1 if tractions may follow from slopes between evaluations, or 0
     ]
-)  # fmt: skip
-#: State of the kernel between two calls: whether it has begun; time [s], sample interval and shaft speed [rad/s]; the next
-#: step [s], whether the last one was rejected, and the next stop; energy of the raceways so far [J] and the largest force that
-#: an accepted step left unbalanced [N]; and counts: evaluations are those of a raceway contact.
+)
+#: State of the kernel between two calls.
 MEMORY = np.dtype(
     [
-        ("begun", "i8"), ("time", "f8"), ("interval", "i8"), ("shaft_speed", "f8"), ("step", "f8"), ("failed", "i8"),
-        ("next_stop", "i8"), ("spent", "f8"), ("unbalanced", "f8"),
-        ("steps", "i8"), ("rejections", "i8"), ("evaluations", "i8"), ("iterations", "i8"),
+        ("begun", "i8"),  # 1 if the start has been written, or 0
+        ("time", "f8"),  # end of the last step [s]
+        ("interval", "i8"),  # sample interval that holds this time
+        ("shaft_speed", "f8"),  # Ω_in at this time [rad/s]
+        ("step", "f8"),  # the next step [s]
+        ("failed", "i8"),  # 1 if the last step was rejected, or 0
+        ("next_stop", "i8"),  # index of the next stop
+        ("spent", "f8"),  # frictional energy of the raceways so far [J]
+        ("unbalanced", "f8"),  # largest force that an accepted step left unbalanced [N]
+        ("steps", "i8"),  # accepted steps
+        ("rejections", "i8"),  # rejected steps
+        ("evaluations", "i8"),  # evaluations of a raceway contact
+        ("iterations", "i8"),  # iterations of Newton's method
     ]
-)  # fmt: skip
+)
 #: A step of the whole bearing; cages are two where there is one, the second being zero.
-#:
-#: start, end : times [s]
-#: shaft_speed : at the stages [rad/s]
-#: turn : angle by which the cages' pockets have turned at the stages [rad]
-#: cages : at the end, by lead w [m/s] at the pitch radius, lag ∫w dt [m], speeds p, q [m/s] and displacements a, b [m]
-#: torque : of the rollers on the cages at the end, positive along the orbit [N m]
-#: flows : angular impulses [N m s] and energies [J] of the step, by `macroslip.whole.books.FLOWS`
 BEARING_STEP = np.dtype(
     [
-        ("start", "f8"), ("end", "f8"), ("shaft_speed", "f8", (2,)), ("turn", "f8", (2, 2)), ("cages", "f8", (2, 6)),
-        ("torque", "f8", (2,)), ("flows", "f8", (len(FLOWS),)),
+        ("start", "f8"),  # [s]
+        ("end", "f8"),  # [s]
+        ("shaft_speed", "f8", (2,)),  # at the stages [rad/s]
+        ("turn", "f8", (2, 2)),  # angle by which the cages' pockets have turned at the stages [rad]
+        # At the end: lead w at the pitch radius [m/s], lag ∫w dt [m], speeds p, q [m/s] and
+        # displacements a, b [m].
+        ("cages", "f8", (2, 6)),
+        # Of the rollers on the cages at the end, positive along the orbit [N m].
+        ("torque", "f8", (2,)),
+        # Angular impulses [N m s] and energies [J], by `macroslip.whole.books.FLOWS`.
+        ("flows", "f8", (len(FLOWS),)),
     ]
-)  # fmt: skip
+)
 
 
 class Clock(NamedTuple):
-    """Time [s], the sample interval that holds it, and the shaft speed there [rad/s]."""
+    """A time with the shaft's motion."""
 
-    time: float
-    interval: int
-    shaft_speed: float
+    time: float  #: [s]
+    interval: int  #: Sample interval that holds this time
+    shaft_speed: float  #: Ω_in at this time [rad/s]
 
 
 class Start(NamedTuple):
     """State at the first sample other than pure rolling on the bearing's axis."""
 
     offset: np.ndarray  #: Shape (n,). Places in the pockets [m].
-    #: Shape (n,). [m/s].
-    slip_inner: np.ndarray
-    slip_outer: np.ndarray
-    cage_lead: (
-        np.ndarray
-    )  #: Shape (c,). w, speed of a cage at the pitch radius beyond that of pure rolling [m/s].
+    slip_inner: np.ndarray  #: Shape (n,). v_in [m/s].
+    slip_outer: np.ndarray  #: Shape (n,). v_out [m/s].
+    #: Shape (c,). w, speed of a cage at the pitch radius beyond that of pure rolling [m/s].
+    cage_lead: np.ndarray
 
 
 class Part(NamedTuple):
-    """Steps that follow one another. The arrays are views of buffers that the next part overwrites."""
+    """Steps that follow one another, as views of buffers that the next part overwrites."""
 
     status: int  #: UNDER_WAY, but for the last part a `macroslip.imposed.status.Status`
-    #: Shape (m, n). Two stages each. The first row of an integration is its start: it has no length, one stage and no
-    #: weight.
+    #: Shape (m, n). Two stages each. The first row of an integration is its start: it has no
+    #: length, one stage and no weight.
     steps: np.ndarray
     bearing: np.ndarray  #: shape (m,)
-    offset: (
-        np.ndarray
-    )  #: Shape (m, n). Rollers' ways ahead of the middle of their pockets at the end [m].
+    #: Shape (m, n). Rollers' ways ahead of the middle of their pockets at the end [m].
+    offset: np.ndarray
     memory: np.void  #: Record of `MEMORY`. Time, counts and unbalanced force so far.
 
 
@@ -168,8 +187,6 @@ def steps_of(
 ) -> Iterator[Part]:
     """Integrate all rollers and cages over the motion of the inner ring.
 
-    Raises InputError if a start is not finite.
-
     Parameters
     ----------
     assembly : Assembly
@@ -179,16 +196,22 @@ def steps_of(
     stops : ndarray
         Times at which a step must end [s], rising, after the first sample; the last is the end.
     tolerance : float
-        Of energies.
+        Relative error of energies [-].
     max_steps : int
         Steps, with those rejected, after which it gives up.
     rests : bool
-        Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
+        Whether tractions may follow from their slopes between evaluations; without, every iteration
+        evaluates all.
 
     Yields
     ------
     Part
         Some hundred steps each.
+
+    Raises
+    ------
+    InputError
+        A start that is not finite.
     """
     for name, values in zip(start._fields, start, strict=True):
         if not np.isfinite(values).all():
@@ -249,7 +272,10 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
 
 @jit_inline
 def _interval_of(motion, time, start):
-    """Sample interval of `time` [s]; a sample's own time belongs to the interval that ends there, if `start` is before it."""
+    """Sample interval of `time` [s].
+
+    A sample's own time belongs to the interval that ends there, if `start` is before it.
+    """
     k = interval_of(motion, time, start)
     return k - 1 if k > start and time <= motion.time[k] else k
 
@@ -258,8 +284,8 @@ def _interval_of(motion, time, start):
 def _guess(y, k, step, span, lost):
     """Write y* of stage `k`, and a first guess, into the unknowns `y` of a roller or cage.
 
-    The first stage's slope acts during `span` [s]; `step` is γh [s]. The first unknown, a speed, loses `lost` [m/s] with the
-    shaft's.
+    The first stage's slope acts during `span` [s]; `step` is γh [s]. The first unknown, a speed,
+    loses `lost` [m/s] with the shaft's.
     """
     rate = SLOPE if k == 0 else FIRST_RATE
     for i in range(y.shape[1]):
@@ -271,7 +297,10 @@ def _guess(y, k, step, span, lost):
 
 @jit_inline
 def _write_stage(assembly, k, time, weight, space, row):
-    """Write the solved stage `k` of a step at `time` into the rollers' records, with its weight [s]."""
+    """Write the solved stage `k` of a step into the rollers' records.
+
+    The stage is at `time` [s] and has the weight `weight` [s].
+    """
     bearing = assembly.bearing[0]
     moments = space.moments[k]
     sheets = space.sheets[0]
@@ -345,7 +374,9 @@ def _keep_rate(step, k, space):
 
 @jit_inline
 def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
-    """Solve the stages of a step, and write them; a step without length has one, which evaluates the state.
+    """Solve the stages of a step, and write them.
+
+    A step without length has one stage, which evaluates the state.
 
     Returns the largest residual [N], and whether the stages are solved.
     """
@@ -441,10 +472,10 @@ def _step_error(assembly, limits, h, space):
 
 @jit_inline
 def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_scale):
-    """Error of the spin force, pull and powers of a raceway contact that the `known` sheet predicted, over what is allowed.
+    """Error of extrapolated forces and powers of a raceway contact over what is allowed.
 
-    `sheet` is the new one, at `load` [N] and `speed` [m/s] and `span` [s] later; `ratio` is r~ over the raceway's radius, `mass` a
-    roller's [kg].
+    They are extrapolated from `known` to the new evaluation `sheet`, at `load` [N] and `speed`
+    [m/s] and `span` [s] later; `ratio` is r~ over the raceway's radius, `mass` a roller's [kg].
     """
     slip = sheet.slip
     spin, pull = raceway_from(known, load, speed, slip)
@@ -467,10 +498,10 @@ def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_sca
 
 @jit_inline
 def _refresh(assembly, limits, time, space, power_scale):
-    """Evaluate the rollers that are due at the step's end `time` [s], and set the times to their next evaluations.
+    """Evaluate the rollers that are due at the step's end `time` [s], and set when they are next.
 
-    `power_scale` is the mean frictional power of a raceway contact so far [W]. Returns whether the forces of all resting
-    rollers were near those predicted; otherwise the step has to be repeated.
+    `power_scale` is the mean frictional power of a raceway contact so far [W]. Returns whether the
+    forces of all resting rollers were near those predicted; otherwise the step has to be repeated.
     """
     bearing = assembly.bearing[0]
     rests = space.rests
@@ -481,7 +512,8 @@ def _refresh(assembly, limits, time, space, power_scale):
         one = rests[j]
         one.due = one.fresh or time - known[j].when >= one.rest
         one.marked = one.due and (not one.fresh or sheets[j].when != time)
-    # The last stage as a sum, as stages are numbered elsewhere: for a constant all of it would be compiled once more.
+    # The last stage as a sum, as stages are numbered elsewhere: for a constant all of it would be
+    # compiled once more.
     space.memory[0].evaluations += evaluate_marked(
         assembly, time, moments, space.rollers, FIRST + 1, rests, sheets
     )
@@ -522,7 +554,8 @@ def _refresh(assembly, limits, time, space, power_scale):
             if not one.fresh and one.ratio > tuning.FAR_OFF and span > 0.0:
                 one.rest = 0.0
                 good = False
-    # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
+    # Times change only after a good step: a roller that has to be evaluated in its repetition would
+    # rest again.
     for j in range(rests.size):
         one = rests[j]
         if good and one.due:
@@ -538,7 +571,7 @@ def _refresh(assembly, limits, time, space, power_scale):
 
 @jit_inline
 def _touch_ahead(pocket, rollers, h):
-    """Part of `h` [s] after which the first roller meets a spar, if it is free now; 1 if none does."""
+    """Part of `h` [s] after which the first free roller meets a spar; 1 if none does."""
     part = 1.0
     for j in range(rollers.size):
         y = rollers[j].y
@@ -554,8 +587,8 @@ def _touch_ahead(pocket, rollers, h):
 def _impact_step(bearing, rollers):
     """First step [s] of the fastest dry impact that has just begun; infinite if none has.
 
-    A mass m that runs at v into K δ^1.5 goes in by (5 m v²/4K)^0.4; the step is the time in which it travels a part of
-    that.
+    A mass m that runs at v into K δ^1.5 goes in by (5 m v²/4K)^0.4; the step is the time in which
+    it travels a part of that.
     """
     pocket = bearing.pocket
     shortest = math.inf
@@ -575,7 +608,8 @@ def _impact_step(bearing, rollers):
 def _cut(bearing, rollers, step, left):
     """Step [s] to the next stop or half-way to it.
 
-    With dry impacts to just after a touch, so that the impact begins in the step after, which is as short as it needs.
+    With dry impacts to just after a touch, so that the impact begins in the step after, which is as
+    short as it needs.
     """
     dry = bearing.pocket.film == 0.0
     if dry:
@@ -639,7 +673,8 @@ def _write_end(assembly, start, end, space, row, whole, offset):
         step.end = end.time
         step.stages = last + 1
         step.pure_speed = pure_speed
-        # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
+        # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak
+        # reaches across a step.
         step.stretch = memory.steps
         step.sampled = 1 if begins else 0
         for i in range(3):
@@ -697,8 +732,12 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
     bounds : ndarray of `LIMITS`, shape (1,)
     space : Space
         With the state at the first sample; then as the last call left it.
-    steps, wholes, offsets : ndarray of `STEP`, shape (m, n), of `BEARING_STEP`, shape (m,), and of float, shape (m, n)
+    steps : ndarray of `STEP`, shape (m, n)
         Filled from the start.
+    wholes : ndarray of `BEARING_STEP`, shape (m,)
+        Filled from the start.
+    offsets : ndarray, shape (m, n)
+        Pocket offsets at the steps' ends [m], filled from the start.
 
     Returns
     -------

@@ -1,11 +1,13 @@
 """One implicit stage of all rollers and cages, solved by Newton's method.
 
-A stage is solved for y in y = y* + γh f(t, y). Newton's equations are divided by γh, so that residuals are forces [N]. Unknowns
-are each roller's slips v_in and v_out and each cage's lead w and, where it translates, its speeds p along X0 and q along Y0;
-offsets and displacements follow from them.
+A stage is solved for y in y = y* + γh f(t, y). Newton's equations are divided by γh, so that
+residuals are forces [N]. Unknowns are each roller's slips v_in and v_out and each cage's lead w
+and, where it translates, its speeds p along X0 and q along Y0; offsets and displacements follow
+from them.
 
-The matrix has the shape of an arrow: two equations a roller, and a border of one or three a cage. A roller meets only its cage,
-so its two unknowns are eliminated on their own, and a solution costs in proportion to the number of rollers.
+The matrix has the shape of an arrow: two equations a roller, and a border of one or three a cage. A
+roller meets only its cage, so its two unknowns are eliminated on their own, and a solution costs in
+proportion to the number of rollers.
 """
 
 from __future__ import annotations
@@ -34,39 +36,53 @@ from macroslip.whole.tractions import (
 GUIDE_SPEED = 1e-3
 #: Sets of unknowns or their rates: at the step's start, y*, at both stages.
 STATE, SLOPE, STAR, FIRST, LAST, FIRST_RATE, LAST_RATE = range(7)
-#: Unknowns or rates of a roller, by set: slips v_in, v_out [m/s] and pocket offset x [m]; and its frictional power at the step's
-#: start by interface [W].
-ROLLER = np.dtype([("y", "f8", (7, 3)), ("power", "f8", (3,))])
-#: Unknowns or rates of a cage, by set: lead w [m/s], lag ∫w dt [m], translation speeds p, q [m/s] and translations a, b [m].
-CAGE = np.dtype([("y", "f8", (7, 6))])
-#: When a roller's tractions are evaluated: time [s] for which those kept serve; error of the last predicted values over what is
-#: allowed; whether it is evaluated in every iteration, needs no further evaluation in this stage, is evaluated now, has new
-#: values to keep after the step.
+#: State of a roller.
+ROLLER = np.dtype(
+    [
+        # Unknowns or rates by set: slips v_in, v_out [m/s] and pocket offset x [m].
+        ("y", "f8", (7, 3)),
+        ("power", "f8", (3,)),  # frictional power at the step's start by interface [W]
+    ]
+)
+#: State of a cage.
+CAGE = np.dtype(
+    [
+        # Unknowns or rates by set: lead w [m/s], lag ∫w dt [m], translation speeds p, q [m/s] and
+        # translations a, b [m].
+        ("y", "f8", (7, 6)),
+    ]
+)
+#: When the tractions of a roller are evaluated.
 REST = np.dtype(
     [
-        ("rest", "f8"),
-        ("ratio", "f8"),
-        ("fresh", "?"),
-        ("settled", "?"),
-        ("marked", "?"),
-        ("due", "?"),
-        ("unused", "i4"),
+        ("rest", "f8"),  # time for which the tractions that were kept serve [s]
+        ("ratio", "f8"),  # error of the last predicted values over what is allowed [-]
+        ("fresh", "?"),  # true if it is evaluated in every iteration
+        ("settled", "?"),  # true if it needs no further evaluation in this stage
+        ("marked", "?"),  # true if it is evaluated now
+        ("due", "?"),  # true if it has new values to keep after the step
+        ("unused", "i4"),  # fills the record to a multiple of 8 bytes
     ]
 )
 #: A roller's part of the matrix.
-#:
-#: inverse : of its 2 × 2 block
-#: column, row : its border: derivatives of its residuals by w, p, q and of the cage's residuals by v_in, v_out
-#: give, by_sliding, by_push : derivatives of N by x' [N s/m], and of F_c by slip [N s/m] and by N [-]
-#: rest : its residuals [N], or the right-hand side of a solution
 BLOCK = np.dtype(
     [
-        ("inverse", "f8", (4,)), ("column", "f8", (2, 3)), ("row", "f8", (2, 3)),
-        ("give", "f8"), ("by_sliding", "f8"), ("by_push", "f8"), ("rest", "f8", (2,)),
+        ("inverse", "f8", (4,)),  # of its 2 × 2 block [m/(N s)]
+        ("column", "f8", (2, 3)),  # derivatives of its residuals by w, p, q [N s/m]
+        ("row", "f8", (2, 3)),  # derivatives of the cage's residuals by v_in, v_out [N s/m]
+        ("give", "f8"),  # derivative of N by x' [N s/m]
+        ("by_sliding", "f8"),  # derivative of F_c by slip [N s/m]
+        ("by_push", "f8"),  # derivative of F_c by N [-]
+        ("rest", "f8", (2,)),  # residuals, or the right-hand side of a solution [N]
     ]
-)  # fmt: skip
-#: A cage's part of the matrix, and its residuals [N].
-BORDER = np.dtype([("matrix", "f8", (3, 3)), ("rest", "f8", (3,))])
+)
+#: A cage's part of the matrix.
+BORDER = np.dtype(
+    [
+        ("matrix", "f8", (3, 3)),  # derivatives of its residuals by w, p, q [N s/m]
+        ("rest", "f8", (3,)),  # residuals, or the right-hand side of a solution [N]
+    ]
+)
 
 
 class Space(NamedTuple):
@@ -100,35 +116,49 @@ class Stage(NamedTuple):
     time: float  #: [s]
     shaft_speed: float  #: [rad/s]
     tolerance: float  #: Largest force that may be left unbalanced [N]
-    cage_reach: (
-        float  #: Relative change of load or slip within which the slopes of a cage's contact serve
-    )
-    slip_reach: (
-        float  #: Change of a raceway's force by slip over its load within which its slopes serve
-    )
+    #: Relative change of load or slip within which the slopes of a cage's contact serve [-]
+    cage_reach: float
+    #: Change of a raceway's force by slip over its load within which its slopes serve [-]
+    slip_reach: float
 
 
 class Meeting(NamedTuple):
     """Contact of a roller with its pocket."""
 
-    #: N and F_c [N].
-    push: float
-    friction: float
-    give: (
-        float  #: Derivative of N by x', with the offset that follows from it in this stage [N s/m]
-    )
-    #: Derivatives of F_c by the slip against the cage [N s/m] and by N [-].
-    by_sliding: float
-    by_push: float
+    push: float  #: N [N]
+    friction: float  #: F_c [N]
+    #: Derivative of N by x', with the offset that follows from it in this stage [N s/m]
+    give: float
+    by_sliding: float  #: Derivative of F_c by the slip against the cage [N s/m]
+    by_push: float  #: Derivative of F_c by N [-]
     arm: float  #: Lever of N about the cage's own axis over the pitch radius [-]
     cage_turn: float  #: Speed of the cage [rad/s]
 
 
 @jit_inline
 def meet(bearing, contact, stage, at, own, star, cage, sheet):
-    """Push and friction of a roller's pocket; its offset follows from its speed.
+    """Push and friction of a roller's pocket at the speeds of a stage.
 
-    `contact` are a roller's body and the address of its tables, `own` and `cage` the unknowns of the roller and its cage, `star` the roller's y*.
+    Parameters
+    ----------
+    bearing : record of `macroslip.whole.model.BEARING`
+    contact : tuple
+        A roller's body, record of `macroslip.roller.model.BODY`, and the address of its tables.
+    stage : Stage
+    at : record of `macroslip.whole.tractions.MOMENT`
+        The roller at the stage's time; `push`, `friction` and the speeds in its pocket are filled.
+    own : ndarray, shape (3,)
+        v_in, v_out [m/s] and x [m] of the roller; the offset x is filled, as its speed gives it.
+    star : ndarray, shape (3,)
+        The roller's y*.
+    cage : ndarray, shape (6,)
+        Unknowns of its cage, as in `CAGE`.
+    sheet : record of `macroslip.whole.tractions.SHEETS`
+        Its cage contact is evaluated again where the slopes do not serve.
+
+    Returns
+    -------
+    Meeting
     """
     shaft_speed = stage.shaft_speed
     v_in = own[0]
@@ -234,7 +264,19 @@ def _add_to_border(bearing, stage, at, met, block, border):
 
 @jit_inline
 def eliminate(places, size, blocks, borders):
-    """Take the rollers out of the cages' borders, once for all right-hand sides; a cage has `size` unknowns, one or three."""
+    """Eliminate the rollers from the cages' equations: block elimination by Schur complements.
+
+    It is done once for all right-hand sides.
+
+    Parameters
+    ----------
+    places : ndarray of `macroslip.whole.model.PLACE`, shape (n,)
+    size : int
+        Unknowns of a cage: one, or three where it translates.
+    blocks : ndarray of `BLOCK`, shape (n,)
+    borders : ndarray of `BORDER`, shape (c,)
+        Each `matrix` becomes the Schur complement of its cage.
+    """
     for j in range(places.size):
         matrix = borders[places[j].cage].matrix
         inverse = blocks[j].inverse
@@ -255,7 +297,10 @@ def eliminate(places, size, blocks, borders):
 
 @jit_inline
 def _solve_border(matrix, rest, size):
-    """Solve the small border in place by Cramer's rule; its diagonal is dominated by mass over step."""
+    """Solve the small border in place by Cramer's rule.
+
+    Its diagonal is dominated by mass over step.
+    """
     if size == 1:
         rest[0] /= matrix[0, 0]
         return
@@ -282,7 +327,18 @@ def _solve_border(matrix, rest, size):
 
 @jit_inline
 def solve(places, size, blocks, borders):
-    """Turn `rest` of blocks and borders into the solution of the system that `eliminate` has prepared; parameters as there."""
+    """Solve the linear system that `eliminate` has prepared, in place.
+
+    Parameters
+    ----------
+    places : ndarray of `macroslip.whole.model.PLACE`, shape (n,)
+    size : int
+        Unknowns of a cage: one, or three where it translates.
+    blocks : ndarray of `BLOCK`, shape (n,)
+        `rest` of each: right-hand side [N], replaced by the solution v_in, v_out [m/s].
+    borders : ndarray of `BORDER`, shape (c,)
+        `rest` of each: right-hand side [N], replaced by the solution w, p, q [m/s].
+    """
     for j in range(places.size):
         inverse = blocks[j].inverse
         rest = blocks[j].rest
@@ -346,7 +402,7 @@ def _begin_cage(bearing, stage, cage, star, border):
 
 @jit_inline
 def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
-    """Raceway forces at the present state of stage `k`, evaluated where slopes do not serve. Returns the evaluations."""
+    """Raceway forces in stage `k`, evaluated where slopes do not serve; returns the evaluations."""
     for j in range(moments.size):
         rest = rests[j]
         at = moments[j]
@@ -391,7 +447,7 @@ def _place_cages(stage, k, cages):
 
 @jit_inline
 def _assemble(assembly, stage, k, size, space):
-    """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
+    """Residuals and derivatives of stage `k` at its present state; returns the largest one [N]."""
     rollers = space.rollers
     cages = space.cages
     moments = space.moments[k]
@@ -460,7 +516,7 @@ def _update(k, size, space):
 
 @jit_inline
 def _follow(assembly, stage, k, space):
-    """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
+    """Update forces and places of the rollers of stage `k` to first order in that of speeds."""
     bearing = assembly.bearing[0]
     places = assembly.places
     rollers = space.rollers
@@ -505,10 +561,25 @@ def _follow(assembly, stage, k, space):
 
 @jit_inline
 def solve_stage(assembly, stage, k, space):
-    """Solve stage `k` (0 or 1) from y* and the guess in its unknowns, which it replaces, with the rollers located.
+    """Solve an implicit stage by Newton's method.
 
-    Returns the largest residual [N], or the part that the last update is predicted to leave of it; above the tolerance or
-    not finite where the stage is not solved. The matrix is left prepared for further right-hand sides.
+    The matrix is left prepared for further right-hand sides.
+
+    Parameters
+    ----------
+    assembly : macroslip.whole.model.Assembly
+    stage : Stage
+    k : int
+        Number of the stage, 0 or 1.
+    space : Space
+        With the rollers located, y* and a guess of the stage's unknowns, which the solution
+        replaces.
+
+    Returns
+    -------
+    float
+        The largest residual, or the part that the last update is predicted to leave of it [N].
+        Above the tolerance or not finite where the stage is not solved.
     """
     places = assembly.places
     blocks = space.blocks

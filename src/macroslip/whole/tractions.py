@@ -1,8 +1,8 @@
-"""Loads of the rollers at one time, and their tractions: each as its value, its slopes and the place they belong to.
+"""Loads of the rollers at one time, and their tractions, extrapolated between evaluations.
 
-A contact is evaluated where it has to be; in between its force follows from the slopes by slip, load and ring speed. A
-gripped or a coasting roller then costs an evaluation now and then, while one that enters or leaves the load zone is
-evaluated in every iteration.
+A contact is evaluated where it has to be; in between its force follows linearly from the slopes by
+slip, load and ring speed. A gripped or a coasting roller then costs an evaluation now and then,
+while one that enters or leaves the load zone is evaluated in every iteration.
 """
 
 from __future__ import annotations
@@ -19,53 +19,89 @@ from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
 from macroslip.mechanics.speeds import inner_ring_speed, outer_ring_speed
 from macroslip.whole import tuning
 
-#: Tractions of a raceway contact at the load [N], ring speed and slip [m/s] of their evaluation: forces that turn (`spin`) and
-#: move the roller (`pull`) [N], with their slopes by slip, load and ring speed; the skew moment's power [W]; rolling resistance
-#: (`shear`), which both forces hold, with its slopes; and the power of asperities [W].
+#: Tractions of a raceway contact and their slopes, at the state in which they were evaluated.
 SHEET = np.dtype(
     [
         (name, "f8")
         for name in (
-            "slip", "load", "speed", "spin", "pull", "spin_by_slip", "pull_by_slip", "spin_by_load", "pull_by_load",
-            "spin_by_speed", "pull_by_speed", "skew", "shear", "shear_by_slip", "shear_by_load", "shear_by_speed", "rough",
+            "slip",  # Δu of the evaluation [m/s]
+            "load",  # normal load Q of the evaluation [N]
+            "speed",  # ring speed u2 of the evaluation [m/s]
+            "spin",  # force that turns the roller, S_i or S_o [N]
+            "pull",  # force that moves the roller's centre, P_i or P_o [N]
+            "spin_by_slip",  # [N s/m]
+            "pull_by_slip",  # [N s/m]
+            "spin_by_load",  # [-]
+            "pull_by_load",  # [-]
+            "spin_by_speed",  # [N s/m]
+            "pull_by_speed",  # [N s/m]
+            "skew",  # power of the skew moment [W]
+            "shear",  # rolling resistance, which both forces hold [N]
+            "shear_by_slip",  # [N s/m]
+            "shear_by_load",  # [-]
+            "shear_by_speed",  # [N s/m]
+            "rough",  # frictional power of asperities [W]
         )
     ]
-)  # fmt: skip
-#: The same of the cage's contact, at a load [N] and slip [m/s] of its own.
+)
+#: Friction of the cage's contact and its slopes, at the state in which it was evaluated.
 CAGE_SHEET = np.dtype(
     [
         (name, "f8")
         for name in (
-            "slip", "load", "force", "by_slip", "by_load", "shear", "shear_by_slip", "shear_by_load", "rough",
+            "slip",  # against the cage, of the evaluation [m/s]
+            "load",  # |N| of the evaluation [N]; below 0 before the first
+            "force",  # friction F_c, rolling resistance included [N]
+            "by_slip",  # slope of F_c [N s/m]
+            "by_load",  # slope of F_c [-]
+            "shear",  # rolling resistance [N]
+            "shear_by_slip",  # [N s/m]
+            "shear_by_load",  # [-]
+            "rough",  # frictional power of asperities [W]
         )
     ]
-)  # fmt: skip
-#: Of a roller: its three contacts, and when its raceways were evaluated [s].
-SHEETS = np.dtype([("inner", SHEET), ("outer", SHEET), ("cage", CAGE_SHEET), ("when", "f8")])
-#: A roller at one time.
-#:
-#: cosine, sine : of its pocket's angle
-#: inner_load, outer_load, elastic_load : normal loads with body forces and films, and the rings' load alone [N]
-#: tangential : G = F_g,x' + F_d,x' [N], against the orbit
-#: inner_speed, outer_speed : speed u2 of the rings past its centre [m/s]
-#: ring : speed Ω_in r~_in of the inner ring's surface [m/s]
-#: film_load : what films carry beside the rings' load [N]
-#: spin_inner … pull_outer : S_i, S_o, P_i, P_o [N]
-#: friction, push : of its pocket, F_c and N [N]
-#: sliding, pocket_speed : slip against the cage and x' [m/s]
+)
+#: Tractions of a roller in its three contacts.
+SHEETS = np.dtype(
+    [
+        ("inner", SHEET),
+        ("outer", SHEET),
+        ("cage", CAGE_SHEET),
+        ("when", "f8"),  # time of the last evaluation of the raceways [s]
+    ]
+)
+#: Loads, speeds and forces of a roller at one time.
 MOMENT = np.dtype(
     [
         (name, "f8")
         for name in (
-            "cosine", "sine", "inner_load", "outer_load", "elastic_load", "tangential", "inner_speed", "outer_speed", "ring",
-            "film_load", "spin_inner", "spin_outer", "pull_inner", "pull_outer", "friction", "push", "sliding", "pocket_speed",
+            "cosine",  # of its pocket's angle θ
+            "sine",  # of its pocket's angle θ
+            "inner_load",  # normal load of the inner raceway, with body forces and films [N]
+            "outer_load",  # normal load of the outer raceway, with body forces and films [N]
+            "elastic_load",  # load of the rings alone [N]
+            "tangential",  # G = F_g,x' + F_d,x', against the orbit [N]
+            "inner_speed",  # speed u2 of the inner raceway past its centre [m/s]
+            "outer_speed",  # speed u2 of the outer raceway past its centre [m/s]
+            "ring",  # speed Ω_in r~_in of the inner ring's surface [m/s]
+            "film_load",  # load that films carry beside the rings' load [N]
+            "spin_inner",  # S_i [N]
+            "spin_outer",  # S_o [N]
+            "pull_inner",  # P_i [N]
+            "pull_outer",  # P_o [N]
+            "friction",  # F_c of its pocket [N]
+            "push",  # N of its pocket, along the orbit [N]
+            "sliding",  # slip against the cage [m/s]
+            "pocket_speed",  # x', speed ahead in its pocket [m/s]
         )
     ]
-)  # fmt: skip
+)
 
 
 def new_sheets(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Sheets of `count` rollers, none evaluated yet: those of the step under way and those kept, shape (2, n).
+    """Sheets of `count` rollers, none evaluated yet, shape (2, n).
+
+    They are those of the step under way and those kept.
 
     The second array is the first one's numbers, shape (2, n, columns).
     """
@@ -77,16 +113,36 @@ def new_sheets(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 @jit_inline
 def address(assembly):
-    """Address of the tables, of the type that it has on an imposed orbit: look-ups are then compiled once for both."""
+    """Address of the tables, of the type that it has on an imposed orbit.
+
+    Look-ups are then compiled once for both.
+    """
     return np.int64(assembly.tables.ctypes.data)
 
 
 @jit_inline
 def locate(assembly, now, which, rollers, cages, moments, turn):
-    """Place all rollers at a time and in the set `which` of unknowns; `turn` is filled with the cages' angles [rad].
+    """Place all rollers on their orbit at a time, and compute their loads and ring speeds.
 
-    A pocket is at θ = θ_0 + nominal orbit + ∫w dt/r~, and its roller at φ = θ + (x − a sin θ + b cos θ)/r~. The
-    difference is at most some milliradians, and enters the roller's load and weight to first order.
+    A pocket is at θ = θ_0 + nominal orbit + ∫w dt/r~, and its roller at
+    φ = θ + (x − a sin θ + b cos θ)/r~. The difference is at most some milliradians, and enters the
+    roller's load and weight to first order.
+
+    Parameters
+    ----------
+    assembly : macroslip.whole.model.Assembly
+    now : macroslip.ring.orbit.Instant
+        Motion of the inner ring at that time.
+    which : int
+        Set of unknowns that counts: `STATE` to `LAST` of `macroslip.whole.stage`.
+    rollers : ndarray of `macroslip.whole.stage.ROLLER`, shape (n,)
+        Slips [m/s] and pocket offsets [m].
+    cages : ndarray of `macroslip.whole.stage.CAGE`, shape (c,)
+        Lags and displacements [m].
+    moments : ndarray of `MOMENT`, shape (n,)
+        Filled with angles, loads [N] and speeds [m/s]; the `film_load` there is its first guess.
+    turn : ndarray, shape (2,)
+        Filled with the angles by which the cages' pockets have turned [rad].
     """
     bearing = assembly.bearing[0]
     bodies = assembly.bodies
@@ -153,9 +209,28 @@ def _evaluate(body, law, tables, load, speed, slip, sheet):
 
 @jit
 def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
-    """Evaluate both raceway contacts of the rollers marked in `rests`, in the set `which` of their unknowns at `time` [s].
+    """Evaluate the tractions of both raceway contacts of marked rollers.
 
-    Returns the evaluations.
+    Parameters
+    ----------
+    assembly : macroslip.whole.model.Assembly
+    time : float
+        Time of the evaluation [s].
+    moments : ndarray of `MOMENT`, shape (n,)
+        Loads [N] and ring speeds [m/s] at that time.
+    rollers : ndarray of `macroslip.whole.stage.ROLLER`, shape (n,)
+        Slips [m/s].
+    which : int
+        Set of unknowns that counts: `STATE` to `LAST` of `macroslip.whole.stage`.
+    rests : ndarray of `macroslip.whole.stage.REST`, shape (n,)
+        Rollers with `marked` are evaluated.
+    sheets : ndarray of `SHEETS`, shape (n,)
+        Filled where a roller is evaluated.
+
+    Returns
+    -------
+    int
+        Evaluations of a raceway contact, two a marked roller.
     """
     bodies = assembly.bodies
     places = assembly.places
@@ -176,7 +251,24 @@ def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
 
 @jit_inline
 def raceway_from(sheet, load, speed, slip):
-    """Spin force and pull [N] from the sheet's slopes at another load [N], ring speed and slip [m/s]."""
+    """Tractions of a raceway contact, extrapolated linearly between evaluations.
+
+    Parameters
+    ----------
+    sheet : record of `SHEET`
+        Tractions and slopes at the last evaluation.
+    load : float
+        Normal load Q [N]; a contact with none or less transmits nothing.
+    speed : float
+        Ring speed u2 [m/s].
+    slip : float
+        Δu [m/s].
+
+    Returns
+    -------
+    spin, pull : float
+        Forces S and P that turn and move the roller [N].
+    """
     if load <= 0.0:
         return 0.0, 0.0
     dv = slip - sheet.slip
@@ -189,7 +281,24 @@ def raceway_from(sheet, load, speed, slip):
 
 @jit_inline
 def shear_from(sheet, load, speed, slip):
-    """Rolling resistance [N] in a raceway's spin force, from the sheet's slopes."""
+    """Rolling resistance of a raceway contact, extrapolated linearly between evaluations.
+
+    Parameters
+    ----------
+    sheet : record of `SHEET`
+        Tractions and slopes at the last evaluation.
+    load : float
+        Normal load Q [N]; a contact with none or less has no resistance.
+    speed : float
+        Ring speed u2 [m/s].
+    slip : float
+        Δu [m/s].
+
+    Returns
+    -------
+    float
+        Rolling resistance in the spin force [N].
+    """
     if load <= 0.0:
         return 0.0
     shear = sheet.shear + sheet.shear_by_slip * (slip - sheet.slip)
@@ -202,7 +311,10 @@ def shear_from(sheet, load, speed, slip):
 
 @jit_inline
 def _reaches(sheet, load, speed, slip, slip_reach):
-    """Whether a contact's slopes serve at another load [N], ring speed and slip [m/s]; at rest it has none."""
+    """True if extrapolation serves at another load [N], ring speed and slip [m/s].
+
+    A contact at rest has no slopes.
+    """
     if sheet.slip == 0.0 and sheet.speed == 0.0 and (slip != 0.0 or speed != 0.0):
         return False
     change = sheet.pull_by_slip * (slip - sheet.slip)
@@ -214,7 +326,23 @@ def _reaches(sheet, load, speed, slip, slip_reach):
 
 @jit_inline
 def is_out_of_reach(sheet, at, slips, slip_reach):
-    """Whether a raceway's load or slip [m/s] has changed too much for the slopes."""
+    """True if a raceway's load or slip has changed too much for extrapolation.
+
+    Parameters
+    ----------
+    sheet : record of `SHEETS`
+        Tractions and slopes at the last evaluation.
+    at : record of `MOMENT`
+        Loads [N] and ring speeds [m/s] now.
+    slips : ndarray
+        v_in and v_out now [m/s], as its first two numbers.
+    slip_reach : float
+        Largest change of a force by slip over its load [-].
+
+    Returns
+    -------
+    bool
+    """
     return not (
         _reaches(sheet.inner, at.inner_load, at.inner_speed, slips[0], slip_reach)
         and _reaches(sheet.outer, at.outer_load, at.outer_speed, slips[1], slip_reach)
@@ -223,11 +351,33 @@ def is_out_of_reach(sheet, at, slips, slip_reach):
 
 @jit_inline
 def raceway_powers(sheet, ratio, spin, pull, shear, load, speed, slip):
-    """Powers [W] of a raceway contact with the forces of a stage [N] at its load [N], ring speed and slip [m/s].
+    """Frictional powers of a raceway contact by cause, extrapolated between evaluations.
 
-    Returned are friction by what makes surfaces slide (slip of the middle, curvature, contact angle), rolling resistance, and
-    the part of friction by asperities; that and the skew moment's part follow the load. `ratio` is r~ over the raceway's
-    radius.
+    Parameters
+    ----------
+    sheet : record of `SHEET`
+        Tractions at the last evaluation.
+    ratio : float
+        Pitch radius r~ over the raceway's radius [-].
+    spin, pull, shear : float
+        S, P and rolling resistance of the stage [N].
+    load : float
+        Normal load Q [N]; all powers of a contact without load are zero.
+    speed, slip : float
+        Ring speed u2 and Δu [m/s].
+
+    Returns
+    -------
+    slip_power : float
+        Friction by the slip of the middle [W].
+    lag_power : float
+        Friction by the curvature of the contact [W].
+    skew_power : float
+        Friction by the contact angle, which follows the load [W].
+    rolling_power : float
+        Rolling resistance [W].
+    asperity_power : float
+        The part of friction by asperities, which follows the load [W].
     """
     if load <= 0.0 or sheet.load <= 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -244,10 +394,33 @@ def raceway_powers(sheet, ratio, spin, pull, shear, load, speed, slip):
 
 @jit_inline
 def cage_from(body, tables, sheet, push, sliding, part):
-    """Friction of the cage F_c [N], its slope by slip [N s/m] and its slope by the push N [-].
+    """Friction of the cage on a roller, extrapolated linearly between evaluations.
 
-    Re-evaluated when load or slip have changed by more than `part` of them, between from the slopes. The contact is the
-    same in both rows. A pocket full of oil brakes its roller without load too.
+    The contact is the same in both rows. A pocket full of oil brakes its roller without load too.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    sheet : record of `CAGE_SHEET`
+        The last evaluation, replaced by one at the present state where load or slip is out of
+        reach.
+    push : float
+        N of the pocket on the roller, positive along the orbit [N].
+    sliding : float
+        Slip against the cage [m/s].
+    part : float
+        Relative change of load or slip beyond which the contact is evaluated again [-].
+
+    Returns
+    -------
+    force : float
+        F_c [N].
+    by_sliding : float
+        Its slope by the slip [N s/m].
+    by_push : float
+        Its slope by N [-].
     """
     load = abs(push)
     if not body.oily and load <= tuning.LIGHT:
