@@ -39,8 +39,8 @@ AT_END = 0.02
 
 #: Part of the cage's load that tractions may make up for steps of a held roller to cross samples,
 #: at which they jump with the shaft's acceleration. Judgement: a roller with weight is below it.
-#: With 0.1, steps of rollers whose cage holds them against drag alone crossed jumps of power of 7
-#: %, and peaks were off by 3 %.
+#: With 0.1, steps of rollers whose cage holds them against drag alone crossed jumps of power of
+#: 7 %, and peaks were off by 3 %.
 INERTIA_PART = 0.02
 #: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a
 #: coast and adds up; errors of energy are of either sign and their estimate is of low order, hence

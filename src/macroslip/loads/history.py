@@ -226,6 +226,10 @@ class HubLoads(History):
         duration, step : float [s]
             Time that they last, in equal steps of at most `step`.
 
+        Returns
+        -------
+        HubLoads
+
         Examples
         --------
         >>> HubLoads.constant([164e3, 0, -263e3], [726e3, 0, 0], 2.14, 600.0).time.size
@@ -266,6 +270,10 @@ class HubLoads(History):
             Distance, 0 to 20 m, of the point that the file's loads are given at behind the hub
             centre, where it is not the hub: a node of HAWC2's shaft, or OpenFAST's strain gauge.
             The moments are moved to the hub; the shaft between has no weight.
+
+        Returns
+        -------
+        HubLoads
 
         Raises
         ------
@@ -371,6 +379,10 @@ class BearingLoads(History):
         duration, step : float [s]
             Time that it lasts, in equal steps of at most `step`.
 
+        Returns
+        -------
+        BearingLoads
+
         Examples
         --------
         >>> BearingLoads.constant([0.0, -343e3, 0.0], 2.14, 10.0).force[-1]
@@ -438,6 +450,11 @@ def cut(
         of the record: 600 s of samples end at 599.95 s.
     source : str
         Where they come from, for errors.
+
+    Returns
+    -------
+    dict
+        The same arrays, cut to the window.
 
     Raises
     ------

@@ -106,6 +106,10 @@ class RollerLoads(History):
         start, end, decimal, thousands : optional
             As in `HubLoads.read`.
 
+        Returns
+        -------
+        RollerLoads
+
         Raises
         ------
         InputError

@@ -101,6 +101,11 @@ def in_si(
     remedy : str
         What to do about another unit.
 
+    Returns
+    -------
+    ndarray, shape (n,)
+        In the SI unit.
+
     Raises
     ------
     InputError
@@ -202,6 +207,16 @@ def announced_binary(
         Words for where the shape is announced.
     again : str
         Advice for a file that does not fit.
+
+    Returns
+    -------
+    ndarray
+        Of the announced shape.
+
+    Raises
+    ------
+    InputError
+        If the file does not hold what the header announces.
     """
     size = path.stat().st_size
     full = math.prod(shape) * np.dtype(number).itemsize
@@ -223,6 +238,15 @@ def announced_text(path: Path, shape: tuple[int, int], header: str, again: str) 
         Numbers of samples and of channels.
     header, again : str
         As in `announced_binary`.
+
+    Returns
+    -------
+    Samples
+
+    Raises
+    ------
+    InputError
+        If the file does not hold what the header announces.
     """
     values, words = numbers(path.read_bytes().decode("ascii", "replace").split())
     if values.size != math.prod(shape):

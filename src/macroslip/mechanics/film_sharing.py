@@ -116,6 +116,10 @@ def film_load_is_negligible(body, tables, load, outward, ring_speed):
         Body force along the contact normal, positive outward [N].
     ring_speed : float
         u2 [m/s].
+
+    Returns
+    -------
+    bool
     """
     log_u = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     log_q = math.log(NEGLIGIBLE * load)
@@ -144,6 +148,11 @@ def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
         u2 [m/s].
     guess : float
         Film load at which the search begins [N], as of `shared_film_load`.
+
+    Returns
+    -------
+    float
+        Load q of the films, ≥ 0 [N].
     """
     if not body.oily or load >= body.faded_load:
         return 0.0
