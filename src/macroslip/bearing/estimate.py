@@ -173,13 +173,33 @@ def estimate_bearing(
 ) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
-    Raises InputError if no bearing within the accepted proportions fits the page. The same page and
-    `seed` of the random numbers give the same bearing.
-
     The samples are independent and uniform within the accepted ranges of this module, rejected
     where the parts do not fit. Length, spacing, sphere and angle of the median bearing agree with
     each other, as in every sample.
 
+    Parameters
+    ----------
+    page : MakersPage
+        Boundary dimensions, ratings and factors of the catalogue.
+    name : str
+        Short name of the bearing.
+    title : str
+        Title of the bearing.
+    seed : int
+        Of the random numbers; the same page and seed give the same bearing.
+
+    Returns
+    -------
+    EstimatedBearing
+        The bearing of the medians, and the samples in SI units.
+
+    Raises
+    ------
+    InputError
+        If no bearing within the accepted proportions fits the page.
+
+    References
+    ----------
     ISO 76:2006; ISO 281:2007; Harris and Kotzalas, Essential Concepts of Bearing Technology (2006),
     for the overrolling frequencies.
 

@@ -239,9 +239,8 @@ class Envelope(NamedTuple):
     #: negative `nearest`.
     nearest: float
     farthest: float
-    inside: (
-        float  #: Distance from the bearing axis, at the end that is farther from the mid-plane [m]
-    )
+    #: Distance from the bearing axis, at the end that is farther from the mid-plane [m]
+    inside: float
 
 
 def envelope(bearing: Bearing) -> Envelope:

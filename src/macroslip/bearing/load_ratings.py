@@ -39,11 +39,32 @@ def static_load_rating(
 ) -> float:
     """Basic static radial load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha).
 
-    C0 in N, lengths in mm.
+    The formula holds for C0 in N and lengths in mm. At C0 the most loaded contact of a bearing
+    loaded over half its circumference has a pressure of 4000 MPa by the standard's line contact.
 
-    At C0 the most loaded contact of a bearing loaded over half its circumference has a pressure of
-    4000 MPa by the standard's line contact. ISO 76:2006, Rolling bearings - Static load ratings,
-    equation (15).
+    Parameters
+    ----------
+    rows : int
+        Number of rows i.
+    rollers_per_row : int
+        Number of rollers in a row Z.
+    roller_diameter : float
+        Dw [m], of a barrel roller at its middle.
+    roller_length : float
+        Effective length L of a roller [m].
+    contact_angle : float
+        alpha [rad].
+    pitch : float
+        Pitch diameter of the roller centres Dpw [m], above Dw cos(alpha).
+
+    Returns
+    -------
+    float
+        C0 [N].
+
+    References
+    ----------
+    ISO 76:2006, Rolling bearings - Static load ratings, equation (15).
 
     Examples
     --------
@@ -87,14 +108,39 @@ def dynamic_load_rating(
 ) -> float:
     """Basic dynamic radial load rating, C = b_m f_c (i L cos(alpha))^(7/9) Z^(3/4) Dw^(29/27).
 
-    C in N, lengths in mm.
+    The formula holds for C in N and lengths in mm. Makers' catalogues have other values: for
+    spherical roller bearings of one size they differ by up to 37 % among each other.
 
-    Makers' catalogues have other values than this formula: for spherical roller bearings of one
-    size they differ by up to 37 % among each other.
+    Parameters
+    ----------
+    rows : int
+        Number of rows i.
+    rollers_per_row : int
+        Number of rollers in a row Z.
+    roller_diameter : float
+        Dw [m], of a barrel roller at its middle.
+    roller_length : float
+        Effective length L of a roller [m].
+    contact_angle : float
+        alpha [rad].
+    pitch : float
+        Pitch diameter of the roller centres Dpw [m], above Dw cos(alpha).
+    kind : {"spherical", "cylindrical"}
+        Kind of the roller bearing, with b_m = 1.15 and 1.1.
 
-    b_m = 1.15 for spherical and 1.1 for cylindrical roller bearings, by `kind`. Raises InputError
-    if Dw cos(alpha)/Dpw lies outside 0.01 to 0.30. ISO 281:2007, Rolling bearings - Dynamic load
-    ratings and rating life, section 7.1.
+    Returns
+    -------
+    float
+        C [N].
+
+    Raises
+    ------
+    InputError
+        If Dw cos(alpha)/Dpw lies outside 0.01 to 0.30.
+
+    References
+    ----------
+    ISO 281:2007, Rolling bearings - Dynamic load ratings and rating life, section 7.1.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """Asperities: their share of a contact's load, and their boundary friction.
 
-A share is a function of an interface, of load Q [N], entrainment speed u_e [m/s] and film thickness h [m] with all corrections,
-arrays above zero, and lies between 0 and 1.
+A share is a function of an interface, of load Q [N], entrainment speed u_e [m/s] and film thickness
+h [m] with all corrections, arrays above zero, and lies between 0 and 1.
 """
 
 from __future__ import annotations
@@ -19,18 +19,20 @@ REFERENCES = {
     "masjedi-khonsari": "Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514",
     "none": "",
 }
-#: Slip [m/s] from which on asperities slide fully; below it their friction is proportional to slip, as they first yield
-#: elastically during their passage. Junctions of about a micrometre that cross a contact 1 mm wide at 0.4 m/s are there at
-#: some 0.1 mm/s; an engineering estimate.
+#: Slip [m/s] from which on asperities slide fully; below it their friction is proportional to slip,
+#: as they first yield elastically during their passage. Junctions of about a micrometre that cross
+#: a contact 1 mm wide at 0.4 m/s are there at some 0.1 mm/s; an engineering estimate.
 FULL_SLIP = 1e-4
 #: Laws with a range of the load group W, outside of which the share by Λ bounds theirs.
 BOUNDED = ("masjedi-khonsari",)
-#: Factors of W inside the lower and the upper end of its range from which on the load ratio alone counts, since tables
-#: cannot hold a step. Rollers pass the lower end in an instant; near the upper one they wear, so there it is narrow.
+#: Factors of W inside the lower and the upper end of its range from which on the load ratio alone
+#: counts, since tables cannot hold a step. Rollers pass the lower end in an instant; near the upper
+#: one they wear, so there it is narrow.
 _WITHIN_LEAST = 2.0
 _WITHIN_MOST = 1.1
 
-# Gauss-Legendre with four points, exact for the polynomials of degree 7 that occur between two corners.
+# Gauss-Legendre with four points, exact for the polynomials of degree 7 that occur between two
+# corners.
 _FAR = math.sqrt(3.0 / 7.0 + 2.0 / 7.0 * math.sqrt(6.0 / 5.0))
 _NEAR = math.sqrt(3.0 / 7.0 - 2.0 / 7.0 * math.sqrt(6.0 / 5.0))
 _FAR_WEIGHT = (18.0 - math.sqrt(30.0)) / 36.0
@@ -41,13 +43,35 @@ _LEAST = 1e-300
 
 
 def load_ratio(load, speed, material, roughness, hardness):
-    """Share of the load that asperities carry in a rough line contact, by Masjedi and Khonsari, not clamped.
+    """Share of the load that asperities carry in a rough line contact, not clamped.
 
-    L_a = 0.005 W^−0.408 U^−0.088 G^0.103 ln(1 + 4470 σ^6.015 V^1.168 W^0.485 U^−3.741 G^−2.898) per cent
+    100 L_a = 0.005 W^−0.408 U^−0.088 G^0.103 ln(1 + 4470 σ^6.015 V^1.168 W^0.485 U^−3.741 G^−2.898)
 
-    The share [-] may exceed 1 far below the range of U, and is 0 where the surfaces are smooth. W, U, G, σ and V are
-    those of `macroslip.contact.film.masjedi_khonsari_thickness`, with the same ranges, all > 0, but σ ≥ 0.
+    Parameters
+    ----------
+    load : array_like
+        W = w/(E'R) with w the load per length [-], > 0.
+    speed : array_like
+        U = η0 u_e/(E'R) [-], > 0.
+    material : array_like
+        G = α_p E' [-], > 0.
+    roughness : array_like
+        σ = σ_rms/R [-], ≥ 0.
+    hardness : array_like
+        V = v/E' [-], > 0.
 
+    Returns
+    -------
+    ndarray
+        Share of the load [-]. It may exceed 1 far below the range of U, and is 0 where the surfaces
+        are smooth.
+
+    Notes
+    -----
+    The ranges of the fit are those of `macroslip.contact.film.masjedi_khonsari_thickness`.
+
+    References
+    ----------
     Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514.
 
     Examples
@@ -66,10 +90,10 @@ def load_ratio(load, speed, material, roughness, hardness):
 
 
 def film_ratio_share(film_ratio):
-    """Share of the load that asperities carry by the ratio of film thickness to roughness, exp(−2.32 Λ^0.97).
+    """Share of the load that asperities carry by the film ratio, exp(−2.32 Λ^0.97).
 
-    It is 1 at Λ = 0, 10 % at Λ = 0.99, 1 % at 2.03, 0.1 % at 3.08 [-]. Λ = h/σ_rms is ≥ 0, with σ_rms the composite RMS
-    roughness.
+    It is 1 at Λ = 0, 10 % at Λ = 0.99, 1 % at 2.03, 0.1 % at 3.08 [-]. Λ = h/σ_rms is ≥ 0, with
+    σ_rms the composite RMS roughness.
 
     A fit to measured surfaces of rolling bearings (tag V).
 
@@ -98,14 +122,14 @@ def load_group(interface: Interface, load):
 
 
 def load_is_in_range(interface: Interface, load):
-    """True where W lies in the range to which Masjedi and Khonsari fitted their load ratio, 2e-5 to 5e-4."""
+    """True where W lies in the range of Masjedi and Khonsari's load ratio, 2e-5 to 5e-4."""
     group = load_group(interface, load)
     least, most = RANGES["load"]
     return (least <= group) & (group <= most)
 
 
 def _load_ratio_weight(group):
-    """Weight of the load ratio at W [-]: 0 outside the range, 1 from a little inside its ends, smooth between."""
+    """Weight of the load ratio at W [-]: 0 outside its range, 1 well inside, smooth between."""
     least, most = np.log(RANGES["load"])
     above = (np.log(group) - least) / math.log(_WITHIN_LEAST)
     below = (most - np.log(group)) / math.log(_WITHIN_MOST)
@@ -132,15 +156,17 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
     Returns
     -------
     ndarray
-        `film-ratio`: exp(−2.32 Λ^0.97), Λ = h/σ_rms. `masjedi-khonsari`: their load ratio where W lies in its range, 2e-5
-        to 5e-4. Outside of it no more than `film-ratio` gives: light contacts are far below the range, where the load
-        ratio hardly knows the film. From W = 2e-5 to 4e-5, and from 4.5e-4 to 5e-4, one passes over into the other.
+        `film-ratio`: exp(−2.32 Λ^0.97), Λ = h/σ_rms.
+        `masjedi-khonsari`: their load ratio where W lies in its range, 2e-5 to 5e-4. Outside of it
+        no more than `film-ratio` gives: light contacts are far below the range, where the load
+        ratio hardly knows the film. From W = 2e-5 to 4e-5, and from 4.5e-4 to 5e-4, one passes over
+        into the other.
 
     Notes
     -----
-    The load ratio is used outside its range of U: it is small where the film is thick, and clamped to 1 where it exceeds
-    that, at 20 kN on the base bearing's raceways below a third of the lowest U of its range. A cage's contact is below
-    the range of W, and has none.
+    The load ratio is used outside its range of U: it is small where the film is thick, and clamped
+    to 1 where it exceeds that, at 20 kN on the base bearing's raceways below a third of the lowest
+    U of its range. A cage's contact is below the range of W, and has none.
 
     References
     ----------
@@ -173,15 +199,16 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
 
 
 def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
-    """Friction of asperities over a contact whose slip varies as v(ζ) = sliding + bend ζ² − spin ζ, exactly.
+    """Exact friction of asperities over a contact with the slip v(ζ) = sliding + bend ζ² − spin ζ.
 
-    Written so that it takes arrays with NumPy, and numbers where numba compiles it. Gives ∫τ dA [N], ∫τ ζ² dA [N m²],
-    ∫τ ζ dA [N m] and ∫τ v dA [W], never negative.
+    Written so that it takes arrays with NumPy, and numbers where numba compiles it. Gives ∫τ dA
+    [N], ∫τ ζ² dA [N m²], ∫τ ζ dA [N m] and ∫τ v dA [W], never negative.
 
     Parameters
     ----------
     scale : float or ndarray
-        ¾ µ_b share Q/a, friction per length where asperities slide in the middle of the contact [N/m].
+        ¾ µ_b share Q/a, friction per length where asperities slide in the middle of the contact
+        [N/m].
     full_slip : float
         Slip from which on asperities slide [m/s].
     across : float or ndarray
@@ -193,8 +220,9 @@ def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
 
     Notes
     -----
-    Stress is µ_b share p min(|v|/v_b, 1) sign(v). With Hertz pressure each chord carries 3Q/(4a) (1 − ζ²/a²) per length, so
-    between the stations at which v passes −v_b and +v_b every integrand is a polynomial and the result exact.
+    Stress is µ_b share p min(|v|/v_b, 1) sign(v). With Hertz pressure each chord carries 3Q/(4a) (1
+    − ζ²/a²) per length, so between the stations at which v passes −v_b and +v_b every integrand is
+    a polynomial and the result exact.
 
     Examples
     --------
@@ -202,7 +230,8 @@ def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
     >>> round(float(force), 9), round(float(power), 9)
     (20.0, 0.2)
     """
-    # Stations at which v passes each level, or its extremum where it does not reach it; a corner too many does no harm.
+    # Stations at which v passes each level, or its extremum where it does not reach it; a corner
+    # too many does no harm.
     bend = bend + _LEAST * (bend == 0.0)
     above = 0.5 * (
         spin

@@ -1,17 +1,22 @@
-"""The paper's traction in closed form: a Newtonian Barus film, with Crook's shear heating or without, over the Hertz ellipse.
+"""The paper's traction in closed form: a Newtonian Barus film over the Hertz ellipse.
+
+Crook's shear heating may be left out.
 
 With p = p0 √(1 − ρ²) the integral over the ellipse is one-dimensional: F = 2π a b (η0 Δu/h) Φ, with
 
-    Φ(P, B0) = ∫₀¹ s e^{Ps} g(B0 e^{Ps}) ds,   g(B) = asinh √B/√(B(1 + B)),   P = α_p p0,   B0 = β η0 Δu²/(8k).
+    Φ(P, B0) = ∫₀¹ s e^{Ps} g(B0 e^{Ps}) ds,   g(B) = asinh √B/√(B(1 + B)),
+    P = α_p p0,   B0 = β η0 Δu²/(8k).
 
 Put q = √B0 e^{Ps/2} and u = asinh q. Then Φ = I/(h² q0²) with h = P/2, q0 = √B0 and
 
-    I = ∫₀^h y w(x0 + y) dy = h u1²/2 − [M(u1) − M(u0)]/2,   w = u tanh u,   M(u) = ∫₀^u t² coth t dt,
+    I = ∫₀^h y w(x0 + y) dy = h u1²/2 − [M(u1) − M(u0)]/2,
+    w = u tanh u,   M(u) = ∫₀^u t² coth t dt,
 
-in which x = ln q, and u0, u1 belong to s = 0 and s = 1. M has a power series for small u and a polylogarithm form for
-large u. For small P the bracket cancels, and Φ is taken by a Gauss rule with the weight s: the integrand's singularities,
-B = −1, lie π/P or more from the interval, so that the error of n nodes is of order (4π/P)^(−2n), below round-off. For small
-B0 e^P the power series of g is integrated term by term. The same I gives the derivatives: dI/dx0 = h w1 − (u1² − u0²)/2 and
+in which x = ln q, and u0, u1 belong to s = 0 and s = 1. M has a power series for small u and a
+polylogarithm form for large u. For small P the bracket cancels, and Φ is taken by a Gauss rule with
+the weight s: the integrand's singularities, B = −1, lie π/P or more from the interval, so that the
+error of n nodes is of order (4π/P)^(−2n), below round-off. For small B0 e^P the power series of g
+is integrated term by term. The same I gives the derivatives: dI/dx0 = h w1 − (u1² − u0²)/2 and
 dI/dh = h w1.
 """
 
@@ -26,15 +31,17 @@ from scipy.special import roots_jacobi, zeta
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 
-#: Power series of g, (−4)^n (n!)²/(2n + 1)!, and B up to which it is used; what its last term leaves out is below 1e-16.
+#: Power series of g, (−4)^n (n!)²/(2n + 1)!, and B up to which it is used; what its last term
+#: leaves out is below 1e-16.
 _G_SERIES = np.array(
     [(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)]
 )
 _COOL = 0.02
 #: 1/(n + 1) of its terms.
 _RECIPROCALS = 1.0 / np.arange(1, _G_SERIES.size + 1)
-#: Coefficients of M(u)/u² in powers of u²: B_2n 2^2n/((2n)! (2n + 2)) = −(−1)^n 2 ζ(2n)/(π^2n (2n + 2)), and u up to which
-#: they are used. By Riemann's zeta: SciPy's own Bernoulli numbers are good to 12 digits only.
+#: Coefficients of M(u)/u² in powers of u²: B_2n 2^2n/((2n)! (2n + 2)) = −(−1)^n 2 ζ(2n)/(π^2n (2n +
+#: 2)), and u up to which they are used. By Riemann's zeta: SciPy's own Bernoulli numbers are good
+#: to 12 digits only.
 _TERMS = np.arange(1, 18)
 _M_SERIES = np.concatenate(
     [[0.5], -((-1.0) ** _TERMS) * zeta(2.0 * _TERMS) / (math.pi ** (2.0 * _TERMS) * (_TERMS + 1.0))]
@@ -129,7 +136,7 @@ def _patch_by_series(p, heating, exp_p):
 
 @jit
 def patch_integral(pressure_exponent, root_heating):
-    """Patch integral Φ of Crook's traction over the Hertz ellipse and its derivatives [-], of numbers.
+    """Patch integral Φ of Crook's traction over the Hertz ellipse, and its derivatives [-].
 
     Parameters
     ----------
@@ -153,7 +160,8 @@ def patch_integral(pressure_exponent, root_heating):
 
     References
     ----------
-    Derivation in the module's docstring; Crook (1961), doi:10.1098/rsta.1961.0014, for the local law.
+    Derivation in the module's docstring; Crook (1961), doi:10.1098/rsta.1961.0014, for the local
+    law.
 
     Examples
     --------
@@ -188,7 +196,8 @@ _patch = np.vectorize(
 class BarusCrook(NamedTuple):
     """The law for one interface."""
 
-    conductance: float  #: 2π a b η0 per Q^(2/3) [N^(1/3) s]: force per slip at unit film, without the patch integral
+    #: 2π a b η0 per Q^(2/3) [N^(1/3) s]: force per slip at unit film, without the patch integral
+    conductance: float
     pressure_exponent: float  #: P = α_p p0 per Q^(1/3) [N^(-1/3)]
     heating: float  #: √(β η0/(8k)) [s/m], so that q0 = heating·|Δu|; zero without heating
 
@@ -208,7 +217,24 @@ def prepare_barus_crook(interface: Interface, *, heated: bool) -> BarusCrook:
 
 
 def barus_crook_traction(law: BarusCrook, load, film_thickness, slip):
-    """Force [N] with the sign of the slip, at loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]."""
+    """Traction of the paper's film over the Hertz ellipse.
+
+    Parameters
+    ----------
+    law : BarusCrook
+        Constants of the interface.
+    load : array_like
+        Q [N], > 0.
+    film_thickness : array_like
+        h [m], > 0.
+    slip : array_like
+        Δu [m/s], of either sign.
+
+    Returns
+    -------
+    ndarray
+        Force [N] with the sign of the slip.
+    """
     root = np.cbrt(load)
     patch = _patch(law.pressure_exponent * root, law.heating * np.abs(slip))
     return law.conductance * root * root / film_thickness * patch * slip

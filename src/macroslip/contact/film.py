@@ -1,10 +1,11 @@
-"""Film thickness: Masjedi and Khonsari's correlation, Moes', a film for every load made of both, and two corrections.
+"""Film thickness by Masjedi and Khonsari, by Moes, and by both for every load, with corrections.
 
-A law is a function of an interface, of load Q [N] and of entrainment speed u_e [m/s], both arrays above zero, and gives the
-film thickness h [m]. All take the elliptical contact as a line with w = 3Q/(4a): of all equivalent lengths only this keeps
-both the maximum pressure and the width along rolling. That is right where the contact is elastic. In a rigid contact pressure
-spreads beyond the Hertz ellipse, at most to the roller's length, and the film is thicker; for cage contacts and unloaded
-rollers it is therefore an estimate from below.
+A law is a function of an interface, of load Q [N] and of entrainment speed u_e [m/s], both arrays
+above zero, and gives the film thickness h [m]. All take the elliptical contact as a line with w =
+3Q/(4a): of all equivalent lengths only this keeps both the maximum pressure and the width along
+rolling. That is right where the contact is elastic. In a rigid contact pressure spreads beyond the
+Hertz ellipse, at most to the roller's length, and the film is thicker; for cage contacts and
+unloaded rollers it is therefore an estimate from below.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ RANGES = {
     "roughness": (0.0, 5e-5),
     "hardness": (0.005, 0.03),
 }
-#: Loads M and lubricant parameters L up to which Moes' formula was compared with full numerical solutions.
+#: Loads M and lubricant parameters L up to which Moes' formula was compared with full numerical
+#: solutions.
 HIGHEST_COMPARED_LOAD = 20.0
 HIGHEST_COMPARED_MATERIAL = 15.0
 
@@ -47,13 +49,16 @@ _DECADE = math.log(10.0)
 
 
 class LineGroups(NamedTuple):
-    """Dimensionless groups of an equivalent line contact; load is W per Q^(2/3), speed is U per u_e."""
+    """Dimensionless groups of an equivalent line contact.
 
-    load: float
-    speed: float
-    material: float
-    roughness: float
-    hardness: float
+    The load is W per Q^(2/3), the speed U per u_e.
+    """
+
+    load: float  #: W/Q^(2/3) [N^(−2/3)]
+    speed: float  #: U/u_e [s/m]
+    material: float  #: G [-]
+    roughness: float  #: σ [-]
+    hardness: float  #: V [-]
 
 
 def line_groups(interface: Interface) -> LineGroups:
@@ -113,7 +118,10 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
 
 
 def masjedi_khonsari(interface: Interface, load, entrainment_speed):
-    """Film thickness h [m] by `masjedi_khonsari_thickness` at loads [N] and speeds [m/s], in range or not."""
+    """Film thickness h [m] by `masjedi_khonsari_thickness` at loads [N] and speeds [m/s].
+
+    It is given outside the range of the fit too.
+    """
     groups = line_groups(interface)
     load_group = groups.load * np.cbrt(load) ** 2
     speed_group = groups.speed * np.asarray(entrainment_speed)
@@ -123,7 +131,10 @@ def masjedi_khonsari(interface: Interface, load, entrainment_speed):
 
 
 def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
-    """Whether W and U are in `RANGES`; `masjedi_khonsari_notes` judges the groups that load and speed do not change."""
+    """True where W and U are in `RANGES`.
+
+    `masjedi_khonsari_notes` judges the groups that load and speed do not change.
+    """
     groups = line_groups(interface)
     w = groups.load * np.cbrt(load) ** 2
     u = groups.speed * np.asarray(entrainment_speed)
@@ -143,22 +154,28 @@ def masjedi_khonsari_notes(interface: Interface) -> list[str]:
 
 
 def log_moes(log_rigid, log_load, log_material):
-    """Ln of the dimensionless film N = (h/R) (2U)^−½ of a smooth line contact, from ln H_RI, ln M and ln L.
+    """Ln of the dimensionless film N = (h/R) (2U)^−½ of a smooth line contact.
 
-    N = {(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(−7/2) + H_EP^(−7/2))^(−2s/7)}^(1/s), s = (7 + 8 exp(−2 H_EI/H_RI))/5,
+    It follows from ln H_RI, ln M and ln L.
+
+    N = {(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(−7/2) + H_EP^(−7/2))^(−2s/7)}^(1/s),
+    s = (7 + 8 exp(−2 H_EI/H_RI))/5,
     H_RI = 3/M, H_EI = 2.621 M^(−1/5), H_RP = 1.287 L^(2/3), H_EP = 1.311 M^(−1/8) L^(3/4)
 
-    N [-] is the film where the pressure is highest, which is the film that the volume flow fills. In a rigid contact it
-    is 1.226 times the smallest film, in an elastic one the film of the flat middle. In these terms 3/M and 1.287
-    L^(2/3) are exact limits of Reynolds' equation, to the digits given. M = W (2U)^(−½) > 0 and L = G (2U)^¼ ≥ 0, with
-    W = w/(E'R), U = η0 u_e/(E'R) and G = α_p E'. The rigid, isoviscous limit H_RI may be that of another gap than a line
-    contact's; logarithms may be of numbers beyond all that are stored.
+    N [-] is the film where the pressure is highest, which is the film that the volume flow fills.
+    In a rigid contact it is 1.226 times the smallest film, in an elastic one the film of the flat
+    middle. In these terms 3/M and 1.287 L^(2/3) are exact limits of Reynolds' equation, to the
+    digits given. M = W (2U)^(−½) > 0 and L = G (2U)^¼ ≥ 0, with W = w/(E'R), U = η0 u_e/(E'R) and G
+    = α_p E'. The rigid, isoviscous limit H_RI may be that of another gap than a line contact's;
+    logarithms may be of numbers beyond all that are stored.
 
-    Smooth surfaces, flooded inlet, isothermal, Barus' law, incompressible. Within 5 % of full numerical solutions of
-    that problem for M = 0.05 to 20 at L = 0 and 4, M = 0.05 to 2 at L = 8, and M = 0.05 to 1 at L = 15.
+    Smooth surfaces, flooded inlet, isothermal, Barus' law, incompressible. Within 5 % of full
+    numerical solutions of that problem for M = 0.05 to 20 at L = 0 and 4, M = 0.05 to 2 at L = 8,
+    and M = 0.05 to 1 at L = 15.
 
-    Moes, Lubrication and Beyond, lecture notes, University of Twente (2000). The coefficients are those also given by
-    Gelinck and Schipper, Tribol. Int. 33 (2000) 175, doi:10.1016/S0301-679X(00)00024-4.
+    Moes, Lubrication and Beyond, lecture notes, University of Twente (2000). The coefficients are
+    those also given by Gelinck and Schipper, Tribol. Int. 33 (2000) 175,
+    doi:10.1016/S0301-679X(00)00024-4.
 
     Examples
     --------
@@ -203,7 +220,10 @@ def _log_moes_film(groups: LineGroups, radius: float, log_load, log_speed):
 
 
 def moes_in_range(interface: Interface, load, entrainment_speed):
-    """Whether M and L are at most those at which the formula was compared; lighter loads approach its exact limit."""
+    """True where M and L are at most those at which the formula was compared.
+
+    Lighter loads approach its exact limit.
+    """
     groups = line_groups(interface)
     doubled = 2.0 * groups.speed * np.asarray(entrainment_speed)
     m = groups.load * np.cbrt(load) ** 2 / np.sqrt(doubled)
@@ -214,18 +234,21 @@ def moes_in_range(interface: Interface, load, entrainment_speed):
 def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
     """Film thickness h [m] for every load [N] and speed [m/s].
 
-    Masjedi and Khonsari's film where it was fitted, and Moes' where the contact is lightly loaded. Both describe the same
-    film. Where the first holds, Moes' film is thicker by 8 to 32 % (raceways of the base bearing, 0.1 to 1.3 m/s), because it
-    leaves compressibility out; divided by the density ratio at the highest pressure it agrees within 4 %. So the film
-    without roughness is, with S Masjedi and Khonsari's smooth film and N Moes' film over the density ratio,
+    Masjedi and Khonsari's film where it was fitted, and Moes' where the contact is lightly loaded.
+    Both describe the same film. Where the first holds, Moes' film is thicker by 8 to 32 % (raceways
+    of the base bearing, 0.1 to 1.3 m/s), because it leaves compressibility out; divided by the
+    density ratio at the highest pressure it agrees within 4 %. So the film without roughness is,
+    with S Masjedi and Khonsari's smooth film and N Moes' film over the density ratio,
 
         ln h_s = w ln S + (1 − w) ln N,
 
-    where w rises from 0 to 1 over the decade of W below the lower end of the first one's range. Inside it w is 1.
+    where w rises from 0 to 1 over the decade of W below the lower end of the first one's range.
+    Inside it w is 1.
 
-    Roughness adds to the gap by Masjedi and Khonsari's formula, S times its roughness term, which goes with
-    W^−0.364 U^−0.043. One decade below their ranges of W and U it is taken as constant: extrapolated, it would let the
-    film of a stopping roller grow without bound. h is twice continuously differentiable and rises with speed.
+    Roughness adds to the gap by Masjedi and Khonsari's formula, S times its roughness term, which
+    goes with W^−0.364 U^−0.043. One decade below their ranges of W and U it is taken as constant:
+    extrapolated, it would let the film of a stopping roller grow without bound. h is twice
+    continuously differentiable and rises with speed.
 
     Examples
     --------
@@ -260,7 +283,10 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
 
 
 def masjedi_khonsari_moes_in_range(interface: Interface, load, entrainment_speed):
-    """Whether the formula that counts there is in its range: Masjedi and Khonsari's W and U, or Moes' M and L below."""
+    """True where the formula that counts is in its range.
+
+    That is the range of Masjedi and Khonsari's W and U, and below it that of Moes' M and L.
+    """
     return np.where(
         line_groups(interface).load * np.cbrt(load) ** 2 >= RANGES["load"][0],
         masjedi_khonsari_in_range(interface, load, entrainment_speed),
@@ -269,13 +295,17 @@ def masjedi_khonsari_moes_in_range(interface: Interface, load, entrainment_speed
 
 
 def inlet_heating_factor(loading):
-    """Film thickness over isothermal film thickness in pure rolling, φ_T = 1/(1 + 0.1 L^0.64) [-], above 0 and at most 1.
+    """Film thickness over isothermal film thickness in pure rolling, φ_T = 1/(1 + 0.1 L^0.64) [-].
 
-    Oil that the narrowing inlet turns back is sheared, warms up and thins. The thermal loading parameter is L = η0 β
-    u_e²/k ≥ 0, with β the temperature coefficient of viscosity and k the conductivity of the oil.
+    It is above 0 and at most 1.
 
-    A fit for line contacts of oils, quoted from the literature from memory (tag R); slip, which heats the inlet more,
-    is left out, as is the small effect of load. Flooded inlet: in a starved one less oil turns back.
+    Oil that the narrowing inlet turns back is sheared, warms up and thins. The thermal loading
+    parameter is L = η0 β u_e²/k ≥ 0, with β the temperature coefficient of viscosity and k the
+    conductivity of the oil.
+
+    A fit for line contacts of oils, quoted from the literature from memory (tag R); slip, which
+    heats the inlet more, is left out, as is the small effect of load. Flooded inlet: in a starved
+    one less oil turns back.
 
     The effect: Greenwood and Kauzlarich, J. Lubr. Technol. 95 (1973) 417, doi:10.1115/1.3451844.
 
@@ -288,6 +318,9 @@ def inlet_heating_factor(loading):
 
 
 def thermal_loading(interface: Interface) -> float:
-    """Thermal loading parameter η0 β/k of an interface's oil at 1 m/s [s²/m²]; it goes with the square of speed."""
+    """Thermal loading parameter η0 β/k of an interface's oil at 1 m/s [s²/m²].
+
+    It goes with the square of speed.
+    """
     oil = interface.lubricant
     return oil.viscosity * oil.temperature_viscosity / oil.thermal_conductivity

@@ -1,22 +1,25 @@
-"""Flash temperature: how much hotter two surfaces become while they pass through the contact that heats them.
+"""Flash temperature: rise of surface temperature in a contact that heats the surfaces by friction.
 
-One station of a contact is taken as a band, infinitely long across rolling and 2b wide along it, on which heat is
-released with the distribution q(x) ∝ √(1 − x²/b²): friction stress in proportion to a Hertz pressure, at a slip that
-does not vary along rolling. Either surface is a half-space that moves through the band with its own speed.
+One station of a contact is taken as a band, infinitely long across rolling and 2b wide along it, on
+which heat is released with the distribution q(x) ∝ √(1 − x²/b²): friction stress in proportion to a
+Hertz pressure, at a slip that does not vary along rolling. Either surface is a half-space that
+moves through the band with its own speed.
 
 For one surface with speed u, Jaeger's integral of moving line sources is
 
     ΔT(x) = 1/(π k) ∫ q(s) exp[u(x − s)/(2κ)] K0[u|x − s|/(2κ)] ds        over −b < s < b.
 
-Where the Péclet number L = u b/(2κ) is large, heat goes into the depth only, and the integral becomes
+Where the Péclet number L = u b/(2κ) is large, heat goes into the depth only, and the integral
+becomes
 
     ΔT(x) = 1/(√π ε √u) ∫ q(s)/√(x − s) ds        over −b < s < x,        ε = √(k ρ c).
 
-With P' = ∫ q ds and x = ξ b this is P'/(ε √u √(2b)) times (2/π)^1.5 ∫ √(1 − σ²)/√(ξ − σ) dσ, which is largest at
-ξ = 0.652, towards the outlet, and is there C = 1.11155.
+With P' = ∫ q ds and x = ξ b this is P'/(ε √u √(2b)) times (2/π)^1.5 ∫ √(1 − σ²)/√(ξ − σ) dσ, which
+is largest at ξ = 0.652, towards the outlet, and is there C = 1.11155.
 
-Both surfaces have the same temperature at every point of the contact. As they move the same way, both have a rise of
-this one form, so a constant share of the heat, in proportion to ε√u, makes them equal everywhere, not only at the peak.
+Both surfaces have the same temperature at every point of the contact. As they move the same way,
+both have a rise of this one form, so a constant share of the heat, in proportion to ε√u, makes them
+equal everywhere, not only at the peak.
 """
 
 from __future__ import annotations
@@ -36,7 +39,8 @@ def effusivity(thermal_conductivity, density, specific_heat):
 
     From k [W/(m K)], ρ [kg/m³] and c [J/(kg K)], all positive.
 
-    Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.9, where k ρ c appears under the root.
+    Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.9, where k ρ c appears under
+    the root.
 
     Examples
     --------
@@ -49,18 +53,22 @@ def effusivity(thermal_conductivity, density, specific_heat):
 
 
 def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2):
-    """Largest rise of surface temperature in a band of friction, C P'/[(ε1 √|u1| + ε2 √|u2|) √(2b)] [K].
+    """Largest rise of surface temperature in a band of friction [K].
 
-    The rise is above the temperature with which the surfaces enter the contact, at 0.652 b behind its middle. It is
-    zero without power, and infinite if both surfaces are at rest: an endless band on a half-space then never becomes
-    steady.
+    It is C P'/[(ε1 √|u1| + ε2 √|u2|) √(2b)].
+
+    The rise is above the temperature with which the surfaces enter the contact, at 0.652 b behind
+    its middle. It is zero without power, and infinite if both surfaces are at rest: an endless band
+    on a half-space then never becomes steady.
 
     Parameters
     ----------
     power_per_length : array_like
-        Friction power P' released per length across rolling at this station [W/m], ≥ 0: ∫ τ |Δu| dx along rolling.
+        Friction power P' released per length across rolling at this station [W/m], ≥ 0: ∫ τ |Δu| dx
+        along rolling.
     half_width : array_like
-        Half-width b of the contact along rolling at this station [m], > 0: the width of an ellipse shrinks to its ends.
+        Half-width b of the contact along rolling at this station [m], > 0: the width of an ellipse
+        shrinks to its ends.
     speed_1, speed_2 : array_like
         Speeds of the surfaces relative to the contact [m/s], any sign; not their slip.
     effusivity_1, effusivity_2 : array_like
@@ -68,25 +76,29 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
 
     Notes
     -----
-    The limit of high Péclet number. It errs on the hot side: beside Jaeger's integral the rise is too large by 14 % at
-    L = 0.5, 6.3 % at 1, 2.3 % at 2, 0.4 % at 5 and 0.1 % at 10 (measured in the tests). The middle of
-    the base bearing's raceway contacts has L = 2.5 at 1 kN and 9 at 50 kN, at rated speed. A surface at rest, as the
-    cage's pocket, is taken to accept no heat: all of it goes into the other one, which is the most that one can get.
-    Surfaces that move in opposite directions have their peaks at opposite sides; the formula then equates the peaks,
-    as Blok does, and not the temperatures point by point.
+    The limit of high Péclet number. It errs on the hot side: beside Jaeger's integral the rise is
+    too large by 14 % at L = 0.5, 6.3 % at 1, 2.3 % at 2, 0.4 % at 5 and 0.1 % at 10 (measured in
+    the tests). The middle of the base bearing's raceway contacts has L = 2.5 at 1 kN and 9 at 50
+    kN, at rated speed. A surface at rest, as the cage's pocket, is taken to accept no heat: all of
+    it goes into the other one, which is the most that one can get. Surfaces that move in opposite
+    directions have their peaks at opposite sides; the formula then equates the peaks, as Blok does,
+    and not the temperatures point by point.
 
-    The source is that of friction in proportion to Hertz's pressure; one that is constant over the width gives 1.128
-    instead of C = 1.11155. Heat crosses the film without resistance, so the oil's own rise is not in it. Repeated
-    passes heat the bodies as a whole; that bulk temperature is to be added.
+    The source is that of friction in proportion to Hertz's pressure; one that is constant over the
+    width gives 1.128 instead of C = 1.11155. Heat crosses the film without resistance, so the oil's
+    own rise is not in it. Repeated passes heat the bodies as a whole; that bulk temperature is to
+    be added.
 
     References
     ----------
-    Blok, Proc. General Discussion on Lubrication, Inst. Mech. Engrs. 2 (1937) 222. Jaeger, Proc. R. Soc. New
-    South Wales 76 (1942) 203. Tian and Kennedy, J. Tribol. 116 (1994) 167, doi:10.1115/1.2927035.
+    Blok, Proc. General Discussion on Lubrication, Inst. Mech. Engrs. 2 (1937) 222. Jaeger, Proc. R.
+    Soc. New South Wales 76 (1942) 203. Tian and Kennedy, J. Tribol. 116 (1994) 167,
+    doi:10.1115/1.2927035.
 
     Examples
     --------
-    The middle of a raceway contact of the base bearing at 50 kN and rated speed, with 9 W over 66 mm:
+    The middle of a raceway contact of the base bearing at 50 kN and rated speed, with 9 W over
+    66 mm:
 
     >>> steel = effusivity(46.0, 7850.0, 460.0)
     >>> float(round(flash_temperature(136.0, 0.63e-3, 0.37, 0.37, steel, steel), 4))
@@ -101,8 +113,8 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
     return np.where(power == 0.0, 0.0, rise)[()]
 
 
-#: Places in the contact where a transient rise is found, over b: the steady one is largest at 0.652; and the rule for what
-#: has come in on the way there.
+#: Places in the contact where a transient rise is found, over b: the steady one is largest at
+#: 0.652; and the rule for what has come in on the way there.
 _PLACES = np.array([-0.3, 0.0, 0.3, 0.5, 0.652, 0.8, 0.95])
 _NODES, _WEIGHTS = (
     0.5 * (one + shift)
@@ -114,15 +126,34 @@ _NODES, _WEIGHTS = (
 def transient_flash(
     time, power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2
 ):
-    """Largest rise of surface temperature [K] while a band of friction changes in strength and width, from cold.
+    """Largest rise of surface temperature [K] under a changing band of friction, from cold.
 
-    The n times rise [s]; the band is not there before the first, and the rise after the last is not looked for. The
-    others are those of `flash_temperature`, powers, widths and speeds at these times, linear between them.
+    Heat goes into the depth only, ΔT = 1/(√π ε) ∫ q(s)/√(t − s) ds along the way of a point of
+    surface 2 through the band, with the share of the heat that it would take from a steady one. The
+    rise is below that of the largest power in a steady band, and reaches it where power lasts
+    longer than the passage.
 
-    Heat goes into the depth only, ΔT = 1/(√π ε) ∫ q(s)/√(t − s) ds along the way of a point of surface 2 through the band,
-    with the share of the heat that it would take from a steady one. The rise is below that of the largest power in a
-    steady band, and reaches it where power lasts longer than the passage.
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        Rising times [s]. The band is not there before the first, and the rise after the last is not
+        looked for; all else is linear between them.
+    power_per_length : ndarray, shape (n,)
+        Friction power P' per length across rolling [W/m], ≥ 0.
+    half_width : ndarray, shape (n,)
+        Half-width b of the contact along rolling [m], > 0.
+    speed_1, speed_2 : ndarray, shape (n,)
+        Speeds of the surfaces relative to the contact [m/s], of either sign.
+    effusivity_1, effusivity_2 : float
+        Thermal effusivities of the surfaces [J/(m² K √s)], > 0, see `effusivity`.
 
+    Returns
+    -------
+    float
+        Largest rise of temperature [K], ≥ 0.
+
+    References
+    ----------
     Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.9.
 
     Examples

@@ -1,16 +1,19 @@
-"""A rigid, isoviscous contact of finite length: load, rolling resistance and shear of one film, from one table.
+"""A rigid, isoviscous contact of finite length: load, rolling resistance and shear of its film.
 
-Over the gap h = h0 + x²/(2R_x) + z²/(2R_y), |z| ≤ l/2, Reynolds' equation with p ≥ 0 has the groups κ = l²/(8 R_y h0) and
-λ = 2 √(2 R_x h0)/l. `gap_table.csv`, made by `python benchmarks/gap_table.py`, holds the ratios c of
+Over the gap h = h0 + x²/(2R_x) + z²/(2R_y), |z| ≤ l/2, Reynolds' equation with p ≥ 0 has the groups
+κ = l²/(8 R_y h0) and λ = 2 √(2 R_x h0)/l. `gap_table.csv`, which `benchmarks/gap_table.py` makes,
+holds the ratios c of
 
     Q   = 4.895 η0 u R_x l/h0     · atan(√κ)/√κ  · c_Q(κ, λ),
     F_R = 4.601 η0 u l √(R_x/h0)  · asinh(√κ)/√κ · c_F(κ, λ),
     S = ∫∫ dA/h = 2.0144 l √(2R_x/h0) · asinh(√κ)/√κ · c_S(κ, λ)
 
-over ln(1 + κ) and √s, s = λ √(1 + κ) the width of the pressure over that of the film; c = 1 at s = 0, where every slice
-is Martin's line. A given contact moves along the line κ λ² = R_x/R_y, so that two splines over one variable serve it.
+over ln(1 + κ) and √s, s = λ √(1 + κ) the width of the pressure over that of the film; c = 1 at s =
+0, where every slice is Martin's line. A given contact moves along the line κ λ² = R_x/R_y, so that
+two splines over one variable serve it.
 
-An inlet that begins to be full at S times the film has the factors of `starved_martin` on Q, F_R and ∫∫ dA/h.
+An inlet that begins to be full at S times the film has the factors of `starved_martin` on Q, F_R
+and ∫∫ dA/h.
 """
 
 from __future__ import annotations
@@ -24,9 +27,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 from scipy.optimize import brentq
 
-#: Martin's rigid, isoviscous, flooded line contact: in x = √(2 R h0) t the gap is h0 (1 + t²), and the pressure that vanishes
-#: far upstream and ends with zero slope at t_e is dp/dt = 12 η0 u √(2 R h0)/h0² (t² − t_e²)/(1 + t²)³. Martin, Engineering
-#: (London) 102 (1916) 119; the coefficients are computed from this equation. Place of the film's end t_e:
+#: Martin's rigid, isoviscous, flooded line contact: in x = √(2 R h0) t the gap is h0 (1 + t²), and
+#: the pressure that vanishes far upstream and ends with zero slope at t_e is dp/dt = 12 η0 u √(2 R
+#: h0)/h0² (t² − t_e²)/(1 + t²)³. Martin, Engineering (London) 102 (1916) 119; the coefficients are
+#: computed from this equation. Place of the film's end t_e:
 EXIT = 0.475129920093054
 #: Load per length times h0 over η0 u R: h0 = 4.895 η0 u R/w. Rigid where M is below about 0.3.
 LOAD = 4.894968493913377
@@ -51,11 +55,14 @@ _SHEAR = 2
 
 
 def starved_martin(inlet: float) -> tuple[float, float, float]:
-    """Load, rolling force and shear of a starved line contact over those of a flooded one with the same h0.
+    """Load, rolling force and shear of a starved line contact over those of a flooded one.
 
-    The film begins with no pressure at t_i < 0, where the gap is S times the film of the volume flow, h0 (1 + t_e²); the
-    pressure ends with zero slope at t_e, which follows from t_i by Martin's equation. The factors on Q, F_R and ∫dx/h
-    hold at a given h0 and are at most 1 [-]. S is > 1, and infinite where flooded.
+    Both have the same h0.
+
+    The film begins with no pressure at t_i < 0, where the gap is S times the film of the volume
+    flow, h0 (1 + t_e²); the pressure ends with zero slope at t_e, which follows from t_i by
+    Martin's equation. The factors on Q, F_R and ∫dx/h hold at a given h0 and are at most 1 [-]. S
+    is > 1, and infinite where flooded.
 
     Resistance suffers first: at S = 10 it halves, while shear keeps 85 % and load 82 %.
 
@@ -101,21 +108,26 @@ class GapShape(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """Rigid, isoviscous film of a contact of finite length; load and rolling resistance are per η0 u."""
+    """Rigid, isoviscous film of a contact of finite length.
+
+    Load and rolling resistance are per η0 u.
+    """
 
     log_gaps: np.ndarray  #: Shape (knots,). ln h0 [ln m], even.
-    #: Shape (4, knots − 1, 3). Cubics of ln Q/(η0 u) [ln m], ln F_R/(η0 u) [ln m] and ln S [ln m] over ln h0,
-    #: highest power first.
+    #: Shape (4, knots − 1, 3). Cubics of ln Q/(η0 u) [ln m], ln F_R/(η0 u) [ln m] and ln S [ln m]
+    #: over ln h0, highest power first.
     by_gap: np.ndarray
     log_loads: np.ndarray  #: Shape (knots,). ln Q/(η0 u) [ln m], even.
-    by_load: (
-        np.ndarray
-    )  #: Shape (4, knots − 1, 3). Cubics of ln h0, ln F_R/(η0 u) and ln S over ln Q/(η0 u).
+    #: Shape (4, knots − 1, 3). Cubics of ln h0, ln F_R/(η0 u) and ln S over ln Q/(η0 u).
+    by_load: np.ndarray
 
 
 @functools.cache
 def _ratio_splines() -> list[RectBivariateSpline]:
-    """Ln c_Q, ln c_F and ln c_S over ln(1 + κ) and √s; mirrored at √s = 0, where c − 1 goes with s."""
+    """Splines of ln c_Q, ln c_F and ln c_S over ln(1 + κ) and √s.
+
+    They are mirrored at √s = 0, where c − 1 goes with s.
+    """
     with files("macroslip.contact").joinpath("gap_table.csv").open(encoding="utf-8") as file:
         columns = np.loadtxt(file, delimiter=",", skiprows=1)
     curvatures = np.unique(columns[:, 0])
@@ -141,10 +153,13 @@ def ratios(kappa, aspect) -> np.ndarray:
 # Both rows have the same contacts, and runs of a study many of them in common.
 @functools.lru_cache(maxsize=64)
 def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float = math.inf) -> Gap:
-    """The rigid film of a contact, from the gap at which κ = 1e5 to that at which s = 4; power laws beyond.
+    """Rigid film of a contact, from the gap at which κ = 1e5 to that at which s = 4.
 
-    `oil_gap` is the gap where the inlet begins to be full [m], always wider than the film, infinite where flooded;
-    `widest_inlet` the largest S, > 1: where a surface ends, as a spar does, or infinite.
+    Beyond these gaps it follows power laws.
+
+    `oil_gap` is the gap where the inlet begins to be full [m], always wider than the film, infinite
+    where flooded; `widest_inlet` the largest S, > 1: where a surface ends, as a spar does, or
+    infinite.
     """
     radius = shape.rolling_radius
     length = shape.length

@@ -1,7 +1,10 @@
-"""Hertz point contact of two elastic bodies with elliptical contact area, by the exact elliptic integrals.
+"""Hertz point contact of two elastic bodies with an elliptical contact area.
 
-The two equations for the semi-axes are written with Carlson's R_D, in which neither cancels for a circular contact nor
-overflows for a very slender one; the axis ratio is then one well-scaled scalar equation.
+It is solved by the exact elliptic integrals.
+
+The two equations for the semi-axes are written with Carlson's R_D, in which neither cancels for a
+circular contact nor overflows for a very slender one; the axis ratio is then one well-scaled scalar
+equation.
 """
 
 from __future__ import annotations
@@ -26,7 +29,10 @@ class HertzContact(NamedTuple):
         return self.approach**-1.5
 
     def load_at_semi_axis_across(self, semi_axis: float) -> float:
-        """Load [N] at which the semi-axis across rolling reaches `semi_axis` [m]; used for truncation at the ends."""
+        """Load [N] at which the semi-axis across rolling reaches `semi_axis` [m].
+
+        It serves for truncation at the roller's ends.
+        """
         return (semi_axis / self.semi_axis_across) ** 3
 
 
@@ -35,8 +41,20 @@ def effective_modulus(
 ) -> float:
     """Effective elastic modulus E' = 2/[(1−ν1²)/E1 + (1−ν2²)/E2] [Pa].
 
-    Of Young's moduli [Pa], > 0, and Poisson's ratios, 0 to 0.5.
+    Parameters
+    ----------
+    modulus_1, modulus_2 : float
+        Young's moduli E1 and E2 [Pa], > 0.
+    poisson_1, poisson_2 : float
+        Poisson's ratios ν1 and ν2 [-], 0 to 0.5.
 
+    Returns
+    -------
+    float
+        E' [Pa].
+
+    References
+    ----------
     Johnson, Contact Mechanics (1985), section 4.2, where E* = E'/2.
 
     Examples
@@ -50,8 +68,8 @@ def effective_modulus(
 def axis_ratio(curvature_ratio: float) -> float:
     """Ratio b/a of the contact ellipse, short over long semi-axis, 0 < b/a ≤ 1 [-].
 
-    It is the root of A/B = R_D(0, (b/a)², 1)/R_D(0, 1, (b/a)²). A/B is the smaller over the larger relative curvature
-    of the two principal planes, 0 < A/B ≤ 1.
+    It is the root of A/B = R_D(0, (b/a)², 1)/R_D(0, 1, (b/a)²). A/B is the smaller over the larger
+    relative curvature of the two principal planes, 0 < A/B ≤ 1.
 
     Johnson, Contact Mechanics (1985), eq. (4.26a, b), in Carlson's form (DLMF 19.25.1).
 
@@ -81,21 +99,21 @@ def elliptical_contact(
 ) -> HertzContact:
     """Hertz contact from the two relative curvatures.
 
-    Raises InputError if a relative curvature is not positive: the bodies would conform and Hertz's theory does not
-    hold.
+    Raises InputError if a relative curvature is not positive: the bodies would conform and Hertz's
+    theory does not hold.
 
     Parameters
     ----------
     rolling_curvature, lateral_curvature : float
-        Sum of the bodies' curvatures in the plane of rolling and in the plane across it [1/m], > 0 (a concave surface
-        counts negative within the sum).
+        Sum of the bodies' curvatures in the plane of rolling and in the plane across it [1/m], > 0
+        (a concave surface counts negative within the sum).
     modulus : float
         Effective modulus E' [Pa], see `effective_modulus`.
 
     Notes
     -----
-    a³ = 2 Q R_D(0, 1, (b/a)²)/(π E' ρ), with ρ the larger curvature; p0 = 3Q/(2πab); δ = 3 Q K/(π a E').
-    Valid for small contact areas on smooth, linearly elastic, frictionless bodies.
+    a³ = 2 Q R_D(0, 1, (b/a)²)/(π E' ρ), with ρ the larger curvature; p0 = 3Q/(2πab); δ = 3 Q K/(π a
+    E'). Valid for small contact areas on smooth, linearly elastic, frictionless bodies.
 
     References
     ----------
@@ -131,7 +149,9 @@ def elliptical_contact(
 
 
 def series_stiffness(inner: HertzContact, outer: HertzContact) -> float:
-    """Stiffness K [N/m^1.5] of inner and outer contact in series, K = (K_i^(−2/3) + K_o^(−2/3))^(−3/2).
+    """Stiffness of inner and outer contact in series [N/m^1.5].
+
+    K = (K_i^(−2/3) + K_o^(−2/3))^(−3/2).
 
     Examples
     --------

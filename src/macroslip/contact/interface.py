@@ -1,4 +1,7 @@
-"""The three contacts of a roller as their laws see them: curvatures, material and oil, slip along the roller, highest load."""
+"""The three contacts of a roller as laws see them: curvatures, material, oil and shape.
+
+The slip along the roller and the highest load follow from these.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +37,8 @@ class ContactShape(NamedTuple):
     contour_radius: float
     roller_radius: float  #: r [m]
     half_length: float  #: Half the roller's length [m]; the contact ends there
-    #: κ/u2 in pure rolling [1/m]: 1/r + cos α/r~_in at the inner, 1/r − cos α/r~_out at the outer raceway.
+    #: κ/u2 in pure rolling [1/m]: 1/r + cos α/r~_in at the inner, 1/r − cos α/r~_out at the outer
+    #: raceway.
     curvature_ratio: float
     spin_ratio: float  #: s/u2 [1/m]: sin α/r~_in or sin α/r~_out, with the row's axial sign
 
@@ -51,7 +55,10 @@ def common_contour_radius(roller: float, raceway: float) -> float:
 
 
 def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Interface, Interface]:
-    """The inner, outer and cage interface of a roller, with their Hertz coefficients (section "Forces" of the paper)."""
+    """Interfaces of a roller with inner raceway, outer raceway and cage.
+
+    They carry their Hertz coefficients (section "Forces" of the paper).
+    """
     own = bearing.youngs_modulus, bearing.poisson_ratio
     steel = effective_modulus(*own, *own)
     cage = effective_modulus(*own, bearing.cage_youngs_modulus, bearing.cage_poisson_ratio)
@@ -77,14 +84,30 @@ def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Inter
 def contact_shape(
     bearing: Bearing, interface: Interface, axial_sign: int, *, microslip: bool
 ) -> ContactShape:
-    """Shape of an interface; on the cage's contact slip is the same all over.
+    """Shape of a contact along the roller; on the cage's contact slip is the same all over.
 
-    `axial_sign` is +1 for the downwind row and −1 for the upwind row; `microslip` says whether slip varies along the
-    roller.
+    Parameters
+    ----------
+    bearing : Bearing
+        Its dimensions.
+    interface : Interface
+        The contact: inner raceway, outer raceway or cage.
+    axial_sign : int
+        +1 for the downwind row and −1 for the upwind row.
+    microslip : bool
+        Whether slip varies along the roller.
 
-    The sign of ζ is that of the roller's axis z'. With z' = z cos α − y sin α (s = +1) the ring's surface at the station ζ
-    is ζ sin α nearer to the bearing axis, which gives v the term +s (Ω_in − Ω) sin α ζ; ζ counted the other way round
-    turns its sign, and that of the skew moment, and nothing else.
+    Returns
+    -------
+    ContactShape
+        Radii and lengths [m], slopes of the slip [1/m].
+
+    Notes
+    -----
+    The sign of ζ is that of the roller's axis z'. With z' = z cos α − y sin α (s = +1) the ring's
+    surface at the station ζ is ζ sin α nearer to the bearing axis, which gives v the term
+    +s (Ω_in − Ω) sin α ζ; ζ counted the other way round turns its sign, and that of the skew
+    moment, and nothing else.
     """
     half_length = 0.5 * bearing.roller_length
     if not microslip or interface.name == "cage":
@@ -109,7 +132,8 @@ def contact_shape(
 def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
     """Roller load [N] at which a raceway contact ellipse reaches the ends of the roller.
 
-    Above it the contact is truncated, and Hertz pressure, film and traction formulas no longer describe it.
+    Above it the contact is truncated, and Hertz pressure, film and traction formulas no longer
+    describe it.
     """
     half = 0.5 * bearing.roller_length
     return min(
@@ -136,8 +160,8 @@ def truncated_share(load: float, truncation: float) -> float:
 def highest_load(bearing: Bearing, lubricant: Lubricant, laws: Laws) -> float:
     """Roller load [N] that a case may not exceed.
 
-    There the ellipse reaches the roller's ends; with microslip, which cuts it off there, a tenth of the load would lie
-    beyond them.
+    There the ellipse reaches the roller's ends; with microslip, which cuts it off there, a tenth of
+    the load would lie beyond them.
     """
     truncation = truncation_load(bearing, lubricant)
     if not laws.microslip:

@@ -1,4 +1,7 @@
-"""The laws of a roller's three contacts, from the choice of mechanisms: values on arrays, from which tables are made."""
+"""The laws of a roller's three contacts, from the choice of mechanisms.
+
+They give values on arrays, from which tables are made.
+"""
 
 from __future__ import annotations
 
@@ -25,10 +28,11 @@ from macroslip.lubricant import Lubricant
 
 #: Entrainment speed below which a film is that at this speed [m/s].
 LOWEST_ENTRAINMENT_SPEED = 1e-6
-#: Largest gap between a roller and the spar that pushes it [m]: half of a diametral clearance of 0.5 mm, an engineering
-#: estimate; 0.2 to 1 mm is usual.
+#: Largest gap between a roller and the spar that pushes it [m]: half of a diametral clearance of
+#: 0.5 mm, an engineering estimate; 0.2 to 1 mm is usual.
 POCKET_GAP = 0.25e-3
-#: Largest S of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an engineering estimate.
+#: Largest S of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an
+#: engineering estimate.
 _SPAR_END = 7.0
 
 
@@ -40,25 +44,26 @@ class ContactLaws:
     interface: Interface
     shape: ContactShape
     film_name: str  #: Name of the film law
-    oil_gap: float  #: Gap where the inlet begins to be full [m], which thins the film; infinite where flooded
-    thermal_loading: (
-        float  #: Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out
-    )
-    fluid: (
-        Fluid | None
-    )  #: The sheared film; None for the paper's closed form and for a traction law of one's own
+    #: Gap where the inlet begins to be full [m], which thins the film; infinite where flooded
+    oil_gap: float
+    #: Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out
+    thermal_loading: float
+    #: The sheared film; None for the paper's closed form and for a traction law of one's own
+    fluid: Fluid | None
     closed_form: BarusCrook | None  #: The paper's traction
     traction_name: str  #: `mechanisms`, or the name of a registered traction law
-    asperity_name: str  #: Law for the share of the load that asperities carry; `none` at a cage whose roller floats
+    #: Law for the share of the load that asperities carry; `none` at a cage whose roller floats
+    asperity_name: str
     boundary_friction: float  #: µ_b [-]; 0 without asperities
     full_slip: float  #: Slip from which on asperities slide [m/s]
     effusivity: float  #: Of the steel [J/(m² K √s)]; NaN where unknown
     rolling: RollingNumbers | None  #: Rolling resistance
-    #: Whether the contact needs more than one force per slip: asperities, or a film that is summed over the patch.
+    #: Whether the contact needs more than one force per slip: asperities, or a film that is summed
+    #: over the patch.
     curved: bool
 
     def film_thickness(self, load, entrainment_speed) -> np.ndarray:
-        """Film thickness [m] with starvation and inlet heating, at loads Q > 0 [N] and entrainment speeds u_e [m/s].
+        """Film thickness [m] with starvation and inlet heating, at Q > 0 [N] and u_e [m/s].
 
         The speed is floored at `LOWEST_ENTRAINMENT_SPEED`.
         """
@@ -78,14 +83,17 @@ class ContactLaws:
         return FILM_LAWS.named(self.film_name).inside(self.interface, load, speed)
 
     def asperity_share(self, load, entrainment_speed, film_thickness) -> np.ndarray:
-        """Share of the load that asperities carry [-], 0 to 1, at Q [N], u_e [m/s] and h [m] > 0."""
+        """Share of the load that asperities carry [-], 0 to 1, at Q, u_e and h > 0 [N, m/s, m]."""
         speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
         return asperities.asperity_share(
             self.asperity_name, self.interface, load, speed, film_thickness
         )
 
     def asperity_share_in_range(self, load) -> np.ndarray:
-        """True where the law of asperities holds at Q > 0 [N]; outside of it the share by Λ bounds its own."""
+        """True where the law of asperities holds at Q > 0 [N].
+
+        Outside its range the share by Λ bounds its own.
+        """
         if self.asperity_name in asperities.BOUNDED:
             return asperities.load_is_in_range(self.interface, load)
         return np.ones(np.shape(load), dtype=bool)
@@ -93,7 +101,8 @@ class ContactLaws:
     def uniform_traction(self, load, film_thickness, slip) -> np.ndarray:
         """Force of the film [N] with the sign of the slip, which is the same all over the contact.
 
-        At loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]; the ellipse ends at the roller's ends.
+        At loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]; the ellipse ends at the roller's
+        ends.
         """
         if self.closed_form is not None:
             return barus_crook_traction(self.closed_form, load, film_thickness, slip)
@@ -110,7 +119,7 @@ class ContactLaws:
 
     @property
     def own_sources(self) -> str:
-        """Text that changes whenever a law of one's own in this contact may; empty without such laws."""
+        """Text that changes whenever a law of one's own in this contact may; empty without one."""
         own = (
             TRACTION_LAWS.named(self.traction_name).source
             if self.traction_name != MECHANISMS
@@ -128,11 +137,29 @@ class RollerLaws(NamedTuple):
 
 
 def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int) -> RollerLaws:
-    """The laws of the contacts of a roller.
+    """Laws of the three contacts of a roller, from the choice of mechanisms.
 
-    Raises InputError for a law that does not exist, values the lubricant lacks, or curvatures that do not make a Hertz
-    contact. The lubricant has its `oil_gap`, from which on inlets are full; `axial_sign` is +1 for the downwind row and
-    −1 for the upwind row.
+    Parameters
+    ----------
+    laws : Laws
+        The chosen mechanisms.
+    bearing : Bearing
+        Its dimensions and materials.
+    lubricant : Lubricant
+        With its `oil_gap`, from which on inlets are full.
+    axial_sign : int
+        +1 for the downwind row and −1 for the upwind row.
+
+    Returns
+    -------
+    RollerLaws
+        The laws of the contacts with inner raceway, outer raceway and cage.
+
+    Raises
+    ------
+    InputError
+        For a law that does not exist, values the lubricant lacks, or curvatures that do not make a
+        Hertz contact.
 
     Examples
     --------
@@ -176,7 +203,8 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 if laws.is_closed_form
                 else None,
                 traction_name=laws.traction,
-                # The film of a roller in its pocket is tens of micrometres thick: no asperity touches.
+                # The film of a roller in its pocket is tens of micrometres thick: no asperity
+                # touches.
                 asperity_name="none" if cage and laws.rolling != "none" else laws.asperities,
                 boundary_friction=lubricant.boundary_friction if laws.asperities != "none" else 0.0,
                 full_slip=asperities.FULL_SLIP,

@@ -1,12 +1,14 @@
-"""Look-ups in the tables of a contact, for compiled code: traction of a raceway, oil, film, and the cage's contact.
+"""Look-ups in the tables of a contact, for compiled code: traction, oil, film, and the cage.
 
-A raceway's traction depends on load Q, ring speed u2 and slip v. With U = |u2|, c = v sign u2, the speed
-w = √(U² + c²/4 + w0²) and the slip ratio y = 2 c/(w + U), between −4 and 4 and smooth where a ring comes to rest, a table has
-the coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0), and the quantities pull/Q, lag/Q^(5/3), skew/Q^(4/3) and
-power of asperities/(Q^(5/3) w). Traction is odd under (u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
+A raceway's traction depends on load Q, ring speed u2 and slip v. With U = |u2|, c = v sign u2, the
+speed w = √(U² + c²/4 + w0²) and the slip ratio y = 2 c/(w + U), between −4 and 4 and smooth where a
+ring comes to rest, a table has the coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0),
+and the quantities pull/Q, lag/Q^(5/3), skew/Q^(4/3) and power of asperities/(Q^(5/3) w). Traction
+is odd under (u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
 
-Other tables are planes over ln Q and the logarithm of a speed. Beyond the lightest load and the slowest speed of a table its
-values there serve; `macroslip.contact.table` makes tables that hold all heavier and faster states of a case.
+Other tables are planes over ln Q and the logarithm of a speed. Beyond the lightest load and the
+slowest speed of a table its values there serve; `macroslip.contact.table` makes tables that hold
+all heavier and faster states of a case.
 """
 
 from __future__ import annotations
@@ -25,17 +27,36 @@ REST_SPEED = 1e-6
 _LEAST_SPEED = 1e-12
 _LEAST_LOAD = 1e-12
 
-AXIS = np.dtype([("first", "f8"), ("per_spacing", "f8"), ("cells", "i8")])
+#: Evenly spaced nodes of one coordinate, as in `macroslip.contact.spline.Axis`.
+AXIS = np.dtype(
+    [
+        ("first", "f8"),  # coordinate of the first node
+        ("per_spacing", "f8"),  # reciprocal of the distance between nodes
+        ("cells", "i8"),  # number of cells between the nodes
+    ]
+)
 #: Where a plane stands in the flat array of tables, and its axes.
-PLANE = np.dtype([("start", "i8"), ("load", AXIS), ("speed", AXIS)])
-#: The same of a raceway's traction; `rising` is where the slips v/w stand up to which it rises, over loads and speeds, `stretch` is k [N^(−1/3)], `middle` y_m, `scale` y_0, and `side` the sign of the tilt of the
-#: roller's axis, which is that of the skew moment.
+PLANE = np.dtype(
+    [
+        ("start", "i8"),  # number of its first coefficient
+        ("load", AXIS),  # of ln Q, Q in N
+        ("speed", AXIS),  # of ln |u|, u in m/s
+    ]
+)
+#: Where the table of a raceway's traction stands in the flat array, its axes, and its coordinates.
 TRACTION = np.dtype(
     [
-        ("start", "i8"), ("rising", "i8"), ("load", AXIS), ("speed", AXIS), ("ratio", AXIS),
-        ("stretch", "f8"), ("middle", "f8"), ("scale", "f8"), ("side", "f8"),
+        ("start", "i8"),  # number of its first coefficient
+        ("rising", "i8"),  # number of the first of the slips v/w up to which its moment rises
+        ("load", AXIS),  # of ln Q + k Q^(1/3), Q in N
+        ("speed", AXIS),  # of w^(1/4), w in m/s
+        ("ratio", AXIS),  # of asinh((y − y_m)/y_0)
+        ("stretch", "f8"),  # k [N^(−1/3)]
+        ("middle", "f8"),  # y_m [-]
+        ("scale", "f8"),  # y_0 [-]
+        ("side", "f8"),  # sign of the tilt of the roller's axis, which the skew moment has [-]
     ]
-)  # fmt: skip
+)
 
 
 class ContactLoad(NamedTuple):
@@ -50,7 +71,8 @@ class Traction(NamedTuple):
     """Traction of a raceway contact on the roller."""
 
     pull: float  #: ∫τ dA [N], with the sign of the slip
-    lag: float  #: ∫τ h/r dA [N]: by so much the moment about the roller's axis, over r, falls short of the pull
+    #: ∫τ h/r dA [N]: by so much the moment about the roller's axis, over r, falls short of the pull
+    lag: float
     skew: float  #: ∫τ ζ dA [N m]
     asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
     #: ∂/∂v at constant u2 and ∂/∂u2 at constant v [N s/m].
@@ -65,7 +87,10 @@ class Traction(NamedTuple):
 
 @jit_evaluation
 def cell_of(axis, coordinate):
-    """Cell of a coordinate, the place in it, and its derivative by the coordinate: 0 beyond the ends, where it stays there."""
+    """Cell of a coordinate, the place in it, and its derivative by the coordinate.
+
+    Beyond the ends the place stays at the end, and the derivative is 0.
+    """
     first = axis.first * axis.per_spacing
     place = coordinate * axis.per_spacing
     if place <= first:
@@ -73,7 +98,8 @@ def cell_of(axis, coordinate):
     if place >= first + axis.cells:
         return axis.cells - 1, 1.0, 0.0
     cell = int(place - first)
-    # Exact near 0, so that slips are told apart that are tiny beside the axis: cold oil may grip at 1e-19 of the rings' speed.
+    # Exact near 0, so that slips are told apart that are tiny beside the axis: cold oil may grip at
+    # 1e-19 of the rings' speed.
     return cell, place - (first + cell), axis.per_spacing
 
 
@@ -98,7 +124,25 @@ def contact_load(load):
 
 @jit_evaluation
 def in_plane(plane, tables, log_load, log_speed):
-    """Four quantities of a plane at ln Q and ln |u|, and their derivatives by both, as three tuples."""
+    """Four quantities of a plane over load and speed, and their derivatives.
+
+    Parameters
+    ----------
+    plane : record of `PLANE`
+        Where the plane stands in the tables, and its axes.
+    tables : int or ndarray
+        The flat array of tables, or its address.
+    log_load : float
+        ln Q of the load [N].
+    log_speed : float
+        ln |u| of the speed [m/s].
+
+    Returns
+    -------
+    value, by_load, by_speed : tuple of four floats
+        The quantities, and their derivatives by ln Q and by ln |u|. Beyond the ends of an axis the
+        values at its end serve, and the derivative is 0.
+    """
     i, t, by_first = cell_of(plane.load, log_load)
     j, u, by_second = cell_of(plane.speed, log_speed)
     stride = CHANNELS * (plane.speed.cells + 3)
@@ -157,7 +201,8 @@ def traction(table, tables, load, ring_speed, slip):
     if ring == 0.0 and slip == 0.0:
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)
-    # Derivatives of the coordinates: by Q, by w and by y; of w and y by v and by u2, less the sign that both take.
+    # Derivatives of the coordinates: by Q, by w and by y; of w and y by v and by u2, less the sign
+    # that both take.
     load_slope *= 1.0 + table.stretch * root * (1.0 / 3.0)
     speed_slope *= 0.25 * root_speed * per_speed
     ratio_slope /= table.scale * size
@@ -187,7 +232,24 @@ def traction(table, tables, load, ring_speed, slip):
 
 @jit_inline
 def rising_slip(table, tables, load, speed):
-    """Slip [m/s] up to which the moment on the roller rises with slip, at Q [N] and ring speeds up to `speed` [m/s]."""
+    """Slip up to which the moment of the traction on the roller rises with slip.
+
+    Parameters
+    ----------
+    table : record of `TRACTION`
+        Where the table of the raceway's traction stands, and its axes.
+    tables : int or ndarray
+        The flat array of tables, or its address.
+    load : float
+        Q [N], ≥ 0.
+    speed : float
+        Highest speed of the ring, |u2| [m/s].
+
+    Returns
+    -------
+    float
+        Size of the slip [m/s], > 0.
+    """
     ln_load = log_load(load)
     i, t, _ = cell_of(table.load, ln_load + table.stretch * math.exp(ln_load * (1.0 / 3.0)))
     k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(speed)))

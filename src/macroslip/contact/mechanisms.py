@@ -1,4 +1,4 @@
-"""Which physics a case uses inside its contacts, chosen mechanism by mechanism, with two named sets.
+"""Mechanisms of friction and lubrication that a case uses inside its contacts, with two named sets.
 
 `Laws.paper()` is the model of Hart et al.; `Laws.physical()` switches on all of them.
 """
@@ -21,7 +21,10 @@ _OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
 
 
 def _names(module: str, holder: str, *first: str) -> Callable[[], list[str]]:
-    """Names of laws, looked up only when a file or a call gives one: kernels need not be imported to read a case."""
+    """Names of laws, looked up only when a file or a call gives one.
+
+    Kernels need not be imported to read a case.
+    """
 
     def found() -> list[str]:
         laws = getattr(import_module(f"macroslip.contact.{module}"), holder)
@@ -45,25 +48,28 @@ class Laws:
     inlet_heating : bool
         Whether shear in the inlet warms the oil and thins the film.
     viscosity : "barus" or "roelands"
-        How viscosity rises with pressure; both have the slope `pressure_viscosity` at ambient pressure.
+        How viscosity rises with pressure; both have the slope `pressure_viscosity` at ambient
+        pressure.
     rheology : "newtonian", "limiting-shear" or "eyring"
-        How the film's stress falls behind the Newtonian one: not at all, limited to `limiting_shear` times pressure, or
-        by Eyring's law with `eyring_stress`.
+        How the film's stress falls behind the Newtonian one: not at all, limited to
+        `limiting_shear` times pressure, or by Eyring's law with `eyring_stress`.
     heating : bool
         Whether shear heats the film and lowers its viscosity (Crook).
     microslip : bool
         Whether slip varies along the roller, by the contact's curvature and by the contact angle.
     asperities : str
-        Name of a law for the share of the load that asperities carry, with `boundary_friction`; "none" without them.
+        Name of a law for the share of the load that asperities carry, with `boundary_friction`;
+        "none" without them.
     rolling : "none", "inlet" or "whole-film"
-        Rolling resistance of the contacts and the cage, with the films of rollers that have play: none, that of the
-        inlets as published, or that of whole films; less where inlets lack oil, as the case's `oil_supply` says.
+        Rolling resistance of the contacts and the cage, with the films of rollers that have play:
+        none, that of the inlets as published, or that of whole films; less where inlets lack oil,
+        as the case's `oil_supply` says.
     skew : "none" or "quasi-static"
-        Whether rollers are held straight, or turn about their contacts' normal until nothing drives them on or the cage holds
-        them; with microslip.
+        Whether rollers are held straight, or turn about their contacts' normal until nothing drives
+        them on or the cage holds them; with microslip.
     traction : str
-        "mechanisms": built from the choices above. Otherwise the name of a registered traction law, which replaces
-        viscosity, rheology, heating and microslip.
+        "mechanisms": built from the choices above. Otherwise the name of a registered traction law,
+        which replaces viscosity, rheology, heating and microslip.
 
     Examples
     --------
@@ -134,21 +140,25 @@ class Laws:
 
     @classmethod
     def paper(cls) -> Laws:
-        """The model of the paper: rough film, Newtonian Barus oil heated by its own shear, one slip a contact."""
+        """The model of the paper: a rough film of self-heated Newtonian Barus oil.
+
+        Slip is the same all over a contact.
+        """
         return cls()
 
     @classmethod
     def physical(cls) -> Laws:
         """All mechanisms.
 
-        Film for every load, starved and heated in the inlet; Roelands; Eyring's law; microslip; asperities; rolling
-        resistance of whole films.
+        Film for every load, starved and heated in the inlet; Roelands; Eyring's law; microslip;
+        asperities; rolling resistance of whole films.
 
-        Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils keeps rising with the
-        shear rate and reaches no limit; that of polyglycols does, so for them `rheology` is to be "limiting-shear".
+        Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils
+        keeps rising with the shear rate and reaches no limit; that of polyglycols does, so for them
+        `rheology` is to be "limiting-shear".
 
-        Vengudusamy, Enekes and Spallek, Friction (2019), doi:10.1007/s40544-019-0267-5; Jacod, Venner and Lugt,
-        J. Tribol. 123 (2001) 248, doi:10.1115/1.1308021.
+        Vengudusamy, Enekes and Spallek, Friction (2019), doi:10.1007/s40544-019-0267-5; Jacod,
+        Venner and Lugt, J. Tribol. 123 (2001) 248, doi:10.1115/1.1308021.
         """
         return cls(**PRESETS["physical"])
 
@@ -185,12 +195,12 @@ class Laws:
 
     @property
     def asks_for_oil(self) -> bool:
-        """Whether a mechanism depends on how full inlets are: the film's starvation, or rolling resistance."""
+        """True if a mechanism needs the filling of inlets: starvation, rolling resistance."""
         return self.starvation or self.rolling != "none"
 
     @property
     def is_closed_form(self) -> bool:
-        """Whether traction is the paper's, with heating or without, for which there is a closed form."""
+        """True if traction is the paper's, with heating or without, which has a closed form."""
         ruling = "viscosity", "rheology", "microslip", "traction"
         return all(getattr(self, name) == _DEFAULTS[name] for name in ruling)
 

@@ -1,14 +1,17 @@
-"""Traction of a curved and tilted contact, summed over its chords: values for tables, and power by station for maps.
+"""Traction of a curved and tilted contact, summed over its chords.
+
+It gives values for tables, and power by station for maps.
 
 With the station ζ along the roller's axis and the drop of the common contour h = ζ²/(2 R_d) slip is
 
     v(ζ) = Δu + κ h − s ζ,
 
-where κ = ω_rel − (Ω_in − Ω) cos α and s = −(Ω_in − Ω) sin α at the inner raceway, κ = ω_rel + Ω cos α and s = −Ω sin α
-at the outer one of the downwind row, with ζ along z'; in the upwind row sin α is negative. Where v passes through zero
-the roller rolls purely. A film that grips changes its stress from one limit to the other there within a small part of
-the contact's length, the smaller the higher the load, so the quadrature is divided at these lines and graded towards
-them. Stress along a chord is that of the oil's table (`macroslip.contact.traction`).
+where κ = ω_rel − (Ω_in − Ω) cos α and s = −(Ω_in − Ω) sin α at the inner raceway, κ = ω_rel + Ω cos
+α and s = −Ω sin α at the outer one of the downwind row, with ζ along z'; in the upwind row sin α is
+negative. Where v passes through zero the roller rolls purely. A film that grips changes its stress
+from one limit to the other there within a small part of the contact's length, the smaller the
+higher the load, so the quadrature is divided at these lines and graded towards them. Stress along a
+chord is that of the oil's table (`macroslip.contact.traction`).
 """
 
 from __future__ import annotations
@@ -36,7 +39,8 @@ if TYPE_CHECKING:
     from macroslip.contact.laws import ContactLaws
 
 _asperity_patch = jit(asperity_patch)
-#: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below round-off of the rest.
+#: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below
+#: round-off of the rest.
 _NO_SLIP = 1e-30
 #: Part of the half length below which a piece of the contact is left out.
 _SHORTEST = 1e-12
@@ -76,8 +80,8 @@ def patch_of(contact: ContactLaws) -> Patch:
 def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     """Quadrature on [0, 1], graded towards both ends: nodes m and weights.
 
-    Gauss-Legendre in t with m = 3t² − 2t³. At a line of pure rolling this resolves how fast stress turns there; at the end
-    of an ellipse it makes the root of the chord's length smooth.
+    Gauss-Legendre in t with m = 3t² − 2t³. At a line of pure rolling this resolves how fast stress
+    turns there; at the end of an ellipse it makes the root of the chord's length smooth.
     """
     t, weights = np.polynomial.legendre.leggauss(nodes)
     t = 0.5 * (t + 1.0)
@@ -91,7 +95,7 @@ _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
 
 @jit_inline
 def _node(count, place):
-    """Cell of a place in nodes, kept within a spline of `count` coefficients, and the place in it."""
+    """Cell of a coordinate counted in nodes, kept within the spline, and the place in the cell."""
     inside = min(max(place, 0.0), count - 3.0)
     cell = min(int(inside), count - 4)
     return cell, inside - cell
@@ -122,7 +126,10 @@ class FilmNode(NamedTuple):
 
 @jit_inline
 def film_node(chords, film):
-    """Where a film h [m] stands in the table of chords: for `chord_stress_at`, once for all chords of a contact."""
+    """Place of a film h [m] in the table of chords.
+
+    For `chord_stress_at`, once for all chords of a contact.
+    """
     logarithm = math.log(film)
     cell, place = _node(chords.shape[1], (logarithm - chords.lowest_film) / chords.film_spacing)
     return FilmNode(film, logarithm, cell, place)
@@ -130,7 +137,24 @@ def film_node(chords, film):
 
 @jit_inline
 def chord_stress_at(chords, node, pressure, slip):
-    """Mean stress along a chord [Pa] of a film, a `FilmNode`, from its largest pressure p1 [Pa] and |slip| [m/s]."""
+    """Mean shear stress along a chord of the contact, from the oil's table.
+
+    Parameters
+    ----------
+    chords : ChordTable
+        Table of the oil.
+    node : FilmNode
+        The film's place in the table, by `film_node`.
+    pressure : float
+        Largest pressure on the chord p1 [Pa]; kept within 10 Pa and 4 GPa.
+    slip : float
+        |Δu| on the chord [m/s], ≥ 0.
+
+    Returns
+    -------
+    float
+        Stress q [Pa], ≥ 0.
+    """
     pressure = min(max(pressure, LOWEST_PRESSURE), HIGHEST_PRESSURE)
     fluid = chords.fluid
     (pressures, films, slips) = chords.shape
@@ -154,15 +178,32 @@ def chord_stress_at(chords, node, pressure, slip):
     stress = unit * math.exp(
         value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0)
     )
-    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
+    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ,
+    # holds all the same.
     return min(stress, 0.25 * math.pi * unit) if fluid.rheology == LIMITING_SHEAR else stress
 
 
 @jit_inline
 def rolling_lines(bend, spin, slip, end):
-    """Stations at which v = slip + bend ζ² − spin ζ vanishes, in rising order, kept within ± `end`.
+    """Stations of pure rolling, at which v = slip + bend ζ² − spin ζ vanishes.
 
     Where v has no zero both are its extremum, so that they change continuously with the state.
+
+    Parameters
+    ----------
+    bend : float
+        Curvature of the slip along the roller [1/(m s)].
+    spin : float
+        Its slope at the middle, with the opposite sign [1/s].
+    slip : float
+        Δu in the middle [m/s].
+    end : float
+        Half the length of the contact [m], > 0.
+
+    Returns
+    -------
+    first, second : float
+        Stations ζ [m] in rising order, kept within ± `end`.
     """
     root = spin * spin - 4.0 * bend * slip
     if root <= 0.0:
@@ -177,13 +218,29 @@ def rolling_lines(bend, spin, slip, end):
 
 @jit
 def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
-    """Write pull and lag [N], skew moment [N m] and power of asperities [W] of a raceway contact into `found`.
-
-    Load Q > 0 [N] and film h > 0 [m] are the same all over the patch, u2 and Δu in the middle [m/s]. Asperities carry
-    the part `share` of the load, 0 to 1: film and asperities each have their share of the area at the full Hertz
-    pressure. `found` has the shape (4,).
+    """Integrate the traction of a raceway contact over its ellipse.
 
     The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
+
+    Parameters
+    ----------
+    patch : Patch
+        Geometry of the contact and friction of its asperities.
+    chords : ChordTable
+        Table of the oil.
+    load : float
+        Q [N], > 0.
+    film : float
+        h [m], > 0, the same all over the ellipse.
+    share : float
+        Share of the load that asperities carry [-], 0 to 1. Film and asperities each have their
+        share of the area at the full Hertz pressure.
+    ring_speed : float
+        u2 in the middle of the contact [m/s].
+    slip : float
+        Δu in the middle of the contact [m/s].
+    found : ndarray, shape (4,)
+        Written: pull [N], lag [N], skew moment [N m] and power of asperities [W].
     """
     root = load ** (1.0 / 3.0)
     across = patch.across * root
@@ -241,7 +298,28 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
 
 @jit
 def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
-    """`patch_traction` of many states, flat arrays of one size; returns shape (states, 4)."""
+    """Traction of a raceway contact in many states.
+
+    Parameters
+    ----------
+    patch : Patch
+        Geometry of the contact and friction of its asperities.
+    chords : ChordTable
+        Table of the oil.
+    loads : ndarray, shape (states,)
+        Q [N], > 0.
+    films : ndarray, shape (states,)
+        h [m], > 0.
+    shares : ndarray, shape (states,)
+        Shares of the load that asperities carry [-], 0 to 1.
+    ring_speeds, slips : ndarray, shape (states,)
+        u2 and Δu in the middle of the contact [m/s].
+
+    Returns
+    -------
+    ndarray, shape (states, 4)
+        Pull [N], lag [N], skew moment [N m] and power of asperities [W], by `patch_traction`.
+    """
     found = np.empty((loads.size, 4))
     for n in range(loads.size):
         patch_traction(
@@ -260,7 +338,26 @@ def traction_values(patch: Patch, chords: ChordTable, *states: np.ndarray) -> np
 def patch_power(
     patch: Patch, chords: ChordTable, load: float, film: float, ring_speed: float, slip: float
 ) -> float:
-    """Frictional power of a film [W], ∫τ v dA, by the rule of `patch_traction`; parameters as there."""
+    """Frictional power of a film, ∫τ v dA, by the rule of `patch_traction`.
+
+    Parameters
+    ----------
+    patch : Patch
+        Geometry of the contact.
+    chords : ChordTable
+        Table of the oil.
+    load : float
+        Q [N], > 0.
+    film : float
+        h [m], > 0.
+    ring_speed, slip : float
+        u2 and Δu in the middle of the contact [m/s].
+
+    Returns
+    -------
+    float
+        Power [W].
+    """
     found = np.empty(4)
     patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, found)
     return _power(patch, found[0], found[1], found[2], ring_speed, slip)
@@ -276,7 +373,28 @@ def _power(
 def fine_power(
     patch: Patch, fluid: Fluid, load: float, film: float, ring_speed: float, slip: float
 ) -> float:
-    """The same by a finer rule, and with the stress of every chord by quadrature in place of the oil's table."""
+    """Frictional power of a film by a finer rule than that of `patch_power`.
+
+    The stress of every chord is found by quadrature in place of the oil's table.
+
+    Parameters
+    ----------
+    patch : Patch
+        Geometry of the contact.
+    fluid : Fluid
+        The sheared film.
+    load : float
+        Q [N], > 0.
+    film : float
+        h [m], > 0.
+    ring_speed, slip : float
+        u2 and Δu in the middle of the contact [m/s].
+
+    Returns
+    -------
+    float
+        Power [W].
+    """
     root = load ** (1.0 / 3.0)
     across = patch.across * root
     end = min(1.0, patch.half_length / across)

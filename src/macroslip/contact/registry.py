@@ -1,8 +1,8 @@
-"""Film and traction laws by name, the package's and one's own, and the values that a law has to give.
+"""Film and traction laws by name, the package's and one's own, and the contract of a law.
 
-A film law is `film(interface, load, entrainment_speed) -> h` and a traction law `traction(interface, load, film_thickness, slip)
--> F`, both on NumPy arrays of one shape, in SI units, by values alone: a law of one's own is the same kind of function as one
-of the package.
+A film law is `film(interface, load, entrainment_speed) -> h` and a traction law
+`traction(interface, load, film_thickness, slip) -> F`, both on NumPy arrays of one shape, in SI
+units, by values alone: a law of one's own is the same kind of function as one of the package.
 """
 
 from __future__ import annotations
@@ -48,16 +48,18 @@ class Law(NamedTuple):
     name: str
     function: Callable  #: Of an interface and arrays
     reference: str  #: Work to cite
-    #: Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for
-    #: everywhere.
+    #: Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed);
+    #: None for everywhere.
     in_range: Callable | None = None
-    #: Of a film law: numbers outside its range whatever load and speed, a list of str for an interface.
+    #: Of a film law: numbers outside its range whatever load and speed, a list of str for an
+    #: interface.
     range_notes: Callable | None = None
 
     def __call__(self, interface: Interface, *states: Any) -> np.ndarray:
         """Values at broadcastable states.
 
-        Raises InputError if the law raises, or gives anything but finite, positive numbers, one for each state.
+        Raises InputError if the law raises, or gives anything but finite, positive numbers, one for
+        each state.
         """
         found = self._values(self.function, interface, states, "fiu", "real numbers").astype(float)
         bad = ~(np.isfinite(found) & (found > 0.0))
@@ -93,7 +95,7 @@ class Law(NamedTuple):
         what: str,
         part: str = "",
     ) -> np.ndarray:
-        """What a function of the law gives at states, refused if it is none of the kinds, or not one for each state."""
+        """Values of a function of the law at states, refused if of a wrong kind or shape."""
         # A law may change the arrays it is given.
         arrays = [np.array(one, dtype=float) for one in np.broadcast_arrays(*states)]
         where = f"{part}{self.kind} law '{self.name}', {interface.name}"
@@ -129,7 +131,10 @@ class Law(NamedTuple):
 
     @property
     def source(self) -> str:
-        """Text that changes whenever a law of one's own may: tables of it are kept under this; empty for the package's."""
+        """Text that changes whenever a law of one's own may; empty for the package's.
+
+        Tables of the law are kept under it.
+        """
         if not self.is_own:
             return ""
         code = getattr(self.function, "__code__", None)
@@ -152,7 +157,8 @@ _UNITS = {"film": "m", "traction": "N"}
 class LawList:
     """Names of the laws of one kind.
 
-    `kind` is `film` or `traction`, the key in case files; `reserved` are names that mean something else under that key.
+    `kind` is `film` or `traction`, the key in case files; `reserved` are names that mean something
+    else under that key.
     """
 
     def __init__(self, kind: str, reserved: tuple[str, ...] = ()):
@@ -161,7 +167,10 @@ class LawList:
         self._laws: dict[str, Law] = {}
 
     def add(self, law: Law) -> None:
-        """Add a law. The module that registered a name may register it again, so that a law can be mended at a prompt.
+        """Add a law.
+
+        The module that registered a name may register it again, so that a law can be mended at a
+        prompt.
 
         Raises InputError if the name belongs to another module's law, or means something else.
         """
@@ -205,7 +214,10 @@ TRACTION_LAWS = LawList("traction", reserved=(MECHANISMS,))
 
 
 def own_laws() -> list[str]:
-    """Texts of the registered laws of one's own, which change whenever one of them may; sorted, empty without any."""
+    """Texts of the registered laws of one's own, sorted; empty without any.
+
+    They change whenever one of the laws may.
+    """
     laws = [kind.named(name) for kind in (FILM_LAWS, TRACTION_LAWS) for name in kind.names()]
     return sorted(law.source for law in laws if law.is_own)
 
@@ -227,15 +239,16 @@ def register_film(
     name : str
         Name in case files.
     function : callable
-        `function(interface, load [N], entrainment_speed [m/s]) -> h [m]`, with arrays of one shape; finite, above zero and
-        without jumps.
+        `function(interface, load [N], entrainment_speed [m/s]) -> h [m]`, with arrays of one shape;
+        finite, above zero and without jumps.
     reference : str
         Work to cite where the law was used.
     in_range : callable, optional
-        `in_range(interface, load, entrainment_speed)`: whether the formula holds, an array of truth values, counted in
-        `outside_film_range`.
+        `in_range(interface, load, entrainment_speed)`: whether the formula holds, an array of truth
+        values, counted in `outside_film_range`.
     range_notes : callable, optional
-        `range_notes(interface)`: a list of texts on numbers outside the range whatever load and speed.
+        `range_notes(interface)`: a list of texts on numbers outside the range whatever load and
+        speed.
 
     Examples
     --------
@@ -248,8 +261,10 @@ def register_film(
 def register_traction(name: str, function: Callable, *, reference: str) -> None:
     """Make a traction law usable by name.
 
-    As `register_film`, with `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, arrays of one shape
-    and slip above zero; finite, above zero and without jumps, and in proportion to slip where that is small.
+    As `register_film`, with
+    `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, arrays of one shape
+    and slip above zero; finite, above zero and without jumps, and in proportion to slip where that
+    is small.
 
     Examples
     --------
@@ -277,7 +292,7 @@ register_film(
 
 
 def film_range_notes(name: str, found: Iterable[Interface]) -> list[str]:
-    """Numbers outside the range of the film law called `name` at some interface, whatever load and speed."""
+    """Numbers outside the range of the film law `name` at some interface, at any load and speed."""
     notes = FILM_LAWS.named(name).range_notes
     return [
         f"{interface.name}: {note}"
@@ -289,15 +304,31 @@ def film_range_notes(name: str, found: Iterable[Interface]) -> list[str]:
 def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float) -> None:
     """Refuse a law of the user's own that breaks its contract, with the state at which it does.
 
-    It is tried over the states that a case can reach before the first step: a wrong law may give plausible numbers.
-    Raises InputError naming the law, the interface and the state; also if a law does not return. `speed` is the highest
-    of the raceways [m/s]; nothing is tried for 0.
+    It is tried over the states that a case can reach before the first step: a wrong law may give
+    plausible numbers.
+
+    Parameters
+    ----------
+    laws : Laws
+        The chosen mechanisms.
+    bearing : Bearing
+        Its dimensions, which bound the loads.
+    lubricant : Lubricant
+        The oil of the contacts.
+    speed : float
+        Highest speed of the raceways [m/s], ≥ 0; nothing is tried for 0.
+
+    Raises
+    ------
+    InputError
+        Naming the law, the interface and the state; also if a law does not return.
     """
     chosen = [FILM_LAWS.named(laws.film)]
     if laws.traction != MECHANISMS:
         chosen.append(TRACTION_LAWS.named(laws.traction))
     if speed > 0.0 and any(law.is_own for law in chosen):
-        # The grid needs the order of the speed only, so that the cases of a study share the finding.
+        # The grid needs the order of the speed only, so that the cases of a study share the
+        # finding.
         _check(laws, bearing, lubricant, 2.0 ** math.ceil(math.log2(speed)), tuple(chosen))
 
 

@@ -1,26 +1,29 @@
-"""Rolling resistance of a contact, from no load to an elastohydrodynamic film, and contacts that carry little load.
+"""Rolling resistance of a contact from no load to an elastohydrodynamic film, and light contacts.
 
-Both surfaces are sheared by the pressure's gradient: F_R = ½ ∫ h ∂p/∂x dA on each, against its motion. The inclined
-pressure pushes body i along its motion with 2 F_R R/R_i, 1/R = 1/R_1 + 1/R_2 with signs, so that all four add up to 0.
-The surfaces lose 2 F_R u, u their mean speed, and the film dissipates it; sliding has no part in it.
+Both surfaces are sheared by the pressure's gradient: F_R = ½ ∫ h ∂p/∂x dA on each, against its
+motion. The inclined pressure pushes body i along its motion with 2 F_R R/R_i, 1/R = 1/R_1 + 1/R_2
+with signs, so that all four add up to 0. The surfaces lose 2 F_R u, u their mean speed, and the
+film dissipates it; sliding has no part in it.
 
-An elastic contact is taken in slices along the roller: where F_R per length does not depend on load they give
-2a F_R(w_c), where it goes with the root of load (π/2) a F_R(w_c), w_c = 3Q/(4a) the load of the middle slice. One slice of
-w = (π²/16) w_c over 2a meets both, and lies within 1.5 % of the slices between them.
+An elastic contact is taken in slices along the roller: where F_R per length does not depend on load
+they give 2a F_R(w_c), where it goes with the root of load (π/2) a F_R(w_c), w_c = 3Q/(4a) the load
+of the middle slice. One slice of w = (π²/16) w_c over 2a meets both, and lies within 1.5 % of the
+slices between them.
 
-In Moes' groups M = W (2U)^(−½) and L = G (2U)^¼ the contact has N_F = F_R/(E' R l) (2U)^(−¾). It joins Martin's rigid,
-isoviscous limit N_R = 1.4705 √M and an elastic limit N_E with order n, N_F = (N_R^(−n) + N_E^(−n))^(−1/n). With the share of
-the rigid limit g = N_R^(−n)/(N_R^(−n) + N_E^(−n)),
+In Moes' groups M = W (2U)^(−½) and L = G (2U)^¼ the contact has N_F = F_R/(E' R l) (2U)^(−¾). It
+joins Martin's rigid, isoviscous limit N_R = 1.4705 √M and an elastic limit N_E with order n, N_F =
+(N_R^(−n) + N_E^(−n))^(−1/n). With the share of the rigid limit g = N_R^(−n)/(N_R^(−n) + N_E^(−n)),
 
     F_R = F_F (F_G/F_R,line)^g f^(1−g) + (1 − g) F_B,
 
-F_G the resistance of the rigid gap of finite length, and f = f_T f_S the factors of heating and starvation of an elastic
-inlet. F_B is the resistance of the film beside Hertz' ellipse, a ≤ |z| ≤ l/2, where the gap is
-h0 + (z² − a²)/(2R_y) and every slice Martin's:
+F_G the resistance of the rigid gap of finite length, and f = f_T f_S the factors of heating and
+starvation of an elastic inlet. F_B is the resistance of the film beside Hertz' ellipse, a ≤ |z| ≤
+l/2, where the gap is h0 + (z² − a²)/(2R_y) and every slice Martin's:
 
     F_B = 2 · 4.601 η0 u √(2 R_x R_y) ln{[l/2 + √(l²/4 + 2R_y h0 − a²)]/[a + √(2R_y h0)]}.
 
-A light contact gets F_G, a heavy one f N_E over its ellipse and F_B beside it. `macroslip.contact.gap` has the rigid gap.
+A light contact gets F_G, a heavy one f N_E over its ellipse and F_B beside it.
+`macroslip.contact.gap` has the rigid gap.
 """
 
 from __future__ import annotations
@@ -70,9 +73,12 @@ ORDERS = {"inlet": 10.0, "whole-film": 3.64}
 
 
 def starvation_factor(inlet):
-    """Rolling resistance over the resistance of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-], below 1.
+    """Rolling resistance over that of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-].
 
-    S is the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite where flooded.
+    It is below 1.
+
+    S is the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite
+    where flooded.
 
     Biboulet and Houpert, Proc. IMechE J 224 (2010) 777. Coefficients as later works quote them.
 
@@ -86,11 +92,11 @@ def starvation_factor(inlet):
 
 
 def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, type_factor=5.5):
-    """Rolling resistance of a bearing whose raceways refill over that of flooded ones, in the SKF model.
+    """Rolling resistance with kinematic replenishment over the flooded one, in the SKF model.
 
-    φ_rs = exp{−K_rs ν n (d + D) √[K_Z/(2 (D − d))]}, with ν in mm²/s, n in r/min, d and D in mm. A thick oil and a fast
-    bearing leave less time and way for what a roller pushes aside to flow back. φ_rs [-] is above 0 and at most 1, and
-    stated for steady running, ν from 2 to 500 mm²/s.
+    φ_rs = exp{−K_rs ν n (d + D) √[K_Z/(2 (D − d))]}, with ν in mm²/s, n in r/min, d and D in mm. A
+    thick oil and a fast bearing leave less time and way for what a roller pushes aside to flow
+    back. φ_rs [-] is above 0 and at most 1, and stated for steady running, ν from 2 to 500 mm²/s.
 
     Parameters
     ----------
@@ -101,13 +107,15 @@ def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, t
     bore, outside : float
         d and D > d of the bearing [m].
     constant : float
-        K_rs: 6e-8 for grease and oil-air, 3e-8 for a low oil bath, 0 where oil covers the lowest roller's axis.
+        K_rs: 6e-8 for grease and oil-air, 3e-8 for a low oil bath, 0 where oil covers the lowest
+        roller's axis.
     type_factor : float
         K_Z; 5.5 for double-row spherical, 5.1 for cylindrical roller bearings with a cage.
 
     References
     ----------
-    SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "The SKF model for calculating the frictional moment".
+    SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "The SKF model for calculating the
+    frictional moment".
 
     Examples
     --------
@@ -125,7 +133,9 @@ def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, t
 
 
 def inlet_heating_of_rolling(loading):
-    """Rolling resistance over the resistance of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-], above 0, at most 1.
+    """Rolling resistance over that of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-].
+
+    It is above 0 and at most 1.
 
     L_T = η0 β u²/k ≥ 0 is the thermal loading parameter.
 
@@ -145,17 +155,19 @@ def log_elastic(name: str, log_load, log_material):
     Parameters
     ----------
     name : str
-        `inlet`: the lower of Biboulet and Houpert's 1.470 and Goksem and Hargreaves' 2.737 L^(−0.342) M^0.0126, joined with
-        order 10, the order with which Biboulet and Houpert join their limits. In Moes' groups Goksem and Hargreaves'
-        F_R α_p/(R l) = 4.318 (G U)^0.658 W^0.0126 is left with (2U)^(−0.0002), which is dropped.
-        `whole-film`, inlet and exit: N_E = 2.026 exp(−0.00481 L) (1 + 1.97 M)^(−0.0692 L/(L + 4.71)), a fit.
+        `inlet`: the lower of Biboulet and Houpert's 1.470 and Goksem and Hargreaves' 2.737
+        L^(−0.342) M^0.0126, joined with order 10, the order with which Biboulet and Houpert join
+        their limits. In Moes' groups Goksem and Hargreaves' F_R α_p/(R l) = 4.318 (G U)^0.658
+        W^0.0126 is left with (2U)^(−0.0002), which is dropped.
+        `whole-film`, inlet and exit: N_E = 2.026 exp(−0.00481 L) (1 + 1.97 M)^(−0.0692 L/(L + 4.71)),
+        a fit.
     log_load, log_material : array_like
 
     Notes
     -----
-    Of the whole film N_F is within 3 % of the solutions of `benchmarks/line_contact.py` for M = 0.1 to 60, L = 0 to 18, with
-    Barus' law. With Roelands' law and a compressible oil (0.54 Pa s, 21 GPa⁻¹, L = 13.4) solutions lie within 5 % of it for
-    M = 1 to 32.
+    Of the whole film N_F is within 3 % of the solutions of `benchmarks/line_contact.py` for M = 0.1
+    to 60, L = 0 to 18, with Barus' law. With Roelands' law and a compressible oil (0.54 Pa s, 21
+    GPa⁻¹, L = 13.4) solutions lie within 5 % of it for M = 1 to 32.
 
     Examples
     --------
@@ -172,7 +184,9 @@ def log_elastic(name: str, log_load, log_material):
 
 
 def line_rolling(name: str, load, material):
-    """N_F = F_R/(E' R l) (2U)^(−¾) [-] of a line contact, flooded and isothermal, rigid to elastic and piezoviscous.
+    """Rolling resistance N_F = F_R/(E' R l) (2U)^(−¾) [-] of a line contact, rigid to elastic.
+
+    The contact is flooded and isothermal, isoviscous or piezoviscous.
 
     `name` is `inlet` or `whole-film`, see `log_elastic`; M and L are > 0.
 
@@ -190,11 +204,11 @@ def line_rolling(name: str, load, material):
 
 
 class Plug(NamedTuple):
-    """Yield stress of a grease times length [N/m], 2 R_x [m], and the longest way on one side of the gap [m]."""
+    """Plug of grease that stands between the surfaces."""
 
-    per_length: float = 0.0
-    double_radius: float = 0.0
-    longest: float = 0.0
+    per_length: float = 0.0  #: Yield stress times length [N/m]
+    double_radius: float = 0.0  #: 2 R_x [m]
+    longest: float = 0.0  #: Longest way on one side of the gap [m]
 
 
 class RollingNumbers(NamedTuple):
@@ -214,7 +228,8 @@ class RollingNumbers(NamedTuple):
     across: float  #: a per Q^(1/3) [m/N^(1/3)]
     area: float  #: π a b per Q^(2/3) [m²/N^(2/3)]
     share_1: float  #: R/R_1 of the roller; that of its counterpart makes 1 of it
-    #: Gap where inlets begin to be full [m], which starves every contact by its own film; infinite where flooded.
+    #: Gap where inlets begin to be full [m], which starves every contact by its own film; infinite
+    #: where flooded.
     oil_gap: float = math.inf
     plug: Plug = Plug()
 
@@ -242,8 +257,8 @@ def prepare_rolling(
     roller_radius : float
         [m].
     oil_gap : float
-        Gap where the inlet begins to be full [m]; over the film it is S. The elastic contact takes Biboulet and Houpert's
-        factor, the rigid one `starved_martin`. Infinite where flooded.
+        Gap where the inlet begins to be full [m]; over the film it is S. The elastic contact takes
+        Biboulet and Houpert's factor, the rigid one `starved_martin`. Infinite where flooded.
     widest_inlet : float
         Largest S of the rigid contact; see `prepare_gap`.
     heating : bool
@@ -291,7 +306,10 @@ def _log_group(numbers: RollingNumbers, log_load, log_speed):
 
 
 def _log_film(numbers: RollingNumbers, log_gap, log_load, log_speed):
-    """Ln of the film of the volume flow, by Moes' blend whose rigid, isoviscous limit is the gap of finite length."""
+    """Ln of the film of the volume flow, by Moes' blend.
+
+    Its rigid, isoviscous limit is the gap of finite length.
+    """
     scale = numbers.log_film + 0.5 * log_speed
     log_m = numbers.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed
     return scale + log_moes(
@@ -321,10 +339,11 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
     Returns
     -------
     conductance : ndarray
-        Sliding force of the film outside Hertz' ellipse over slip [N s/m]: η0 S with S = ∫∫ dA/h less the ellipse's own
-        part, S²/(S + π a b/h). Inside the ellipse it is the traction law's.
+        Sliding force of the film outside Hertz' ellipse over slip [N s/m]: η0 S with S = ∫∫ dA/h
+        less the ellipse's own part, S²/(S + π a b/h). Inside the ellipse it is the traction law's.
     resistance : ndarray
-        F_R [N]. The shear on the roller is −F_R sign(u), the push of the pressure −2 R/r times that, the power 2 F_R u.
+        F_R [N]. The shear on the roller is −F_R sign(u), the push of the pressure −2 R/r times
+        that, the power 2 F_R u.
     flow_film : ndarray
         Film of the volume flow [m].
 
@@ -368,7 +387,8 @@ def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h
     elastic = log_elastic(numbers.name, log_m, numbers.log_material + 0.25 * log_speed)
     rigid = _LOG_RIGID + 0.5 * log_m
     line = joined(rigid, elastic, -order)
-    # Shares of the rigid and of the elastic limit; neither is one less the other, which would cancel.
+    # Shares of the rigid and of the elastic limit; neither is one less the other, which would
+    # cancel.
     share = expit(order * (elastic - rigid))
     rest = expit(order * (rigid - elastic))
     scale = numbers.log_scale + log_load / 3.0 + 0.75 * log_speed
@@ -387,10 +407,10 @@ def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h
 
 
 def plug_force(numbers: RollingNumbers, gap):
-    """Force [N] of a grease's yield stress on each surface of a contact, on one side of the smallest gap h0 [m].
+    """Force [N] of a grease's yield stress on each surface, on one side of the smallest gap h0 [m].
 
-    τ_y l √(2 R_x (h_e − h0)): the walls slide past grease that stands, as far as the gap is full, h ≤ h_e, and at most a
-    roller's radius away.
+    τ_y l √(2 R_x (h_e − h0)): the walls slide past grease that stands, as far as the gap is full, h
+    ≤ h_e, and at most a roller's radius away.
     """
     reach = np.maximum(numbers.oil_gap - gap, 0.0)
     return numbers.plug.per_length * np.minimum(
@@ -399,21 +419,39 @@ def plug_force(numbers: RollingNumbers, gap):
 
 
 def contact_at_gap(numbers: RollingNumbers, gap):
-    """A contact whose smallest gap h0 [m] > 0 is given, as a roller with play has: rigid and isoviscous.
+    """Load and friction of a rigid, isoviscous contact whose smallest gap h0 [m] > 0 is given.
 
-    Load, conductance and resistance are per speed [N s/m]: Q over the size of the mean surface speed, sliding force
-    over slip, and F_R over the mean speed.
+    So is that of a roller with play.
+
+    Load, conductance and resistance are per speed [N s/m]: Q over the size of the mean surface
+    speed, sliding force over slip, and F_R over the mean speed.
     """
     log_load, log_rolling, log_shear = film_at_gap(numbers.gap, np.log(gap))
     return tuple(numbers.viscosity * np.exp(one) for one in (log_load, log_shear, log_rolling))
 
 
 def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):
-    """A roller in the pocket of its cage: a rigid, isoviscous contact under a load, whose gap the pocket bounds.
+    """Rigid, isoviscous contact of a roller in its cage pocket, which bounds the gap.
 
-    h0^−4 = h0(Q)^−4 + widest^−4: under no load the roller floats in the middle of its pocket. Gives sliding force over
-    slip, and F_R over the mean speed [N s/m]. The spar alone carries Q [N] ≥ 0; the size of the mean surface speed is >
-    0 [m/s], and `widest` the largest gap [m].
+    h0^−4 = h0(Q)^−4 + widest^−4: under no load the roller floats in the middle of its pocket.
+
+    Parameters
+    ----------
+    numbers : RollingNumbers
+        Constants of the contact with the spar.
+    load : array_like
+        Q [N], ≥ 0, which the spar alone carries.
+    mean_speed : array_like
+        Size of the mean surface speed [m/s], > 0.
+    widest : float
+        Largest gap [m], > 0.
+
+    Returns
+    -------
+    conductance : ndarray
+        Sliding force over slip [N s/m].
+    resistance : ndarray
+        F_R over the mean speed [N s/m].
     """
     with np.errstate(divide="ignore"):
         log_group = _log_group(numbers, np.log(load), np.log(mean_speed))

@@ -1,19 +1,23 @@
-"""A raceway contact whose slip has two components, as that of a skewed roller: integrals over the ellipse.
+"""A raceway contact whose slip has two components, as that of a skewed roller.
 
-Axes and signs are those of `docs/frames.md`: x against the travel of a positive orbit, y' along the contact normal outward,
-z' along the roller. The side k is −1 at the inner and +1 at the outer raceway. The roller's axis is e = z' + ψ x − θ y', with the
-skew ψ about +y' and the tilt θ about +x; its middle lies at δ along z'. A point of the contact has the station ζ along the roller,
-counted from the roller's middle, and ξ along x. With the curvatures of the raceway κ_z along and κ_x across, > 0 where it is hollow,
-and those of the gap C11 = 1/r − κ_x, C22 = 1/R_roller − κ_z:
+Forces and moments are integrals over the ellipse.
+
+Axes and signs are those of `docs/frames.md`: x against the travel of a positive orbit, y' along the
+contact normal outward, z' along the roller. The side k is −1 at the inner and +1 at the outer
+raceway. The roller's axis is e = z' + ψ x − θ y', with the skew ψ about +y' and the tilt θ about
++x; its middle lies at δ along z'. A point of the contact has the station ζ along the roller,
+counted from the roller's middle, and ξ along x. With the curvatures of the raceway κ_z along and
+κ_x across, > 0 where it is hollow, and those of the gap C11 = 1/r − κ_x, C22 = 1/R_roller − κ_z:
 
 * The middle of the ellipse lies at ζ_c = [−kθ + κ_z(δ + k r θ)]/C22. Its long axis is ξ = ε ζ with
   ε = ψ − (κ_z − κ_x) ψ/(C11 − C22): it turns less than the roller where the raceway is no sphere.
-* Both surfaces lie half way between their contours: h = ζ²/(2 R_d) + C22 (ζ_c ζ/2 − ζ_c²/4) below the roller's largest radius, and
-  h_w = h + k θ ζ below the raceway's middle.
-* Slip, ring less roller, against −k x (as `slip` is counted) and along z', with Ω_r the ring's speed in the orbiting frame, ω the
-  spin and s the row's axial sign:
+* Both surfaces lie half way between their contours: h = ζ²/(2 R_d) + C22 (ζ_c ζ/2 − ζ_c²/4) below
+  the roller's largest radius, and h_w = h + k θ ζ below the raceway's middle.
+* Slip, ring less roller, against −k x (as `slip` is counted) and along z', with Ω_r the ring's
+  speed in the orbiting frame, ω the spin and s the row's axial sign:
 
-      v = Δu + ω h − Ω_r cos α h_w − k s Ω_r sin α (ζ + δ + k r θ),     w = −k ω ψ (r − h) − (s Ω_r sin α + ω θ) ξ.
+      v = Δu + ω h − Ω_r cos α h_w − k s Ω_r sin α (ζ + δ + k r θ),
+      w = −k ω ψ (r − h) − (s Ω_r sin α + ω θ) ξ.
 
 Traction has the direction of slip, and its stress is that of the shear law at |(v, w)|.
 """
@@ -52,7 +56,8 @@ class SkewedContact(NamedTuple):
     laws: ContactLaws  #: For film and asperities
     shear: Shear  #: The film's stress, see `Shear`
     side: int  #: k
-    #: r, R_roller, the contact's distance from the bearing axis r~_k, and half the roller's length [m].
+    #: r, R_roller, the contact's distance from the bearing axis r~_k, and half the roller's length
+    #: [m].
     roller_radius: float
     roller_contour: float
     raceway_radius: float
@@ -71,7 +76,10 @@ class SkewedContact(NamedTuple):
 
     @property
     def turn(self) -> float:
-        """Angle by which the ellipse turns in the roller's own frame over the skew [-]; 0 on a sphere."""
+        """Angle by which the ellipse turns in the roller's frame, over the skew [-].
+
+        It is 0 on a sphere.
+        """
         rolling = 1.0 / self.roller_radius - self.across
         return -(self.along - self.across) / (rolling - self.lateral)
 
@@ -85,7 +93,8 @@ class SkewedContact(NamedTuple):
 class Resultants(NamedTuple):
     """What a contact does to the roller."""
 
-    #: Moment of the tractions about the roller's axis over r [N]; positive where it drives the spin up.
+    #: Moment of the tractions about the roller's axis over r [N]; positive where it drives the spin
+    #: up.
     spin: np.ndarray
     pull: np.ndarray  #: Force of the tractions along −k x [N], with the sign of the slip
     axial: np.ndarray  #: Force of the tractions along z' [N]
@@ -98,18 +107,19 @@ class Resultants(NamedTuple):
 
 
 class SlipLines(NamedTuple):
-    """Slip on the long axis of the ellipse by the station, v0 + v1 ζ + v2 ζ² in rolling and w0 + w1 ζ + w2 ζ² along the roller.
+    """Slip on the long axis of the ellipse, as polynomials of the station ζ.
 
-    In m/s, 1/s and 1/(m s). At ξ off that axis w is `per_xi` times ξ more.
+    It is v0 + v1 ζ + v2 ζ² in rolling and w0 + w1 ζ + w2 ζ² along the roller. At ξ off that axis w
+    is `per_xi` times ξ more.
     """
 
-    v0: np.ndarray
-    v1: np.ndarray
-    v2: np.ndarray
-    w0: np.ndarray
-    w1: np.ndarray
-    w2: np.ndarray
-    per_xi: np.ndarray
+    v0: np.ndarray  #: [m/s]
+    v1: np.ndarray  #: [1/s]
+    v2: np.ndarray  #: [1/(m s)]
+    w0: np.ndarray  #: [m/s]
+    w1: np.ndarray  #: [1/s]
+    w2: np.ndarray  #: [1/(m s)]
+    per_xi: np.ndarray  #: [1/s]
 
 
 def film_shear(fluid: Fluid) -> Shear:
@@ -118,17 +128,38 @@ def film_shear(fluid: Fluid) -> Shear:
 
 
 def constant_friction(coefficient: float) -> Shear:
-    """A stress in proportion to pressure, whatever film and slip; a reference, not a law of a lubricated contact."""
+    """Shear stress in proportion to pressure, whatever film and slip.
+
+    It is a reference, not a law of a lubricated contact.
+    """
     return lambda pressure, film, slip: coefficient * pressure + 0.0 * film * slip
 
 
 def skewed_contact(
     laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None
 ) -> SkewedContact:
-    """A raceway contact of a roller that may be skewed.
+    """Raceway contact of a roller that may be skewed.
 
-    `laws` are those of the inner or outer raceway, with a sheared film, whose stress `shear` may replace; `axial_sign`
-    is +1 for the downwind and −1 for the upwind row.
+    Parameters
+    ----------
+    laws : ContactLaws
+        Laws of the inner or the outer raceway, with a sheared film.
+    bearing : Bearing
+        Its dimensions.
+    axial_sign : int
+        +1 for the downwind and −1 for the upwind row.
+    shear : Shear, optional
+        Stress in place of that of the sheared film.
+
+    Returns
+    -------
+    SkewedContact
+        Geometry and laws of the contact.
+
+    Raises
+    ------
+    ValueError
+        If there is neither a sheared film nor `shear`.
     """
     inner = laws.name == "inner"
     side = -1 if inner else 1
@@ -151,7 +182,26 @@ def skewed_contact(
 
 
 def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> SlipLines:
-    """Slip of a contact; parameters as of `resultants`."""
+    """Slip along the long axis of the contact ellipse, as polynomials of the station.
+
+    Parameters
+    ----------
+    contact : SkewedContact
+        The contact.
+    ring_speed, slip : ndarray
+        u2 and Δu at the middle of the roller [m/s].
+    skew : ndarray
+        ψ [rad].
+    shift : ndarray
+        ζ_c [m].
+    tilt : ndarray
+        θ [rad].
+
+    Returns
+    -------
+    SlipLines
+        Coefficients, of the shape to which the arguments broadcast.
+    """
     k = contact.side
     r = contact.roller_radius
     spin = (ring_speed - slip) / r
@@ -176,12 +226,30 @@ def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> S
 def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt) -> Resultants:
     """Forces, moments and power of a contact by quadrature over its ellipse.
 
-    At Q > 0 [N], u2 ≠ 0 and Δu at the middle of the roller [m/s], the skew ψ [rad], the shift ζ_c [m] and the tilt θ
-    [rad].
+    The ellipse ends at the roller's ends. It is divided where v vanishes and graded towards these
+    lines, with 30 chords of 10 points each; against twice as many of either the net moments of both
+    raceways are off by what `tests/contact/test_skewed.py` bounds. Film and asperities share the
+    area as in `macroslip.contact.patch`.
 
-    The ellipse ends at the roller's ends. It is divided where v vanishes and graded towards these lines, with 30 chords of 10
-    points each; against twice as many of either the net moments of both raceways are off by what `tests/contact/test_skewed.py`
-    bounds. Film and asperities share the area as in `macroslip.contact.patch`.
+    Parameters
+    ----------
+    contact : SkewedContact
+        The contact.
+    load : array_like
+        Q [N], > 0.
+    ring_speed, slip : array_like
+        u2 ≠ 0 and Δu at the middle of the roller [m/s].
+    skew : array_like
+        ψ [rad].
+    shift : array_like
+        ζ_c [m].
+    tilt : array_like
+        θ [rad].
+
+    Returns
+    -------
+    Resultants
+        Arrays of the shape to which the arguments broadcast.
 
     Examples
     --------
@@ -253,7 +321,7 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
 def _chords(
     contact: SkewedContact, across, shift, constant, linear, square
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Stations of the chords [m] and their weights [m], graded towards the lines of pure rolling and the ends."""
+    """Stations of the chords and their weights [m], graded towards pure rolling and the ends."""
     low, high = (
         np.maximum(shift - across, -contact.half_length),
         np.minimum(shift + across, contact.half_length),

@@ -1,9 +1,10 @@
-"""Cubic splines on even grids: axes, coefficients through given values, and look-ups for compiled code.
+"""Cubic splines on even grids: axes, coefficients, and look-ups for compiled code.
 
-A spline of n nodes along an axis has n + 2 coefficients there. Tables of a contact hold four splines on one grid, their
-coefficients next to each other in one flat array, so that a look-up sums four numbers at a time in a vector register.
-This is the only file that writes instructions for the compiler: its vectors take a third of the time of plain loops.
-The order of all sums is fixed, so results are the same on processors with registers of any length.
+A spline of n nodes along an axis has n + 2 coefficients there. Tables of a contact hold four
+splines on one grid, their coefficients next to each other in one flat array, so that a look-up sums
+four numbers at a time in a vector register. This is the only file that writes instructions for the
+compiler: its vectors take a third of the time of plain loops. The order of all sums is fixed, so
+results are the same on processors with registers of any length.
 
 de Boor, A Practical Guide to Splines, Springer (1978), doi:10.1007/978-1-4612-6333-3.
 """
@@ -26,7 +27,8 @@ _INDEX = ir.IntType(32)
 _SIZE = ir.IntType(64)
 _EMPTY = ir.Constant(_VECTOR, ir.Undefined)
 _FOUR = types.UniTuple(types.float64, CHANNELS)
-#: The four weights as a polynomial of the place in the cell, constant term first, and their derivatives.
+#: The four weights as a polynomial of the place in the cell, constant term first, and their
+#: derivatives.
 _CUBIC = [
     [1 / 6, 4 / 6, 1 / 6, 0.0],
     [-0.5, 0.0, 0.5, 0.0],
@@ -37,11 +39,11 @@ _QUADRATIC = [[-0.5, 0.0, 0.5, 0.0], [1.0, -2.0, 1.0, 0.0], [-0.5, 1.5, -1.5, 0.
 
 
 class Axis(NamedTuple):
-    """Evenly spaced nodes of one coordinate: the first, the reciprocal of their distance, and the cells between them."""
+    """Evenly spaced nodes of one coordinate."""
 
-    first: float
-    per_spacing: float
-    cells: int
+    first: float  #: Coordinate of the first node
+    per_spacing: float  #: Reciprocal of the distance between nodes
+    cells: int  #: Number of cells between the nodes
 
     @property
     def nodes(self) -> np.ndarray:
@@ -67,7 +69,9 @@ def axis(first: float, last: float, spacing: float) -> Axis:
 
 
 def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
-    """Coefficients of the tensor-product spline through `values`, not-a-knot at the ends of its first `dimensions`.
+    """Coefficients of the tensor-product spline through given values.
+
+    At the ends of the first `dimensions` axes it is not-a-knot.
 
     Examples
     --------
@@ -78,14 +82,16 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
         nodes = np.moveaxis(values, dimension, 0)
         found = np.empty((len(nodes) + 2, *nodes.shape[1:]))
         inner = found[1:-1]  # that of a node stands at its place
-        # Not a knot: the fourth difference of the first five coefficients vanishes, which gives the second node's.
+        # Not a knot: the fourth difference of the first five coefficients vanishes, which gives the
+        # second node's.
         for side in (slice(None), slice(None, None, -1)):
             inner[side][1] = (8.0 * nodes[side][1] - nodes[side][0] - nodes[side][2]) / 6.0
         right = 6.0 * nodes[2:-2]
         right[0] -= inner[1]
         right[-1] -= inner[-2]
         bands = np.tile([[1.0], [4.0], [1.0]], len(right))
-        # With three diagonals LAPACK starts no threads, which wait for each other on a busy machine.
+        # With three diagonals LAPACK starts no threads, which wait for each other on a busy
+        # machine.
         inner[2:-2] = solve_banded((1, 1), bands, right.reshape(len(right), -1)).reshape(
             right.shape
         )
@@ -164,34 +170,54 @@ def _place(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, start: An
 
 
 def _is_flat(table: Any) -> bool:
-    """Whether this is the type of a flat array, or of its address: passing an address counts no references."""
+    """True for the type of a flat array or its address: an address counts no references."""
     flat = types.Array(types.float64, 1, "C", readonly=True), types.Array(types.float64, 1, "C")
     return table in flat or isinstance(table, types.Integer)
 
 
 @intrinsic
 def uncounted(typingctx, array):
-    """The same array, whose references are not counted; for a call during which the caller keeps it alive.
+    """The same array, whose references are not counted.
+
+    For a call during which the caller keeps it alive.
 
     Counting takes an eighth of an integration, whose parts hand the motion on at every stage.
     """
 
-    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         found = context.make_array(array)(context, builder, arguments[0])
         found.meminfo = ir.Constant(found.meminfo.type, None)
         return found._getvalue()
 
-    return array(array), generate
+    return array(array), _generate
 
 
 @intrinsic
 def spline_value(typingctx, table, start, strides, places):
-    """One spline Σ w_m(t) w_q(s) w_n(u) c[start + m strides_0 + q strides_1 + n] over three axes.
+    """Value of one cubic spline over three axes.
 
-    Parameters are those of `splines_in_cube`, with one spline in place of four.
+    It is Σ w_m(t) w_q(s) w_n(u) c[start + m strides_0 + q strides_1 + n].
+
+    Parameters
+    ----------
+    typingctx : Context
+        Of numba, which leaves it out of a call.
+    table : int or ndarray, shape (n,)
+        The flat coefficients, or their address.
+    start : int
+        Number of the cell's first coefficient.
+    strides : tuple of two ints
+        Numbers from one node to the next along the first and the second axis; 1 along the third.
+    places : tuple of three floats
+        t, s and u in the cell [-], 0 to 1.
+
+    Returns
+    -------
+    float
+        Value of the spline.
     """
 
-    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
         corner = _place(context, builder, table, arguments[0], arguments[1])
         first, second = (
@@ -214,18 +240,35 @@ def spline_value(typingctx, table, start, strides, places):
         return builder.fadd(builder.fadd(a, b), builder.fadd(c, d))
 
     given = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
-    return (types.float64(table, *given), generate) if _is_flat(table) else None
+    return (types.float64(table, *given), _generate) if _is_flat(table) else None
 
 
 @intrinsic
 def splines_in_square(typingctx, table, start, stride, t, u):
-    """Four splines Σ w_m(t) w_n(u) c[start + m stride + 4 n + channel] and their derivatives by t and u, as three tuples.
+    """Four cubic splines over two axes and their derivatives.
 
-    `start` is the number of the cell's first coefficient in the flat `table`, `stride` how many numbers lie from one
-    node of the first axis to the next; t and u are places in the cell, from 0 to 1.
+    They are Σ w_m(t) w_n(u) c[start + m stride + 4 n + channel].
+
+    Parameters
+    ----------
+    typingctx : Context
+        Of numba, which leaves it out of a call.
+    table : int or ndarray, shape (n,)
+        The flat coefficients, or their address.
+    start : int
+        Number of the cell's first coefficient.
+    stride : int
+        Numbers from one node of the first axis to the next; 4 along the second.
+    t, u : float
+        Places in the cell [-], 0 to 1.
+
+    Returns
+    -------
+    value, by_t, by_u : tuple of four floats
+        Values of the splines, and their derivatives by t and by u.
     """
 
-    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
         address = _place(context, builder, table, arguments[0], arguments[1])
         step = builder.mul(arguments[2], ir.Constant(_SIZE, 8))
@@ -245,19 +288,36 @@ def splines_in_square(typingctx, table, start, stride, t, u):
         return context.make_tuple(builder, signature.return_type, fours)
 
     given = (types.intp, types.intp, types.float64, types.float64)
-    return (types.UniTuple(_FOUR, 3)(table, *given), generate) if _is_flat(table) else None
+    return (types.UniTuple(_FOUR, 3)(table, *given), _generate) if _is_flat(table) else None
 
 
 @intrinsic
 def splines_in_cube(typingctx, table, start, strides, places):
-    """Four splines Σ w_m(t) w_q(s) w_n(u) c[…] over three axes and their derivatives by t, s and u.
+    """Four cubic splines over three axes and their derivatives.
 
-    They come as four tuples. Values that are not used cost nothing: they are not compiled. `start` is the number of the
-    cell's first coefficient in the flat `table`, the strides those from one node to the next along the first and the
-    second axis, four along the third; the places t, s and u are in the cell, from 0 to 1.
+    They are Σ w_m(t) w_q(s) w_n(u) c[start + m strides_0 + q strides_1 + 4 n + channel]. Values
+    that are not used cost nothing: they are not compiled.
+
+    Parameters
+    ----------
+    typingctx : Context
+        Of numba, which leaves it out of a call.
+    table : int or ndarray, shape (n,)
+        The flat coefficients, or their address.
+    start : int
+        Number of the cell's first coefficient.
+    strides : tuple of two ints
+        Numbers from one node to the next along the first and the second axis; 4 along the third.
+    places : tuple of three floats
+        t, s and u in the cell [-], 0 to 1.
+
+    Returns
+    -------
+    value, by_t, by_s, by_u : tuple of four floats
+        Values of the splines, and their derivatives by t, s and u.
     """
 
-    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
         corner = _place(context, builder, table, arguments[0], arguments[1])
         first, second = (
@@ -297,4 +357,4 @@ def splines_in_cube(typingctx, table, start, strides, places):
         return context.make_tuple(builder, signature.return_type, fours)
 
     given = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
-    return (types.UniTuple(_FOUR, 4)(table, *given), generate) if _is_flat(table) else None
+    return (types.UniTuple(_FOUR, 4)(table, *given), _generate) if _is_flat(table) else None

@@ -1,11 +1,13 @@
-"""What an inlet that is not full takes from the film and from the rolling resistance of an elastic contact.
+"""Starvation: film and rolling resistance of an elastic contact whose inlet is not full.
 
-The state of an inlet is S, the gap where it begins to be full over the film of the contact. Outside a Hertzian line contact
-the gap rises as h* (1 + y), y with the power 3/2 of the way, and the reduced pressure has to reach 1/α_p at the edge:
+The state of an inlet is S, the gap where it begins to be full over the film of the contact. Outside
+a Hertzian line contact the gap rises as h* (1 + y), y with the power 3/2 of the way, and the
+reduced pressure has to reach 1/α_p at the edge:
 
     1/α_p = ∫ 12 η0 u (h − h*)/h³ dx from the place where h = S h*.
 
-So h*^(4/3) goes with ∫₀^(S−1) y^(2/3)/(1 + y)³ dy, an incomplete beta function, whatever load and speed are.
+So h*^(4/3) goes with ∫₀^(S−1) y^(2/3)/(1 + y)³ dy, an incomplete beta function, whatever load and
+speed are.
 """
 
 from __future__ import annotations
@@ -37,7 +39,9 @@ def film_factor(inlet):
 
 
 def inlet_for_film(factor: float) -> float:
-    """S [-] at which the film is `factor` times that of a flooded contact, above 0 and at most 1; infinite at 1.
+    """S [-] at which the film is `factor` times that of a flooded contact.
+
+    `factor` is above 0 and at most 1; S is infinite at 1.
 
     Examples
     --------
@@ -49,7 +53,9 @@ def inlet_for_film(factor: float) -> float:
 
 
 def inlet_for_rolling(factor: float) -> float:
-    """S [-] at which `macroslip.contact.rolling.starvation_factor` is `factor`, above 0.12 and below 1.
+    """S [-] at which `macroslip.contact.rolling.starvation_factor` is `factor`.
+
+    `factor` is above 0.12 and below 1.
 
     Examples
     --------
@@ -73,13 +79,15 @@ def _inlets() -> CubicSpline:
 
 @functools.cache
 def _martin() -> CubicSpline:
-    """Ln of the rolling force of a starved rigid line contact over a flooded one's, over ln(S − 1)."""
+    """Ln of the starved over the flooded rolling force of a rigid line contact, over ln(S − 1)."""
     above = np.geomspace(_LEAST, _LARGEST, 80)
     return CubicSpline(np.log(above), np.log([starved_martin(1.0 + one)[1] for one in above]))
 
 
 def inlet_at_gap(gap, flooded_film):
-    """S of contacts whose inlets are full from a gap on, from the films that they had flooded, both [m].
+    """S of contacts whose inlets are full from a given gap on.
+
+    It follows from that gap and the film that the contact had flooded, both [m].
 
     It solves S `film_factor`(S) = gap/flooded_film.
 
@@ -94,7 +102,9 @@ def inlet_at_gap(gap, flooded_film):
 
 
 def rigid_rolling_factor(inlet):
-    """Rolling force of a rigid line contact over that of a flooded one with the same gap, from S > 1.
+    """Rolling force of a starved rigid line contact over that of a flooded one with the same gap.
+
+    S is > 1.
 
     Examples
     --------

@@ -1,8 +1,9 @@
-"""Tables of a roller's contacts, made from laws that give values: their box, their nodes, and how far they are off.
+"""Tables of a roller's contacts, made from laws: their box, their nodes and their errors.
 
-Cubic splines over load, speed and slip; `macroslip.contact.look_up` has the coordinates. All of a case's
-tables stand in one flat array. The nodes of a raceway's traction are made sheet by sheet, one for each w^(1/4), at speeds that are the
-same for all cases alike, so that they share their files on disk.
+Cubic splines over load, speed and slip; `macroslip.contact.look_up` has the coordinates. All of a
+case's tables stand in one flat array. The nodes of a raceway's traction are made sheet by sheet,
+one for each w^(1/4), at speeds that are the same for all cases alike, so that they share their
+files on disk.
 """
 
 from __future__ import annotations
@@ -21,15 +22,15 @@ from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.traction import chord_table
 from macroslip.storage.tables import remembered, stored, table_key
 
-#: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of w^(1/4) for the
-#: fastest speed of the box of 1 m/s.
+#: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k
+#: Q^(1/3), of asinh, and of w^(1/4) for the fastest speed of the box of 1 m/s.
 _LOAD_SPACING = 0.46
 _RATIO_SPACING = 0.06
 _SPEED_SPACING = 0.018
 #: Share of the pressure exponent of the middle by which loads are stretched.
 _STRETCH = 0.6
-#: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller carries some newtons of its
-#: films. Below, traction goes with load.
+#: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller
+#: carries some newtons of its films. Below, traction goes with load.
 _LEAST_LOAD = 0.05
 _LIGHTEST = 1e-3
 #: Slip ratio by which asinh is scaled with microslip, which varies by as much over a contact.
@@ -38,7 +39,8 @@ _MICROSLIP = 6e-4
 _LARGEST_RATIO = 4.0
 #: Slip ratio at which rolling comes to rest, v = 2 u2.
 _NO_ENTRAINMENT = 4.0 * (math.sqrt(2.0) - 1.0)
-#: Part of the Newtonian force that is missing at the slip by which asinh is scaled without microslip.
+#: Part of the Newtonian force that is missing at the slip by which asinh is scaled without
+#: microslip.
 _BENT = 0.05
 #: Distances between nodes of ln Q and ln u of planes, and their least speed as part of the fastest.
 _PLANE_LOAD = 0.1
@@ -46,11 +48,11 @@ _PLANE_SPEED = 0.05
 _SLOWEST = 1e-4
 #: Nodes beyond the states of the box: next to its ends a spline is less good.
 _BEYOND = 1
-#: Part of the largest force or power at the same load and speed below which an error counts as one of this part: a gripped
-#: roller's force passes through zero.
+#: Part of the largest force or power at the same load and speed below which an error counts as one
+#: of this part: a gripped roller's force passes through zero.
 _SMALL_FORCE = 0.05
-#: Random loads and speeds at which a table is measured, with slips at each; load [N] from which on a roller is held, and its
-#: slip ratio there; and the largest slip ratio of lighter ones.
+#: Random loads and speeds at which a table is measured, with slips at each; load [N] from which on
+#: a roller is held, and its slip ratio there; and the largest slip ratio of lighter ones.
 _STATES = 200
 _SLIPS = 10
 _HELD_LOAD = 20e3
@@ -71,12 +73,27 @@ class Box(NamedTuple):
 def table_box(
     ring_speeds: np.ndarray, highest_load: float, tolerance: float, falling: float = 0.0
 ) -> Box:
-    """The box of a case, rounded outward so that cases alike share their tables.
+    """Range of states that the tables of a case hold, rounded outward.
 
-    u2 [m/s] is linear between all load samples, at which it is given; `highest_load` is the largest load of a roller,
-    with weight and centrifugal force [N], `tolerance` that of the integrator: the error of a spline goes with the
-    fourth power of the distance between its nodes. `falling` is the speed that a roller reaches by itself, however slow
-    the rings are [m/s].
+    Cases alike then share their tables. u2 is linear between all load samples, at which it is
+    given.
+
+    Parameters
+    ----------
+    ring_speeds : ndarray
+        u2 at the load samples [m/s], of either sign.
+    highest_load : float
+        Largest load of a roller, with weight and centrifugal force [N].
+    tolerance : float
+        Tolerance of the integrator [-]; the error of a spline goes with the fourth power of the
+        distance between its nodes.
+    falling : float
+        Speed that a roller reaches by itself, however slow the rings are [m/s], ≥ 0.
+
+    Returns
+    -------
+    Box
+        Highest load [N], speeds [m/s] and fineness [-].
 
     Examples
     --------
@@ -125,8 +142,20 @@ def write_plane(
 ) -> None:
     """Make a plane over ln Q and ln u and write where it stands.
 
-    Of up to four quantities `values(load [N], speed [m/s])`, on arrays of one shape, from the least load [N] and speed
-    [m/s] on; `record` is one of `PLANE`.
+    Parameters
+    ----------
+    record : record of `PLANE`
+        Written.
+    tables : Tables
+        The tables to which its coefficients are added.
+    values : callable
+        Up to four quantities from load [N] and speed [m/s], arrays of one shape.
+    lightest : float
+        Least load [N], > 0.
+    slowest : float
+        Least speed [m/s], > 0.
+    box : Box
+        Highest load, highest speed and fineness.
     """
     load = axis(math.log(lightest), math.log(box.load), _PLANE_LOAD * box.fineness)
     speed = axis(math.log(slowest), math.log(2.0 * box.fastest), _PLANE_SPEED * box.fineness)
@@ -148,7 +177,10 @@ def film_values(
 
 
 def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Quantities of the plane of a raceway's oil: sliding per slip, rolling resistance and ln of the volume flow's film."""
+    """Quantities of the plane of a raceway's oil at loads Q [N] and speeds [m/s].
+
+    Sliding per slip, rolling resistance, and ln of the volume flow's film.
+    """
     conductance, resistance, film = light_contact(contact.rolling, load, speed)
     return conductance, resistance, np.log(film)
 
@@ -156,10 +188,24 @@ def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tup
 def cage_values(
     contact: ContactLaws, pocket_gap: float, load: np.ndarray, speed: np.ndarray
 ) -> tuple[np.ndarray, ...]:
-    """Quantities of the plane of the cage, over ln Q and ln of the roller's surface speed.
+    """Quantities of the plane of the cage's contact.
 
-    Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `pocket_gap` [m]
-    sliding per slip and rolling resistance per mean speed.
+    Parameters
+    ----------
+    contact : ContactLaws
+        Laws of the contact.
+    pocket_gap : float
+        Largest gap between roller and spar [m], > 0.
+    load : ndarray
+        Q [N], > 0.
+    speed : ndarray
+        Surface speed of the roller [m/s], > 0.
+
+    Returns
+    -------
+    tuple of ndarray
+        Friction per slip [N s/m] and the asperities' share of its power [-]; with oil in the pocket
+        also its sliding force per slip and its rolling resistance per mean speed [N s/m].
     """
     none = np.zeros_like(load)
     friction = none
@@ -176,9 +222,25 @@ def cage_values(
 def tractions(
     contact: ContactLaws, load: np.ndarray, ring_speed: np.ndarray, slip: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Traction of a contact by its laws: pull and lag [N], skew moment [N m] and power of asperities [W].
+    """Traction of a contact by its laws, the roller's axis tilted to the positive side.
 
-    At Q > 0 [N], u2 and v [m/s], of one shape. The roller's axis is tilted to the positive side.
+    Parameters
+    ----------
+    contact : ContactLaws
+        Laws of the contact.
+    load : ndarray
+        Q [N], > 0.
+    ring_speed, slip : ndarray
+        u2 and v [m/s], of either sign and of the shape of `load`.
+
+    Returns
+    -------
+    pull, lag : ndarray
+        Forces [N].
+    skew : ndarray
+        Moment [N m].
+    asperity_power : ndarray
+        Power of asperities [W].
     """
     entrainment = np.maximum(np.abs(ring_speed - 0.5 * slip), REST_SPEED)
     film = contact.film_thickness(load, entrainment)
@@ -207,7 +269,10 @@ class _Grid(NamedTuple):
     scale: float
 
     def loads(self, coordinates: np.ndarray) -> np.ndarray:
-        """Loads of coordinates [N], by Newton's iteration in the logarithm, in which they are concave."""
+        """Loads of coordinates [N], by Newton's iteration in their logarithm.
+
+        The coordinates are concave in it.
+        """
         logarithm = np.array(coordinates)
         for _ in range(100):
             root = np.exp(logarithm / 3.0)
@@ -245,8 +310,9 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
-    # A node at no slip, where the splines are exact: errors beside it hide the force of a roller that cold oil grips. And the
-    # slip without entrainment in the middle between two: there the film ends, and a node would spread that over its cells.
+    # A node at no slip, where the splines are exact: errors beside it hide the force of a roller
+    # that cold oil grips. And the slip without entrainment in the middle between two: there the
+    # film ends, and a node would spread that over its cells.
     fine = _RATIO_SPACING * box.fineness
     beyond = _NO_ENTRAINMENT - middle
     scale = beyond / math.sinh(fine * (math.floor(math.asinh(beyond / scale) / fine) + 0.5))
@@ -268,7 +334,7 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
 
 
 def _bent_ratio(contact: ContactLaws, box: Box) -> float:
-    """Slip ratio at which traction with the same slip all over begins to bend, at the highest load."""
+    """Slip ratio from which traction bends at the highest load, with one slip all over."""
     ratio = np.geomspace(1e-16, 1.0, 200)
     load = np.full_like(ratio, box.load)
     speed = np.full_like(ratio, box.fastest)
@@ -318,7 +384,24 @@ class _Made(NamedTuple):
 
 
 def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> TableErrors:
-    """Make the table of a raceway's traction, or find it in store, and write where it stands into a record of `TRACTION`."""
+    """Make the table of a raceway's traction, or find it in store, and write where it stands.
+
+    Parameters
+    ----------
+    record : record of `TRACTION`
+        Written.
+    tables : Tables
+        The tables to which its coefficients are added.
+    contact : ContactLaws
+        Laws of the raceway.
+    box : Box
+        States that the table holds.
+
+    Returns
+    -------
+    TableErrors
+        Relative errors of force and power [-].
+    """
     grid = _grid(contact, box)
     key = table_key("traction", *contact_parts(contact))
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
@@ -353,7 +436,9 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
 
 
 def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
-    """Slip as part of w up to which the moment on the roller rises with slip on either side, over loads and speeds.
+    """Slip as part of w up to which the moment on the roller rises with slip on either side.
+
+    Over loads and speeds.
 
     Of each node the least of it and its neighbours'.
     """
@@ -376,7 +461,8 @@ def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
 def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Box) -> TableErrors:
     """Errors at random states, even in the logarithms of load and speed.
 
-    Rollers with more than 20 kN slip up to .6 % of the ring's speed, lighter ones up to all of it and more.
+    Rollers with more than 20 kN slip up to .6 % of the ring's speed, lighter ones up to all of it
+    and more.
     """
     from scipy.ndimage import map_coordinates
 

@@ -1,20 +1,23 @@
-"""Traction of a sheared film: rheology, shear heating, its stress along a chord of the contact, and the table of it.
+"""Traction of a sheared film: rheology, shear heating, and stress along a chord of the contact.
 
-Stress at one point. A rheology is written γ̇ = τ*(τ)/η with an equivalent Newtonian stress τ*, and used in its inverse form
-τ = t(τ*). Across a thin film τ is constant, and shear dissipates τ τ*/η. With η = η_s exp(−β ΔT) and walls at inlet
-temperature the heat balance k T'' = −τ τ*/η is Crook's problem with τ τ* in place of τ², and has his solution: the profile is
-ΔT = (2/β) ln[cosh c/cosh(2c y/h)], with c from
+Stress at one point. A rheology is written γ̇ = τ*(τ)/η with an equivalent Newtonian stress τ*, and
+used in its inverse form τ = t(τ*). Across a thin film τ is constant, and shear dissipates τ τ*/η.
+With η = η_s exp(−β ΔT) and walls at inlet temperature the heat balance k T'' = −τ τ*/η is Crook's
+problem with τ τ* in place of τ², and has his solution: the profile is ΔT = (2/β) ln[cosh c/cosh(2c
+y/h)], with c from
 
     τ Δu β h/(8k) = c tanh c,        τ* = (η_s Δu/h) 2c/sinh 2c,        τ = t(τ*).
 
-The first means that all power leaves by conduction, the second that the shear rates add up to the slip. The left of the
-first rises with c and what the others put into it falls, so there is exactly one solution for every slip. In a
-Newtonian film τ = τ*, and sinh² c = B is Crook's heating number. Stress rises with slip as long as c tanh c < 1,
-whatever the law t: that is as long as τ Δu < 8k/(β h).
+The first means that all power leaves by conduction, the second that the shear rates add up to the
+slip. The left of the first rises with c and what the others put into it falls, so there is exactly
+one solution for every slip. In a Newtonian film τ = τ*, and sinh² c = B is Crook's heating number.
+Stress rises with slip as long as c tanh c < 1, whatever the law t: that is as long as τ Δu < 8k/(β
+h).
 
-Stress along a chord. On the chord of the ellipse at station ζ, in the direction of rolling, the Hertz pressure is p1 cos θ
-with x = b1 sin θ, and slip and film are the same all along it. Its traction per length is 2 b1 q with
-q = ∫₀^{π/2} τ(p1 cos θ) cos θ dθ. q is tabulated once for an oil.
+Stress along a chord. On the chord of the ellipse at station ζ, in the direction of rolling, the
+Hertz pressure is p1 cos θ with x = b1 sin θ, and slip and film are the same all along it. Its
+traction per length is 2 b1 q with q = ∫₀^{π/2} τ(p1 cos θ) cos θ dθ. q is tabulated once for an
+oil.
 """
 
 from __future__ import annotations
@@ -59,16 +62,19 @@ LOWEST_PRESSURE = 10.0
 _THINNEST = 2e-8
 _THICKEST = 4e-4
 _FASTEST = 5.0
-# A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip already.
+# A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip
+# already.
 LOWEST_LOG_SLIP = -12.0
-#: Pressures, and spacing of slips and of films in their logarithms. Eyring's stress has no corner at a limit: with a third of
-#: the nodes, interpolated stress is off by a tenth of the error with limiting shear.
+#: Pressures, and spacing of slips and of films in their logarithms. Eyring's stress has no corner
+#: at a limit: with a third of the nodes, interpolated stress is off by a tenth of the error with
+#: limiting shear.
 _GRIDS = {NEWTONIAN: (80, 0.3, 0.35), LIMITING_SHEAR: (80, 0.3, 0.35), EYRING: (56, 0.45, 0.5)}
-#: Slip [m/s] from which on the chord table is continued in a straight line: in light contacts it reaches a million times
-#: further. That is seven nodes and more beyond the slips that are looked up, and at each node a spline forgets three quarters
-#: of what is done beyond.
+#: Slip [m/s] from which on the chord table is continued in a straight line: in light contacts it
+#: reaches a million times further. That is seven nodes and more beyond the slips that are looked
+#: up, and at each node a spline forgets three quarters of what is done beyond.
 _CONTINUED = 150.0
-#: Bounds and spacing of both coordinates of the local stress, and its relative error beyond which it is solved for.
+#: Bounds and spacing of both coordinates of the local stress, and its relative error beyond which
+#: it is solved for.
 _BOUNDS = ((-14.0, 8.0), (-22.0, 8.0))
 _SPACING = 0.1
 _LARGEST_ERROR = 1e-6
@@ -77,11 +83,11 @@ _LARGEST_ERROR = 1e-6
 def limited_stress(rheology: int, viscous_stress, characteristic_stress):
     """Shear stress τ [Pa] of a film whose Newtonian stress would be τ* = η γ̇.
 
-    `NEWTONIAN`: τ = τ*. `LIMITING_SHEAR` (Bair and Winer): τ = τ_L [1 − exp(−τ*/τ_L)]. `EYRING`: τ = τ_E asinh(τ*/τ_E).
-    Of τ* ≥ 0, and τ_L or τ_E > 0 [Pa].
+    `NEWTONIAN`: τ = τ*. `LIMITING_SHEAR` (Bair and Winer): τ = τ_L [1 − exp(−τ*/τ_L)]. `EYRING`: τ
+    = τ_E asinh(τ*/τ_E). Of τ* ≥ 0, and τ_L or τ_E > 0 [Pa].
 
-    Bair and Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342; Eyring's law for traction: Johnson and
-    Tevaarwerk, Proc. R. Soc. A 356 (1977) 215, doi:10.1098/rspa.1977.0129.
+    Bair and Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342; Eyring's law for
+    traction: Johnson and Tevaarwerk, Proc. R. Soc. A 356 (1977) 215, doi:10.1098/rspa.1977.0129.
 
     Examples
     --------
@@ -106,15 +112,34 @@ def _elasticity(rheology: int, ratio):
 
 
 def heated_shear(rheology: int, viscous_stress, characteristic_stress, heat):
-    """Shear stress τ [Pa] of a film that is limited in stress and heated by its own shear: the exact solution.
+    """Shear stress of a film of limited stress that is heated by its own shear.
 
-    `rheology` is one of `limited_stress`; the viscous stress η_s |Δu|/h ≥ 0 [Pa] has the viscosity at wall temperature,
-    and the limiting or Eyring stress [Pa] is taken there too; `heat` is β h |Δu|/(8k) [1/Pa], 0 without heating.
-
-    Valid as long as conduction across the film is the only way for heat to leave. The mid-film temperature rise is
+    It is the exact solution of the module's docstring. The mid-film temperature rise is
     (2/β) ln cosh c.
 
-    Derivation in the module's docstring; Crook (1961), doi:10.1098/rsta.1961.0014, for the Newtonian case.
+    Parameters
+    ----------
+    rheology : int
+        As in `limited_stress`.
+    viscous_stress : array_like
+        η_s |Δu|/h [Pa], ≥ 0, with the viscosity at wall temperature.
+    characteristic_stress : array_like
+        Limiting or Eyring stress at wall temperature [Pa], > 0.
+    heat : array_like
+        β h |Δu|/(8k) [1/Pa], ≥ 0; 0 without heating.
+
+    Returns
+    -------
+    ndarray or float
+        τ [Pa], ≥ 0.
+
+    Notes
+    -----
+    Valid as long as conduction across the film is the only way for heat to leave.
+
+    References
+    ----------
+    Crook (1961), doi:10.1098/rsta.1961.0014, for the Newtonian case.
 
     Examples
     --------
@@ -151,7 +176,10 @@ def _thinning(c):
 
 
 def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarray:
-    """Stress over τ_L where heat counts, by Newton's method on c tanh c = heat · t(ratio 2c/sinh 2c), kept in a bracket."""
+    """Stress over τ_L where heat counts, with c tanh c = heat · t(ratio 2c/sinh 2c).
+
+    Newton's method, kept in a bracket.
+    """
     power = heat * limited_stress(rheology, ratio, 1.0)
     # Neither more than without thinning by heat, nor more than in a Newtonian film.
     high = np.minimum(
@@ -195,16 +223,16 @@ class Fluid(NamedTuple):
     exponent: float
     index: float
     reference_pressure: float
-    characteristic: (
-        float  #: γ = τ_L/p [-] for limiting shear, τ_E [Pa] for Eyring; 1 for a Newtonian film
-    )
+    #: γ = τ_L/p [-] for limiting shear, τ_E [Pa] for Eyring; 1 for a Newtonian film
+    characteristic: float
     heating: float  #: β/(8k) [m/W]; 0 without shear heating
 
 
 def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
     """The sheared film of a lubricant under the chosen mechanisms.
 
-    Raises InputError if its viscosity is too low for Roelands' law, or rises beyond all numbers with pressure.
+    Raises InputError if its viscosity is too low for Roelands' law, or rises beyond all numbers
+    with pressure.
     """
     if laws.viscosity == "roelands":
         index = roelands_index(lubricant.viscosity, lubricant.pressure_viscosity)
@@ -262,7 +290,24 @@ def characteristic_stress(fluid: Fluid, pressure):
 
 
 def characteristic_slip(fluid: Fluid, log_eta, pressure, film_thickness):
-    """Slip [m/s] at which limited stress, or in a Newtonian film shear heating, begins to have an effect."""
+    """Slip at which limited stress, or in a Newtonian film shear heating, begins to have an effect.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        The sheared film.
+    log_eta : array_like
+        ln η at the pressure [ln(Pa s)].
+    pressure : array_like
+        p [Pa], > 0.
+    film_thickness : array_like
+        h [m], > 0.
+
+    Returns
+    -------
+    ndarray or float
+        Slip [m/s], > 0.
+    """
     if fluid.rheology == NEWTONIAN:
         return np.exp(-0.5 * log_eta) / math.sqrt(max(fluid.heating, 1e-30)) + 0.0 * film_thickness
     return film_thickness * characteristic_stress(fluid, pressure) * np.exp(-log_eta)
@@ -275,12 +320,28 @@ _WEIGHTS = 0.25 * np.pi * _WEIGHTS * _COSINES
 
 
 def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
-    """Mean stress q [Pa] along a chord by quadrature.
+    """Mean shear stress q along a chord of the contact by quadrature.
 
-    At the largest pressure on the chord p1 > 0 [Pa], h [m] and |Δu| [m/s].
+    Parameters
+    ----------
+    fluid : Fluid
+        The sheared film.
+    pressure : array_like
+        Largest pressure on the chord p1 [Pa], > 0.
+    film_thickness : array_like
+        h [m], > 0.
+    slip : array_like
+        |Δu| [m/s], ≥ 0.
 
-    Relative error of the 18 nodes below 1e-4 up to 2 GPa and 1e-3 up to 4 GPa with Roelands' viscosity; with Barus' and
-    a limiting stress, 5e-4 up to 1 GPa and 1e-2 up to 2 GPa.
+    Returns
+    -------
+    ndarray or float
+        q [Pa], ≥ 0.
+
+    Notes
+    -----
+    Relative error of the 18 nodes below 1e-4 up to 2 GPa and 1e-3 up to 4 GPa with Roelands'
+    viscosity; with Barus' and a limiting stress, 5e-4 up to 1 GPa and 1e-2 up to 2 GPa.
 
     Examples
     --------
@@ -300,13 +361,16 @@ def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
 
 
 class _LocalStress(NamedTuple):
-    """ln(τ/τ_L) of a limited, self-heated film at one place, over ln(η_s Δu/(h τ_L)) and ln(β h Δu τ_L/(8k)).
+    """Local stress ln(τ/τ_L) of a limited, self-heated film.
+
+    The coordinates are ln(η_s Δu/(h τ_L)) and ln(β h Δu τ_L/(8k)).
 
     It depends on these two numbers only, so that one table serves all oils.
     """
 
     coefficients: np.ndarray  #: Shape (viscous + 2, heat + 2). Of the spline.
-    good: np.ndarray  #: Shape of the cells. Whether its error in the middle of the cell is within `_LARGEST_ERROR`.
+    #: Shape of the cells. Whether its error in the middle of the cell is within `_LARGEST_ERROR`.
+    good: np.ndarray
 
 
 @lru_cache(maxsize=2)
@@ -325,7 +389,7 @@ def _local_stress(rheology: int) -> _LocalStress:
 
 
 def _log_local_stress(rheology: int, viscous: np.ndarray, heat: np.ndarray) -> np.ndarray:
-    """ln(τ/τ_L) at arrays of both coordinates of `_LocalStress`, from its table where it is good."""
+    """ln(τ/τ_L) at both coordinates of `_LocalStress`, from its table where that is good."""
     table = _local_stress(rheology)
     places = [
         (one - low) / _SPACING for one, (low, _) in zip((viscous, heat), _BOUNDS, strict=True)
@@ -351,9 +415,25 @@ def _log_local_stress(rheology: int, viscous: np.ndarray, heat: np.ndarray) -> n
 
 
 def local_stress(fluid: Fluid, pressure, log_film, log_slip):
-    """Stress τ [Pa] at places of a film, from the table that all oils share, or where that is not good, solved for.
+    """Shear stress at points of a film, from the table that all oils share.
 
-    At p > 0 [Pa], and the logarithms of h [m] and |Δu| [m/s].
+    Where the table is not good enough the stress is solved for.
+
+    Parameters
+    ----------
+    fluid : Fluid
+        The sheared film.
+    pressure : array_like
+        p [Pa], > 0.
+    log_film : array_like
+        ln h of the film thickness [m].
+    log_slip : array_like
+        ln |Δu| of the slip [m/s].
+
+    Returns
+    -------
+    ndarray or float
+        τ [Pa], > 0.
 
     Examples
     --------
@@ -380,10 +460,14 @@ def local_stress(fluid: Fluid, pressure, log_film, log_slip):
 
 
 class ChordTable(NamedTuple):
-    """Spline of ln q over p1^¼, the logarithm of film thickness and that of slip over `characteristic_slip`.
+    """Spline of ln q over pressure, film thickness and slip.
 
-    Below the first slip a film is Newtonian and cool, and stress is proportional to slip. The spline is twice continuously
-    differentiable. One table serves all contacts of an oil; compiled functions look it up (`macroslip.contact.patch`).
+    The coordinates are p1^¼, the logarithm of film thickness and that of slip over
+    `characteristic_slip`.
+
+    Below the first slip a film is Newtonian and cool, and stress is proportional to slip. The
+    spline is twice continuously differentiable. One table serves all contacts of an oil; compiled
+    functions look it up (`macroslip.contact.patch`).
     """
 
     fluid: Fluid
@@ -399,14 +483,17 @@ class ChordTable(NamedTuple):
 
 @lru_cache(maxsize=16)
 def chord_table(fluid: Fluid | None) -> ChordTable:
-    """The table of a fluid, made in half a second of CPU time and kept, in memory and on disk; empty without one.
+    """Table of the chord stress of a fluid; empty without one.
 
-    With limiting shear and Roelands' viscosity the relative error of the interpolated stress is below 1e-3 (in 99 of 100
-    places 1e-4) up to 2 GPa and 0.05 m/s in films of 0.1 to 2 µm, and from 1 kPa to 30 MPa in any film. Where a contact
-    above 1 GPa skids at 0.4 m/s and limited stress gives way to heating it reaches 1 %, in less than one place in a hundred;
-    with Barus' viscosity, 4 %. In films beyond 10 µm under more than 30 MPa or slips beyond 0.6 m/s it may be several per
-    cent. With Eyring's law it is 5e-4 at most (3e-5) up to 0.05 m/s, and 2e-3 beyond, for viscosities of 0.05 to 1.5 Pa s.
-    The limiting stress itself is never exceeded.
+    It is made in half a second of CPU time and kept, in memory and on disk.
+
+    With limiting shear and Roelands' viscosity the relative error of the interpolated stress is
+    below 1e-3 (in 99 of 100 places 1e-4) up to 2 GPa and 0.05 m/s in films of 0.1 to 2 µm, and from
+    1 kPa to 30 MPa in any film. Where a contact above 1 GPa skids at 0.4 m/s and limited stress
+    gives way to heating it reaches 1 %, in less than one place in a hundred; with Barus' viscosity,
+    4 %. In films beyond 10 µm under more than 30 MPa or slips beyond 0.6 m/s it may be several per
+    cent. With Eyring's law it is 5e-4 at most (3e-5) up to 0.05 m/s, and 2e-3 beyond, for
+    viscosities of 0.05 to 1.5 Pa s. The limiting stress itself is never exceeded.
     """
     if fluid is None:
         nothing = Fluid(NEWTONIAN, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0)
@@ -417,7 +504,8 @@ def chord_table(fluid: Fluid | None) -> ChordTable:
     pressures = np.maximum(roots**4, LOWEST_PRESSURE)
     log_eta = log_viscosity(fluid, pressures)
     slowest = characteristic_slip(fluid, log_eta, pressures, math.exp(films[0]))[1:].min()
-    # A spline needs five nodes, even where stress is proportional to slip all through: Newtonian, without heating.
+    # A spline needs five nodes, even where stress is proportional to slip all through: Newtonian,
+    # without heating.
     highest = max(math.log(_FASTEST / slowest) + slip_spacing, LOWEST_LOG_SLIP + 4.5 * slip_spacing)
     slips = np.arange(LOWEST_LOG_SLIP, highest, slip_spacing)
 
@@ -434,7 +522,7 @@ def chord_table(fluid: Fluid | None) -> ChordTable:
 def _chord_values(
     fluid: Fluid, pressure: float, slips: np.ndarray, films: np.ndarray
 ) -> np.ndarray:
-    """Ln of the stress over its unit at one pressure [Pa], shape (films, slips); slips and films are logarithms."""
+    """Ln of the stress over its unit at one pressure [Pa], shape (films, slips), of logarithms."""
     log_eta = log_viscosity(fluid, pressure)
     film = np.exp(films)
     scale = characteristic_slip(fluid, log_eta, pressure, film)

@@ -33,10 +33,29 @@ def estimate_lubricant(
     The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil
     family by Gold et al., for esters and polyglycols raised within its scatter by the friction of
     thrust bearings, and the Eyring stress 2 gamma/alpha at 1 GPa. Values that the family leaves
-    open have the tag E and a range. Raises InputError if there is no such family, a viscosity is
-    out of range, or it does not fall with temperature. The viscosities are at 40 and 100 degC
-    [m2/s]; `base_oil` is a family of `macroslip.lubricant.base_oil.BASE_OILS`, for a grease that of
-    its base oil, and `name` the short name of the lubricant.
+    open have the tag E and a range.
+
+    Parameters
+    ----------
+    kinematic_viscosity_40 : float
+        Kinematic viscosity at 40 degC [m2/s], 1e-6 to 0.1.
+    kinematic_viscosity_100 : float
+        Kinematic viscosity at 100 degC [m2/s], 1e-6 to 0.1, below that at 40 degC.
+    base_oil : str
+        A family of `macroslip.lubricant.base_oil.BASE_OILS`, for a grease that of its base oil.
+    name : str
+        Short name of the lubricant.
+
+    Returns
+    -------
+    Lubricant
+        The lubricant with the provenance of its values.
+
+    Raises
+    ------
+    InputError
+        If there is no such family, a viscosity is out of range, or it does not fall with
+        temperature.
 
     Examples
     --------

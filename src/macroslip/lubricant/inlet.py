@@ -91,6 +91,21 @@ def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dic
     found: dict[str, Provenance] = {}
 
     def follows(key: str, value: float, unit: str, note: str, source: str) -> None:
+        """Enter a derived value.
+
+        Parameters
+        ----------
+        key : str
+            Name of the value.
+        value : float
+            The value [`unit`].
+        unit : str
+            Its SI unit.
+        note : str
+            How it was derived.
+        source : str
+            Key of the figure whose range is handed on in proportion; "" for none.
+        """
         found[key] = Provenance(value, unit, "D", note, scaled_range(origins.get(source), value))
 
     temperature = given.get("inlet_temperature")

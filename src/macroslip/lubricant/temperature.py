@@ -83,9 +83,24 @@ def walther_line_through(
     second_temperature: float,
     second_viscosity: float,
 ) -> WaltherLine:
-    """Line through two kinematic viscosities [m2/s], above 0.3 mm2/s, at two temperatures [K].
+    """Walther's line through two kinematic viscosities at two temperatures.
 
-    Raises InputError if the viscosity does not fall with temperature.
+    Parameters
+    ----------
+    first_temperature, second_temperature : float
+        Temperatures [K], > 0, different from each other.
+    first_viscosity, second_viscosity : float
+        Kinematic viscosities at these [m2/s], above 0.3 mm2/s.
+
+    Returns
+    -------
+    WaltherLine
+        Intercept and slope [-].
+
+    Raises
+    ------
+    InputError
+        If the viscosity does not fall with temperature.
 
     Examples
     --------

@@ -102,13 +102,32 @@ def minimum_load_of_rollers(dynamic_load_rating: float) -> float:
 def dynamic_equivalent_load(
     radial_load: ArrayLike, axial_load: ArrayLike, e: float, y1: float, y2: float
 ) -> NDArray[np.float64]:
-    """Dynamic equivalent radial load [N] of a double-row spherical roller bearing.
+    """Dynamic equivalent radial load of a double-row spherical roller bearing.
 
-    P = Fr + Y1 |Fa| where |Fa| <= e Fr, else 0.67 Fr + Y2 |Fa|.
+    P = Fr + Y1 |Fa| where |Fa| <= e Fr, else 0.67 Fr + Y2 |Fa|. As catalogues round the factors, P
+    has a step of up to a few per cent at |Fa| = e Fr.
 
-    ISO 281:2007, table 8. Of Fr, not negative, and Fa, either sign [N], with the catalogue's e, Y1
-    and Y2 [-]; 1.5 tan(alpha), 0.45 cot(alpha) and 0.67 cot(alpha) in the standard. As catalogues
-    round them, P has a step of up to a few per cent at |Fa| = e Fr.
+    Parameters
+    ----------
+    radial_load : array_like
+        Fr [N], not negative.
+    axial_load : array_like
+        Fa [N], either sign.
+    e : float
+        Limit of Fa/Fr for Y1 [-]; 1.5 tan(alpha) in the standard.
+    y1 : float
+        Axial load factor below the limit [-]; 0.45 cot(alpha) in the standard.
+    y2 : float
+        Axial load factor above the limit [-]; 0.67 cot(alpha) in the standard.
+
+    Returns
+    -------
+    ndarray
+        P [N].
+
+    References
+    ----------
+    ISO 281:2007, table 8.
 
     Examples
     --------
@@ -228,16 +247,36 @@ class RingRatings(NamedTuple):
 def ring_ratings(
     dynamic_load_rating: float, rows: int, rollers_per_row: int, contact_angle: float, gamma: float
 ) -> RingRatings:
-    """Load ratings [N] of a roller's contacts with inner and outer ring.
+    """Dynamic load ratings of a roller's contacts with inner and outer ring.
 
-    They follow from the bearing's load rating.
+    They follow from the bearing's load rating. With
+    g = [1.038 ((1 - gamma)/(1 + gamma))^(143/108)]^(9/2),
 
-    Q_ci = C/(0.378 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 - gamma)/(1 +
-    gamma))^(143/108)]^(9/2)}^(2/9), Q_ce = C/(0.364 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 -
-    gamma)/(1 + gamma))^(143/108)]^(-9/2)}^(2/9), without the division by lambda nu = 0.83, which
-    goes with laminae. Of C [N], i rows, Z rollers in each, alpha [rad] and gamma = Dw
-    cos(alpha)/Dpw [-].
+    Q_ci = C/(0.378 Z cos(alpha) i^(7/9)) (1 + g)^(2/9),
+    Q_ce = C/(0.364 Z cos(alpha) i^(7/9)) (1 + 1/g)^(2/9),
 
+    without the division by lambda nu = 0.83, which goes with laminae.
+
+    Parameters
+    ----------
+    dynamic_load_rating : float
+        C of the bearing [N].
+    rows : int
+        Number of rows i.
+    rollers_per_row : int
+        Number of rollers in a row Z.
+    contact_angle : float
+        alpha [rad].
+    gamma : float
+        Dw cos(alpha)/Dpw [-], 0 to 1.
+
+    Returns
+    -------
+    RingRatings
+        Q_ci and Q_ce [N].
+
+    References
+    ----------
     ISO/TS 16281:2008, section 6.3.1.1. 0.378 and 0.364 are J_r/J_1 and J_r/J_2, Sjövall's and
     Lundberg's load integrals of a bearing loaded over half its circumference, to which the tests
     compare them.
@@ -260,21 +299,38 @@ def ring_ratings(
 def damage_series(load, semi_axis, roller_length, rating, stationary):
     """Damage of one ring of one row over a history, (Q_e/Q_c)^(9/2).
 
-    It follows from the loads of all the row's rollers.
-
     Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of
-    one at rest. Along the roller it is the mean over laminae, on each of which a load Q_j counts
-    that spread over the whole length would give what it bears per length: Hertz' ellipse, or what
-    lies within the roller's ends, carrying all. The mean is the standard's sum with q_c = Q_c
-    (1/n)^(7/9). It has the shape (2, n): with the load along the roller of Hertz, and with load
-    spread evenly and the factor 0.83 kept, which is what ISO 281 assumes of every bearing. `load`
-    is that of the row's rollers [N], shape (Z, n); the semi-axis of the contact ellipse along the
-    roller is per Q^(1/3) [m/N^(1/3)], the length L in m, and Q_c of the ring [N] is without the
-    division by `REDUCTION`; `stationary` says whether the ring is at rest relative to the load.
+    one at rest. Along the roller the damage is the mean over laminae, on each of which a load Q_j
+    counts that spread over the whole length would give what it bears per length: Hertz' ellipse, or
+    what lies within the roller's ends, carrying all. The mean is the standard's sum with
+    q_c = Q_c (1/n)^(7/9).
 
+    Parameters
+    ----------
+    load : ndarray, shape (Z, n)
+        Loads of the row's rollers [N]; those not above 0 count as none.
+    semi_axis : float
+        Semi-axis of the contact ellipse along the roller, per Q^(1/3) [m/N^(1/3)].
+    roller_length : float
+        Effective length L of a roller [m].
+    rating : float
+        Q_c of the ring [N], without the division by `REDUCTION`.
+    stationary : bool
+        Whether the ring is at rest relative to the load.
+
+    Returns
+    -------
+    ndarray, shape (2, n)
+        Damage [-] with the load along the roller of Hertz, and with load spread evenly and the
+        factor 0.83 kept, which is what ISO 281 assumes of every bearing.
+
+    Notes
+    -----
     The inner loop runs over laminae of rollers of samples, 40 million times for ten minutes;
     NumPy's powers of the same arrays take ten times as long.
 
+    References
+    ----------
     ISO/TS 16281:2008, section 6.3.1.2.
 
     Examples

@@ -74,14 +74,29 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
 def damage_equivalent_load(
     load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0
 ) -> float:
-    """Range [N] of a sinusoidal load of one frequency that does the same damage.
+    """Range of a sinusoidal load of one frequency that does the same damage.
 
-    It is (sum S_i^m/(f T))^(1/m).
+    It is (sum S_i^m/(f T))^(1/m), twice the amplitude, with S_i the `rainflow_ranges` of the load.
 
-    Twice its amplitude; 0 for a constant load. S_i are the `rainflow_ranges` of the load [N], T > 0
-    its duration [s], m
-    >= 1 the slope of the Wöhler line [-], f the frequency [Hz]. IEC 61400-13, annex on
-    damage-equivalent loads.
+    Parameters
+    ----------
+    load : array_like
+        History of the load [N].
+    duration : float
+        Its duration T [s], > 0.
+    exponent : float
+        Slope m of the Wöhler line [-], >= 1.
+    frequency : float
+        f [Hz], > 0.
+
+    Returns
+    -------
+    float
+        Range [N]; 0 for a constant load.
+
+    References
+    ----------
+    IEC 61400-13, annex on damage-equivalent loads.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Everything about a roller that does not change with time: its numbers, its laws, and both as compiled functions take them."""
+"""Numbers and laws of a roller that do not change with time, also as compiled code takes them."""
 
 from __future__ import annotations
 
@@ -34,29 +34,43 @@ from macroslip.ring.balance import RingGeometry
 _LIGHTEST = 1e-4
 _SLOWEST = 1e-4
 
-#: A contact of a roller: its tables, the numbers of the paper's closed form, the part of rolling resistance's shear that acts
-#: along the ring's motion (`push`), and what curvature and contact angle make of lag and skew moment in its power.
+#: A contact of a roller.
 CONTACT = np.dtype(
     [
-        ("traction", TRACTION), ("oil", PLANE), ("film", PLANE),
-        ("conductance", "f8"), ("pressure_exponent", "f8"), ("heating", "f8"),
-        ("boundary_friction", "f8"), ("full_slip", "f8"), ("push", "f8"), ("curvature", "f8"), ("spin", "f8"),
+        ("traction", TRACTION),  # table of a raceway's traction
+        ("oil", PLANE),  # table of a raceway's oil, or of friction and oil at the cage
+        ("film", PLANE),  # table of ln h and the asperities' share, with the closed form
+        # Of the paper's closed form, as in `macroslip.contact.closed_form.BarusCrook`.
+        ("conductance", "f8"),  # [N^(1/3) s]
+        ("pressure_exponent", "f8"),  # [N^(−1/3)]
+        ("heating", "f8"),  # [s/m]
+        ("boundary_friction", "f8"),  # µ_b [-]
+        ("full_slip", "f8"),  # slip from which on asperities slide [m/s]
+        ("push", "f8"),  # part of rolling resistance's shear along the ring's motion [-]
+        ("curvature", "f8"),  # κ r/u2 [-]: power by the lag, over lag and ring speed
+        ("spin", "f8"),  # s/u2 [1/m]: −power by the skew moment, over moment and ring speed
     ]
 )  # fmt: skip
 #: Waves of an outer ring out of round, as `RingGeometry` has them.
 WAVES = ("second_x", "second_y", "third_x", "third_y")
 _NUMBERS = (
-    "radius", "mobility", "stiffness", "cos_contact_angle", "sin_contact_angle", "radial_play", "orbit_ratio", "outer_radius",
-    "weight_in_plane", "weight_along_axis", "centrifugal", "drag", *WAVES,
+    "radius", "mobility", "stiffness", "cos_contact_angle", "sin_contact_angle", "radial_play",
+    "orbit_ratio", "outer_radius", "weight_in_plane", "weight_along_axis", "centrifugal", "drag",
+    *WAVES,
 )  # fmt: skip
-#: A roller: `RollerModel`'s numbers, what kinds of laws it has, elastic load from which on films carry nothing beside it, the box
-#: of its tables, and its contacts.
+#: A roller.
 BODY = np.dtype(
     [
-        *((name, "f8") for name in _NUMBERS),
-        ("closed_form", "i8"), ("microslip", "i8"), ("oily", "i8"), ("faded_load", "f8"),
-        ("highest_load", "f8"), ("highest_speed", "f8"),
-        ("inner", CONTACT), ("outer", CONTACT), ("cage", CONTACT),
+        *((name, "f8") for name in _NUMBERS),  # with the meaning and units of `RollerModel`
+        ("closed_form", "i8"),  # 1 where traction has the paper's closed form
+        ("microslip", "i8"),  # 1 where slip varies over the raceway contacts
+        ("oily", "i8"),  # 1 with rolling resistance
+        ("faded_load", "f8"),  # elastic load from which on the films' load is negligible [N]
+        ("highest_load", "f8"),  # of the tables [N]
+        ("highest_speed", "f8"),  # of the tables, w [m/s]
+        ("inner", CONTACT),
+        ("outer", CONTACT),
+        ("cage", CONTACT),
     ]
 )  # fmt: skip
 
@@ -66,9 +80,8 @@ class RollerModel:
     """One roller on its imposed orbit."""
 
     radius: float  #: r [m]
-    mobility: (
-        float  #: r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force
-    )
+    #: r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force
+    mobility: float
     stiffness: float  #: K of inner and outer contact in series [N/m^1.5]
     #: Of the contact angle α [-]; the sine carries the row's axial sign s.
     cos_contact_angle: float
@@ -95,18 +108,18 @@ class RollerModel:
 
 
 class Roller(NamedTuple):
-    """A roller as compiled functions take it: the record of its numbers, and the flat array of its tables."""
+    """A roller as compiled functions take it."""
 
-    body: np.ndarray
-    tables: np.ndarray
+    body: np.ndarray  #: Shape (1,), of `BODY`. Its numbers
+    tables: np.ndarray  #: The flat array of its tables
 
 
 class TableReport(NamedTuple):
     """Numbers on tables for a result: relative errors of force and power, and size [bytes]."""
 
-    typical_error: float
-    worst_error: float
-    size: int
+    typical_error: float  #: Median of the relative errors of force and power [-]
+    worst_error: float  #: Largest of these [-]
+    size: int  #: Size of the tables [bytes]
 
 
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
@@ -137,13 +150,37 @@ def roller_model(
     drag: bool = True,
     laws: Laws = Laws.paper(),
 ) -> RollerModel:
-    """Prepare a roller of one row.
-
-    Raises InputError for unknown laws, values the lubricant lacks, or curvatures that do not make a Hertz contact.
-    `axial_sign` is +1 for the downwind and −1 for the upwind row, `tilt` that of the shaft [rad]: the hub end is up, so
-    that weight has a part along +Z0.
+    """Numbers and laws of a roller of one row on its imposed orbit.
 
     The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Its dimensions and materials.
+    lubricant : Lubricant
+        The oil of the contacts, and of the drag.
+    axial_sign : int
+        +1 for the downwind and −1 for the upwind row.
+    tilt : float
+        Tilt of the shaft [rad]: the hub end is up, so that weight has a part along +Z0.
+    gravity : bool
+        Whether the roller has weight.
+    drag : bool
+        Whether the lubricant resists its orbit.
+    laws : Laws
+        The chosen mechanisms.
+
+    Returns
+    -------
+    RollerModel
+        The roller, in SI units.
+
+    Raises
+    ------
+    InputError
+        For unknown laws, values the lubricant lacks, or curvatures that do not make a Hertz
+        contact.
     """
     radius = geometry.roller_radius(bearing)
     mass = geometry.roller_mass(bearing.density, radius, bearing.roller_length)
@@ -178,7 +215,7 @@ def roller_model(
 
 
 def body_force(model: RollerModel, shaft_speed: float) -> float:
-    """Largest weight and centrifugal force of a roller [N] at shaft speeds up to the given one [rad/s]."""
+    """Largest weight and centrifugal force of a roller [N] up to a shaft speed [rad/s]."""
     weight = abs(model.weight_in_plane) + abs(model.weight_along_axis)
     return weight + model.centrifugal * (model.orbit_ratio * shaft_speed) ** 2
 
@@ -186,9 +223,12 @@ def body_force(model: RollerModel, shaft_speed: float) -> float:
 def with_tables(
     models: dict[str, RollerModel], box: Box, pocket_gap: float = POCKET_GAP
 ) -> tuple[dict[str, Roller], TableReport]:
-    """The rollers of both rows with the tables of their contacts, which hold the states of the box, made or from store.
+    """Rollers of both rows with the tables of their contacts.
 
-    Takes the models by row, of the same bearing, oil and laws, and the largest gap between a roller and its spar [m].
+    The tables hold the states of the box; they are made or come from store.
+
+    Takes the models by row, of the same bearing, oil and laws, and the largest gap between a roller
+    and its spar [m].
     """
     tables = Tables()
     found = {}
@@ -214,7 +254,7 @@ def with_tables(
 def _write_contact(
     record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float
 ) -> list[TableErrors]:
-    """Write the tables and numbers of one contact; the errors of its traction's table, if it has one."""
+    """Write tables and numbers of one contact; the errors of its traction's table, if any."""
     errors = []
     record["boundary_friction"] = contact.boundary_friction
     record["full_slip"] = contact.full_slip

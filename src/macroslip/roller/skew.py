@@ -1,14 +1,17 @@
-"""Equilibrium of a skewed roller on an imposed orbit: its slip, tilt and shift, and the moment that turns it on.
+"""Equilibrium of a skewed roller on an imposed orbit, and the moment that turns it on.
 
-At a given skew ψ three conditions fix the slip Δu, the tilt θ and the shift δ (inner raceway i, outer raceway o, σ = κ_z times the
-contact's place on the raceway is its slope there, F the axial tractions):
+The equilibrium fixes its slip, tilt and shift.
+
+At a given skew ψ three conditions fix the slip Δu, the tilt θ and the shift δ (inner raceway i,
+outer raceway o, σ = κ_z times the contact's place on the raceway is its slope there, F the axial
+tractions):
 
 * spin: the moment of the tractions about the roller's axis is that of rolling resistance,
 * axial force: F_i + F_o = Q (σ_i + σ_o),
 * couple about x: Σ k [r (F − Q σ) + Q (ζ + k r θ)] = 0.
 
-What is left is the net moment about the contact normal. It turns the roller within tenths of a second, an orbit being seconds,
-until it vanishes (rest) or a stop carries it.
+What is left is the net moment about the contact normal. It turns the roller within tenths of a
+second, an orbit being seconds, until it vanishes (rest) or a stop carries it.
 """
 
 from __future__ import annotations
@@ -26,12 +29,13 @@ if TYPE_CHECKING:
     from macroslip.contact.laws import RollerLaws
     from macroslip.contact.skewed import Shear
 
-#: Longest step of the slip over the speed of the rings, and what may be left of the spin moment over radius, and change of the
-#: axial tractions, over the load.
+#: Longest step of the slip over the speed of the rings, and what may be left of the spin moment
+#: over radius, and change of the axial tractions, over the load.
 _LONGEST = 0.01
 _LEFT = 1e-7
 _STILL = 1e-6
-#: Iterations: at most, and from which on changes of the axial tractions are halved, for contacts that would swing.
+#: Iterations: at most, and from which on changes of the axial tractions are halved, for contacts
+#: that would swing.
 _ITERATIONS = 80
 _DAMPED = 20
 #: Difference of slip over the speed of the rings, for the slope of the spin moment.
@@ -48,17 +52,17 @@ class Equilibrium(NamedTuple):
     #: θ [rad], positive about +x, and δ of the roller's middle along z' [m].
     tilt: np.ndarray
     shift: np.ndarray
-    #: Net moment about +y' [N m], tractions and pressure of both raceways; positive turns the roller to positive skew.
+    #: Net moment about +y' [N m], tractions and pressure of both raceways; positive turns the
+    #: roller to positive skew.
     moment: np.ndarray
     moments: np.ndarray  #: Shape (..., 2). The same by raceway
     #: Shape (..., 2). Frictional power of the raceways, and the asperities' part of it [W].
     power: np.ndarray
     asperity_power: np.ndarray
-    axial: (
-        np.ndarray
-    )  #: Axial force on the inner ring along z' [N], of friction and of the turned normal force
-    #: Force of the raceways on the roller along +x [N], of tractions and rolling resistance; a spar bears it, with
-    #: weight and drag.
+    #: Axial force on the inner ring along z' [N], of friction and of the turned normal force
+    axial: np.ndarray
+    #: Force of the raceways on the roller along +x [N], of tractions and rolling resistance; a spar
+    #: bears it, with weight and drag.
     push: np.ndarray
     unbalanced: np.ndarray  #: Spin moment left over radius and load [-]
 
@@ -73,7 +77,24 @@ class Pair(NamedTuple):
 def raceways(
     laws: RollerLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None
 ) -> Pair:
-    """The raceway contacts of a roller; parameters as of `macroslip.contact.skewed.skewed_contact`."""
+    """Raceway contacts of a roller that may be skewed.
+
+    Parameters
+    ----------
+    laws : RollerLaws
+        Laws of the roller's contacts, with a sheared film.
+    bearing : Bearing
+        Its dimensions.
+    axial_sign : int
+        +1 for the downwind and −1 for the upwind row.
+    shear : Shear, optional
+        Stress in place of that of the sheared film.
+
+    Returns
+    -------
+    Pair
+        Contacts with the inner and the outer raceway.
+    """
     inner, outer = (
         skewed_contact(one, bearing, axial_sign, shear) for one in (laws.inner, laws.outer)
     )
@@ -81,7 +102,10 @@ def raceways(
 
 
 def _resistance_on(laws: RollerLaws, load, speed) -> tuple[np.ndarray, np.ndarray]:
-    """Rolling resistance of both raceways [N]: in the spin equation, against the spin's own sign, and along +x."""
+    """Rolling resistance of both raceways [N]: in the spin equation, and along +x.
+
+    In the spin equation it acts against the spin's own sign.
+    """
     total = np.zeros(np.broadcast(load, speed).shape)
     push = np.zeros(total.shape)
     for contact, sign in ((laws.inner, 1.0), (laws.outer, -1.0)):
@@ -206,7 +230,8 @@ def equilibrium(
         place = middles[0] + shift[going] - r * tilt[going]
         inward[going] = load[going] * bend * place - found[0]
         moving = (left[going] >= _LEFT) | (change >= _STILL * load[going])
-        # Behind a zero at most half of the way back: where the slope falls to both sides, whole steps would swing for ever.
+        # Behind a zero at most half of the way back: where the slope falls to both sides, whole
+        # steps would swing for ever.
         most = np.where(spin * last_spin[going] < 0.0, 0.5 * np.abs(taken[going]), longest[going])
         change = np.clip(spin / np.maximum(slope, np.abs(spin) / longest[going]), -most, most)
         last_spin[going] = spin
@@ -233,21 +258,24 @@ class Pocket(NamedTuple):
 
     largest: float  #: Largest skew [rad]
     arm: float  #: Moment of the two spars over the force of either, with the roller at its stop [m]
-    #: Moment by which one spar straightens the roller, over its force and the skew [m/rad], until it touches the roller's end.
+    #: Moment by which one spar straightens the roller, over its force and the skew [m/rad], until
+    #: it touches the roller's end.
     effective_radius: float
 
 
 def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = None) -> Pocket:
     """The stop of a pocket whose spars follow the outer raceway's contour, or are straight.
 
-    A roller that turns by ψ in a pocket of curvature κ slides along it at its radius r, so that its contour comes nearer by
-    ψ ζ (1 − κ r) at the station ζ. It touches first at ζ = ψ (1 − κ r)/C, with C = 1/R_roller − κ, or at its end. A conforming
-    pocket of the base bearing therefore leaves 9 % more skew than one that is taken as flat over the radius.
+    A roller that turns by ψ in a pocket of curvature κ slides along it at its radius r, so that its
+    contour comes nearer by ψ ζ (1 − κ r) at the station ζ. It touches first at ζ = ψ (1 − κ r)/C,
+    with C = 1/R_roller − κ, or at its end. A conforming pocket of the base bearing therefore leaves
+    9 % more skew than one that is taken as flat over the radius.
 
     Parameters
     ----------
     guidance : "conforming-pocket", "straight-bars", "guide-ring" or "none"
-        A guide ring stands beside straight spars; without guidance a roller turns up to `LARGEST_SKEW`.
+        A guide ring stands beside straight spars; without guidance a roller turns up to
+        `LARGEST_SKEW`.
     gap : float
         Free way of the roller between its two spars [m], ≥ 0.
     play : float, optional

@@ -1,10 +1,14 @@
-"""Skew of a roller as a table over load, speed and skew, and the rest that a straight roller turns to, as compiled functions find it.
+"""Skew of a roller as a table over load, speed and skew, for compiled functions.
 
-The table is made for a roller of the downwind row with the shaft forward (u2 < 0). Skew and moment change their signs with the
-row, and with the direction of turning; tilt, shift and axial force with the row alone, slip with the direction alone.
+From it follows where a straight roller that turns comes to rest.
 
-A roller that the rings press turns from ψ = 0 the way its net moment drives it, to the first skew at which the moment of a spar
-that presses on it holds it, or to its stop. It takes tenths of a second, and is taken to be there at once.
+The table is made for a roller of the downwind row with the shaft forward (u2 < 0). Skew and moment
+change their signs with the row, and with the direction of turning; tilt, shift and axial force with
+the row alone, slip with the direction alone.
+
+A roller that the rings press turns from ψ = 0 the way its net moment drives it, to the first skew
+at which the moment of a spar that presses on it holds it, or to its stop. It takes tenths of a
+second, and is taken to be there at once.
 """
 
 from __future__ import annotations
@@ -32,14 +36,18 @@ _LOAD = 0.2
 _SPEED = 0.06
 _SKEW = 0.3
 _SCALE = 2e-4
-#: Least speed of a table as part of the fastest; below it, powers are in proportion to speed, and moments do not change.
+#: Least speed of a table as part of the fastest; below it, powers are in proportion to speed, and
+#: moments do not change.
 _SLOWEST = 0.1
 #: Iterations for a rest between two nodes.
 _ITERATIONS = 6
 
 
 class SkewTable(NamedTuple):
-    """Cubes of four splines: moment, power and force; place and moments; and what slip and asperities' power change by."""
+    """Tables of a skewed roller's forces, moments and powers: cubes of four splines each.
+
+    Moment, power and force; place and moments; and what slip and asperities' power change by.
+    """
 
     tables: np.ndarray
     more: int  #: Size of a cube
@@ -49,12 +57,12 @@ class SkewTable(NamedTuple):
 
 
 class Guide(NamedTuple):
-    """What holds the rollers of one row: the row's axial sign, and the numbers of `Pocket`."""
+    """Guidance of the rollers of one row, by the numbers of `Pocket`."""
 
-    side: float
-    largest: float
-    arm: float
-    effective_radius: float
+    side: float  #: Axial sign s of the row [-]
+    largest: float  #: Largest skew [rad]
+    arm: float  #: Moment of the two spars over the force of either, at the stop [m]
+    effective_radius: float  #: Moment of one spar over its force and the skew [m/rad]
 
 
 class Turned(NamedTuple):
@@ -88,7 +96,8 @@ def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
     laws : RollerLaws
         Of the downwind row.
     box : Box
-        States that it holds; loads below 2 kN have the forces and powers of 2 kN in proportion to theirs.
+        States that it holds; loads below 2 kN have the forces and powers of 2 kN in proportion to
+        theirs.
     """
     slowest = max(box.slowest, _SLOWEST * box.fastest) ** 0.25
     first = max(math.floor(slowest / _SPEED), 1)  # at rest there is no slip, and no equilibrium
@@ -156,7 +165,7 @@ def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: flo
 
 @jit_inline
 def _at(table, part, load, speed, place):
-    """Four quantities of a cube at the cell and place of load and speed, and at a coordinate of skew."""
+    """Four quantities of a cube at the places of load and speed, and at a coordinate of skew."""
     j, u, _ = cell_of(table.skew, place)
     inner = CHANNELS * (table.skew.cells + 3)
     outer = inner * (table.speed.cells + 3)
@@ -167,7 +176,10 @@ def _at(table, part, load, speed, place):
 
 @jit_inline
 def raceway_push(table, load, ring_speed):
-    """Force of the raceways on a straight roller along the orbit [N], which presses on a spar beside weight and drag."""
+    """Force of the raceways on a straight roller along the orbit [N].
+
+    It presses the roller on a spar beside weight and drag.
+    """
     place = cell_of(table.load, math.log(load))
     column = cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed))))
     return -math.copysign(load, ring_speed) * _at(table, 1, place, column, 0.0)[2]
@@ -175,13 +187,15 @@ def raceway_push(table, load, ring_speed):
 
 @jit_inline
 def _arm(guide, place):
-    """Moment by which a spar straightens a roller over its force [m], at a coordinate of skew: it touches no farther than the end."""
+    """Moment by which a spar straightens a roller over its force [m], at a coordinate of skew."""
     return min(guide.effective_radius * _SCALE * math.sinh(place), 0.5 * guide.arm)
 
 
 @jit
 def turned(table, guide, load, ring_speed, push):
-    """The rest of a roller under the elastic load Q > 0 [N] at u2 [m/s], on which a spar presses with `push` [N].
+    """Rest position of a roller that its net moment turns against a spar.
+
+    The elastic load is Q > 0 [N] at u2 [m/s], and the spar presses with `push` [N].
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A step of a roller, as every solver returns it: all that a result holds is computed from these."""
+"""Step of a roller, as every solver returns it: all results are computed from these."""
 
 from __future__ import annotations
 
@@ -12,41 +12,49 @@ _AT_STAGES = (STAGES,)
 _BY_INTERFACE = (STAGES, 3)
 _BY_RACEWAY = (STAGES, 2)
 
-#: A step. Interfaces are in the order inner, outer, cage; arrays are over stages, of which the first `stages` count and the last
-#: is the step's end. Signs as in `macroslip.mechanics`.
-#:
-#: start, end : times [s]
-#: stages : number of stages
-#: stretch : number of the stretch of smooth loads it lies in; no parabola reaches from one to the next
-#: sampled : 1 where peaks of power between the stages stand in rows without weight before this one
-#: pure_speed : speed u2 of the raceways past a roller in pure rolling, at the end [m/s]
-#: ahead : angle of the roller's centre ahead of its place in pure rolling, at the end [rad]; 0 on an imposed orbit
-#: time, weight : of the stages [s]; Σ weight · power is the energy of the step
-#: inner_slip, outer_slip : Δu at the middle of the raceway contacts [m/s]
-#: inner_speed, outer_speed : u2 of the rings past the roller's centre [m/s]
-#: cage_speed : speed of the roller's surface past the cage, u1 relative to the spar [m/s]
-#: inner_load, outer_load, elastic_load : normal loads with body forces and films, and the rings' alone [N]
-#: cage_load : F_n,cage with its sign [N], positive where the cage pushes the roller along the orbit
-#: force : F_i, F_o, F_c in the spin equation without rolling resistance [N]
-#: power : frictional power (33) [W]
-#: rolling : power of rolling resistance [W]
-#: rough : part of the frictional power that asperities dissipate [W]
-#: lag_power, skew_power : parts of the raceways' power by the contact's curvature and by the contact angle [W]
-#: power_before : frictional power at the start [W]
+#: A step. Interfaces are in the order inner, outer, cage; arrays are over stages, of which the
+#: first `stages` count and the last is the step's end. Signs as in `macroslip.mechanics`.
 STEP = np.dtype(
     [
-        ("start", "f8"), ("end", "f8"), ("stages", "i8"), ("stretch", "i8"), ("sampled", "i8"),
-        ("pure_speed", "f8"), ("ahead", "f8"),
-        ("time", "f8", _AT_STAGES), ("weight", "f8", _AT_STAGES),
-        ("inner_slip", "f8", _AT_STAGES), ("outer_slip", "f8", _AT_STAGES),
-        ("inner_speed", "f8", _AT_STAGES), ("outer_speed", "f8", _AT_STAGES), ("cage_speed", "f8", _AT_STAGES),
-        ("inner_load", "f8", _AT_STAGES), ("outer_load", "f8", _AT_STAGES), ("elastic_load", "f8", _AT_STAGES),
+        ("start", "f8"),  # time [s]
+        ("end", "f8"),  # time [s]
+        ("stages", "i8"),  # number of stages
+        # Number of the stretch of smooth loads it lies in; no parabola reaches from one to the
+        # next.
+        ("stretch", "i8"),
+        # 1 where peaks of power between the stages stand in rows without weight before this one.
+        ("sampled", "i8"),
+        # Speed u2 of the raceways past a roller in pure rolling, at the end [m/s].
+        ("pure_speed", "f8"),
+        # Angle of the roller's centre ahead of its place in pure rolling, at the end [rad]; 0 on an
+        # imposed orbit.
+        ("ahead", "f8"),
+        ("time", "f8", _AT_STAGES),  # of the stages [s]
+        ("weight", "f8", _AT_STAGES),  # [s]; Σ weight · power is the energy of the step
+        # Δu at the middle of the raceway contacts [m/s].
+        ("inner_slip", "f8", _AT_STAGES),
+        ("outer_slip", "f8", _AT_STAGES),
+        # u2 of the rings past the roller's centre [m/s].
+        ("inner_speed", "f8", _AT_STAGES),
+        ("outer_speed", "f8", _AT_STAGES),
+        # Speed of the roller's surface past the cage, u1 relative to the spar [m/s].
+        ("cage_speed", "f8", _AT_STAGES),
+        # Normal loads with body forces and films [N].
+        ("inner_load", "f8", _AT_STAGES),
+        ("outer_load", "f8", _AT_STAGES),
+        ("elastic_load", "f8", _AT_STAGES),  # normal load of the rings alone [N]
+        # F_n,cage with its sign [N], positive where the cage pushes the roller along the orbit.
         ("cage_load", "f8", _AT_STAGES),
-        ("force", "f8", _BY_INTERFACE), ("power", "f8", _BY_INTERFACE), ("rolling", "f8", _BY_INTERFACE),
-        ("rough", "f8", _BY_INTERFACE), ("lag_power", "f8", _BY_RACEWAY), ("skew_power", "f8", _BY_RACEWAY),
-        ("power_before", "f8", (3,)),
+        # F_i, F_o, F_c in the spin equation without rolling resistance [N].
+        ("force", "f8", _BY_INTERFACE),
+        ("power", "f8", _BY_INTERFACE),  # frictional power (33) [W]
+        ("rolling", "f8", _BY_INTERFACE),  # power of rolling resistance [W]
+        ("rough", "f8", _BY_INTERFACE),  # part of the frictional power by asperities [W]
+        ("lag_power", "f8", _BY_RACEWAY),  # part of the power by the contact's curvature [W]
+        ("skew_power", "f8", _BY_RACEWAY),  # part of the power by the contact angle [W]
+        ("power_before", "f8", (3,)),  # frictional power at the start [W]
     ]
-)  # fmt: skip
+)
 #: Size of a buffer of steps [bytes].
 BUFFER = 2**20
 
@@ -58,7 +66,26 @@ def new_steps() -> np.ndarray:
 
 @jit_inline
 def write_stage(row, k, body, at, forces, slip, power):
-    """Write stage `k` of a step on an imposed orbit but for its time: station, forces, slip [m/s] and powers [W]."""
+    """Write one stage of a step on an imposed orbit, but for its time.
+
+    Parameters
+    ----------
+    row : record of `STEP`
+        Written.
+    k : int
+        Number of the stage, 0 to `STAGES` − 1.
+    body : record of `BODY`
+        The roller.
+    at : record
+        Speed of the raceways [m/s] and normal loads [N] at this time.
+    forces : record
+        Tangential forces of the contacts, the cage's load, lags and rolling resistance [N], skew
+        moments [N m] and powers of asperities and rolling resistance [W].
+    slip : float
+        Δu, the same at both raceways [m/s].
+    power : ndarray, shape (3,)
+        Frictional power of the contacts with inner raceway, outer raceway and cage [W].
+    """
     row.pure_speed = at.ring_speed
     row.inner_slip[k] = row.outer_slip[k] = slip
     row.inner_speed[k] = row.outer_speed[k] = at.ring_speed

@@ -15,7 +15,7 @@ from macroslip.roller.skew_table import Guide, SkewTable, raceway_push, turned
 
 @jit
 def _forces(table, guides, ring, body, angle, speed, roller_load, found):
-    """Sum up forces over the rollers of both rows, downwind first; `body` is weight [N], drag [N s²] and u2 over −Ω [m]."""
+    """Sum forces over both rows, downwind first; `body` is weight [N], drag [N s²], u2/−Ω [m]."""
     weight, drag, radius = body
     for k in range(angle.size):
         orbit_speed = ring.orbit_ratio * speed[k]
@@ -45,14 +45,22 @@ def thrust(
     model: RollerModel,
     motion: Motion,
 ) -> np.ndarray:
-    """Force of all rollers on the inner ring by friction and turned normal forces, as they rest under its motion.
+    """Force of all rollers on the inner ring by friction and turned normal forces.
+
+    The rollers rest under the motion of the ring.
 
     Parameters
     ----------
+    table : SkewTable
+        Table of a skewed roller of the downwind row.
     guides : tuple of two Guide
         Of the downwind and the upwind row.
+    ring : RingGeometry
+        Angles of the rollers and the contact's geometry.
     model : RollerModel
         Of the downwind row.
+    motion : Motion
+        Of the inner ring over time, n samples.
 
     Returns
     -------

@@ -161,7 +161,9 @@ class PalmgrenTorque:
     """
 
     viscous: _Torque  #: M0, which the oil causes without load: shear and churning
-    load: _Torque  #: M1, which the load causes at any speed: hysteresis of the steel and sliding within the contacts
+    #: M1, which the load causes at any speed: hysteresis of the steel and sliding within the
+    #: contacts
+    load: _Torque
 
     @property
     def total(self) -> _Torque:
@@ -284,9 +286,8 @@ class SkfTorque:
     Floats or arrays as input.
     """
 
-    rolling: (
-        _Torque  #: φ_ish φ_rs M_rr: resistance of the oil that the contacts squeeze at their inlets
-    )
+    #: φ_ish φ_rs M_rr: resistance of the oil that the contacts squeeze at their inlets
+    rolling: _Torque
     sliding: _Torque  #: M_sl: sliding within the contacts
     drag: _Torque  #: M_drag: the rollers' way through an oil bath
     out_of_range: tuple[str, ...]  #: Values outside the range for which the model is stated
@@ -464,10 +465,26 @@ class TorqueHistory(NamedTuple):
 def torque_histories(
     computed: Mapping[str, xr.Dataset], loads: BearingLoads, bearing: Bearing, lubricant: Lubricant
 ) -> dict[str, TorqueHistory]:
-    """Torque by `computed_torque` under models, and by the handbooks' formulas over the same times.
+    """Friction torque over time by computed models and by the handbooks' formulas.
 
-    By name: the models, "SKF, sliding", "SKF, all" and "Palmgren, all". The formulas hold for
-    steady running; over time they are a chain of steady states.
+    The formulas hold for steady running; over time they are a chain of steady states.
+
+    Parameters
+    ----------
+    computed : mapping of str to Dataset
+        Results of `computed_torque`, by the name of their model; the handbooks are evaluated over
+        the times that all have in common.
+    loads : BearingLoads
+        Forces [N] and shaft speed [rad/s] over time.
+    bearing : Bearing
+        Its dimensions.
+    lubricant : Lubricant
+        Its viscosity and density.
+
+    Returns
+    -------
+    dict of str to TorqueHistory
+        The models, "SKF, sliding", "SKF, all" and "Palmgren, all" [N m].
 
     Examples
     --------
