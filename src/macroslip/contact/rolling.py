@@ -159,8 +159,8 @@ def log_elastic(name: str, log_load, log_material):
         L^(−0.342) M^0.0126, joined with order 10, the order with which Biboulet and Houpert join
         their limits. In Moes' groups Goksem and Hargreaves' F_R α_p/(R l) = 4.318 (G U)^0.658
         W^0.0126 is left with (2U)^(−0.0002), which is dropped.
-        `whole-film`, inlet and exit: N_E = 2.026 exp(−0.00481 L) (1 + 1.97 M)^(−0.0692 L/(L + 4.71)),
-        a fit.
+        `whole-film`, inlet and exit, a fit:
+        N_E = 2.026 exp(−0.00481 L) (1 + 1.97 M)^(−0.0692 L/(L + 4.71)).
     log_load, log_material : array_like
 
     Notes
