@@ -15,6 +15,7 @@ from macroslip.contact.look_up import (
     PLANE,
     TRACTION,
     Traction,
+    contact_load,
     in_plane,
     log_load,
     log_speed,
@@ -72,7 +73,7 @@ class Table:
 @jit
 def look_up(table, tables, load, ring_speed, slip, found):
     for n in range(load.size):
-        one = traction(table, tables, load[n], math.log(load[n]), ring_speed[n], slip[n])
+        one = traction(table, tables, contact_load(load[n]), ring_speed[n], slip[n])
         for k in range(len(one)):
             found[n, k] = one[k]
 

@@ -37,6 +37,9 @@ _STILL = 1e-6
 #: Iterations: at most, and from which on changes of the axial tractions are halved, for contacts
 #: that would swing.
 _ITERATIONS = 80
+#: Iteration from which on a step stays between the slips at which the spin moment last had either
+#: sign: where its slope falls to both sides of the zero, Newton's steps may swing for ever.
+_BRACKETED = 40
 _DAMPED = 20
 #: Difference of slip over the speed of the rings, for the slope of the spin moment.
 _STEP = 1e-6
@@ -181,6 +184,8 @@ def equilibrium(
     axial = np.zeros((2, load.size))
     last_spin = np.zeros(load.size)
     taken = np.zeros(load.size)
+    below = np.full(load.size, -np.inf)
+    above = np.full(load.size, np.inf)
     if start is not None:
         slip, axial = (
             np.nan_to_num(one).reshape(-1, load.size) for one in (start.slip, start.tractions)
@@ -234,9 +239,17 @@ def equilibrium(
         # steps would swing for ever.
         most = np.where(spin * last_spin[going] < 0.0, 0.5 * np.abs(taken[going]), longest[going])
         change = np.clip(spin / np.maximum(slope, np.abs(spin) / longest[going]), -most, most)
+        following = here - change
+        if iteration >= _BRACKETED:
+            below[going] = np.where(spin < 0.0, here, below[going])
+            above[going] = np.where(spin > 0.0, here, above[going])
+            bracketed = np.isfinite(above[going] - below[going])
+            outside = (following <= below[going]) | (following >= above[going])
+            middle = below[going] + 0.5 * (above[going] - below[going])
+            following = np.where(outside & bracketed, middle, following)
         last_spin[going] = spin
-        taken[going] = change
-        slip[going] = np.where(moving, here - change, here)
+        taken[going] = here - following
+        slip[going] = np.where(moving, following, here)
         going = going[moving]
         if not going.size:
             break
