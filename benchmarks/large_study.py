@@ -12,6 +12,7 @@ import argparse
 import hashlib
 import itertools
 import json
+import math
 import resource
 import subprocess
 import sys
@@ -62,6 +63,13 @@ def example() -> Any:
     return xr.Dataset(values, coordinates | {"interface": ["inner", "outer", "cage"]})
 
 
+def _numbers(random: np.random.Generator) -> dict[str, float]:
+    """Numbers of a run drawn at random; NaN for the row that a bearing of two rows has not."""
+    drawn = dict(zip(NUMBERS, random.random(len(NUMBERS)).tolist(), strict=True))
+    without = {name: math.nan for name in NUMBERS if name.endswith("_single")}
+    return drawn | without | {"window_length": 600.0}
+
+
 def write_study(directory: Path, work: Study) -> None:
     """Write the folder of a study that has ended, with numbers drawn at random."""
     random = np.random.default_rng(1)
@@ -77,7 +85,7 @@ def write_study(directory: Path, work: Study) -> None:
                 {
                     "run": run.name, "key": hashlib.sha256(run.name.encode()).hexdigest(), "outcome": Outcome.COMPLETED,
                     "reason": "", "detail": detail, "layout": shape,
-                    "values": dict(zip(NUMBERS, random.random(len(NUMBERS)).tolist(), strict=True)) | {"window_length": 600.0},
+                    "values": _numbers(random),
                 }
                 for run in batch
             )  # fmt: skip

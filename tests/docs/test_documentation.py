@@ -193,11 +193,11 @@ def test_results_page_has_the_sentence_of_every_status():
     ] == []
 
 
-def test_pages_of_the_models_name_modules_that_exist():
-    text = (ROOT / "docs" / "model.md").read_text(encoding="utf-8")
-    text += (ROOT / "docs" / "physical.md").read_text(encoding="utf-8")
+def test_the_page_of_the_physical_model_names_modules_that_exist():
+    """Names on the page of equations are tested with them, in `test_equations.py`."""
+    text = (ROOT / "docs" / "physical.md").read_text(encoding="utf-8")
     modules = re.findall(r"`((?!src/|tests/)[a-z_]+/[a-z_]*(?:\.py)?)`", text)
-    assert len(modules) > 25
+    assert len(modules) >= 10
     assert [name for name in modules if not (ROOT / "src" / "macroslip" / name).exists()] == []
 
 
