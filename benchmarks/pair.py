@@ -57,6 +57,15 @@ class Speed(NamedTuple):
     energy: float  #: Their frictional energy [J]
 
 
+def is_known(revision: str) -> bool:
+    """True if the sources lie in a clone that holds a revision."""
+    command = ["git", "cat-file", "-e", f"{revision}^{{commit}}"]
+    try:
+        return subprocess.run(command, cwd=ROOT, capture_output=True, check=False).returncode == 0
+    except FileNotFoundError:  # no git
+        return False
+
+
 def unpack(revision: str, folder: Path) -> Path:
     """Unpack the package of a revision into a folder; returns the folder of its sources.
 
@@ -117,6 +126,9 @@ def main() -> None:
     parser.add_argument("revision", nargs="?", default=LAST_STATE, help="the earlier state")
     parser.add_argument("--turns", type=int, default=2, help="runs of each state")
     given = parser.parse_args()
+    if given.revision == LAST_STATE and not is_known(LAST_STATE):
+        print(f"{LAST_STATE} is not in this copy of the sources: nothing to compare with")
+        return
     print(f"14B, 600 s, six rollers a row, one thread; before: {given.revision}")
     print("model      times real time: before     now    ratio   evaluations: before       now")
     for model, (before, now) in compare(given.revision, given.turns).items():
