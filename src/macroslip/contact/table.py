@@ -24,7 +24,7 @@ from macroslip.storage.tables import remembered, stored, table_key
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k
 #: Q^(1/3), of asinh, and of w^(1/4) for the fastest speed of the box of 1 m/s.
-_LOAD_SPACING = 0.414
+_LOAD_SPACING = 0.46
 _RATIO_SPACING = 0.06
 _SPEED_SPACING = 0.018
 #: Share of the pressure exponent of the middle by which loads are stretched.
