@@ -67,3 +67,24 @@ def test_notebook_runs_and_shows_what_is_stored(path):
         for left, right in zip(before, after, strict=True):
             numbers = [[float(one) for one in re.findall(NUMBER, text)] for text in (left, right)]
             assert numbers[1] == pytest.approx(numbers[0], rel=5e-3, abs=2e-3), left
+
+
+def test_pictures_of_the_user_show_after_one_of_the_program():
+    from nbclient import NotebookClient
+    from nbformat.v4 import new_code_cell, new_notebook
+
+    cells = [
+        "from macroslip import BearingLoads, Case, Laws, Traces, simulate\n"
+        "loads = BearingLoads.constant([0.0, -300e3, 50e3], 2.0, 8.0)\n"
+        "case = Case(loads=loads, rollers=[0], traces=Traces(step=0.1), laws=Laws.paper())\n"
+        "result = simulate(case)",
+        "result.macroslip.plot.orbit('upwind');",
+        "from matplotlib import pyplot\npyplot.plot([1.0, 2.0]);",
+    ]
+    notebook = new_notebook(cells=[new_code_cell(text) for text in cells])
+    NotebookClient(notebook, timeout=600, kernel_name="python3").execute()
+    shown = [
+        [out for out in cell.outputs if "image/png" in out.get("data", {})]
+        for cell in notebook.cells
+    ]
+    assert [len(pictures) for pictures in shown] == [0, 1, 1]

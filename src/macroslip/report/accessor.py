@@ -185,12 +185,14 @@ class Plot:
             ) from None
         from macroslip.report.styled_figure import StyledFigure
 
-        options |= {"layout": "constrained", "subplot_kw": {"projection": projection}}
-        figure, axes = pyplot.subplots(rows, columns, FigureClass=StyledFigure, **options)
-        if "oil" in self._result.attrs:
-            figure.suptitle(
-                f"model {self._result.attrs['model']}, {self._result.attrs['oil']}", fontsize=SMALL
-            )
+        # Outside the style's context: a notebook's backend becomes interactive with its first
+        # figure, which would be undone with the style, and figures of the user would not be shown.
+        figure = pyplot.figure(FigureClass=StyledFigure, layout="constrained", **options)
+        with program_style():
+            axes = figure.subplots(rows, columns, subplot_kw={"projection": projection})
+            if "oil" in self._result.attrs:
+                model = f"model {self._result.attrs['model']}, {self._result.attrs['oil']}"
+                figure.suptitle(model, fontsize=SMALL)
         return axes
 
     def _drawn(
@@ -203,8 +205,9 @@ class Plot:
     ) -> Any:
         """The plot of the data on the axes given, or on new ones in the program's style."""
         if axes is None:
+            new = self._new_axes(projection)
             with program_style():
-                return self._drawn(self._new_axes(projection), plot, *data, legend=legend)
+                return self._drawn(new, plot, *data, legend=legend)
         plot(axes, *data)
         if legend is not None:
             axes.legend(frameon=False, fontsize=SMALL, **legend)
@@ -324,7 +327,7 @@ class Plot:
     ) -> list[Axes]:
         """The plot of each panel's data on the axes given, or on new ones of a size [inches]."""
         if axes is None:
+            new = self._new_axes(rows=len(panels) // 2, columns=2, figsize=size)
             with program_style():
-                new = self._new_axes(rows=len(panels) // 2, columns=2, figsize=size)
                 return self._panels(new.ravel(), plot, panels, size)
         return [plot(panel, *data) for panel, data in zip(axes, panels, strict=True)]

@@ -12,6 +12,10 @@ from macroslip.report.style import program_style
 class StyledFigure(Figure):
     """Figure whose ticks, fonts and widths are the program's, whoever draws it."""
 
+    def __init__(self, *arguments: Any, **options: Any):
+        with program_style():
+            super().__init__(*arguments, **options)
+
     def draw(self, renderer: Any) -> None:
         """Draw in the program's style: ticks and fonts are found only now."""
         with program_style():
