@@ -70,3 +70,19 @@ def test_an_interrupt_while_the_arguments_are_read_is_told():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
+
+
+def test_an_interrupt_after_the_last_word_does_not_change_the_exit_code():
+    """A user who presses again while the process ends would see a death by a signal."""
+    code = (
+        "import atexit, signal, time; from macroslip.cli import main\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "import macroslip.cli.commands as commands\n"
+        "from macroslip.cli.failure import command\n"
+        "def interrupted(): raise KeyboardInterrupt\n"
+        "atexit.register(signal.raise_signal, signal.SIGINT)\n"
+        "import sys, typer; sys.argv = ['macroslip', 'wait']\n"
+        "command(commands.app, interrupted, 'wait'); main()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")

@@ -7,8 +7,11 @@ from __future__ import annotations
 
 import io
 import os
+import signal
 import sys
 import warnings
+
+INTERRUPTED = 130  # exit code of a command that Ctrl-C has ended, as shells count it
 
 
 class _Patient(io.FileIO):
@@ -57,7 +60,19 @@ def main() -> None:
         # While the arguments are read, typer makes an exit of an interrupt and says nothing.
         if isinstance(getattr(end.__context__, "__cause__", None), KeyboardInterrupt):
             print("interrupted", file=sys.stderr)
+        if end.code == INTERRUPTED:
+            _ignore_interrupts()
         raise
     except KeyboardInterrupt:  # before a command has begun
+        _ignore_interrupts()
         print("interrupted", file=sys.stderr)
-        sys.exit(130)
+        sys.exit(INTERRUPTED)
+
+
+def _ignore_interrupts() -> None:
+    """Let Ctrl-C have no effect while an interrupted command puts its things away.
+
+    Python takes its own handler away before it ends, and one more Ctrl-C would kill the process:
+    the shell would be told of a signal in place of the exit code.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -13,6 +13,7 @@ from typing import Any
 
 import typer
 
+from macroslip.cli import INTERRUPTED
 from macroslip.cli.printing import print_json
 from macroslip.errors import InputError, MacroslipError, legible
 from macroslip.storage.files import SHORTER
@@ -20,7 +21,6 @@ from macroslip.storage.files import SHORTER
 INTERNAL_ERROR = 1
 BAD_INPUT = 2
 ROLLERS_FAILED = 3
-INTERRUPTED = 130
 CASES_FAILED = ROLLERS_FAILED
 #: Beginning of the message of dask about a file of settings that it cannot read.
 _OF_DASK = "A dask config file at "

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
+from macroslip.cli import INTERRUPTED
+from macroslip.cli.failure import CASES_FAILED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.options import AsJson, Force, Quiet, Threads
 from macroslip.cli.printing import plain_console, print_json, print_table
