@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 import macroslip.loads
 from macroslip.errors import InputError
-from macroslip.loads.bundled import ASSUMED, BundledCase, bundled_case, bundled_cases
+from macroslip.loads.bundled import ASSUMED, TURBINES, BundledCase, bundled_case, bundled_names
 
 SOURCE_RATE, RATE = 50, 20
 PASS_BAND, STOP_BAND = 8.5, 10.0
@@ -81,7 +81,7 @@ def write_case(
     time = (np.arange(values["fx_N"].size) / RATE).astype(np.float32)
     metadata = {
         "case": case,
-        "turbine": "WindPACT 1.5 MW baseline",
+        "turbine": TURBINES[bundled_case(case).turbine],
         **provenance,
         "nature": "simulated hub loads, not measurements",
         "frame": "rotor on shaft at the hub centre; non-rotating shaft axes: x downwind along the shaft, z up, "
@@ -105,65 +105,72 @@ def write_case(
 
 
 def record_of(case: BundledCase) -> str:
-    """Name of the source record of a case.
+    """File name of the source record of a case.
 
     Examples
     --------
-    >>> [record_of(bundled_case(name)) for name in ("14B", "8B-2", "start-8", "yaw20-14")]
-    ['14mps_B', '8mps_B_s2', 'start8', 'yaw20_14']
+    >>> [record_of(bundled_case(name)) for name in ("14B", "8B-2", "yaw20-14")]
+    ['windpact1.5_14mps_B.parquet', 'windpact1.5_8mps_B_s2.parquet', 'windpact1.5_yaw20_14.parquet']
+    >>> record_of(bundled_case("nrel5-8B-2"))
+    'nrel5_8mps_B_s2.parquet'
     """
     if case.event:
-        return case.name.replace("yaw20-", "yaw20_").replace("-", "")
-    return f"{case.wind_speed:g}mps_{case.turbulence}{'_s2' if case.seed == 2 else ''}"
+        record = case.name.replace("yaw20-", "yaw20_").replace("-", "")
+    else:
+        second = "_s2" if case.seed == 2 else ""
+        record = f"{case.wind_speed:g}mps_{case.turbulence}{second}"
+    return f"{case.turbine}_{record}.parquet"
+
+
+def convert(case: BundledCase, record: Path, target: Path) -> None:
+    """Thin the 50 Hz record of a case and write it with its provenance into the folder `target`."""
+    import pyarrow.parquet as pq
+
+    table = pq.read_table(record)
+    stored = {key.decode(): text.decode() for key, text in table.schema.metadata.items()}
+    if stored["sample_rate_Hz"] != str(SOURCE_RATE):
+        raise InputError(
+            f"sampled at {stored['sample_rate_Hz']} Hz",
+            where=str(record),
+            allowed=f"{SOURCE_RATE} Hz",
+        )
+    provenance = {
+        "source": stored["code"],
+        "wind": stored["case"],
+        "turbsim_seeds": stored["seeds"],
+    }
+    if case.event:
+        provenance["time"] = "0 s is after the discarded start of the simulation"
+        provenance["control"] = (
+            f"{ASSUMED}: rates, speeds and delays are usual magnitudes, see README.md"
+        )
+    write_case(case.name, {name: table[name].to_numpy() for name in COLUMNS}, provenance, target)
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Convert every bundled case found in a folder of 50 Hz records, and report the size."""
-    import pyarrow.parquet as pq
-
+    """Convert every bundled case whose 50 Hz record is in a folder, and report the size."""
     parser = argparse.ArgumentParser(
         description="Make the bundled load cases from 50 Hz simulation records."
     )
     parser.add_argument(
-        "sources", type=Path, nargs="+", help="folders of windpact1.5_....parquet files"
+        "sources", type=Path, nargs="+", help="folders of TURBINE_....parquet files"
     )
     folders = parser.parse_args(arguments).sources
     target = Path(macroslip.loads.__path__[0]) / "cases"
-    names = bundled_cases("year" if len(folders) > 1 else "paper")
-    for case in map(bundled_case, names):
-        found = [
-            path
-            for folder in folders
-            if (path := folder / f"windpact1.5_{record_of(case)}.parquet").is_file()
-        ]
-        if not found:
-            where = str(folders[0] / f"windpact1.5_{record_of(case)}.parquet")
-            raise InputError(
-                "no such file", where=where, remedy="Give the folders that hold all records."
-            )
-        table = pq.read_table(found[0])
-        stored = {key.decode(): text.decode() for key, text in table.schema.metadata.items()}
-        if stored["sample_rate_Hz"] != str(SOURCE_RATE):
-            raise InputError(
-                f"sampled at {stored['sample_rate_Hz']} Hz",
-                where=str(found[0]),
-                allowed=f"{SOURCE_RATE} Hz",
-            )
-        provenance = {
-            "source": stored["code"],
-            "wind": stored["case"],
-            "turbsim_seeds": stored["seeds"],
-        }
-        if case.event:
-            provenance["time"] = "0 s is after the discarded start of the simulation"
-            provenance["control"] = (
-                f"{ASSUMED}: rates, speeds and delays are usual magnitudes, see README.md"
-            )
-        write_case(
-            case.name, {name: table[name].to_numpy() for name in COLUMNS}, provenance, target
+    records = {path.name: path for folder in folders for path in folder.glob("*.parquet")}
+    known = [bundled_case(name) for name in bundled_names()]
+    cases = [case for case in known if record_of(case) in records]
+    if not cases:
+        raise InputError(
+            "no record of a bundled case is there",
+            where=", ".join(map(str, folders)),
+            allowed=f"{record_of(known[0])} and the like",
+            remedy="Give the folders that hold the records.",
         )
+    for case in cases:
+        convert(case, records[record_of(case)], target)
     total = sum(path.stat().st_size for path in target.glob("*.parquet"))
-    print(f"{len(names)} cases, {total / 1e6:.2f} MB in {target}")
+    print(f"{len(cases)} cases made; {total / 1e6:.2f} MB in {target}")
 
 
 if __name__ == "__main__":

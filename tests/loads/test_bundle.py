@@ -121,5 +121,7 @@ def test_making_a_case(tmp_path, clip):
 
 
 def test_a_folder_without_the_records(tmp_path):
-    with pytest.raises(InputError, match=r"windpact1\.5_12mps_A\.parquet: no such file"):
+    with pytest.raises(
+        InputError, match=r"no record of a bundled case.*windpact1\.5_12mps_A\.parquet"
+    ):
         bundle.main([str(tmp_path)])

@@ -10,7 +10,8 @@ from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Quantity, Text, Vector
 from macroslip.input.section import input_section
 from macroslip.input.units import FORCE, LENGTH, MOMENT, SPEED, TIME
-from macroslip.loads import BearingLoads, HubLoads, RollerLoads, bundled_cases
+from macroslip.loads import BearingLoads, HubLoads, RollerLoads
+from macroslip.loads.bundled import bundled_names
 from macroslip.loads.csv_text import DECIMAL_MARKS, THOUSANDS_MARKS
 
 #: Keys for what files with hub loads may lack: speed [rad/s] and point of output [m].
@@ -57,7 +58,7 @@ class LoadSource:
     """Source of the loads, and the part to read of it."""
 
     bundled: Annotated[
-        str | None, Choice("load case that comes with the package", lambda: bundled_cases("year"))
+        str | None, Choice("load case that comes with the package", bundled_names)
     ] = None
     file: Annotated[
         str | None, Text("hub loads: output of OpenFAST, Bladed or HAWC2, or a table")

@@ -319,7 +319,8 @@ class HubLoads(History):
         """One of the load cases that come with the package; `bundled_cases` lists them.
 
         They have 20 Hz and most of them 600 s, and were simulated with OpenFAST for the WindPACT
-        1.5 MW turbine; ``cases/README.md`` beside this module describes how.
+        1.5 MW turbine or, where the name begins with ``nrel5``, the NREL 5 MW turbine;
+        ``cases/README.md`` beside this module describes how.
 
         Examples
         --------

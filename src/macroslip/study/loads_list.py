@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from macroslip.errors import InputError, safe_text
-from macroslip.loads.bundled import bundled_cases, bundled_labels
+from macroslip.loads.bundled import bundled_cases, bundled_labels, bundled_names
 from macroslip.storage.files import check_regular
 
 #: Names that labels of the user's own would hide.
@@ -200,13 +200,17 @@ def load_list(
 
 
 def _bundled(names: Sequence[str]) -> list[Load]:
-    sets = {"all": bundled_cases(), "year": bundled_cases("year")}
-    known = sets["year"]
+    sets = {
+        "all": bundled_cases(),
+        "year": bundled_cases("year"),
+        "nrel5": bundled_cases("nrel5"),
+    }
+    known = bundled_names()
     wrong = [name for name in names if name not in known and name not in sets]
     if wrong:
         raise InputError(
             f"there is no bundled case '{safe_text(wrong[0])}'",
-            allowed=f"all, year, or {', '.join(known)}",
+            allowed=f"{', '.join(sets)}, or {', '.join(known)}",
         )
     chosen = list(dict.fromkeys(one for name in names for one in sets.get(name, [name])))
     return [Load(name, labels) for name, labels in zip(chosen, bundled_labels(chosen), strict=True)]
