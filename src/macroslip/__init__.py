@@ -40,6 +40,7 @@ _HOMES = {
     "read_study": "macroslip.study.study_file",
     "run_study": "macroslip.study.run",
     "open_study": "macroslip.study.reader",
+    "Scada": "macroslip.scada",
     "InputError": "macroslip.errors",
     "MacroslipError": "macroslip.errors",
 }

@@ -82,7 +82,7 @@ def reported(tmp_path):
             "2 problems: (1) case.yaml, line 3, loads.main_bearing.force: it is ['0 N', '-3e5 N']. Allowed: a "
             "list of three quantities, such as [0 N, 0 N, 0 N]. It is the three components of the force. (2) "
             "case.yaml, line 2, loads.main_bearing: 'duration' is missing (time for which the loads act). "
-            "Allowed: a number with its unit, s or ms. Add it.",
+            "Allowed: a number with its unit, s or ms or min. Add it.",
         ),
         (
             "loads:\n  main_bearing: {force: [0 N, -3e5 N, 0 N], shaft_speed: 2 rad/s, duration: 5 s}\n  end: 3 s\n",
@@ -181,7 +181,7 @@ def reported(tmp_path):
         (
             LOADS + "integrator: {method: explicit-euler}\n",
             "case.yaml, line 2, integrator: 'step' is missing (fixed time step). Allowed: a number with its unit, "
-            "s or ms. Add it.",
+            "s or ms or min. Add it.",
         ),
         (
             LOADS + "integrator: {method: explicit-euler, step: 1 ms, tolerance: 1e-4}\n",
@@ -219,7 +219,7 @@ def reported(tmp_path):
         ),
         (
             LOADS + "window: {end: auto}\n",
-            "case.yaml, line 2, window.end: it is 'auto', which is not a quantity. Allowed: a number with its unit, s or ms. "
+            "case.yaml, line 2, window.end: it is 'auto', which is not a quantity. Allowed: a number with its unit, s or ms or min. "
             "Write 1 s, for example.",
         ),
         (

@@ -101,14 +101,21 @@ def _dimension(**scales: Fraction | int) -> Dimension:
 
 
 LENGTH = _dimension(m=1, mm=Fraction(1, 10**3), um=Fraction(1, 10**6))
-TIME = _dimension(s=1, ms=Fraction(1, 10**3))
-SPEED = _dimension(**{"rad/s": 1, "rpm": Fraction(math.pi) / 30})
+TIME = _dimension(s=1, ms=Fraction(1, 10**3), min=60)
+SPEED = _dimension(**{"rad/s": 1, "rpm": Fraction(math.pi) / 30, "r/min": Fraction(math.pi) / 30})
+WIND_SPEED = _dimension(**{"m/s": 1, "km/h": Fraction(10, 36)})
+POWER = _dimension(W=1, kW=10**3, MW=10**6)
 FORCE = _dimension(N=1, kN=10**3)
 MOMENT = _dimension(**{"N m": 1, "kN m": 10**3})
 PRESSURE = _dimension(Pa=1, MPa=10**6, GPa=10**9)
 INVERSE_PRESSURE = _dimension(**{"1/Pa": 1, "1/GPa": Fraction(1, 10**9)})
 ANGLE = _dimension(rad=1, mrad=Fraction(1, 10**3), deg=Fraction(math.pi) / 180)
 TEMPERATURE = Dimension({"K": Unit(Fraction(1)), "degC": Unit(Fraction(1), Fraction("273.15"))})
+#: What records of others are in too.
+RECORDED_TEMPERATURE = Dimension(
+    {**TEMPERATURE.units, "degF": Unit(Fraction(5, 9), Fraction("459.67"))}
+)
+TEMPERATURE_DIFFERENCE = _dimension(K=1)
 INVERSE_TEMPERATURE = _dimension(**{"1/K": 1})
 KINEMATIC_VISCOSITY = _dimension(
     **{"m2/s": 1, "mm2/s": Fraction(1, 10**6), "cSt": Fraction(1, 10**6)}

@@ -28,7 +28,7 @@ RPM = math.pi / 30.0
 #: Units of channels, and the factor that gives SI.
 FORCE = {"N": 1.0, "kN": 1e3}
 MOMENT = {"Nm": 1.0, "kNm": 1e3}
-SPEED = {"rpm": RPM, "rad/s": 1.0, "deg/s": math.pi / 180.0}
+SPEED = {"rpm": RPM, "r/min": RPM, "rad/s": 1.0, "deg/s": math.pi / 180.0}
 ANGLE = {"deg": math.pi / 180.0, "rad": 1.0}
 
 

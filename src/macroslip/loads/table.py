@@ -2,13 +2,13 @@
 
 A name is quantity, underscore, unit. Of each quantity there is one column; others are ignored.
 
-=============================================  =====================================
+=============================================  =================================================================
 time                                           ``time_s``
-shaft speed (``shaft_speed``/``rotor_speed``)  ``…_rpm``, ``…_rad_s``, ``…_radps``
+shaft speed (``shaft_speed``/``rotor_speed``)  ``…_rpm``, ``…_r/min``, ``…_rad_s``, ``…_radps``
 hub force ``fx``, ``fy``, ``fz``               ``…_N``, ``…_kN``
 hub moment ``mx``, ``my``, ``mz``              ``…_Nm``, ``…_kNm``
 main-bearing force ``F_X0``, ``F_Y0``, ``F_Z0``  ``…_N``, ``…_kN``
-=============================================  =====================================
+=============================================  ===================================================
 
 A table of hub loads holds time, speed and the six hub loads; a table of bearing loads holds time,
 speed and the three main-bearing forces. A unit may stand in brackets, ``fx [kN]``, and channels of
@@ -43,7 +43,10 @@ if TYPE_CHECKING:
 #: Names of the quantities in time, and the factors of their units.
 _BASE = {
     "time": (("time",), {"s": 1.0}),
-    "shaft_speed": (("shaft_speed", "rotor_speed"), {"rpm": RPM, "rad_s": 1.0, "radps": 1.0}),
+    "shaft_speed": (
+        ("shaft_speed", "rotor_speed"),
+        {"rpm": RPM, "r/min": RPM, "rad_s": 1.0, "radps": 1.0},
+    ),
 }
 _UNITS = {"force": FORCE, "moment": MOMENT}
 _HUB_VECTORS = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}

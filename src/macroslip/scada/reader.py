@@ -1,0 +1,303 @@
+"""Reader of ten-minute means: from files to one table in UTC and SI, with what was dropped, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from macroslip.errors import InputError
+from macroslip.input.messages import shown
+from macroslip.scada.clock import Times, consecutive_times, hours_shown_twice, utc_times
+from macroslip.scada.description import CONSECUTIVE, ScadaDescription
+from macroslip.scada.filters import FILTERS, TURNING, dropped_by_filter, filtered, jumps
+from macroslip.scada.plausibility import check_quantities, doubts
+from macroslip.scada.table_files import files_of, pieces
+
+#: Columns of `Scada.data` with numbers, and their units.
+QUANTITIES = {
+    "wind_speed": "m/s",
+    "rotor_speed": "rad/s",
+    "power": "W",
+    "bearing_temperature": "K",
+    "nacelle_temperature": "K",
+    "ambient_temperature": "K",
+}
+#: What can become of a row, in the order in which it is told.
+FATES = ("no time", "repeated hour", "duplicate", *FILTERS, "kept", "jump", "absent")
+#: Values that a message about a turbine lists.
+_LISTED = 10
+
+
+@dataclass(frozen=True)
+class Scada:
+    """Ten-minute means of one turbine, in UTC and SI. Nothing in it is interpolated.
+
+    `Scada.read` makes it from files.
+    """
+
+    #: What the files are.
+    description: ScadaDescription
+    #: A row for each time [UTC, start of the mean], ascending, each once: `wind_speed` [m/s],
+    #: `rotor_speed` [rad/s], `power` [W], `bearing_temperature`, `nacelle_temperature` and
+    #: `ambient_temperature` [K], all NaN in a row that a filter drops, and where the record has no
+    #: such column; `status`, state of the turbine as text; `filter`, name of the filter that drops
+    #: the row, or ""; `jump`, True where windows are parted from the row before.
+    data: pd.DataFrame
+    #: Rows by `month` (UTC, "2015-01"; "" where the time is not known), `filter` and `rows`: the
+    #: filters, `no time`, `repeated hour`, `duplicate`, `kept`, of which `jump`, and `absent`, steps
+    #: without a row.
+    counts: pd.DataFrame
+    #: Time that a row stands for [s].
+    step: float
+    #: What a reader of any result has to know, in sentences.
+    notes: tuple[str, ...] = field(default=())
+
+    @classmethod
+    def read(cls, path: str | PathLike[str]) -> Scada:
+        """Read the means that a YAML file describes.
+
+        Parameters
+        ----------
+        path : path
+            YAML file; `macroslip scada init FILE` writes one. Relative paths in it start at its
+            own folder.
+
+        Returns
+        -------
+        Scada
+
+        Raises
+        ------
+        InputError
+            If the description is wrong, a file cannot be read, a column is missing, or values are
+            not what the description calls them.
+        """
+        return read_scada(ScadaDescription.read(path), Path(path).parent)
+
+    @property
+    def turning(self) -> pd.Series:
+        """True in rows in which the rotor turns: above 0.3 of its rated speed."""
+        speed: pd.Series = self.data["rotor_speed"]  # pyright: ignore[reportAssignmentType]
+        return speed > TURNING * self.description.rated.rotor_speed
+
+    @property
+    def hours(self) -> float:
+        """Hours with data that no filter drops."""
+        return float(self.kept.sum()) * self.step / 3600.0
+
+    @property
+    def kept(self) -> pd.Series:
+        """True in rows that no filter drops."""
+        dropped_by: pd.Series = self.data["filter"]  # pyright: ignore[reportAssignmentType]
+        return dropped_by == ""
+
+
+class _Record(NamedTuple):
+    """Rows as they stand in the files."""
+
+    times: Times
+    columns: dict[str, np.ndarray]  #: SI, by quantity
+    state: np.ndarray | None
+
+
+def read_scada(description: ScadaDescription, folder: Path) -> Scada:
+    """Read the means of a description whose relative paths start at `folder`; as `Scada.read`."""
+    record = _record(description, folder)
+    check_quantities(record.columns, description)
+    order, fates, notes = _order(record, description)
+    utc = record.times.utc[order]
+    columns = {name: values[order] for name, values in record.columns.items()}
+    state = None if record.state is None else record.state[order]
+    seconds = utc.as_unit("s").asi8.astype(float)
+    step = description.time.step
+    first = filtered(columns, state, seconds, description)
+    data = pd.DataFrame(
+        {
+            name: np.where(first < 0, columns[name], np.nan) if name in columns else np.nan
+            for name in QUANTITIES
+        },
+        index=utc.rename("time"),
+    )
+    data["status"] = "" if state is None else state
+    data["filter"] = pd.Categorical.from_codes(first + 1, ["", *FILTERS])
+    data["jump"] = jumps(columns, seconds, step)
+    for name, units in QUANTITIES.items():
+        data[name].attrs["units"] = units
+    notes += doubts(columns, description)
+    counts = _counts(data, fates, step)
+    return Scada(description, data, counts, step, (*notes, *_missing_months(counts)))
+
+
+def _record(description: ScadaDescription, folder: Path) -> _Record:
+    """All rows of the turbine, in the order of the files."""
+    measured = description.columns.measured
+    status = description.columns.status
+    clock = description.time
+    rows = description.rows
+    names = [column.column for column in measured.values()]
+    names += [status.column] if status else []
+    names += [clock.column] if clock.column else []
+    names += [rows.column] if rows else []
+    parts: list[pd.DataFrame] = []
+    times: list[Times] = []
+    others: set[str] = set()
+    count = 0
+    for path in files_of(description.files, folder):
+        for piece in pieces(path, names, description.sheet):
+            if rows is not None:
+                labels = piece[rows.column].map(_label)
+                others |= set(labels.unique()[:_LISTED])
+                piece = piece[labels == rows.equals]
+            if piece.empty:
+                continue
+            if clock.assume == CONSECUTIVE:
+                times.append(consecutive_times(len(piece), count, clock.step))
+            else:
+                times.append(utc_times(piece[clock.column], clock, str(path)))
+            count += len(piece)
+            part = {
+                name: column.si(_numbers(piece[column.column])) for name, column in measured.items()
+            }
+            if status is not None:
+                part["status"] = piece[status.column].map(_label).to_numpy(dtype=object)
+            parts.append(pd.DataFrame(part))
+    if not parts:
+        raise InputError(
+            "no row of the files is one of the turbine" if rows else "the files have no rows",
+            where="rows" if rows else "files",
+            allowed=", ".join(sorted(others)[:_LISTED]),
+        )
+    whole = pd.concat(parts, ignore_index=True)
+    return _Record(
+        Times(
+            times[0].utc.append([part.utc for part in times[1:]]),
+            np.concatenate([part.is_repeated for part in times]),
+            all(part.has_offset for part in times),
+        ),
+        {name: whole[name].to_numpy(dtype=float) for name in measured},
+        whole["status"].to_numpy(dtype=object) if status else None,
+    )
+
+
+def _label(value: object) -> str:
+    """A cell as text: 3.0 of a column with gaps is 3."""
+    if isinstance(value, float) and value.is_integer():
+        return str(int(value))
+    return str(value).strip()
+
+
+def _numbers(column: pd.Series) -> np.ndarray:
+    """Numbers of a column; NaN where a cell is empty or no number."""
+    return np.asarray(pd.to_numeric(column, errors="coerce"), dtype=float)
+
+
+def _order(
+    record: _Record, description: ScadaDescription
+) -> tuple[np.ndarray, list[tuple[str, str, int]], list[str]]:
+    """Rows that have a time of their own, in the order of time; what became of others; notes."""
+    utc = record.times.utc
+    notes = []
+    fates = {"repeated hour": record.times.is_repeated}
+    fates["no time"] = np.asarray(utc.isna())
+    order = np.flatnonzero(~fates["no time"] & ~record.times.is_repeated)
+    order = order[np.argsort(utc.asi8[order], kind="stable")]
+    later = utc[order].duplicated(keep="first")
+    is_copy = np.zeros(len(utc), dtype=bool)
+    is_copy[order[later]] = True
+    if description.time.zone is None and not record.times.has_offset:
+        notes.append("The times tell no offset and no zone is given: they are taken for UTC.")
+        twice = _repeated_hours(record, order, later, description.time.step)
+        fates["repeated hour"] = fates["repeated hour"] | twice
+        is_copy &= ~twice
+    fates["duplicate"] = is_copy
+    if description.time.assume == CONSECUTIVE:
+        notes.append("The files have no time: their rows are taken to follow one another.")
+    gone = np.any(list(fates.values()), axis=0)
+    months = np.where(utc.isna(), "", np.asarray(utc.strftime("%Y-%m"), dtype=object))
+    table = [
+        (str(month), fate, int(count))
+        for fate, rows in fates.items()
+        for month, count in pd.Series(months[rows]).value_counts().items()
+    ]
+    return order[~gone[order]], table, notes
+
+
+def _repeated_hours(
+    record: _Record, order: np.ndarray, later: np.ndarray, step: float
+) -> np.ndarray:
+    """Rows in an hour that a record without zone shows twice, shape (rows,) of the files."""
+    values = np.column_stack([column[order] for column in record.columns.values()])
+    differs = np.zeros(order.size, dtype=bool)
+    differs[1:] = later[1:] & np.any(values[1:] != values[:-1], axis=1)
+    found = np.zeros(len(record.times.utc), dtype=bool)
+    found[order] = hours_shown_twice(record.times.utc[order], differs, step)
+    return found
+
+
+def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) -> pd.DataFrame:
+    """Rows by month and what became of them."""
+    months = np.asarray(data.index.strftime("%Y-%m"), dtype=object)
+    kept = (data["filter"] == "").to_numpy()
+    sorted_out = dict(dropped_by_filter(data["filter"].cat.codes.to_numpy() - 1))
+    sorted_out["kept"] = kept
+    sorted_out["jump"] = kept & data["jump"].to_numpy()
+    table = list(fates)
+    for fate, rows in sorted_out.items():
+        table += [(str(m), fate, int(n)) for m, n in pd.Series(months[rows]).value_counts().items()]
+    steps = pd.date_range(data.index[0], data.index[-1], freq=pd.Timedelta(seconds=step))
+    expected = pd.Series(steps.strftime("%Y-%m")).value_counts()
+    present = pd.Series(months).value_counts()
+    absent = expected.sub(present, fill_value=0).clip(lower=0)
+    table += [(str(m), "absent", int(n)) for m, n in absent.items() if n > 0]
+    frame = pd.DataFrame(table, columns=["month", "filter", "rows"])
+    frame["filter"] = pd.Categorical(frame["filter"], FATES, ordered=True)
+    return frame.sort_values(["month", "filter"], ignore_index=True)
+
+
+def _missing_months(counts: pd.DataFrame, most: float = 0.3) -> list[str]:
+    """Months of whose time more than a share is without data, in a sentence."""
+    table = rows_by_month(counts)
+    expected = table.drop(columns=["jump", "duplicate", "no time"]).sum(axis=1)
+    missing = 1.0 - table["kept"].to_numpy() / expected.to_numpy()
+    told = [
+        f"{month} ({100.0 * share:.0f} %)"
+        for month, share in zip(table.index, missing.tolist(), strict=True)
+        if share > most
+    ]
+    return [f"More than 30 % is missing in {', '.join(told)}."] if told else []
+
+
+def rows_by_month(counts: pd.DataFrame) -> pd.DataFrame:
+    """Rows with a line for each month and a column for each of `FATES`."""
+    dated = counts[counts["month"] != ""]
+    table = dated.pivot_table(
+        index="month", columns="filter", values="rows", aggfunc="sum", observed=False
+    )
+    return table.reindex(columns=list(FATES)).fillna(0).astype(int)
+
+
+def told_rows(scada: Scada) -> str:
+    """What was read, in a sentence.
+
+    Rows of the turbine, period, hours that are used.
+    """
+    first, last = scada.data.index[[0, -1]]
+    span = f"{first:%Y-%m-%d} to {last:%Y-%m-%d}"
+    name = shown(scada.description.turbine) if scada.description.turbine else "the turbine"
+    kept = int(scada.kept.sum())
+    return (
+        f"{len(scada.data)} rows of {name} from {span}; {kept} of them, {scada.hours:.0f} h, are "
+        f"used, and the rotor turns in {100.0 * scada.turning.sum() / max(kept, 1):.0f} % of these."
+    )
+
+
+def data_of(scada: Scada) -> Mapping[str, np.ndarray]:
+    """Quantities of the rows that are used, by name, each shape (rows,), SI."""
+    used = scada.data[scada.kept]
+    return {name: used[name].to_numpy() for name in QUANTITIES}
