@@ -13,7 +13,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon, Rectangle, Wedge
-from mount_drawings import four_point, three_point
+from mount_drawings import four_point, moment_carrying, three_point
 from skew_drawing import skewed_rollers
 
 from macroslip import Bearing, BearingLoads, Case, Laws, Traces, simulate
@@ -396,6 +396,7 @@ PICTURES = {
     "bearing.svg": bearing_section,
     "mount-three-point.svg": three_point,
     "mount-four-point.svg": four_point,
+    "mount-moment-carrying.svg": moment_carrying,
 }
 
 

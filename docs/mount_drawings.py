@@ -59,20 +59,54 @@ def four_point() -> Figure:
     return figure
 
 
-def _canvas(title: str) -> tuple[Figure, Axes]:
+def moment_carrying() -> Figure:
+    """A front that holds the shaft against tilting, and a rear bearing that is simulated."""
+    figure, axes = _canvas(
+        "Four-point mount with  front: moment-carrying, locating: front;  the gearbox takes torque only",
+        "Seen along $+X_0$, shaft drawn level. Blue: loads of the rotor. Red: loads of the shaft on its supports; minus "
+        "them act on the shaft.\nRear bearing:  $F_{X0} = (1-\\lambda)\\,M_z/b$,   $F_{Y0} = -(1-\\lambda)\\,M_y/b$,   with "
+        "$M_y = m_y + h\\,f_z + (s-h)\\,W\\,\\cos(tilt)$,   $M_z = m_z - h\\,f_y$.",
+    )
+    _rotor(axes)
+    _gearbox(axes, 7.0, "gearbox:\ntorque only", supported=False)
+    _support(
+        axes,
+        Support(
+            1.8,
+            "front, a pair\nlocating",
+            "what the rear leaves",
+            "$F_{Z0} = f_x + W\\,\\sin(tilt)$",
+        ),
+    )
+    axes.add_patch(
+        FancyArrowPatch(
+            (1.4, -0.45), (1.4, 0.45), arrowstyle="-|>", mutation_scale=13, color=SUPPORT, lw=1.6,
+            connectionstyle="arc3,rad=-0.5",
+        )
+    )  # fmt: skip
+    _text(axes, 0.75, -0.62, "$\\lambda\\,M_y$", SUPPORT, size=12)
+    _support(axes, Support(5.2, "rear\nsimulated", "$-(1-\\lambda)\\,M_y/b$"))
+    _weight(axes, 3.3)
+    _length(axes, 0.0, 1.8, "$h$  hub_to_bearing")
+    _length(axes, 1.8, 5.2, "$b$  front_to_rear")
+    return figure
+
+
+_FIRST_SUPPORT = (
+    "Seen along $+X_0$, shaft drawn level. Blue: loads of the rotor. Red: loads of the shaft on its supports; minus "
+    "them act on the shaft.\nFirst support:  $F_{X0} = (a\\,f_y - m_z)/b$,   "
+    "$F_{Y0} = (a\\,f_z + m_y - (a - s)\\,W\\,\\cos(tilt))/b$,   $a = h + b$."
+)
+
+
+def _canvas(title: str, formulas: str = "") -> tuple[Figure, Axes]:
     figure = Figure(figsize=(9.4, 4.6))
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set(xlim=(-2.2, 8.6), ylim=(-3.2, 2.1), aspect="equal")
     axes.axis("off")
     axes.add_patch(Rectangle((0.0, -0.14), 6.6, 0.28, fc=PALE, ec="black", lw=1.0))
     axes.text(-2.0, 1.85, title, size=11, va="center")
-    axes.text(
-        -2.0, -2.95,
-        "Seen along $+X_0$, shaft drawn level. Blue: loads of the rotor. Red: loads of the shaft on its supports; minus "
-        "them act on the shaft.\nFirst support:  $F_{X0} = (a\\,f_y - m_z)/b$,   "
-        "$F_{Y0} = (a\\,f_z + m_y - (a - s)\\,W\\,\\cos(tilt))/b$,   $a = h + b$.",
-        size=9, va="center",
-    )  # fmt: skip
+    axes.text(-2.0, -2.95, formulas or _FIRST_SUPPORT, size=9, va="center")
     return figure, axes
 
 

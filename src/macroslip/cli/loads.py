@@ -30,7 +30,7 @@ loads = typer.Typer(
 )
 
 _PICTURES = (".png", ".svg", ".pdf")
-_NO_UNIT = ("mount", "locating", "bearing")
+_NO_UNIT = ("mount", "locating", "bearing", "front", "front_moment_share")
 
 
 def _length(help: str) -> Any:
@@ -276,6 +276,9 @@ def _words(given: dict[str, Any]) -> str:
     start = f"{'the default' if given['default'] else 'your'} drivetrain ({given['hub_to_bearing [m]']:g} m from hub to "
     if given["mount"] == "four-point":
         rear = f"{given['front_to_rear [m]']:g} m from front to rear bearing, {given['locating']} locating"
+        if given["front"] == "moment-carrying":
+            share = given["front_moment_share"] or 0.0
+            rear += f", a moment-carrying front that takes {share:g} of the moment"
         return f"{start}front bearing, {rear}, {shaft}): the {given['bearing']} bearing"
     return (
         f"{start}bearing, {given['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"

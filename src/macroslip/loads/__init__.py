@@ -3,7 +3,7 @@
 from macroslip.loads.bundled import bundled_cases
 from macroslip.loads.history import BearingLoads, HubLoads
 from macroslip.loads.roller_loads import RollerLoads
-from macroslip.loads.statics import Drivetrain, main_bearing_load, support_loads
+from macroslip.loads.statics import Drivetrain, front_moment, main_bearing_load, support_loads
 
 __all__ = [
     "BearingLoads",
@@ -11,6 +11,7 @@ __all__ = [
     "HubLoads",
     "RollerLoads",
     "bundled_cases",
+    "front_moment",
     "main_bearing_load",
     "support_loads",
 ]

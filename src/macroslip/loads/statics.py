@@ -13,11 +13,12 @@ from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity
 from macroslip.input.section import input_section
-from macroslip.input.units import ANGLE, LENGTH, MASS
+from macroslip.input.units import ANGLE, LENGTH, MASS, NUMBER
 from macroslip.loads.history import BearingLoads, HubLoads
 
 MOUNTS = ("three-point", "four-point")
 BEARINGS = ("front", "rear")
+FRONTS = ("self-aligning", "moment-carrying")
 #: Default distance from the main bearing to the gearbox's support [m].
 _TO_GEARBOX = 2.2
 _BOTH = (
@@ -26,6 +27,8 @@ _BOTH = (
 )
 _UPWIND = ", downwind of the hub; rotors downwind of the tower are not modelled"
 _FOUR_POINT_KEYS = ("front_to_rear", "locating", "bearing")
+#: Keys of a four-point mount that may be left out there.
+_FRONT_KEYS = ("front", "front_moment_share")
 
 
 def _end_of_shaft(given: Mapping[str, Any]) -> float:
@@ -64,6 +67,14 @@ class Drivetrain:
         along the shaft.
     bearing : str
         Four-point mount: which bearing is simulated, `front` or `rear`.
+    front : str
+        Four-point mount: what the front bearing is, `self-aligning`, which carries no moment, or
+        `moment-carrying`: a pair of tapered roller bearings or the like, which holds the shaft
+        against tilting too. Of such a mount the rear bearing is simulated. `self-aligning` if not
+        given.
+    front_moment_share : float [-]
+        Moment-carrying front: share of the moment about its centre that it takes as a moment, 0 to
+        below 1, see `support_loads`. 0 if not given, the largest load of the rear bearing.
     tilt : float [rad]
         Shaft tilt, positive when the hub end is up, at most 0.3 rad (17°) either way. OpenFAST's
         ShftTilt has the opposite sign. Directs the weight of the shaft and of the rollers.
@@ -92,6 +103,13 @@ class Drivetrain:
     bearing: Annotated[
         str | None, Choice("main bearing that is simulated", lambda: BEARINGS, _BOTH)
     ] = None
+    front: Annotated[str | None, Choice("kind of front main bearing", lambda: FRONTS)] = None
+    front_moment_share: Annotated[
+        float | None,
+        Quantity(
+            "share of the moment that the front main bearing takes", NUMBER, 0.0, 1.0, below=True
+        ),
+    ] = None
     tilt: Annotated[
         float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)
     ] = math.radians(5.0)
@@ -109,8 +127,9 @@ class Drivetrain:
 
     def __post_init__(self) -> None:
         """InputError for keys that are missing or do not count."""
-        given = [key for key in _FOUR_POINT_KEYS if getattr(self, key) is not None]
-        missing = [key for key in _FOUR_POINT_KEYS if key not in given]
+        required = [key for key in _FOUR_POINT_KEYS if getattr(self, key) is not None]
+        given = required + [key for key in _FRONT_KEYS if getattr(self, key) is not None]
+        missing = [key for key in _FOUR_POINT_KEYS if key not in required]
         if self.mount == "four-point" and missing:
             are = "is" if len(missing) == 1 else "are"
             raise InputError(
@@ -124,6 +143,22 @@ class Drivetrain:
         if self.mount == "four-point" and self.bearing_to_gearbox != _TO_GEARBOX:
             what = "the mount is four-point, on which bearing_to_gearbox does not count"
             raise InputError(what, remedy="Remove it, or write mount: three-point.")
+        self._check_front()
+
+    def _check_front(self) -> None:
+        """InputError for a front main bearing that cannot be as it is described."""
+        if self.front == "moment-carrying" and self.bearing == "front":
+            raise InputError(
+                "the front main bearing is moment-carrying, and it is to be simulated",
+                allowed="bearing: rear",
+                remedy="Pairs of tapered roller bearings are not modelled; their load is: see "
+                "support_loads and front_moment.",
+            )
+        if self.front_moment_share is not None and self.front != "moment-carrying":
+            raise InputError(
+                "front_moment_share is given, and the front main bearing is self-aligning",
+                remedy="Write front: moment-carrying, or remove it.",
+            )
 
 
 def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDArray[np.float64]]:
@@ -137,8 +172,8 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     * at x = s the weight W = m·9.81 m/s² of the shaft, (W sin tilt, 0, −W cos tilt): with the hub
       end up, the shaft points downwind and down, so its weight has a part along +x;
     * at x = h and x = a the supports, each with a force and no moment, because the bearings are
-      spherical. One of the two carries thrust: the main bearing of a three-point mount, the
-      locating bearing of a four-point mount;
+      spherical; a moment-carrying front see below. One of the two carries thrust: the main bearing
+      of a three-point mount, the locating bearing of a four-point mount;
     * the gearbox with the torque −mx. On a three-point mount its torque arms are the support at
       x = a. On a four-point mount it is held against rotation only.
 
@@ -153,11 +188,30 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     and what the forces across the shaft leave goes to the second one. Thrust is
     F_Z0 = fx + W sin tilt.
 
+    **Moment-carrying front.** A front that resists tilting makes the shaft statically
+    indeterminate once. About its centre the loads of rotor and shaft have the moment
+
+        M_y = my + h fz + (s − h) W cos tilt
+        M_z = mz − h fy
+
+    and a shaft that tilts there by θ, stiff itself, on seats in line and a front stiff across the
+    shaft, presses the rear bearing, of radial stiffness k, with k b θ and twists the front, of
+    tilting stiffness K, with K θ. So M = (k b² + K) θ, and
+
+        load of the rear bearing = (1 − λ) times that without K,    λ = K/(K + k b²)
+        moment on the front      = λ M
+
+    `front_moment_share` is λ. The front gets what the rear bearing is spared; the sum of forces and
+    of moments is that of the loads for every λ. λ = 0 is the determinate limit of a rear bearing
+    that stands far behind, b² ≫ K/k.
+
     The result is (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing`
     and `gearbox` on a three-point mount, `front` and `rear` on a four-point mount. Valid for a
     rotor upwind of the tower, and while the frequency content lies below the first bending mode of
-    the shaft. Seats that give way or are out of line change nothing: two supports without moment
-    are statically determinate.
+    the shaft. Seats that give way or are out of line change nothing while λ = 0: two supports
+    without moment are statically determinate. With a moment-carrying front, seats that are out of
+    line by δ press the rear bearing with K δ/b² times (1 − λ) more or less, and a front that gives
+    way across the shaft moves a part of its own load, K/(b² k_front), to the rear.
 
     Examples
     --------
@@ -171,6 +225,51 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     front [   0.  -473.4    0. ] kN
     rear [  0.  210.4 164.4] kN
     """
+    first, second = _without_moments(hub_loads, drivetrain)
+    # Across the shaft only: a moment-carrying front leaves the thrust where it is.
+    spared = (drivetrain.front_moment_share or 0.0) * second * [1.0, 1.0, 0.0]
+    names = BEARINGS if drivetrain.mount == "four-point" else ("bearing", "gearbox")
+    return dict(zip(names, (first + spared, second - spared), strict=True))
+
+
+def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> NDArray[np.float64]:
+    """Moment of the shaft on a moment-carrying front main bearing about its centre.
+
+    λ M of `support_loads`, in the bearing frame: M_X0 = λ M_y and M_Y0 = λ M_z.
+
+    Parameters
+    ----------
+    hub_loads : HubLoads
+        n samples.
+    drivetrain : Drivetrain
+        A four-point mount; the moment on a self-aligning front is zero.
+
+    Returns
+    -------
+    (n, 3) array [N m]
+        M_X0, M_Y0, M_Z0; the last one is zero, because a bearing turns freely about the shaft.
+
+    Examples
+    --------
+    A tenth of the moment of a rotor of 263 kN, 1.2 m ahead of the front main bearing:
+
+    >>> rotor = HubLoads.constant([164.4e3, 0.0, -263.0e3], [0.0, 0.0, 0.0], 2.143, 1.0)
+    >>> pair = Drivetrain(mount="four-point", hub_to_bearing=1.2, front_to_rear=1.5,
+    ...                   locating="front", bearing="rear", front="moment-carrying",
+    ...                   front_moment_share=0.1)
+    >>> print((front_moment(rotor, pair)[0] / 1e3).round(2), "kN m")
+    [-31.56   0.     0.  ] kN m
+    """
+    # Without it the rear bearing alone holds the moment: M_y = −b F_Y0, M_z = b F_X0 there.
+    _, rear = _without_moments(hub_loads, drivetrain)
+    arm = (drivetrain.front_to_rear or 0.0) * (drivetrain.front_moment_share or 0.0)
+    return arm * np.column_stack([-rear[:, 1], rear[:, 0], np.zeros(len(rear))])
+
+
+def _without_moments(
+    hub_loads: HubLoads, drivetrain: Drivetrain
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Loads (n, 3) [N] of the shaft on its first and second support if neither takes a moment."""
     four_point = drivetrain.mount == "four-point"
     # Every four-point mount has its span, which Drivetrain checks.
     span: Any = drivetrain.front_to_rear if four_point else drivetrain.bearing_to_gearbox
@@ -188,9 +287,7 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     second = np.column_stack(
         [fy - x, fz - weight * math.cos(drivetrain.tilt) - y, none if first_carries else thrust]
     )
-    return dict(
-        zip(BEARINGS if four_point else ("bearing", "gearbox"), (first, second), strict=True)
-    )
+    return first, second
 
 
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
