@@ -48,7 +48,7 @@ def reported(tmp_path):
         (
             "rollers: all\n",
             "case.yaml: 'loads' is missing (loads, from exactly one source). Allowed: a section with the keys bundled, "
-            "file, bearing_file, roller_loads, hub, main_bearing, start, end, shaft_speed, decimal, thousands, hub_to_output. Add it.",
+            "file, bearing_file, roller_loads, hub, main_bearing, start, end, shaft_speed, decimal, thousands, hub_to_output, sheet. Add it.",
         ),
         (
             "loads: {bundled: 14B, file: x.outb}\n",

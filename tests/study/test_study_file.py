@@ -6,6 +6,7 @@ import os
 from dataclasses import replace
 
 import numpy as np
+import openpyxl
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -123,6 +124,30 @@ def test_a_table_gives_files_and_fields(load_files):
     assert next(study.runs()).load.fields == {"wind_speed": 12.5, "site": "north", "night": True}
 
 
+def test_a_sheet_of_a_workbook_gives_files_and_fields(load_files):
+    book = openpyxl.Workbook()
+    book.active.append(["only words"])
+    sheet = book.create_sheet("runs")
+    for row in (
+        ["file", "wind_speed", "seed", "site"],
+        ["runs/12mps_seed1.csv", 12.5, 1, "north"],
+        ["runs/14mps_seed2.csv", 14, 2, "south"],
+    ):
+        sheet.append(row)
+    book.save(load_files / "list.xlsx")
+    text = "loads: {table: list.xlsx, sheet: runs, kind: main-bearing, units: {wind_speed: m/s}}\n"
+    loads = read_study(write(load_files, text)).loads.loads
+    assert [load.name for load in loads] == ["runs/12mps_seed1.csv", "runs/14mps_seed2.csv"]
+    # A column with a fraction is one of fractions, as of a CSV table.
+    assert [repr(load.fields["wind_speed"]) for load in loads] == ["12.5", "14.0"]
+    assert [repr(load.fields["seed"]) for load in loads] == ["1", "2"]
+    for wrong, message in (("other", "no sheet 'other'"), ("''", "no column 'file'")):
+        if wrong == "''":
+            text = "loads: {table: list.xlsx, kind: main-bearing}\n"
+        with pytest.raises(InputError, match=message):
+            read_study(write(load_files, text.replace("sheet: runs", f"sheet: {wrong}")))
+
+
 AXIS = "loads: {bundled: all}\nvariations:\n  grid: {drivetrain.tilt: "
 
 
@@ -132,6 +157,7 @@ AXIS = "loads: {bundled: all}\nvariations:\n  grid: {drivetrain.tilt: "
         ("loads: {bundled: all}\nvariation: {}\n", ["line 2", "Did you mean 'variations'"]),
         ("case: {rollers: [0]}\n", ["'loads' is missing"]),
         ("loads: {bundled: 99Z}\n", ["line 1", "no bundled case '99Z'"]),
+        ("loads: {bundled: all, sheet: x}\n", ["sheet 'x' is named without a table"]),
         ("loads: {bundled: all, files: x.csv}\n", ["(bundled and files|files and bundled) stand together"]),
         ("loads: {files: 'nothing{seed:d}.csv'}\n", ["no file fits the pattern", "Relative paths start at"]),
         ("loads: {files: '{load}.csv'}\n", ["no file fits|a field is called 'load'"]),

@@ -339,6 +339,8 @@ def _plain(value: Any) -> Any:
         return value.as_dict()
     if isinstance(value, Heat):
         return {key: one for key, one in asdict(value).items() if one is not None}
+    if isinstance(value, Drivetrain) and value.windio is None:
+        return {key: one for key, one in asdict(value).items() if key != "windio"}
     if is_dataclass(value) and not isinstance(value, type):
         return asdict(value)
     return list(value) if isinstance(value, tuple) else value

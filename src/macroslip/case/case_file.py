@@ -21,6 +21,7 @@ from macroslip.input.record import Record
 from macroslip.input.section import fields_of, json_schema, read_fields
 from macroslip.loads import BearingLoads, HubLoads, RollerLoads
 from macroslip.loads.statics import BEARINGS
+from macroslip.loads.windio import windio_values
 from macroslip.lubricant import Lubricant
 
 #: Value of `drivetrain.bearing` that stands for two cases.
@@ -67,7 +68,9 @@ def files_named_in(path: Path) -> list[Path]:
     except InputError:
         return []  # the reader of the case reports its faults
     loads = data.get("loads")
+    drivetrain = data.get("drivetrain")
     named = [data.get("bearing"), data.get("lubricant")]
+    named += [drivetrain.get("windio")] if isinstance(drivetrain, Mapping) else []
     named += (
         [loads.get(key) for key in ("file", "bearing_file", "roller_loads")]
         if isinstance(loads, Mapping)
@@ -154,7 +157,9 @@ def build_case(
     place = Place(source)
     known = records or {}
     parts = {}
+    data, unread = _with_windio(data, place, folder)
     values, problems = read_fields(Case, data, place)
+    problems += unread
     for key, value in values.items():
         inner = (key, value.key) if isinstance(value, LoadSource) else (key,)
         try:
@@ -186,6 +191,29 @@ def build_case(
         raise together(problems)
     check_lubricant(case.laws, case.lubricant)
     return case
+
+
+def _with_windio(
+    data: Mapping[str, Any], place: Place, folder: Path
+) -> tuple[Mapping[str, Any], list[InputError]]:
+    """Content of a case with the values of the windIO file that its drivetrain names.
+
+    A file that cannot be used leaves the drivetrain out, and is reported.
+    """
+    drivetrain = data.get("drivetrain")
+    name = drivetrain.get("windio") if isinstance(drivetrain, Mapping) else None
+    if not isinstance(drivetrain, Mapping) or not isinstance(name, str) or "\0" in name:
+        return data, []
+    try:
+        values = windio_values(folder / name, drivetrain)
+    except InputError as problem:
+        without = {key: value for key, value in data.items() if key != "drivetrain"}
+        return without, [place.inside("drivetrain", "windio").blamed(problem)]
+    written = {
+        key: f"{value!r} {'rad' if key == 'tilt' else 'm'}" if isinstance(value, float) else value
+        for key, value in values.items()
+    }
+    return {**data, "drivetrain": {**drivetrain, **written}}, []
 
 
 def _record(kind: type[Record], name: str, folder: Path) -> Record:

@@ -18,7 +18,7 @@ from macroslip.loads.csv_text import DECIMAL_MARKS, THOUSANDS_MARKS
 FOR_HUB_FILES = ("shaft_speed", "hub_to_output")
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "roller_loads", "hub", "main_bearing")
 #: Keys that say how loads are read from a file.
-CUT_KEYS = ("start", "end", *FOR_HUB_FILES, "decimal", "thousands")
+CUT_KEYS = ("start", "end", *FOR_HUB_FILES, "decimal", "thousands", "sheet")
 
 # Advice for programs, in the words of a case file.
 _ADVICE = {
@@ -63,12 +63,14 @@ class LoadSource:
     file: Annotated[
         str | None, Text("hub loads: output of OpenFAST, Bladed or HAWC2, or a table")
     ] = None
-    bearing_file: Annotated[str | None, Text("main-bearing loads: a table (.parquet, .csv)")] = None
+    bearing_file: Annotated[
+        str | None, Text("main-bearing loads: a table (.parquet, .csv, .xlsx)")
+    ] = None
     roller_loads: Annotated[
         str | None,
         Text(
             "loads of the rollers: a table of time_s, shaft_speed_rpm, row, angle_deg, load_N "
-            "(.parquet, .csv)"
+            "(.parquet, .csv, .xlsx)"
         ),
     ] = None
     hub: ConstantHubLoads | None = None
@@ -90,6 +92,9 @@ class LoadSource:
         float | None,
         Quantity("distance behind the hub at which the file has its loads", LENGTH, 0.0, 20.0),
     ] = None
+    sheet: Annotated[str | None, Text("sheet of a workbook of Excel; without it the first one")] = (
+        None
+    )
 
     @property
     def key(self) -> str:
@@ -131,10 +136,10 @@ class LoadSource:
                 )
             return (HubLoads if key == "hub" else BearingLoads).constant(**asdict(value))
         if key == "bundled":
-            if marks := cut.keys() & {"decimal", "thousands"}:
+            if marks := cut.keys() & {"decimal", "thousands", "sheet"}:
                 raise InputError(
-                    f"{' and '.join(sorted(marks))} would say how numbers are written in a file",
-                    remedy="Remove them; a bundled case is no CSV table.",
+                    f"{' and '.join(sorted(marks))} would say how a table is read",
+                    remedy="Remove them; a bundled case needs nothing of the kind.",
                 )
             return HubLoads.bundled(value).window(cut.get("start"), cut.get("end"))
         if not (folder / value).exists():

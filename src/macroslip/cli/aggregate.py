@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from macroslip.cli.options import AsJson, By, Quiet
+from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
+from macroslip.cli.options import AsJson, By, Force, Quiet
 from macroslip.cli.options import Weibull as WeibullOption
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError, safe_text
-from macroslip.storage.files import check_not_input, check_regular
+from macroslip.storage.files import check_not_input, check_regular, make_folder
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -50,6 +51,8 @@ def aggregate(
     ] = None,
     by: By = None,
     form: Annotated[str, typer.Option("--format", help="csv or parquet.")] = "csv",
+    xlsx: Xlsx = None,
+    force: Force = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:
@@ -61,6 +64,9 @@ def aggregate(
 
     if form not in FORMATS:
         raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
+    if xlsx is not None and xlsx.parent == output:
+        make_folder(output)
+    check_workbook(xlsx, force=force, inputs=[probabilities] if probabilities else [])
     study = open_study(directory)
     stored = aggregation_in_use(study, _weights(weibull, probabilities), years)
     aggregation = replace(
@@ -73,6 +79,12 @@ def aggregate(
     for name in found:
         check_not_input(output / f"{name}.{form}", [probabilities] if probabilities else [])
     written = write_tables(found, output, form)
+    if xlsx is not None:
+        from macroslip.report.sheets import ORIGIN, origin_sheet
+
+        origin = origin_sheet({"study": study}, choices={"aggregation": aggregation})
+        write_workbook(xlsx, found | {ORIGIN: origin}, force=force)
+        written.append(xlsx)
     if as_json:
         lifetime = found["lifetime"].to_dict("records") if "lifetime" in found else None
         print_json({"lifetime": lifetime, "written": [str(path) for path in written]})

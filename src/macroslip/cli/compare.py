@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
 from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.options import AsJson, By, Force, Quiet
 from macroslip.storage.files import check_new_file, new_file
@@ -29,6 +30,7 @@ def compare(
         ),
     ] = None,
     title: Annotated[str, typer.Option("--title", help="Heading of the page.")] = "",
+    xlsx: Xlsx = None,
     force: Force = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
@@ -43,7 +45,9 @@ def compare(
 
     first = results[0]
     output = output or (first if first.is_dir() else first.parent) / PAGE
-    check_new_file(output, force=force, inputs=[one for one in results if one.is_file()])
+    inputs = [one for one in results if one.is_file()]
+    check_new_file(output, force=force, inputs=inputs)
+    check_workbook(xlsx, force=force, inputs=inputs)
     found = compared(*results, by=by)
     curves = (
         {}
@@ -53,6 +57,12 @@ def compare(
     page = comparison_page(found, curves, title=title)
     with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8")
+    if xlsx is not None:
+        from macroslip.report.sheets import comparison_sheets
+        from macroslip.study.reader import open_study
+
+        datasets = curves or {"study": open_study(first)}
+        write_workbook(xlsx, comparison_sheets(found, datasets), force=force)
     if as_json:
         numbers = found.astype(object).where(found.notna(), None).to_dict("records")
         print_json({"numbers": numbers, **found.attrs, "written": str(output)})
@@ -72,3 +82,5 @@ def compare(
             typer.echo()
     typer.echo(found.attrs["ranking"])
     typer.echo(f"written: {output}")
+    if xlsx is not None:
+        typer.echo(f"written: {xlsx}")

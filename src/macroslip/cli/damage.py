@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.options import AsJson
+from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
+from macroslip.cli.options import AsJson, Force
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
@@ -35,6 +36,8 @@ def damage(
             help="Threshold of your own, 'entry_flash_temperature=120 K, our rig'. Repeatable."
         ),
     ] = None,
+    xlsx: Xlsx = None,
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Criteria of damage by slip (smearing, friction energy, micropitting, wear) and references."""
@@ -46,14 +49,20 @@ def damage(
     from macroslip.result.damage import criterion_lines
     from macroslip.result.damage import damage as computed
 
+    check_workbook(xlsx, force=force, inputs=[result])
     own = dict(map(_threshold, threshold or ()))
+    dataset = open_result(result)
     found = computed(
-        open_result(result),
+        dataset,
         wear_coefficients=k or None,
         hardness=si("--hardness", hardness, PRESSURE),
         thresholds=own,
     )
     lines, missing = criterion_lines(found)
+    if xlsx is not None:
+        from macroslip.report.sheets import damage_sheets
+
+        write_workbook(xlsx, damage_sheets(found, lines, dataset), force=force)
     if as_json:
         named = {name: found.attrs[name] for name in ("title", "model", "oil")}
         print_json(named | {"criteria": lines, "wear": _wear(found), "not kept": missing})
@@ -81,6 +90,8 @@ def damage(
             *((f"{1e6 * one:g} µm", True) for one in found.depth.values),
         ]
         print_table(title, headings, rows)
+    if xlsx is not None:
+        typer.echo(f"written: {xlsx}")
 
 
 def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: str) -> None:

@@ -84,7 +84,7 @@ def _packages() -> Iterator[dict[str, Any]]:
         if (
             parts is None
             or parts[1] == "macroslip"
-            or (extra and extra[1] not in ("figures", "cluster", "notebook"))
+            or (extra and extra[1] not in ("figures", "excel", "cluster", "notebook"))
         ):
             continue
         bound = parts[2] + (f", for [{extra[1]}]" if extra else "")

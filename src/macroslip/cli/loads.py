@@ -30,7 +30,7 @@ loads = typer.Typer(
 )
 
 _PICTURES = (".png", ".svg", ".pdf")
-_NO_UNIT = ("mount", "locating", "bearing", "front", "front_moment_share")
+_NO_UNIT = ("mount", "locating", "bearing", "front", "front_moment_share", "windio")
 
 
 def _length(help: str) -> Any:
@@ -41,7 +41,7 @@ def inspect(
     file: Annotated[
         Path,
         typer.Argument(
-            help="Output of OpenFAST, Bladed or HAWC2, or a table (.parquet, .csv) of hub or bearing loads."
+            help="Output of OpenFAST, Bladed or HAWC2, or a table (.parquet, .csv, .xlsx) of hub or bearing loads."
         ),
     ],
     case: Annotated[
@@ -71,6 +71,9 @@ def inspect(
     decimal: Annotated[str, typer.Option(help="Mark before the decimals of a CSV table.")] = "",
     thousands: Annotated[
         str, typer.Option(help="Mark between groups of three digits in a CSV table.")
+    ] = "",
+    sheet: Annotated[
+        str, typer.Option(help="Sheet of a workbook of Excel; the first one if not given.")
     ] = "",
     hub_to_output: Annotated[
         str | None,
@@ -103,6 +106,7 @@ def inspect(
         "hub_to_output": si("--hub-to-output", hub_to_output, LENGTH),
         "decimal": decimal or None,
         "thousands": thousands or None,
+        "sheet": sheet or None,
     }
     options = {name: value for name, value in options.items() if value is not None}
     own = {
@@ -152,8 +156,8 @@ def _read(
     """Texts on a file, its loads, and its load on the main bearing; of `others` texts alone."""
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
 
-    if _holds_bearing_loads(file):
-        if not options.keys() <= {"decimal", "thousands"}:
+    if _holds_bearing_loads(file, options.get("sheet", "")):
+        if not options.keys() <= {"decimal", "thousands", "sheet"}:
             raise InputError(
                 "--shaft-speed and --hub-to-output are for hub loads",
                 where=str(file),
@@ -178,17 +182,18 @@ def _read(
     return found, hub, bearing
 
 
-def _holds_bearing_loads(file: Path) -> bool:
+def _holds_bearing_loads(file: Path, sheet: str) -> bool:
     """Whether a table has the columns of main-bearing loads; other faults show when it is read."""
     from macroslip.loads.table import open_table
 
     if not file.is_file() or file.suffix.lower() not in (
         ".parquet",
         ".csv",
+        ".xlsx",
     ):  # a pipe would wait for ever
         return False
     try:
-        return any(name.startswith("F_X0") for name in open_table(file).names)
+        return any(name.startswith("F_X0") for name in open_table(file, None, sheet).names)
     except InputError:
         return False
 

@@ -20,6 +20,7 @@ class Need(NamedTuple):
 
 FIGURES = Need("a page or a picture", ("matplotlib", "jinja2"), "figures")
 PICTURE = Need("a picture", ("matplotlib",), "figures")
+EXCEL = Need("a workbook of Excel", ("openpyxl",), "excel")
 SCHEDULER = Need("--scheduler", ("dask", "distributed"), "cluster")
 
 #: Packages that the commands need beyond the package's own dependencies.
@@ -29,6 +30,7 @@ COMMANDS: Mapping[str, Need] = MappingProxyType(
         "macroslip loads inspect -o": PICTURE,
         "macroslip bearing draw": PICTURE,
         "macroslip study --scheduler": SCHEDULER,
+        "--xlsx, loads in .xlsx": EXCEL,
     }
 )
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
 from macroslip.cli.failure import MEMORY, ROLLERS_FAILED, to_stderr
 from macroslip.cli.options import AsJson, Force, Quiet, Threads
 from macroslip.cli.printing import number, print_json, print_table
@@ -57,6 +58,7 @@ def run(
             "Repeatable."
         ),
     ] = None,
+    xlsx: Xlsx = None,
     threads: Threads = None,
     force: Force = False,
     as_json: AsJson = False,
@@ -64,17 +66,15 @@ def run(
 ) -> None:
     """Compute the slip of a case's rollers, as netCDF.
 
-    Of both main bearings the files are OUTPUT-front.nc and OUTPUT-rear.nc.
+    Of both main bearings the files are OUTPUT-front.nc and OUTPUT-rear.nc, workbooks alike.
     """
     from macroslip.case.case_file import bearings_in, files_named_in
 
     inputs = [case, *(laws or ()), *files_named_in(case)]
-    outputs = {
-        name: output.parent / f"{output.stem}-{name}{output.suffix}" if name else output
-        for name in bearings_in(case)
-    }
-    for path in outputs.values():
+    outputs = {name: _of_bearing(output, name) for name in bearings_in(case)}
+    for name, path in outputs.items():
         check_new_file(path, force=force, inputs=inputs)
+        check_workbook(xlsx and _of_bearing(xlsx, name), force=force, inputs=inputs)
     from macroslip.result.stored import to_netcdf
 
     for path in laws or ():
@@ -90,6 +90,13 @@ def run(
         with new_file(path, force=force) as temporary:
             temporary.write_bytes(content)
         summaries[name] = _numbers(dataset) | {"written": str(path)}
+        if xlsx is not None:
+            from macroslip.report.sheets import result_sheets
+
+            book = _of_bearing(xlsx, name)
+            answer, criteria = summaries[name]["answer"], summaries[name]["damage"]["criteria"]
+            write_workbook(book, result_sheets(dataset, answer, criteria), force=force)
+            summaries[name]["workbook"] = str(book)
         if not (quiet or as_json):
             _summary(dataset, summaries[name], name, path)
         any_failed = _print_doubts(dataset, quiet) or any_failed
@@ -99,6 +106,11 @@ def run(
         typer.echo(f"one page on both: macroslip report {' '.join(map(str, outputs.values()))}")
     if any_failed:
         raise typer.Exit(ROLLERS_FAILED)
+
+
+def _of_bearing(path: Path, bearing: str) -> Path:
+    """Path of an output for one of both main bearings; of a single one the path itself."""
+    return path.parent / f"{path.stem}-{bearing}{path.suffix}" if bearing else path
 
 
 def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.Dataset:
@@ -194,6 +206,8 @@ def _summary(dataset: xr.Dataset, summary: dict[str, Any], bearing: str, path: P
     title = "from slip to damage, the worst of any row and place"
     print_criteria(summary["damage"]["criteria"], summary["damage"]["not kept"], title=title)
     typer.echo(f"written: {path}")
+    if "workbook" in summary:
+        typer.echo(f"written: {summary['workbook']}")
 
 
 def _print_rows(dataset: xr.Dataset, summary: dict[str, Any]) -> None:

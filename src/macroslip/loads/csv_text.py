@@ -239,7 +239,7 @@ def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
     if any(cells) and not any(map(_is_number, cells)) and below_units.strip():
         second_row = _cells(below_units.lstrip("\n").partition("\n")[0], separator)
         if len(cells) <= len(names) and any(map(_is_number, second_row)):
-            names = [*map(_with_unit, names, cells), *names[len(cells) :]]
+            names = [*map(name_with_unit, names, cells), *names[len(cells) :]]
             rows = below_units
             cells = second_row
     if cells:
@@ -271,7 +271,7 @@ def _is_number(cell: str) -> bool:
     return re.fullmatch(rf"[+-]?[\d.,']*\d[\d.,']*{_EXPONENT}", cell) is not None
 
 
-def _with_unit(name: str, unit: str) -> str:
+def name_with_unit(name: str, unit: str) -> str:
     """Name of a column with the unit below it, unless the name has this unit already."""
     unit = unit.strip("[]() ")
     plain_unit = re.sub(r"[\W_]", "", unit)

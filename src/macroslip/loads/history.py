@@ -19,6 +19,7 @@ from macroslip.loads.bundled import bundled_case
 from macroslip.loads.csv_text import csv_number_format
 from macroslip.loads.hawc2 import read_hawc2
 from macroslip.loads.openfast import read_openfast
+from macroslip.loads.sheet_table import check_sheet
 from macroslip.loads.source_file import DAMAGED, RPM, moment_at_hub, source_file
 from macroslip.loads.table import read_bearing_table, read_hub_table
 from macroslip.overview import html_overview
@@ -43,7 +44,7 @@ _FARTHEST_OUTPUT = 20.0
 #: Samples of a constant load beyond which the duration must be a mistake.
 _MOST_SAMPLES = 20_000_000
 
-_TABLES = {".parquet": "table", ".csv": "table"}
+_TABLES = {".parquet": "table", ".csv": "table", ".xlsx": "workbook of Excel"}
 _HUB_FILES = {
     ".outb": "OpenFAST binary output",
     ".out": "OpenFAST text output",
@@ -248,6 +249,7 @@ class HubLoads(History):
         decimal: str = "",
         thousands: str = "",
         hub_to_output: float | None = None,
+        sheet: str = "",
     ) -> HubLoads:
         """Read output of OpenFAST, Bladed or HAWC2, or a table with units in its column names.
 
@@ -256,8 +258,8 @@ class HubLoads(History):
         path : path
             ``.outb`` and ``.out``: see `macroslip.loads.openfast` for the channels; ``.%nn`` or
             ``.$nn``, any file of a run: `macroslip.loads.bladed`; ``.sel``, ``.dat``, ``.hdf5`` or
-            ``.h5``: `macroslip.loads.hawc2`; ``.parquet`` and ``.csv``: `macroslip.loads.table` for
-            the columns.
+            ``.h5``: `macroslip.loads.hawc2`; ``.parquet``, ``.csv`` and ``.xlsx``:
+            `macroslip.loads.table` for the columns.
         start, end : float, optional
             Keep only this part of the file [s], on the file's own time axis, as `cut` does. What
             lies outside is not validated.
@@ -270,6 +272,8 @@ class HubLoads(History):
             Distance, 0 to 20 m, of the point that the file's loads are given at behind the hub
             centre, where it is not the hub: a node of HAWC2's shaft, or OpenFAST's strain gauge.
             The moments are moved to the hub; the shaft between has no weight.
+        sheet : str, optional
+            Sheet of a workbook of Excel; the first one if not given.
 
         Returns
         -------
@@ -294,8 +298,11 @@ class HubLoads(History):
         reader = _READERS.get(extension, read_bladed)
         options: dict[str, Any] = {"speed_needed": shaft_speed is None}
         number_format = csv_number_format(path, decimal, thousands)
+        check_sheet(path, sheet)
         if number_format is not None:
             options["number_format"] = number_format
+        if sheet:
+            options["sheet"] = sheet
         if hub_to_output is not None and reader in _READERS_OF_OTHER_POINTS:
             options["at_hub"] = False
         # Numbers that are not finite are reported with their channel and time, without NumPy's
@@ -400,19 +407,20 @@ class BearingLoads(History):
         end: float | None = None,
         decimal: str = "",
         thousands: str = "",
+        sheet: str = "",
     ) -> BearingLoads:
-        """Read a table of main-bearing loads with units in its column names (Parquet, CSV).
+        """Read a table of main-bearing loads with units in its column names.
 
         `macroslip.loads.table` says which columns are needed.
 
         Parameters
         ----------
         path : path
-            ``.parquet`` or ``.csv``.
+            ``.parquet``, ``.csv`` or ``.xlsx``.
         start, end : float, optional
             Keep only this part of the file [s], on the file's own time axis, as `cut` does.
-        decimal, thousands : str, optional
-            Marks of numbers in text, as in `HubLoads.read`.
+        decimal, thousands, sheet : str, optional
+            Marks of numbers in text and sheet of a workbook, as in `HubLoads.read`.
 
         Returns
         -------
@@ -430,7 +438,7 @@ class BearingLoads(History):
         path, _ = source_file(path, _TABLES, remedy)
         number_format = csv_number_format(path, decimal, thousands)
         with reading(path, DAMAGED), np.errstate(all="ignore"):
-            columns = read_bearing_table(path, number_format)
+            columns = read_bearing_table(path, number_format, sheet)
         return cls(**cut(columns, start, end, str(path)), source=str(path))
 
 

@@ -93,8 +93,9 @@ class RollerLoads(History):
         end: float | None = None,
         decimal: str = "",
         thousands: str = "",
+        sheet: str = "",
     ) -> RollerLoads:
-        """Read a table (``.csv``, ``.parquet``) of the loads of rollers.
+        """Read a table (``.csv``, ``.parquet``, ``.xlsx``) of the loads of rollers.
 
         Columns are time_s, shaft_speed_rpm, row, angle_deg and load_N. There is one line for each
         time, row and position, in any order; row is downwind or upwind.
@@ -103,7 +104,7 @@ class RollerLoads(History):
         ----------
         path : path
             The table.
-        start, end, decimal, thousands : optional
+        start, end, decimal, thousands, sheet : optional
             As in `HubLoads.read`.
 
         Returns
@@ -116,12 +117,11 @@ class RollerLoads(History):
             If the file cannot be read, lacks a column, or has not as many positions in each row at
             each time.
         """
-        path, _ = source_file(
-            path, {".csv": "table", ".parquet": "table"}, "Columns: " + ", ".join(COLUMNS)
-        )
+        kinds = {".csv": "table", ".parquet": "table", ".xlsx": "workbook of Excel"}
+        path, _ = source_file(path, kinds, "Columns: " + ", ".join(COLUMNS))
         number_format = csv_number_format(path, decimal, thousands)
         with reading(path, DAMAGED):
-            table = open_table(path, number_format)
+            table = open_table(path, number_format, sheet)
         missing = [name for name in COLUMNS if name not in table.names]
         if missing:
             raise InputError(

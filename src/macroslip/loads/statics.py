@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from typing import Annotated, Any
 
@@ -11,10 +12,11 @@ from numpy.typing import NDArray
 
 from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Positive, Quantity
+from macroslip.input.fields import Choice, Positive, Quantity, Text
 from macroslip.input.section import input_section
 from macroslip.input.units import ANGLE, LENGTH, MASS, NUMBER
 from macroslip.loads.history import BearingLoads, HubLoads
+from macroslip.loads.windio import windio_values
 
 MOUNTS = ("three-point", "four-point")
 BEARINGS = ("front", "rear")
@@ -84,6 +86,8 @@ class Drivetrain:
     shaft_mass_station : float [m]
         Distance of that mass behind the hub centre: on a three-point mount up to the gearbox's
         support, on a four-point mount up to 10 m behind the rear bearing.
+    windio : str
+        The turbine file of windIO that values are from, if there is one; `from_windio` reads it.
     """
 
     mount: Annotated[str, Choice("what carries the shaft", lambda: MOUNTS)] = "three-point"
@@ -124,6 +128,35 @@ class Drivetrain:
             note=", from the hub to the end of the shaft",
         ),
     ] = 0.0
+    windio: Annotated[
+        str | None,
+        Text("turbine file of windIO 2: tilt and distances, as far as they are not given here"),
+    ] = None
+
+    @classmethod
+    def from_windio(cls, path: str | os.PathLike[str], **own: Any) -> Drivetrain:
+        """Shaft of a turbine file of windIO, version 2; `macroslip.loads.windio` has its keys.
+
+        Parameters
+        ----------
+        path : path
+            The turbine file.
+        **own
+            Values in SI units that come before the file's, and those that it does not have: which
+            `bearing` is simulated, for example.
+
+        Returns
+        -------
+        Drivetrain
+            Hub centre to front bearing is half of the hub's diameter and the file's distance from
+            the hub's flange.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read, or lacks a value that `own` does not have.
+        """
+        return cls(**{**own, **windio_values(path, own)})
 
     def __post_init__(self) -> None:
         """InputError for keys that are missing or do not count."""

@@ -1,4 +1,4 @@
-"""Load histories from a table, Parquet or CSV, whose columns name quantity and unit.
+"""Load histories from a table (Parquet, CSV, a sheet of Excel) whose columns name quantity and unit.
 
 A name is quantity, underscore, unit. Of each quantity there is one column; others are ignored.
 
@@ -35,7 +35,9 @@ from macroslip.loads.openfast import (
     is_load_channel,
     loads_from_channels,
 )
+from macroslip.loads.sheet_table import check_sheet, read_sheet
 from macroslip.loads.source_file import FORCE, MOMENT, RPM, Samples
+from macroslip.storage.workbook import EXTENSION
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -81,19 +83,22 @@ def read_hub_table(
     speed_needed: bool = True,
     at_hub: bool = True,
     number_format: NumberFormat | None = None,
+    sheet: str = "",
 ) -> dict:
     """Read a table of hub loads.
 
     Parameters
     ----------
     path : Path
-        Parquet or CSV file.
+        Parquet or CSV file, or workbook of Excel.
     speed_needed : bool
         True if a table without a column of the shaft speed is refused.
     at_hub : bool
         True if moments that OpenFAST writes must be those at the hub.
     number_format : NumberFormat, optional
         Marks in the numbers of a CSV file.
+    sheet : str
+        Sheet of a workbook; the first one if it is empty.
 
     Returns
     -------
@@ -106,7 +111,7 @@ def read_hub_table(
     InputError
         If a column is missing, is there twice, has no known unit, or holds no numbers.
     """
-    table = open_table(path, number_format)
+    table = open_table(path, number_format, sheet)
     channels = _openfast_channels(table, str(path))
     if channels is not None:
         return loads_from_channels(channels, speed_needed=speed_needed, at_hub=at_hub)
@@ -133,11 +138,11 @@ def _openfast_channels(table: Table, where: str) -> Channels | None:
 
 
 def read_bearing_table(
-    path: Path, number_format: NumberFormat | None = None
+    path: Path, number_format: NumberFormat | None = None, sheet: str = ""
 ) -> dict[str, NDArray[np.float64]]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s] and force (n, 3) [N] on the inner ring."""
     remedy = "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
-    columns = _read(open_table(path, number_format), path, _BEARING_VECTORS, ("fx", remedy))
+    columns = _read(open_table(path, number_format, sheet), path, _BEARING_VECTORS, ("fx", remedy))
     del columns["reading"]
     return columns
 
@@ -280,11 +285,15 @@ class _ParquetTable:
         return _rebuild_uniform(values) if is_time and kind == pa.float32() else values
 
 
-def open_table(path: Path, number_format: NumberFormat | None = None) -> Table:
-    """Table of a Parquet or CSV file; InputError if it is none.
+def open_table(path: Path, number_format: NumberFormat | None = None, sheet: str = "") -> Table:
+    """Table of a Parquet or CSV file or a sheet of a workbook; InputError if it is none.
 
-    `number_format` are the marks in the numbers of a CSV file, which by default are found out.
+    `number_format` are the marks in the numbers of a CSV file, which by default are found out;
+    `sheet` is the one of a workbook, the first if it is empty.
     """
+    check_sheet(path, sheet)
+    if path.suffix.lower() == EXTENSION:
+        return read_sheet(path, sheet)
     import pyarrow as pa
     import pyarrow.parquet as pq
 

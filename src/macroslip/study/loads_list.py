@@ -10,7 +10,9 @@ from typing import Any
 
 from macroslip.errors import InputError, safe_text
 from macroslip.loads.bundled import bundled_cases, bundled_labels, bundled_names
+from macroslip.loads.sheet_table import check_sheet
 from macroslip.storage.files import check_regular
+from macroslip.storage.workbook import EXTENSION, sheet_cells
 
 #: Names that labels of the user's own would hide.
 RESERVED = (
@@ -139,6 +141,7 @@ class Pattern:
 def load_list(
     folder: Path, *, kind: str, bundled: Sequence[str] | None = None, table: str | None = None,
     files: Sequence[str] | None = None, units: Mapping[str, str] | None = None,
+    sheet: str | None = None,
 ) -> LoadList:  # fmt: skip
     """The load histories that the section `loads` of a study file names.
 
@@ -152,6 +155,8 @@ def load_list(
         Exactly one of them: names of bundled cases, a table of files, or patterns of paths.
     units : mapping, optional
         Units of the fields, by name.
+    sheet : str, optional
+        Sheet of the table, if it is a workbook; the first one if not given.
 
     Raises
     ------
@@ -159,12 +164,19 @@ def load_list(
         If there is no load history, a table cannot be read, or a field has a name that is taken or
         a value that cannot be stored.
     """
+    if sheet and not table:
+        raise InputError(
+            f"the sheet '{sheet}' is named without a table",
+            where="sheet",
+            remedy="Name the workbook under table, or remove sheet; sheets of load files are named "
+            "under case.loads.sheet.",
+        )
     source = "bundled" if bundled else "bearing_file" if kind == "main-bearing" else "file"
     remarks: list[str] = []
     if bundled:
         loads = _bundled(bundled)
     elif table:
-        loads = _from_table(folder / table)
+        loads = _from_table(folder / table, sheet or "")
     else:
         loads, remarks = _from_patterns([Pattern(text) for text in files or ()], folder)
     names = list(dict.fromkeys(name for load in loads for name in load.fields))
@@ -243,29 +255,11 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
     return list(loads.values()), remarks
 
 
-def _from_table(path: Path) -> list[Load]:
-    import pyarrow as pa
-    import pyarrow.csv
-    import pyarrow.parquet
-
+def _from_table(path: Path, sheet: str = "") -> list[Load]:
     where = str(path)
-    check_regular(path, "Name a table, .csv or .parquet.")
-    readers = {".csv": pa.csv.read_csv, ".parquet": pa.parquet.read_table}
-    reader = readers.get(path.suffix.lower())
-    if reader is None:
-        raise InputError(
-            f"the extension {path.suffix!r} is not known", where=where, allowed=", ".join(readers)
-        )
-    try:
-        rows = (table := reader(path)).to_pylist()
-    except (pa.ArrowException, OSError) as error:
-        raise InputError(f"the table of load files cannot be read ({error})", where=where) from None
-    if "file" not in table.column_names or not rows:
-        what = (
-            "the table has no rows"
-            if "file" in table.column_names
-            else "the table has no column 'file'"
-        )
+    columns, rows = _rows_of_table(path, sheet)
+    if "file" not in columns or not rows:
+        what = "the table has no rows" if "file" in columns else "the table has no column 'file'"
         raise InputError(
             what, where=where, allowed="a column 'file' with paths, and one column a field"
         )
@@ -284,3 +278,43 @@ def _from_table(path: Path) -> list[Load]:
             raise InputError(what, where=where, remedy="Keep one row of it.")
         names.add(row["file"])
     return [Load(row.pop("file"), row) for row in rows]
+
+
+def _rows_of_table(path: Path, sheet: str) -> tuple[list[str], list[dict[str, Any]]]:
+    """Names of the columns of a table, and its rows by these names."""
+    import pyarrow as pa
+    import pyarrow.csv
+    import pyarrow.parquet
+
+    where = str(path)
+    check_regular(path, "Name a table, .csv, .parquet or .xlsx.")
+    check_sheet(path, sheet)
+    readers = {".csv": pa.csv.read_csv, ".parquet": pa.parquet.read_table}
+    extension = path.suffix.lower()
+    if extension == EXTENSION:
+        return _rows_of_sheet(path, sheet)
+    if extension not in readers:
+        raise InputError(
+            f"the extension {path.suffix!r} is not known",
+            where=where,
+            allowed=", ".join([*readers, EXTENSION]),
+        )
+    try:
+        table = readers[extension](path)
+        return table.column_names, table.to_pylist()
+    except (pa.ArrowException, OSError) as error:
+        raise InputError(f"the table of load files cannot be read ({error})", where=where) from None
+
+
+def _rows_of_sheet(path: Path, sheet: str) -> tuple[list[str], list[dict[str, Any]]]:
+    """The same of a sheet of a workbook; a column with a fraction is one of fractions."""
+    header, *cells = sheet_cells(path, sheet) or [[]]
+    columns = {}
+    for name, *column in zip(header, *cells, strict=True):
+        if any(isinstance(cell, float) for cell in column):
+            column = [float(cell) if type(cell) is int else cell for cell in column]
+        if name is not None:
+            columns[str(name).strip()] = column
+    return list(columns), [
+        dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)
+    ]

@@ -322,7 +322,10 @@ class StudyLoads:
         Texts("paths of load files, with fields such as {wind_speed:g} and wildcards"),
     ] = None
     table: Annotated[
-        str | None, Text("CSV or Parquet table with a column 'file' and one column a field")
+        str | None, Text("CSV, Parquet or Excel table with a column 'file' and one column a field")
+    ] = None
+    sheet: Annotated[
+        str | None, Text("sheet of the table, if that is a workbook; without it the first one")
     ] = None
     bundled: Annotated[
         list[str] | None,
