@@ -18,6 +18,8 @@ SECTORS = 72
 #: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip
 #: and asperities; no traction law of one's own may have it.
 MECHANISMS = "mechanisms"
+#: Name under which a case chooses Kellström's friction at the raceways.
+KELLSTROEM = "kellstroem"
 
 #: Gap where inlets begin to be full [m] from which on they count as flooded.
 FLOODED_GAP = 1.0

@@ -12,12 +12,13 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.constants import FLOODED_GAP, MECHANISMS
-from macroslip.contact import asperities, film, rolling, traction
+from macroslip.constants import FLOODED_GAP, KELLSTROEM, MECHANISMS
+from macroslip.contact import asperities, film, kellstroem, rolling, traction
 from macroslip.contact.closed_form import BarusCrook, barus_crook_traction, prepare_barus_crook
 from macroslip.contact.flash import effusivity
 from macroslip.contact.gap import GapShape
 from macroslip.contact.interface import ContactShape, Interface, contact_shape, interfaces
+from macroslip.contact.kellstroem import SaturatingFriction
 from macroslip.contact.mechanisms import Laws, check_lubricant
 from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
@@ -51,7 +52,9 @@ class ContactLaws:
     #: The sheared film; None for the paper's closed form and for a traction law of one's own
     fluid: Fluid | None
     closed_form: BarusCrook | None  #: The paper's traction
-    traction_name: str  #: `mechanisms`, or the name of a registered traction law
+    friction: SaturatingFriction | None  #: Kellström's, of a raceway that has it
+    #: `mechanisms`, `kellstroem` or the name of a registered traction law
+    traction_name: str
     #: Law for the share of the load that asperities carry; `none` at a cage whose roller floats
     asperity_name: str
     boundary_friction: float  #: µ_b [-]; 0 without asperities
@@ -122,7 +125,7 @@ class ContactLaws:
         """Text that changes whenever a law of one's own in this contact may; empty without one."""
         own = (
             TRACTION_LAWS.named(self.traction_name).source
-            if self.traction_name != MECHANISMS
+            if self.traction_name not in (MECHANISMS, KELLSTROEM)
             else ""
         )
         return FILM_LAWS.named(self.film_name).source + own
@@ -170,10 +173,11 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     """
     check_lubricant(laws, lubricant)
     FILM_LAWS.named(laws.film)
-    if laws.traction != MECHANISMS:
+    is_own = laws.traction not in (MECHANISMS, KELLSTROEM)
+    if is_own:
         TRACTION_LAWS.named(laws.traction)
     oil_gap = lubricant.oil_gap if lubricant.oil_gap < FLOODED_GAP else math.inf
-    sheared = laws.traction == MECHANISMS and not laws.is_closed_form
+    sheared = not is_own and not laws.is_closed_form
     fluid = prepare_fluid(laws, lubricant) if sheared else None
     known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None
     steel = (
@@ -189,6 +193,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     contacts = []
     for interface, curved in zip(interfaces(bearing, lubricant), curvatures, strict=True):
         cage = interface.name == "cage"
+        friction = _raceway_friction(laws, interface.name)
         gap = GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length)
         contacts.append(
             ContactLaws(
@@ -198,11 +203,13 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 film_name=laws.film,
                 oil_gap=oil_gap if laws.starvation else math.inf,
                 thermal_loading=film.thermal_loading(interface) if laws.inlet_heating else 0.0,
-                fluid=fluid,
+                fluid=fluid if friction is None else None,
                 closed_form=prepare_barus_crook(interface, heated=laws.heating)
                 if laws.is_closed_form
                 else None,
-                traction_name=laws.traction,
+                friction=friction,
+                # The film of the cage stays one that is sheared.
+                traction_name=MECHANISMS if cage and not is_own else laws.traction,
                 # The film of a roller in its pocket is tens of micrometres thick: no asperity
                 # touches.
                 asperity_name="none" if cage and laws.rolling != "none" else laws.asperities,
@@ -224,12 +231,22 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     return RollerLaws(*contacts)
 
 
+def _raceway_friction(laws: Laws, interface: str) -> SaturatingFriction | None:
+    """Kellström's friction of an interface; None at the cage, and with another traction."""
+    if laws.traction != KELLSTROEM or interface == "cage":
+        return None
+    limit = laws.traction_limit_inner if interface == "inner" else laws.traction_limit_outer
+    return SaturatingFriction(limit, laws.traction_saturation)
+
+
 def references(laws: Laws) -> list[str]:
     """Works to cite for the chosen mechanisms."""
     found = [FILM_LAWS.named(laws.film).reference]
     if laws.inlet_heating:
         found.append(film.INLET_HEATING_REFERENCE)
-    if laws.traction != MECHANISMS:
+    if laws.traction == KELLSTROEM:
+        found.append(kellstroem.REFERENCE)
+    elif laws.traction != MECHANISMS:
         found.append(TRACTION_LAWS.named(laws.traction).reference)
     else:
         chosen = (laws.viscosity, laws.rheology, "heating" if laws.heating else "")

@@ -10,11 +10,12 @@ from dataclasses import fields, replace
 from importlib import import_module
 from typing import Annotated, Any
 
-from macroslip.constants import MECHANISMS
+from macroslip.constants import KELLSTROEM, MECHANISMS
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Flag
+from macroslip.input.fields import Choice, Flag, Positive
 from macroslip.input.messages import unknown_name
 from macroslip.input.section import input_section
+from macroslip.input.units import NUMBER
 from macroslip.lubricant import Lubricant
 
 _OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
@@ -68,8 +69,14 @@ class Laws:
         Whether rollers are held straight, or turn about their contacts' normal until nothing drives
         them on or the cage holds them; with microslip.
     traction : str
-        "mechanisms": built from the choices above. Otherwise the name of a registered traction law,
+        "mechanisms": built from the choices above. "kellstroem": friction of the raceways in
+        proportion to the slide-roll ratio up to a limit and constant beyond, in place of the
+        sheared film's, which stays at the cage. Otherwise the name of a registered traction law,
         which replaces viscosity, rheology, heating and microslip.
+    traction_limit_inner, traction_limit_outer : float
+        Kellström's limits: coefficients of friction of inner and outer raceway [-], 0 to 1.
+    traction_saturation : float
+        Kellström's slide-roll ratio at which they are reached [-], 0 to 2.
 
     Examples
     --------
@@ -111,12 +118,22 @@ class Laws:
         str,
         Choice(
             "mechanisms, or a traction law of your own in their place",
-            _names("registry", "TRACTION_LAWS", MECHANISMS),
+            _names("registry", "TRACTION_LAWS", MECHANISMS, KELLSTROEM),
             _OWN_LAW,
         ),
     ] = MECHANISMS
+    traction_limit_inner: Annotated[
+        float, Positive("Kellström's coefficient of friction of the inner raceway", NUMBER, 1)
+    ] = 0.05
+    traction_limit_outer: Annotated[
+        float, Positive("Kellström's coefficient of friction of the outer raceway", NUMBER, 1)
+    ] = 0.05
+    traction_saturation: Annotated[
+        float, Positive("Kellström's slide-roll ratio from which on friction is constant", NUMBER, 2)
+    ] = 0.01
 
     def __post_init__(self) -> None:
+        self._check_kellstroem()
         if self.skew != "none" and not self.microslip:
             raise InputError(
                 "skew follows from how slip lies over a contact, and these laws have the same slip all over it",
@@ -124,7 +141,7 @@ class Laws:
                 allowed="none, or laws with microslip",
                 remedy="Choose model: physical, or set microslip: true beside model: paper.",
             )
-        if self.traction != MECHANISMS:
+        if self.traction not in (MECHANISMS, KELLSTROEM):
             void = [name for name in _REPLACED if getattr(self, name) != _DEFAULTS[name]]
             if void:
                 chosen = " and ".join(f"{name} ({_word(getattr(self, name))})" for name in void)
@@ -137,6 +154,20 @@ class Laws:
                     remedy="With your law, set model: paper and name the mechanisms you want to add to it, or keep "
                     f"the model and set {beside}",
                 )
+
+    def _check_kellstroem(self) -> None:
+        """Refuse Kellström's numbers beside another traction, which has no use for them."""
+        if self.traction == KELLSTROEM:
+            return
+        numbers = [name for name in _KELLSTROEM_KEYS if getattr(self, name) != _DEFAULTS[name]]
+        if numbers:
+            raise InputError(
+                f"{' and '.join(numbers)} {'is' if len(numbers) == 1 else 'are'} given, and the "
+                f"traction is '{self.traction}', which has no such number",
+                where=f"laws.{numbers[0]}",
+                allowed=f"with laws: {{traction: {KELLSTROEM}}}",
+                remedy=f"Set laws.traction: {KELLSTROEM}, or remove {' and '.join(numbers)}.",
+            )
 
     @classmethod
     def paper(cls) -> Laws:
@@ -207,6 +238,8 @@ class Laws:
 
 #: Mechanisms that a traction law of one's own replaces.
 _REPLACED = ("viscosity", "rheology", "heating", "microslip")
+#: Numbers of Kellström's friction.
+_KELLSTROEM_KEYS = ("traction_limit_inner", "traction_limit_outer", "traction_saturation")
 _DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
 SKEWS = ("none", "quasi-static")
 VISCOSITY_LAWS = ("barus", "roelands")
@@ -227,7 +260,9 @@ PRESETS: dict[str, dict[str, Any]] = {
 
 
 def _word(value: Any) -> str:
-    return ("on" if value else "off") if isinstance(value, bool) else str(value)
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from macroslip.bearing import Bearing
-from macroslip.constants import MECHANISMS
+from macroslip.constants import KELLSTROEM, MECHANISMS
 from macroslip.contact import film
 from macroslip.contact.interface import Interface, highest_load, interfaces
 from macroslip.contact.mechanisms import Laws
@@ -210,7 +210,7 @@ class LawList:
 
 
 FILM_LAWS = LawList("film")
-TRACTION_LAWS = LawList("traction", reserved=(MECHANISMS,))
+TRACTION_LAWS = LawList("traction", reserved=(MECHANISMS, KELLSTROEM))
 
 
 def own_laws() -> list[str]:
@@ -324,7 +324,7 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
         Naming the law, the interface and the state; also if a law does not return.
     """
     chosen = [FILM_LAWS.named(laws.film)]
-    if laws.traction != MECHANISMS:
+    if laws.traction not in (MECHANISMS, KELLSTROEM):
         chosen.append(TRACTION_LAWS.named(laws.traction))
     if speed > 0.0 and any(law.is_own for law in chosen):
         # The grid needs the order of the speed only, so that the cases of a study share the

@@ -32,12 +32,14 @@ import numpy as np
 from macroslip.bearing import Bearing, geometry
 from macroslip.contact.asperities import FULL_SLIP
 from macroslip.contact.interface import common_contour_radius
+from macroslip.contact.kellstroem import SaturatingFriction, saturating_stress
 from macroslip.contact.laws import ContactLaws
 from macroslip.contact.patch import graded_rule
 from macroslip.contact.traction import Fluid, local_stress
 
-#: Stress [Pa] of a film over pressure [Pa], film thickness [m] and slip [m/s], arrays above zero.
-Shear = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+#: Stress [Pa] of a contact over pressure [Pa], film thickness [m], slip [m/s] and mean surface speed
+#: [m/s], arrays above zero.
+Shear = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 
 _NODES, _WEIGHTS = graded_rule(10)
 #: Cosines and sines of the places along a chord, and weights of ∫ sin²φ f dφ (Gauss and Chebyshev).
@@ -54,7 +56,9 @@ class SkewedContact(NamedTuple):
     """A raceway contact of a roller that may be skewed."""
 
     laws: ContactLaws  #: For film and asperities
-    shear: Shear  #: The film's stress, see `Shear`
+    shear: Shear  #: The stress, see `Shear`
+    #: Slide-roll ratio at which the stress has a corner [-]; 0 if it has none.
+    corner: float
     side: int  #: k
     #: r, R_roller, the contact's distance from the bearing axis r~_k, and half the roller's length
     #: [m].
@@ -124,7 +128,9 @@ class SlipLines(NamedTuple):
 
 def film_shear(fluid: Fluid) -> Shear:
     """The stress of a fluid's film."""
-    return lambda pressure, film, slip: local_stress(fluid, pressure, np.log(film), np.log(slip))
+    return lambda pressure, film, slip, speed: local_stress(
+        fluid, pressure, np.log(film), np.log(slip)
+    )
 
 
 def constant_friction(coefficient: float) -> Shear:
@@ -132,7 +138,12 @@ def constant_friction(coefficient: float) -> Shear:
 
     It is a reference, not a law of a lubricated contact.
     """
-    return lambda pressure, film, slip: coefficient * pressure + 0.0 * film * slip
+    return lambda pressure, film, slip, speed: coefficient * pressure + 0.0 * film * slip
+
+
+def saturating_shear(friction: SaturatingFriction) -> Shear:
+    """Kellström's friction, whatever the film."""
+    return lambda pressure, film, slip, speed: saturating_stress(friction, pressure, slip, speed)
 
 
 def skewed_contact(
@@ -143,13 +154,13 @@ def skewed_contact(
     Parameters
     ----------
     laws : ContactLaws
-        Laws of the inner or the outer raceway, with a sheared film.
+        Laws of the inner or the outer raceway, with a sheared film or Kellström's friction.
     bearing : Bearing
         Its dimensions.
     axial_sign : int
         +1 for the downwind and −1 for the upwind row.
     shear : Shear, optional
-        Stress in place of that of the sheared film.
+        Stress without a corner in place of that of the laws.
 
     Returns
     -------
@@ -159,7 +170,7 @@ def skewed_contact(
     Raises
     ------
     ValueError
-        If there is neither a sheared film nor `shear`.
+        If there is neither a sheared film, nor Kellström's friction, nor `shear`.
     """
     inner = laws.name == "inner"
     side = -1 if inner else 1
@@ -169,13 +180,17 @@ def skewed_contact(
     contour = (
         geometry.inner_raceway_contour_radius(bearing) if inner else bearing.outer_raceway_radius
     )
-    if shear is None:
+    corner = 0.0
+    if shear is None and laws.friction is not None:
+        shear = saturating_shear(laws.friction)
+        corner = laws.friction.slide_roll_ratio
+    elif shear is None:
         if laws.fluid is None:
             raise ValueError("a skewed contact needs the stress of a sheared film")
         shear = film_shear(laws.fluid)
     cosine = float(np.cos(bearing.contact_angle))
     return SkewedContact(
-        laws, shear, side, geometry.roller_radius(bearing), geometry.roller_contour_radius(bearing), place,
+        laws, shear, corner, side, geometry.roller_radius(bearing), geometry.roller_contour_radius(bearing), place,
         0.5 * bearing.roller_length, 1.0 / contour, side * cosine / place,
         axial_sign * float(np.sin(bearing.contact_angle)), cosine,
     )  # fmt: skip
@@ -226,10 +241,11 @@ def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> S
 def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt) -> Resultants:
     """Forces, moments and power of a contact by quadrature over its ellipse.
 
-    The ellipse ends at the roller's ends. It is divided where v vanishes and graded towards these
-    lines, with 30 chords of 10 points each; against twice as many of either the net moments of both
-    raceways are off by what `tests/contact/test_skewed.py` bounds. Film and asperities share the
-    area as in `macroslip.contact.patch`.
+    The ellipse ends at the roller's ends. It is divided where v vanishes, and where the stress has
+    a corner, and graded towards these lines, with 30 chords of 10 points each, 70 with a corner;
+    against twice as many of either the net moments of both raceways are off by what
+    `tests/contact/test_skewed.py` bounds. Film and asperities share the area as in
+    `macroslip.contact.patch`.
 
     Parameters
     ----------
@@ -278,7 +294,8 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     offset = contact.lateral * shift
     aside = (offset + k * tilt) / contact.along  # δ + k r θ
     lines = slip_lines(contact, ring_speed, slip, skew, shift, tilt)
-    station, weight = _chords(contact, across, shift, *lines[:3])
+    mean_speed = np.abs(ring_speed - 0.5 * slip)
+    station, weight = _chords(contact, across, shift, lines, contact.corner * mean_speed)
     height = np.sqrt(np.maximum(1.0 - ((station - shift) / across) ** 2, 0.0))
     drop = 0.5 * rim * station**2 + offset * (0.5 * station - 0.25 * shift)
     chord = width * height * _COSINES
@@ -288,7 +305,7 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     v, w = np.broadcast_arrays(v, w)
     speed = np.maximum(np.hypot(v, w), _NO_SLIP)
     local = np.maximum(pressure * height * _SINES, _NO_PRESSURE)
-    film, rough = _stresses(contact, load, np.abs(ring_speed - 0.5 * slip), local, speed)
+    film, rough = _stresses(contact, load, mean_speed, local, speed)
     stress = film + rough
     area = weight * width * height * _CHORD_WEIGHTS
     part = stress * area / speed
@@ -319,28 +336,43 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
 
 
 def _chords(
-    contact: SkewedContact, across, shift, constant, linear, square
+    contact: SkewedContact, across, shift, lines: SlipLines, corner_slip
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Stations of the chords and their weights [m], graded towards pure rolling and the ends."""
+    """Stations of the chords and their weights [m], graded towards the lines that divide them.
+
+    These are the lines of pure rolling, the ends, and, with a corner of the stress at the slip
+    `corner_slip` [m/s], those where v and w in the middle of the contact reach it together.
+    """
     low, high = (
         np.maximum(shift - across, -contact.half_length),
         np.minimum(shift + across, contact.half_length),
     )
-    inside = linear * linear - 4.0 * square * constant
-    larger = -0.5 * (linear + np.copysign(np.sqrt(np.maximum(inside, 0.0)), linear))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # Where v has no zero both are its extremum.
-        lines = [
-            np.where(inside > 0.0, one, -0.5 * linear / square)
-            for one in (larger / square, constant / larger)
-        ]
-    first, second = (np.clip(np.nan_to_num(one), low, high) for one in lines)
-    edges = np.concatenate(
-        [low, np.minimum(first, second), np.maximum(first, second), high], axis=1
-    )
+    levels = [0.0]
+    if contact.corner:
+        along = lines.w0 + shift * (lines.w1 + lines.w2 * shift)
+        corner = np.sqrt(np.maximum(corner_slip**2 - along**2, 0.0))
+        levels = [0.0, -corner, corner]
+    places = [_crossings(lines, level) for level in levels]
+    inner = np.sort(np.concatenate([one for pair in places for one in pair], axis=1), axis=1)
+    edges = np.concatenate([low, np.clip(inner, low, high), high], axis=1)
     length = np.diff(edges, axis=1)
     station = (edges[:, :-1] + length * _NODES).reshape(len(edges), -1, 1)
     return station, (length * _WEIGHTS).reshape(station.shape)
+
+
+def _crossings(lines: SlipLines, level) -> list[np.ndarray]:
+    """Both stations at which v passes a level [m]; where it does not, its extremum twice."""
+    constant = lines.v0 - level
+    linear = lines.v1
+    square = lines.v2
+    inside = linear * linear - 4.0 * square * constant
+    larger = -0.5 * (linear + np.copysign(np.sqrt(np.maximum(inside, 0.0)), linear))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        places = [
+            np.where(inside > 0.0, one, -0.5 * linear / square)
+            for one in (larger / square, constant / larger)
+        ]
+    return [np.nan_to_num(one) for one in places]
 
 
 def _stresses(
@@ -350,4 +382,4 @@ def _stresses(
     film = laws.film_thickness(load, entrainment)
     share = laws.asperity_share(load, entrainment, film)
     rough = laws.boundary_friction * share * pressure * np.minimum(speed / FULL_SLIP, 1.0)
-    return (1.0 - share) * contact.shear(pressure, film, speed), rough
+    return (1.0 - share) * contact.shear(pressure, film, speed, entrainment), rough

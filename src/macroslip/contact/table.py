@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from macroslip.contact.kellstroem import saturating_patch
 from macroslip.contact.laws import ContactLaws
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.patch import patch_of, traction_values
@@ -250,6 +251,8 @@ def tractions(
             patch_of(contact), chord_table(contact.fluid), load, film, share, ring_speed, slip
         )
         return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
+    if contact.friction is not None:
+        return _saturating_tractions(contact, load, ring_speed, slip, entrainment, share)
     rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
     none = np.zeros_like(load)
     return (
@@ -258,6 +261,21 @@ def tractions(
         none,
         rough * slip,
     )
+
+
+def _saturating_tractions(
+    contact: ContactLaws, load, ring_speed, slip, entrainment, share
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """`tractions` of a raceway with Kellström's friction, whose asperities have their share."""
+    patch = patch_of(contact)
+    limit, ratio = contact.friction
+    film = saturating_patch(
+        patch, limit * (1.0 - share), ratio * entrainment, load, ring_speed, slip
+    )
+    rough = saturating_patch(
+        patch, patch.boundary_friction * share, patch.full_slip, load, ring_speed, slip
+    )
+    return film.pull + rough.pull, film.lag + rough.lag, film.skew + rough.skew, rough.power
 
 
 class _Grid(NamedTuple):
@@ -365,7 +383,7 @@ def contact_parts(contact: ContactLaws) -> tuple:
     sources = contact.own_sources
     return (
         contact.film_name, contact.oil_gap, contact.thermal_loading, contact.fluid, contact.traction_name,
-        contact.asperity_name, tuple(patch_of(contact)), one.rolling_radius, one.modulus, one.roughness, one.hardness,
+        contact.friction, contact.asperity_name, tuple(patch_of(contact)), one.rolling_radius, one.modulus, one.roughness, one.hardness,
         oil.viscosity, oil.pressure_viscosity, sources, repr(oil) if sources else "",
     )  # fmt: skip
 

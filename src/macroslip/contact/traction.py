@@ -497,7 +497,10 @@ def chord_table(fluid: Fluid | None) -> ChordTable:
     """
     if fluid is None:
         nothing = Fluid(NEWTONIAN, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0)
-        return ChordTable(nothing, (4, 4, 4), np.zeros(64), np.zeros(4), 1.0, 1.0, 1.0, 0.0)
+        empty = np.zeros(64)
+        # As tables from store are: compiled functions take both alike.
+        empty.flags.writeable = False
+        return ChordTable(nothing, (4, 4, 4), empty, np.zeros(4), 1.0, 1.0, 1.0, 0.0)
     count, slip_spacing, film_spacing = _GRIDS[fluid.rheology]
     roots = np.linspace(0.0, HIGHEST_PRESSURE**0.25, count)
     films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + film_spacing, film_spacing)

@@ -259,16 +259,15 @@ def new_details(edges: np.ndarray) -> Details:
 
 
 class Contact(NamedTuple):
-    """A contact as the functions below take it.
+    """A contact as the functions below take it."""
 
-    It is its geometry, its oil's chords, whether these serve, and the effusivity of steel.
-    """
-
-    patch: Patch
-    chords: ChordTable
-    chorded: bool
-    roughness: float
-    effusivity: float
+    patch: Patch  #: Its geometry
+    chords: ChordTable  #: Of its oil
+    chorded: bool  #: Whether they serve
+    limit: float  #: Kellström's coefficient of friction [-]; 0 without
+    saturation: float  #: Kellström's slide-roll ratio from which on it is reached [-]
+    roughness: float  #: σ_rms [m]
+    effusivity: float  #: Of the steel [J/(m² K √s)]
 
 
 def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
@@ -277,10 +276,13 @@ def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
     def contact(one: ContactLaws) -> Contact:
         # Tables are made for one side; here the row's own tilt counts.
         patch = patch_of(one)._replace(spin_ratio=one.shape.spin_ratio)
+        limit, saturation = one.friction or (0.0, 1.0)
         return Contact(
             patch,
             chord_table(one.fluid),
             one.fluid is not None,
+            limit,
+            saturation,
             one.interface.roughness,
             one.effusivity,
         )
@@ -543,6 +545,10 @@ def _look_along(maps, interface, contact, state, look, passes, along):
                 * chord_stress_at(contact.chords, node, pressure * chord, speed)
             )
             per_length = pull * speed + asperities
+        elif contact.limit > 0.0:
+            full = contact.saturation * abs(entrainment)
+            coefficient = (1.0 - share) * contact.limit * min(speed / full, 1.0)
+            per_length = 0.75 * height / across * load * coefficient * speed + asperities
         # Of power only its share of all stations counts; of p |v| its size does.
         along.power[k] = math.copysign(per_length * covered, local)
         along.rough[k] = asperities * covered
