@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,8 +11,10 @@ import pytest
 from scipy.integrate import quad
 
 from macroslip import Case, Laws, RollerLoads, Traces, simulate
+from macroslip.bearing import geometry
 from macroslip.contact.laws import prepare
 from macroslip.contact.patch import patch_of
+from macroslip.roller.skew import pocket
 from macroslip.whole.cage import Cage
 
 pytestmark = pytest.mark.slow
@@ -38,34 +42,53 @@ def results():
         cage=Cage(alignment="none"),
         traces=Traces(step=0.5),
     )
-    straight = replace(skews, laws=LAWS, cage=None)
+    straight = replace(skews, laws=LAWS, cage=Cage())
     return skews, simulate(skews, threads=1), simulate(straight, threads=1)
 
 
-def patch_power(laws, bearing, load, ring_speed, slip):
-    """∫ τ v dA of a straight roller by quadrature along it, with the friction of the docstring."""
-    patch = patch_of(laws)
-    limit, saturation = laws.friction
+def power_along(contact, load, ring_speed, slip, places):
+    """∫ τ v dA of a straight roller between places along it by quadrature, over one after another."""
+    patch = patch_of(contact)
+    limit, saturation = contact.friction
     across = patch.across * load ** (1.0 / 3.0)
     fall = ring_speed * patch.curvature_ratio - slip / patch.roller_radius
 
     def along(zeta):
         local = slip + fall * zeta**2 / (2.0 * patch.contour_radius)
-        local -= ring_speed * patch.spin_ratio * zeta
+        local -= ring_speed * contact.shape.spin_ratio * zeta
         full = saturation * abs(ring_speed - 0.5 * slip)
         per_length = 0.75 * load / across * (1.0 - (zeta / across) ** 2)
         return limit * per_length * min(abs(local) / full, 1.0) * abs(local)
 
-    return quad(along, -across, across, limit=400, epsabs=1e-9)[0]
+    ends = np.clip(places, -across, across)
+    return np.array(
+        [quad(along, *pair, limit=200, epsabs=1e-9)[0] for pair in itertools.pairwise(ends)]
+    )
 
 
-def test_print(results):
-    case, skewed, straight = results
-    print(straight)
-    for name in ("station_energy","energy","surface_energy"):
-        if name in straight: print(name, straight[name].sizes)
-    one = straight.isel(roller=0, time=10)
-    print(one.slip.values, one.load.values if "load" in one else "", one.power.values)
-    print(skewed.isel(roller=0).skew_angle.values[:, ::5], skewed.skew_residual.values)
-    inner,outer,_ = prepare(case.laws, case.bearing, case.lubricant, 1)
-    for c in (inner,outer): print(patch_power(c, case.bearing, 9e3, -0.396, float(one.slip.values.ravel()[0])))
+def test_power_and_where_it_lies_along_the_roller_are_those_of_the_friction(results):
+    case, _, straight = results
+    contacts = prepare(case.laws, case.bearing, case.lubricant, 1)
+    pitch = case.bearing.pitch_radius
+    shift = geometry.roller_radius(case.bearing) * math.cos(case.bearing.contact_angle)
+    # Both raceways pass a roller in pure rolling at this speed.
+    speed = -2.143 * (pitch - shift) * (pitch + shift) / (2.0 * pitch)
+    half = 0.5 * case.bearing.roller_length
+    places = np.linspace(-half, half, straight.station.size + 1)
+    one = straight.sel(row="downwind", roller=0)
+    for contact, name in zip(contacts[:2], ("inner", "outer"), strict=True):
+        expected = power_along(contact, LOAD, speed, float(one.slip.mean()), places)
+        # Weight adds up to 31 N to the load of 9 kN.
+        found = one.power.sel(interface=name)
+        assert found.values == pytest.approx(np.full(found.size, expected.sum()), rel=0.01)
+        shares = one.station_energy.sel(raceway=name) / one.energy.sel(interface=name)
+        # A station counts with the power of its middle.
+        assert shares.values == pytest.approx(expected / expected.sum(), abs=0.01)
+
+
+def test_a_higher_limit_inside_turns_rollers_to_the_unfavourable_stop(results):
+    case, skewed, _ = results
+    stop = pocket(case.bearing, "conforming-pocket", case.cage.gap).largest
+    for row, sign in (("downwind", 1.0), ("upwind", -1.0)):
+        angles = skewed.skew_angle.sel(row=row, roller=0).values
+        assert angles == pytest.approx(np.full(angles.size, sign * stop), rel=1e-9)

@@ -43,7 +43,9 @@ def side(name):
     contour = (
         geometry.inner_raceway_contour_radius(BEARING) if inner else BEARING.outer_raceway_radius
     )
-    return Side(k, contact.hertz, distance, 1.0 / contour, k * math.cos(BEARING.contact_angle) / distance)
+    return Side(
+        k, contact.hertz, distance, 1.0 / contour, k * math.cos(BEARING.contact_angle) / distance
+    )
 
 
 R = geometry.roller_radius(BEARING)
@@ -71,7 +73,10 @@ def forces(ring, friction, load, slip, skew, tilt, shift):
     _, axes = np.linalg.eigh(turned_shape)
     long_axis = axes[:, 0] / axes[1, 0]
     turn = long_axis[0]
-    low, high = max(middle - a, -BEARING.roller_length / 2), min(middle + a, BEARING.roller_length / 2)
+    low, high = (
+        max(middle - a, -BEARING.roller_length / 2),
+        min(middle + a, BEARING.roller_length / 2),
+    )
     # Midpoints of chords even in the angle of the ellipse.
     ends = np.arcsin(np.clip((np.array([low, high]) - middle) / a, -1.0, 1.0))
     angles = ends[0] + (ends[1] - ends[0]) * (np.arange(CHORDS) + 0.5) / CHORDS

@@ -77,9 +77,7 @@ class PatchFriction(NamedTuple):
     power: np.ndarray  #: ∫ τ v dA [W]
 
 
-def saturating_patch(
-    patch: Patch, coefficient, full_slip, load, ring_speed, slip
-) -> PatchFriction:
+def saturating_patch(patch: Patch, coefficient, full_slip, load, ring_speed, slip) -> PatchFriction:
     """Friction µ p min(|v|/v_full, 1) over the ellipse of a raceway contact, exactly.
 
     Between the stations at which slip passes ± v_full every integrand is a polynomial. Kellström's

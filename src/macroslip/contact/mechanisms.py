@@ -129,7 +129,8 @@ class Laws:
         float, Positive("Kellström's coefficient of friction of the outer raceway", NUMBER, 1)
     ] = 0.05
     traction_saturation: Annotated[
-        float, Positive("Kellström's slide-roll ratio from which on friction is constant", NUMBER, 2)
+        float,
+        Positive("Kellström's slide-roll ratio from which on friction is constant", NUMBER, 2),
     ] = 0.01
 
     def __post_init__(self) -> None:
