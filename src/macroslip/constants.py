@@ -6,6 +6,8 @@ GRAVITY = 9.81
 #: 0 °C [K].
 ZERO_CELSIUS = 273.15
 
+#: An hour [s].
+HOUR = 3600.0
 #: A mean year of 365.25 days [s].
 YEAR = 365.25 * 86400.0
 #: The same [h].

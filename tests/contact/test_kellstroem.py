@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -51,7 +52,7 @@ def test_force_moments_and_power_over_the_ellipse_are_integrals(ring, slip, full
         grid = np.linspace(-half, half, 401)
         parts = [
             quad(lambda zeta: traction(zeta) * weight(zeta), *ends, epsabs=1e-10)[0]
-            for ends in zip(grid[:-1], grid[1:], strict=True)
+            for ends in itertools.pairwise(grid)
         ]
         return sum(parts)
 

@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.contact.kellstroem import saturating_patch
+from macroslip.contact.kellstroem import SaturatingFriction, saturating_patch
 from macroslip.contact.laws import ContactLaws
 from macroslip.contact.look_up import REST_SPEED
-from macroslip.contact.patch import patch_of, traction_values
+from macroslip.contact.patch import Patch, patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.traction import chord_table
@@ -252,7 +252,8 @@ def tractions(
         )
         return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
     if contact.friction is not None:
-        return _saturating_tractions(contact, load, ring_speed, slip, entrainment, share)
+        states = (load, ring_speed, slip, entrainment, share)
+        return _saturating_tractions(contact.friction, patch_of(contact), *states)
     rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
     none = np.zeros_like(load)
     return (
@@ -264,11 +265,10 @@ def tractions(
 
 
 def _saturating_tractions(
-    contact: ContactLaws, load, ring_speed, slip, entrainment, share
+    friction: SaturatingFriction, patch: Patch, load, ring_speed, slip, entrainment, share
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """`tractions` of a raceway with Kellström's friction, whose asperities have their share."""
-    patch = patch_of(contact)
-    limit, ratio = contact.friction
+    limit, ratio = friction
     film = saturating_patch(
         patch, limit * (1.0 - share), ratio * entrainment, load, ring_speed, slip
     )

@@ -21,6 +21,7 @@ import xarray as xr
 
 import macroslip
 from macroslip.bearing.geometry import initial_angles, row_names
+from macroslip.bearing.load_ratings import static_load_rating_of
 from macroslip.case.case import WHOLE_BEARING, Case
 from macroslip.case.parts import Radau
 from macroslip.constants import ZERO_CELSIUS
@@ -28,6 +29,7 @@ from macroslip.contact.asperities import BOUNDED
 from macroslip.contact.laws import references
 from macroslip.imposed.run import Outcome
 from macroslip.imposed.status import Status
+from macroslip.loads import BearingLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.measures.cage import SIDES, CageMeasures
 from macroslip.measures.details import SECTORS, STATIONS
@@ -48,6 +50,7 @@ from macroslip.result.variables import (
     described,
     with_attributes,
 )
+from macroslip.ring.axial import reversal_rate, travel_rate
 from macroslip.roller.model import TableReport
 from macroslip.whole.model import WholeBearing
 
@@ -62,6 +65,9 @@ _RADAU = (
 )
 _SDIRK = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068"
 _TIME = described("s", "time")
+#: Axial load over the static load rating up to which its sign does not count [-]. A twentieth of
+#: the radial load of the base bearing; a thrust that is smaller hardly moves the ring.
+_DEAD_BAND = 1e-3
 #: Counts of an integrator by name of the variable, and their fields of an `Outcome`.
 _COUNTS = dict(zip(COUNTS, ("steps", "rejections", "evaluations"), strict=True))
 
@@ -185,6 +191,7 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
         left_out.add(CURVED_TRACES)
     values = _window_values(table)
     values["inlet_temperature"] = np.array(case.oil.inlet_temperature)
+    values |= axial_values(ready)
     if ready.edges.size == 1:
         values["peak_power_by_position"] = _peaks_by_position(table)
     if curved:
@@ -198,6 +205,24 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
         # Up to where an integration ended its traces are kept: they show why.
         values |= _traces(table)
     return {name: one for name, one in values.items() if VARIABLES[name].when not in left_out}
+
+
+def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
+    """Axial travel of the inner ring and reversals of the thrust in the window.
+
+    There are none where roller loads are given, which know no ring, and in a bearing of one row,
+    which carries no thrust.
+    """
+    case = ready.case
+    if not isinstance(case.ring_loads, BearingLoads) or case.bearing.rows == 1:
+        return {}
+    start = float(ready.edges[0])
+    motion = ready.motion
+    loads = case.ring_loads
+    band = _DEAD_BAND * static_load_rating_of(case.bearing)
+    travelled = travel_rate(motion.time, motion.displacement[:, 2], start, ready.end)
+    reversals = reversal_rate(loads.time, loads.force[:, 2], band, start, ready.end)
+    return {"axial_travel": np.array(travelled), "thrust_reversals": np.array(reversals)}
 
 
 def _traces(table: Table) -> dict[str, np.ndarray]:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 #: When a variable is there.
 ALWAYS = "always"
 NO_ORBIT = "where no orbit is complete"
+AXIAL = "with two rows of rollers, whose loads follow from the load on the ring"
 ASPERITIES = "with `laws: {asperities: masjedi-khonsari}`"
 CURVED = "where slip may vary along the roller, or asperities touch"
 DETAILS = "the same, unless `contact_details: false`"
@@ -110,6 +111,21 @@ _TABLE = (
         ALWAYS,
         "mean load in the window that films of oil carry beside the rings' elastic load; "
         "the balance of the rings does not know it",
+    ),
+    Variable(
+        "axial_travel",
+        (),
+        "m/h",
+        AXIAL,
+        "way of the inner ring along Z0 in the window, forth and back, over its duration",
+    ),
+    Variable(
+        "thrust_reversals",
+        (),
+        "1/h",
+        AXIAL,
+        "changes of the sign of the axial load in the window over its duration, beyond a dead "
+        "band of 0.1 % of the static load rating of ISO 76 to either side",
     ),
     Variable("status", _ROLLERS, "1", ALWAYS, "outcome of the integration"),
     Variable("steps", _ROLLERS, "1", ALWAYS, "number of steps of the integrator"),
