@@ -75,7 +75,8 @@ def test_power_and_where_it_lies_along_the_roller_are_those_of_the_friction(resu
     speed = -2.143 * (pitch - shift) * (pitch + shift) / (2.0 * pitch)
     half = 0.5 * case.bearing.roller_length
     places = np.linspace(-half, half, straight.station.size + 1)
-    one = straight.sel(row="downwind", roller=0)
+    # It starts in pure rolling, and slips as it does in the long run soon after.
+    one = straight.sel(row="downwind", roller=0).isel(time=slice(1, None))
     for contact, name in zip(contacts[:2], ("inner", "outer"), strict=True):
         expected = power_along(contact, LOAD, speed, float(one.slip.mean()), places)
         # Weight adds up to 31 N to the load of 9 kN.

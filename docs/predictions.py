@@ -1,0 +1,103 @@
+"""Numbers of predictions.md: what the program says of quantities that nobody has measured in a main bearing yet.
+
+python docs/predictions.py           # all of it, half an hour of processor time
+python docs/predictions.py travel    # or one of: idle, heat, skew
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+
+import numpy as np
+from skew_kellstroem import FILM, LOADS, rests
+
+from benchmarks.friction_torque import torque
+from macroslip import (
+    Case,
+    Drivetrain,
+    HubLoads,
+    Traces,
+    bundled_cases,
+    main_bearing_load,
+    simulate,
+)
+from macroslip.constants import ZERO_CELSIUS
+from macroslip.result.dataset import axial_values
+from macroslip.result.prepared import prepare
+
+ROLLERS = [0, 14]
+#: Temperatures of the oil [°C] and oil supplies of the idle rows.
+TEMPERATURES = (10.0, 20.0, 35.0, 50.0)
+SUPPLIES = ("skf", "flooded", 0.5)
+
+
+def travel() -> None:
+    """Axial travel of the inner ring and reversals of thrust over the wind, and in events."""
+    by_wind: dict[str, list[tuple[float, float]]] = {}
+    for name in bundled_cases("year"):
+        ready = prepare(Case(loads=HubLoads.bundled(name), rollers=[0], rating=False))
+        found = axial_values(ready)
+        wind = re.match(r"\d+", name)
+        values = (float(found["axial_travel"]), float(found["thrust_reversals"]))
+        by_wind.setdefault(f"{int(wind[0])} m/s" if wind else name, []).append(values)
+    for group, values in by_wind.items():
+        ways, reversals = np.transpose(values)
+        print(
+            f"| {group} | {ways.min():.2f} to {ways.max():.2f} "
+            f"| {reversals.min():.0f} to {reversals.max():.0f} |",
+            flush=True,
+        )
+
+
+def idle() -> None:
+    """Spin of rollers without load over that of pure rolling, and slide-roll ratio at entry."""
+    for supply in SUPPLIES:
+        for celsius in TEMPERATURES:
+            case = Case(
+                loads=HubLoads.bundled("14B").window(0.0, 60.0),
+                rollers=ROLLERS,
+                temperature=celsius + ZERO_CELSIUS,
+                oil_supply=supply,
+                traces=Traces(step=0.05),
+                rating=False,
+            )
+            found = simulate(case)
+            free = found.roller_load == 0.0
+            spin = (found.spin / found.spin_pure).where(free).sel(row="upwind")
+            entry = found.entry_slide_roll_ratio.sel(row="downwind")
+            middle = [float(np.nanquantile(spin, part)) for part in (0.1, 0.5, 0.9)]
+            print(
+                f"| {supply} | {celsius:g} | {middle[0]:.2f}, {middle[1]:.2f}, {middle[2]:.2f} "
+                f"| {float(entry.median()):.2f}, {float(entry.max()):.2f} |",
+                flush=True,
+            )
+
+
+def heat() -> None:
+    """Friction power of the bearing at 4, 8 and 12 m/s, beside SKF's formula [W]."""
+    for supply in SUPPLIES:
+        line = []
+        for name in ("4B", "8B", "12B"):
+            loads = main_bearing_load(HubLoads.bundled(name), Drivetrain())
+            case = Case(loads=loads, rollers=ROLLERS, oil_supply=supply, rating=False)
+            parts = torque(case, loads)
+            speed = float(np.mean(loads.shaft_speed))
+            line.append(f"{parts.total * speed:.0f} ({parts.skf * speed:.0f})")
+        print(f"| {supply} |", " | ".join(line), "|", flush=True)
+
+
+def skew() -> None:
+    """Rest of a roller that no spar presses, over load, by the default film."""
+    print("load [kN]", (LOADS / 1e3).tolist())
+    print("rest [mrad]", np.round(rests(FILM), 2).tolist())
+
+
+PARTS: dict[str, Callable[[], None]] = {"travel": travel, "idle": idle, "heat": heat, "skew": skew}
+
+
+if __name__ == "__main__":
+    for part in sys.argv[1:] or list(PARTS):
+        print(part)
+        PARTS[part]()
