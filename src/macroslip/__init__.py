@@ -41,6 +41,7 @@ _HOMES = {
     "run_study": "macroslip.study.run",
     "open_study": "macroslip.study.reader",
     "Scada": "macroslip.scada",
+    "heat_fit": "macroslip.study.heat",
     "InputError": "macroslip.errors",
     "MacroslipError": "macroslip.errors",
 }

@@ -18,7 +18,7 @@ from macroslip.cli.loads import loads
 from macroslip.cli.report import report
 from macroslip.cli.reproduce import reproduce
 from macroslip.cli.run import run
-from macroslip.cli.stiffness import stiffness
+from macroslip.cli.scada import scada
 from macroslip.cli.study import study
 
 app = typer.Typer(
@@ -36,10 +36,10 @@ command(app, aggregate)
 command(app, damage)
 command(app, report)
 command(app, compare)
-command(app, stiffness)
 command(app, reproduce)
 command(app, doctor)
 app.add_typer(loads)
+app.add_typer(scada)
 app.add_typer(bearing)
 app.add_typer(lubricant)
 

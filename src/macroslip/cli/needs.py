@@ -29,6 +29,7 @@ COMMANDS: Mapping[str, Need] = MappingProxyType(
         "macroslip report": FIGURES,
         "macroslip loads inspect -o": PICTURE,
         "macroslip bearing draw": PICTURE,
+        "macroslip scada heat": FIGURES,
         "macroslip study --scheduler": SCHEDULER,
         "--xlsx, loads in .xlsx": EXCEL,
     }

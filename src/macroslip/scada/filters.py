@@ -35,6 +35,8 @@ _POWER = 0.05
 #: Changes within ten minutes above which the record is parted [K].
 _JUMPS = {"bearing_temperature": 1.2, "ambient_temperature": 3.0}
 _TEN_MINUTES = 600.0
+#: What temperatures in tenths of a degree may differ by from their values in kelvin [K].
+_ROUNDING = 1e-6
 
 Quantities = Mapping[str, np.ndarray]
 
@@ -150,7 +152,7 @@ def jumps(values: Quantities, time: np.ndarray, step: float) -> np.ndarray:
     for name, limit in _JUMPS.items():
         if name in values:
             allowed = limit * max(step / _TEN_MINUTES, 1.0)
-            found[1:] |= (np.abs(np.diff(values[name])) > allowed) & ~after_gap
+            found[1:] |= (np.abs(np.diff(values[name])) > allowed + _ROUNDING) & ~after_gap
     return found
 
 

@@ -1,0 +1,70 @@
+"""`macroslip scada heat`: heat of a main bearing from ten-minute means."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from macroslip.cli.needs import FIGURES, require
+from macroslip.cli.options import AsJson, Quiet
+from macroslip.cli.printing import print_json, print_table
+
+
+def heat(
+    description: Annotated[
+        Path, typer.Argument(help="The YAML file that describes the ten-minute means.")
+    ],
+    study: Annotated[
+        Path,
+        typer.Option(help="Folder of a study of turbulent cases over lubricant.at and oil_supply."),
+    ],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            help="Folder for fit.csv, index.csv and page.html; those of the same names are replaced.",
+        ),
+    ],
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Fit the heat balance of a main bearing, beside rivals, and write its index over time."""
+    require(FIGURES)
+    from macroslip.report.heat_page import fit_table, heat_page, heat_sentences
+    from macroslip.scada.description import ScadaDescription
+    from macroslip.storage.files import write_durably
+    from macroslip.study.export import write_tables
+    from macroslip.study.heat import heat_fit
+
+    described = ScadaDescription.read(description)
+    found = heat_fit(description, study)
+    written = write_tables({"fit": found.fit, "index": found.index}, output, "csv")
+    page = output / "page.html"
+    write_durably(page, heat_page(found, described, str(study)).encode())
+    written.append(page)
+    sentences = heat_sentences(found, described)
+    if as_json:
+        numbers = found.fit.astype(object).where(found.fit.notna(), None).to_dict("records")
+        print_json(
+            {
+                "fit": numbers, "answer": sentences, "marks": list(found.marks),
+                "notes": list(found.notes), "written": [str(path) for path in written],
+            }
+        )  # fmt: skip
+        return
+    if quiet:
+        return
+    for sentence in (*sentences, *(f"doubtful: {mark}" for mark in found.marks)):
+        typer.echo(sentence)
+    for note in found.notes:
+        typer.echo(f"note: {note}")
+    table = fit_table(found)
+    rows = [list(row) for row in table.rows if row[0].startswith(found.chosen.model.name)]
+    print_table(
+        table.caption, [(name, k in (1, 3, 4)) for k, name in enumerate(table.headings)], rows
+    )
+    for path in written:
+        typer.echo(f"written: {path}")

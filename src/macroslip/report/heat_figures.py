@@ -1,0 +1,131 @@
+"""Figures of the heat of a main bearing: residuals of every model, index and its cumulative sum."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from macroslip.constants import ZERO_CELSIUS
+from macroslip.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SMALL, finish
+from macroslip.scada.heat import BearingHeat
+from macroslip.scada.heat_balance import HeatFit
+from macroslip.scada.heat_index import FLAGGED
+from macroslip.scada.heat_models import FRICTION, PALMGREN, RISE, SKF, SPEED
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Line of each model.
+MODEL: Mapping[str, Mapping[str, Any]] = MappingProxyType(
+    {
+        FRICTION: {"color": BLUE, "linestyle": "-", "marker": "o"},
+        SKF: {"color": ORANGE, "linestyle": "--", "marker": "s"},
+        PALMGREN: {"color": ORANGE, "linestyle": ":", "marker": "v"},
+        SPEED: {"color": GREEN, "linestyle": "-.", "marker": "^"},
+        RISE: {"color": GREY, "linestyle": ":", "marker": "d"},
+    }
+)
+#: Windows that a mean of a figure needs.
+_LEAST = 10
+_RPM = np.pi / 30.0
+#: What a residual may go with: label, column of the windows, its factor, offset and width of a bin.
+OVER: Mapping[str, tuple[str, str, float, float, float]] = MappingProxyType(
+    {
+        "speed": ("speed of the rotor [rpm]", "rotor_speed", 1.0 / _RPM, 0.0, 1.0),
+        "temperature": (
+            "temperature of the bearing [°C]", "bearing_temperature", 1.0, -ZERO_CELSIUS, 2.5,
+        ),
+        "wind": ("wind speed [m/s]", "wind_speed", 1.0, 0.0, 1.0),
+    }
+)  # fmt: skip
+
+
+def model_name(fit: HeatFit) -> str:
+    """Name of a model with its supply of oil."""
+    return f"{fit.model.name}, {fit.model.supply}" if fit.model.supply else fit.model.name
+
+
+def plot_root_mean_squares(axes: Axes, heat: BearingHeat) -> Axes:
+    """Root mean square of the residuals of the reference, a bar a model, the least at the top."""
+    fits = sorted(heat.fits, key=lambda fit: -fit.residual)
+    colours = [BLUE if fit.model.supply else ORANGE for fit in fits]
+    axes.barh([model_name(fit) for fit in fits], [fit.residual for fit in fits], color=colours)
+    least = fits[-1].residual
+    axes.axvline(least, color=BLACK, linewidth=0.8)
+    axes.set_xlim(0.9 * least, None)
+    axes.tick_params(axis="y", labelsize=SMALL)
+    return finish(axes, "root mean square of the residual [K/h]", "")
+
+
+def plot_residuals(axes: Axes, heat: BearingHeat, over: str) -> Axes:
+    """Mean residual of the reference over speed, temperature or wind, a line a model.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    heat : BearingHeat
+    over : str
+        A key of `OVER`.
+    """
+    label, column, factor, offset, width = OVER[over]
+    chosen = heat.windows["reference"].to_numpy()
+    if over != "temperature":
+        chosen = chosen & heat.windows["turning"].to_numpy()
+    values = factor * heat.windows[column].to_numpy()[chosen] + offset
+    bins = width * np.round(values / width)
+    for fit in shown_fits(heat):
+        groups = pd.Series(fit.residuals[chosen]).groupby(bins)
+        means = groups.mean().where(groups.size() >= _LEAST).dropna()
+        axes.plot(means.index, means, label=fit.model.name, markersize=4, **MODEL[fit.model.name])
+    axes.axhline(0.0, color=BLACK, linewidth=0.8)
+    return finish(axes, label, "mean residual [K/h]")
+
+
+def shown_fits(heat: BearingHeat) -> Sequence[HeatFit]:
+    """The chosen fit and its rivals."""
+    rivals = [fit for fit in heat.fits if fit.model.name in (SKF, PALMGREN, SPEED)]
+    return [heat.chosen, *rivals]
+
+
+def plot_index(axes: Axes, heat: BearingHeat, column: str = "r") -> Axes:
+    """Weekly index of heat over time, a line a model.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    heat : BearingHeat
+    column : str
+        `r`, or `r_sibling`.
+    """
+    weeks = heat.index[heat.index["period"] == "week"]
+    for model, table in weeks.groupby("model", sort=False):
+        style = {**MODEL[str(model)], "markersize": 3}
+        axes.plot(table["start"], table[column], label=str(model), **style)
+    axes.axhline(1.0, color=BLACK, linewidth=0.8)
+    _dates(axes)
+    label = "heat over expected heat [-]" if column == "r" else "index over the sibling's [-]"
+    return finish(axes, "", label)
+
+
+def plot_cusum(axes: Axes, heat: BearingHeat, column: str = "cusum") -> Axes:
+    """Cumulative sum of the daily index above 1.10, a line a model; as `plot_index`."""
+    days = heat.index[heat.index["period"] == "day"]
+    for model, table in days.groupby("model", sort=False):
+        style = {**MODEL[str(model)], "marker": ""}
+        axes.plot(table["start"], table[column], label=str(model), **style)
+    axes.axhline(FLAGGED, color=BLACK, linewidth=0.8)
+    axes.set_ylim(0.0, max(1.5 * FLAGGED, min(float(days[column].max()), 6.0 * FLAGGED)))
+    _dates(axes)
+    return finish(axes, "", "cumulative sum [-]")
+
+
+def _dates(axes: Axes) -> None:
+    from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
+
+    locator = AutoDateLocator(maxticks=7)
+    axes.xaxis.set_major_locator(locator)
+    axes.xaxis.set_major_formatter(ConciseDateFormatter(locator))

@@ -1,0 +1,228 @@
+"""The page on the heat of a main bearing: what was fitted, how rivals do, and its index in time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pandas as pd
+
+from macroslip.report import heat_figures as draw
+from macroslip.report.page import Opening, Table, number, render, sections, words
+from macroslip.report.style import OPENING, Picture, compared, picture
+from macroslip.result.heat_balance import SPECIFIC_HEAT
+from macroslip.scada.description import ScadaDescription
+from macroslip.scada.heat import BearingHeat
+from macroslip.scada.heat_balance import PARAMETERS, HeatFit
+from macroslip.scada.heat_index import FLAGGED, first_flag
+from macroslip.scada.heat_models import FRICTION, FRICTION_ALONE, MEAN_TEMPERATURE
+
+_TEMPLATE = "heat.html"
+#: Part of the residual by which one model counts as better than another.
+_BETTER = 0.02
+#: Units in which constants are shown: factor and name.
+_SHOWN = {"capacity": (1e-6, "MJ/K")}
+_HEADINGS = ("model", "residual [K/h]", "constant", "value", "standard error", "unit")
+
+
+def heat_page(heat: BearingHeat, description: ScadaDescription, study: str) -> str:
+    """A page on what `bearing_heat` gives.
+
+    Parameters
+    ----------
+    heat : BearingHeat
+    description : ScadaDescription
+    study : str
+        Name of the study whose friction it is.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
+    text = words(_TEMPLATE)
+    has_sibling = bool(heat.index["r_sibling"].notna().any())
+    bodies = {
+        "fits": text.fits(fit_table(heat)),
+        "residuals": text.residuals(_residual_pictures(heat)),
+        "index": text.index(_index_pictures(heat, has_sibling), _months(heat), has_sibling),
+        "limits": text.limits(),
+    }
+    if heat.notes:
+        bodies["notes"] = text.notes(heat.notes)
+    sentences = heat_sentences(heat, description)
+    return render(
+        f"Heat of the main bearing{f' of {description.turbine}' if description.turbine else ''}",
+        f"{len(heat.windows)} windows of two hours, {int(heat.windows['reference'].sum())} of them "
+        f"of the reference; friction of {study}.",
+        Opening(text.answer(sentences, heat.marks), _opening_pictures(heat)),
+        sections(_TEMPLATE, bodies),
+    )
+
+
+def heat_sentences(heat: BearingHeat, description: ScadaDescription) -> list[str]:
+    """The answer: whether computed friction explains the heat better, its constants, its index."""
+    return [
+        _worth(heat),
+        f"{_constants(heat.chosen)}{_capacity(heat.chosen, description)} {_supplies(heat)}",
+        _flags(heat),
+    ]
+
+
+def _worth(heat: BearingHeat) -> str:
+    """Whether the physics earns its keep."""
+    own = heat.chosen
+    rivals = [
+        fit
+        for fit in heat.fits
+        if fit.model.name not in (FRICTION, FRICTION_ALONE, MEAN_TEMPERATURE)
+    ]
+    best = min(rivals, key=lambda fit: fit.residual)
+    gain = 1.0 - own.residual / best.residual
+    beside = (
+        f"it leaves {own.residual:.3f} K/h, the best rival, {best.model.name}, "
+        f"{best.residual:.3f} K/h"
+    )
+    if gain > _BETTER:
+        verdict = f"The computed friction explains the heat better than its rivals: {beside}."
+    elif gain < -_BETTER:
+        verdict = f"The computed friction explains the heat worse than a rival: {beside}."
+    else:
+        verdict = (
+            f"The computed friction explains the heat no better than a rival does: {beside}. "
+            "Here the physics does not earn its keep."
+        )
+    alone = _same_supply(heat, FRICTION_ALONE)
+    steady = _same_supply(heat, MEAN_TEMPERATURE)
+    cooler = (
+        f" With the friction at the mean temperature it would be {steady.residual:.3f} in place of "
+        f"{alone.residual:.3f} K/h (both without seals)."
+    )
+    return verdict + cooler
+
+
+def _same_supply(heat: BearingHeat, model: str) -> HeatFit:
+    supply = heat.chosen.model.supply
+    return next(f for f in heat.fits if (f.model.name, f.model.supply) == (model, supply))
+
+
+def _constants(fit: HeatFit) -> str:
+    values = fit.values
+    errors = fit.errors
+    loss = sum(values[name] for name in ("to_nacelle", "to_ambient") if name in values)
+    return (
+        f"Heat capacity {1e-6 * values['capacity']:.2f} ± {1e-6 * errors['capacity']:.2f} MJ/K, "
+        f"loss {loss:.3f} per hour, torque of seals {values['seal_torque']:.0f} ± "
+        f"{errors['seal_torque']:.0f} N m."
+    )
+
+
+def _capacity(fit: HeatFit, description: ScadaDescription) -> str:
+    """The heat capacity beside the mass of steel that is known to warm."""
+    known = description.capacity
+    if known is None:
+        return (
+            " No mass that warms with the bearing is given, and without it these are values of "
+            "the fit, not of the bearing."
+        )
+    masses = known.range or (known.mass, known.mass)
+    low, high = (1e-6 * SPECIFIC_HEAT * mass for mass in masses)
+    inside = low <= 1e-6 * fit.values["capacity"] <= high
+    return (
+        f" The given mass of steel has {low:.2f} to {high:.2f} MJ/K: the fitted capacity lies "
+        f"{'inside' if inside else 'outside, so that this supply of oil is unlikely'}."
+    )
+
+
+def _supplies(heat: BearingHeat) -> str:
+    own = [fit for fit in heat.fits if fit.model.name == FRICTION]
+    if len(own) == 1:
+        return "Other supplies of oil were not tried; one turbine cannot tell them apart."
+    told = ", ".join(
+        f"{fit.model.supply} {fit.residual:.4f} K/h with {1e-6 * fit.values['capacity']:.2f} MJ/K"
+        for fit in sorted(own, key=lambda fit: fit.residual)
+    )
+    return (
+        f"By supply of oil: {told}. Lubrication cannot be read off one turbine: supply, heat "
+        "capacity and seals trade."
+    )
+
+
+def _flags(heat: BearingHeat) -> str:
+    """When the index is flagged, which is no alarm."""
+    chosen = heat.index["model"] == heat.chosen.model.name
+    days = heat.index[chosen & (heat.index["period"] == "day")]
+    months = heat.index[chosen & (heat.index["period"] == "month")]["r"]
+    flag = first_flag(days)
+    told = (
+        f"its cumulative sum passes {FLAGGED:g} on {flag:%Y-%m-%d}"
+        if flag is not None
+        else f"its cumulative sum stays below {FLAGGED:g}"
+    )
+    spread = f", by months {months.min():.2f} to {months.max():.2f}" if len(months) else ""
+    over = ""
+    if bool(days["r_sibling"].notna().any()):
+        flag = first_flag(days, "cusum_sibling")
+        over = " Over the sibling it " + (
+            f"does on {flag:%Y-%m-%d}." if flag is not None else "does not."
+        )
+    return (
+        f"Index of the heat, 1 in the reference{spread}; {told}.{over} It is an index and no alarm: "
+        "sound turbines wander from 0.7 to 1.4."
+    )
+
+
+def fit_table(heat: BearingHeat) -> Table:
+    """Constants of all models, the least residual first."""
+    rows = []
+    for fit in sorted(heat.fits, key=lambda fit: fit.residual):
+        for place, (name, value) in enumerate(fit.values.items()):
+            factor, unit = _SHOWN.get(name, (1.0, PARAMETERS[name][0]))
+            head = (draw.model_name(fit), f"{fit.residual:.4f}") if place == 0 else ("", "–")
+            constant = PARAMETERS[name][1]
+            shown = (number(factor * value, 3), number(factor * fit.errors[name], 2))
+            rows.append((*head, constant, *shown, unit))
+    return Table(_HEADINGS, rows, "Constants of every model, fitted to the reference")
+
+
+def _months(heat: BearingHeat) -> Table:
+    """Index of every model by month."""
+    months = heat.index[heat.index["period"] == "month"]
+    table = months.pivot_table("r", "start", "model", sort=False)
+    rows = [
+        (f"{pd.Timestamp(start):%Y-%m}", *(number(value, 3) for value in line))
+        for start, line in zip(table.index, table.to_numpy(), strict=True)
+    ]
+    return Table(("month", *table.columns), rows, "Index of the heat by month")
+
+
+def _opening_pictures(heat: BearingHeat) -> Sequence[Picture]:
+    return [
+        picture(
+            draw.plot_root_mean_squares,
+            "Root mean square of the residual of every model",
+            heat,
+            width=6.4,
+        ),
+        picture(draw.plot_index, "Weekly index of heat over time, every model", heat, **OPENING),
+    ]
+
+
+def _residual_pictures(heat: BearingHeat) -> Sequence[Picture]:
+    panels = {
+        f"Mean residual of the computed friction and of rivals over {over}": (heat, over)
+        for over in draw.OVER
+    }
+    return compared(draw.plot_residuals, panels, legend="above")
+
+
+def _index_pictures(heat: BearingHeat, has_sibling: bool) -> Sequence[Picture]:
+    pictures = [picture(draw.plot_cusum, "Cumulative sum of the daily index", heat, legend="above")]
+    if has_sibling:
+        pictures += [
+            picture(plot, f"{about} over the sibling's", heat, column, legend="above")
+            for plot, about, column in (
+                (draw.plot_index, "Weekly index", "r_sibling"),
+                (draw.plot_cusum, "Cumulative sum of the daily index", "cusum_sibling"),
+            )
+        ]
+    return pictures

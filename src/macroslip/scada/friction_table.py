@@ -1,0 +1,248 @@
+"""Friction torque of a bearing over wind speed, speed of the rotor, temperature and supply of oil.
+
+Simulated cases give it at a few winds and temperatures; ten-minute means need it everywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PchipInterpolator
+
+from macroslip.bearing import Bearing
+from macroslip.constants import ZERO_CELSIUS
+from macroslip.errors import InputError
+from macroslip.lubricant import Lubricant
+
+#: Columns of a table, with unit and meaning.
+COLUMNS: Mapping[str, tuple[str, str]] = {
+    "supply": ("1", "supply of oil: skf, flooded, or film over flooded film"),
+    "wind_speed": ("m/s", "mean wind speed"),
+    "temperature": ("K", "temperature of the oil"),
+    "shaft_speed": ("rad/s", "mean speed of the shaft"),
+    "torque": ("N m", "friction torque of the whole bearing"),
+}
+#: Winds and temperatures that a supply needs at least: a curve through two is a straight line.
+LEAST_WINDS = 2
+LEAST_TEMPERATURES = 3
+#: Kelvin by which data may lie beyond the table; the torque at its end is held there.
+MOST_BEYOND = 5.0
+_REMEDY = (
+    "Vary lubricant.at in the study over the temperatures of the bearing, with weights left out."
+)
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionTable:
+    """Friction torque of a bearing at mean wind speeds, temperatures and supplies of oil.
+
+    Between its entries
+
+        M(w, n, T) = M_w(T) (n/n_w)^e(T)
+
+    with ln M_w and ln n_w, the speed of the case, linear over the wind w, and ln M_w over the
+    temperature T by PCHIP; beyond the winds and temperatures of the table its ends are held.
+
+    Parameters
+    ----------
+    entries : DataFrame
+        The columns of `COLUMNS`, a line a supply, wind and temperature. InputError if one is
+        missing or not positive, or if there are fewer than two winds or three temperatures.
+    speed_exponents : mapping of str to Series
+        e [-] over the temperature [K] by supply, rising temperatures; its ends are held.
+    loads : DataFrame, optional
+        Mean load on the bearing, `radial_load` and `axial_load` [N], over `wind_speed` [m/s].
+    bearing : Bearing, optional
+    lubricant : Lubricant, optional
+        For what handbooks say of the same bearing.
+
+    Examples
+    --------
+    >>> winds, temperatures = np.meshgrid([6.0, 12.0], [278.15, 298.15, 318.15])
+    >>> entries = pd.DataFrame({"supply": "skf", "wind_speed": winds.ravel(),
+    ...     "temperature": temperatures.ravel(), "shaft_speed": winds.ravel() / 6.0,
+    ...     "torque": np.exp(12.0 - 0.02 * temperatures.ravel())})
+    >>> table = FrictionTable(entries, {"skf": pd.Series([0.5], [300.0])})
+    >>> [round(float(one)) for one in table.torque("skf", 6.0, [1.0, 0.25], 298.15)]
+    [419, 209]
+    """
+
+    entries: pd.DataFrame
+    speed_exponents: Mapping[str, pd.Series]
+    loads: pd.DataFrame | None = None
+    bearing: Bearing | None = None
+    lubricant: Lubricant | None = None
+    source: str = "friction table"  #: Where it comes from, for messages
+    notes: tuple[str, ...] = ()  #: What is doubtful or missing, a sentence each
+
+    def __post_init__(self) -> None:
+        missing = [name for name in COLUMNS if name not in self.entries]
+        if missing:
+            raise InputError(
+                f"the columns {', '.join(missing)} are missing",
+                where=self.source,
+                allowed=", ".join(COLUMNS),
+            )
+        for supply in self.supplies:
+            self._check(supply)
+
+    def _check(self, supply: str) -> None:
+        grid = self._grid(supply)
+        if grid.isna().any(axis=None):
+            wind, temperature = next(
+                iter(grid.stack(future_stack=True).isna().loc[lambda s: s].index)
+            )
+            raise InputError(
+                f"there is no torque for the supply {supply} at {wind:g} m/s and "
+                f"{temperature - ZERO_CELSIUS:g} degC",
+                where=self.source,
+                allowed="every wind speed at every temperature",
+                remedy="Complete the study with --resume, or leave the case out of it.",
+            )
+        if not (grid.to_numpy() > 0.0).all():
+            raise InputError("a torque is not positive", where=self.source, allowed="above 0 N m")
+        if grid.shape[0] < LEAST_WINDS:
+            raise InputError(
+                f"the study has {grid.shape[0]} mean wind speed",
+                where=self.source,
+                allowed=f"{LEAST_WINDS} and more, from weak to strong wind",
+            )
+        if grid.shape[1] < LEAST_TEMPERATURES:
+            raise InputError(
+                f"the study has {grid.shape[1]} temperatures of the oil",
+                where=self.source,
+                allowed=f"{LEAST_TEMPERATURES} and more",
+                remedy=_REMEDY,
+            )
+        if supply not in self.speed_exponents:
+            raise InputError(
+                f"the supply {supply} has no exponent of speed",
+                where=self.source,
+                allowed=", ".join(self.speed_exponents),
+            )
+
+    @property
+    def supplies(self) -> tuple[str, ...]:
+        """Supplies of oil in the order of the table."""
+        return tuple(dict.fromkeys(self.entries["supply"]))
+
+    @cached_property
+    def temperatures(self) -> NDArray[np.float64]:
+        """Temperatures of the table [K], rising."""
+        return np.unique(self.entries["temperature"].to_numpy(float))
+
+    def _grid(self, supply: str, value: str = "torque") -> pd.DataFrame:
+        """A value over wind (rows) and temperature (columns)."""
+        entries = self.entries[self.entries["supply"] == supply]
+        return entries.pivot_table(value, "wind_speed", "temperature", dropna=False)
+
+    @cached_property
+    def _curves(self) -> dict[str, tuple[NDArray, NDArray, PchipInterpolator]]:
+        """Winds [m/s], ln of the cases' speeds, and ln of the torque over temperature, by supply."""
+        curves = {}
+        for supply in self.supplies:
+            grid = self._grid(supply)
+            speeds = self._grid(supply, "shaft_speed").mean(axis=1).to_numpy()
+            torque = PchipInterpolator(
+                grid.columns.to_numpy(float), np.log(grid.to_numpy()), axis=1
+            )
+            curves[supply] = (grid.index.to_numpy(float), np.log(speeds), torque)
+        return curves
+
+    def check_span(self, temperature: ArrayLike) -> None:
+        """Refuse oil that is more than 5 K colder or warmer than the table.
+
+        Parameters
+        ----------
+        temperature : array_like
+            Temperatures of the oil [K].
+
+        Raises
+        ------
+        InputError
+        """
+        coldest = float(np.min(temperature))
+        warmest = float(np.max(temperature))
+        low = float(self.temperatures[0])
+        high = float(self.temperatures[-1])
+        if coldest < low - MOST_BEYOND or warmest > high + MOST_BEYOND:
+            raise InputError(
+                f"the oil is at {coldest - ZERO_CELSIUS:.1f} to {warmest - ZERO_CELSIUS:.1f} degC, "
+                f"the study at {low - ZERO_CELSIUS:g} to {high - ZERO_CELSIUS:g} degC",
+                where=self.source,
+                allowed=f"data up to {MOST_BEYOND:g} K beyond the temperatures of the study",
+                remedy=_REMEDY,
+            )
+
+    def torque(
+        self, supply: str, wind_speed: ArrayLike, shaft_speed: ArrayLike, temperature: ArrayLike
+    ) -> NDArray[np.float64]:
+        """Friction torque of the whole bearing against its rotation [N m].
+
+        Parameters
+        ----------
+        supply : str
+            One of `supplies`.
+        wind_speed, shaft_speed, temperature : array_like
+            Mean wind speed [m/s], speed of the shaft [rad/s], not negative, and temperature of the
+            oil [K]; shapes that broadcast.
+
+        Returns
+        -------
+        ndarray
+            Without a sign; 0 at standstill.
+        """
+        winds, log_speeds, log_torque = self._curves[supply]
+        wind, speed, oil = np.broadcast_arrays(
+            *(np.asarray(one, dtype=float) for one in (wind_speed, shaft_speed, temperature))
+        )
+        held = np.clip(oil, log_torque.x[0], log_torque.x[-1])
+        place = np.interp(wind, winds, np.arange(winds.size))
+        below = np.minimum(place.astype(int), max(winds.size - 2, 0))
+        above = np.minimum(below + 1, winds.size - 1)
+        part = place - below
+        at_winds = log_torque(held)
+        lower = np.take_along_axis(at_winds, below[None], axis=0)[0]
+        upper = np.take_along_axis(at_winds, above[None], axis=0)[0]
+        log_case = (1.0 - part) * log_speeds[below] + part * log_speeds[above]
+        exponents = self.speed_exponents[supply]
+        exponent = np.interp(held, exponents.index.to_numpy(float), exponents.to_numpy(float))
+        return np.exp((1.0 - part) * lower + part * upper - exponent * log_case) * speed**exponent
+
+    def power(
+        self, supply: str, wind_speed: ArrayLike, shaft_speed: ArrayLike, temperature: ArrayLike
+    ) -> NDArray[np.float64]:
+        """Friction power M n [W]; as `torque`."""
+        torque = self.torque(supply, wind_speed, shaft_speed, temperature)
+        return torque * np.asarray(shaft_speed, dtype=float)
+
+    def write_csv(self, path: str | PathLike[str]) -> None:
+        """Write the entries as a CSV table, the temperature in °C and torques to 0.01 N m."""
+        shown = self.entries.assign(
+            temperature=(self.entries["temperature"] - ZERO_CELSIUS).round(6),
+            shaft_speed=self.entries["shaft_speed"].round(5),
+            torque=self.entries["torque"].round(2),
+        )
+        headings = _headings()
+        shown.to_csv(path, index=False, columns=list(headings), header=list(headings.values()))
+
+
+def read_entries(path: str | PathLike[str]) -> pd.DataFrame:
+    """Entries of a table that `FrictionTable.write_csv` has written."""
+    entries = pd.read_csv(path, dtype={"supply": str})
+    names = {heading: name for name, heading in _headings().items()}
+    entries.columns = [names[heading] for heading in entries.columns]
+    entries["temperature"] += ZERO_CELSIUS
+    return entries
+
+
+def _headings() -> dict[str, str]:
+    """Headings of a CSV table by column: a table of temperatures is in degC."""
+    units = {name: unit for name, (unit, _) in COLUMNS.items()} | {"temperature": "degC"}
+    return {name: name if unit == "1" else f"{name} [{unit}]" for name, unit in units.items()}

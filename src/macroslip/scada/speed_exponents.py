@@ -1,0 +1,66 @@
+"""How the friction torque of the base bearing grows with the speed of the shaft, M ∝ n^e.
+
+A study has one speed for each wind; a turbine of another rated speed, or one that idles, has others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+import pandas as pd
+
+from macroslip.constants import ZERO_CELSIUS
+
+#: Temperatures of the oil [degC] of `EXPONENTS`.
+TEMPERATURES = (5.0, 20.0, 35.0, 50.0)
+#: e [-] by supply of oil: mean of the histories 6B and 12B of the base turbine, with their own
+#: speeds and with half of them. `python -m tools.friction_tables` computes them.
+EXPONENTS: Mapping[str, tuple[float, ...]] = {
+    "skf": (0.24, 0.43, 0.42, 0.22),
+    "flooded": (0.65, 0.61, 0.51, 0.27),
+    "0.7": (0.51, 0.44, 0.26, -0.07),
+    "0.5": (0.48, 0.39, 0.21, -0.11),
+}
+SKF = "skf"
+_FLOODED = "flooded"
+
+
+def speed_exponents(supplies: Iterable[str]) -> tuple[dict[str, pd.Series], tuple[str, ...]]:
+    """Exponents of the speed over the temperature [K] by supply, and what is assumed.
+
+    Parameters
+    ----------
+    supplies : iterable of str
+        `skf`, `flooded`, or the film over the flooded film as text. A number between two of the
+        table has a mean of theirs, weighted by its distance; `flooded` counts as 1.
+
+    Returns
+    -------
+    dict of str to Series, tuple of str
+        Exponents [-]; a sentence for each supply beyond the table.
+
+    Examples
+    --------
+    >>> exponents, notes = speed_exponents(["skf"])
+    >>> round(float(exponents["skf"].loc[308.15]), 2), notes
+    (0.42, ())
+    """
+    kelvin = ZERO_CELSIUS + np.array(TEMPERATURES)
+    numbers = {1.0 if name == _FLOODED else float(name): name for name in EXPONENTS if name != SKF}
+    known = sorted(numbers)
+    curves = np.array([EXPONENTS[numbers[one]] for one in known])
+    exponents = {}
+    notes = []
+    for supply in supplies:
+        if supply in EXPONENTS:
+            values = np.array(EXPONENTS[supply])
+        else:
+            film = float(supply)
+            values = np.array([np.interp(film, known, curve) for curve in curves.T])
+            if not known[0] <= film <= known[-1]:
+                notes.append(
+                    f"The supply {supply} has the exponent of speed of the supply {known[0]:g}."
+                )
+        exponents[supply] = pd.Series(values, kelvin)
+    return exponents, tuple(notes)
