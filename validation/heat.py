@@ -1,13 +1,14 @@
-"""Heat of the bearing over the wind, 4 to 24 m/s, and over the speed, beside measured heat of another turbine's main bearing.
+"""Heat of the bearing over speed and wind, at the temperatures that were measured, beside measured heat of two turbines.
 
-Own heat is that of the base bearing at 35 °C in all bundled load cases but events, over 600 s, of two rollers of each row. The measured heat is of a turbine of 2 MW whose rotor turns at rated speed from 7 m/s on: its trend over
-the wind is compared with the loads of the cases at rated speed, that over the speed with the loads of 8 m/s. SKF's and
-Palmgren's friction under the same loads stand beside it.
+The measured heat is of main bearings of unknown type: those of a 2 MW turbine (La Haute Borne) over rotor speed and wind,
+and the front and rear one of a turbine of 1.45 MW (WT23) over rotor speed. Own heat is that of two rollers of each row of
+the base bearing under the bundled loads of class B at the wind of the point, interpolated between the winds beside it, the
+record's time stretched so that the rotor has the same part of its rated speed. The oil has the temperature of the bearing.
+SKF's and Palmgren's friction at the same states stand beside it.
 """
 
 from __future__ import annotations
 
-import re
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
@@ -16,208 +17,348 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.friction_torque import ROLLERS, SPEED, torque
-from macroslip import (
-    BearingLoads,
-    Case,
-    Drivetrain,
-    HubLoads,
-    Laws,
-    bundled_cases,
-    main_bearing_load,
-)
+from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Laws, main_bearing_load
+from macroslip.constants import ZERO_CELSIUS
 from validation.comparison import Comparison, Range
 
-DATA = Path(__file__).parent / "data" / "main_bearing_heat.csv"
-#: Rated speed of the measured turbine [r/min]; heat capacity of its bearing [J/K], 4 to 8 t of steel.
-RATED_RPM, CAPACITY = 17.0, (2e6, 4e6)
+DATA = Path(__file__).parent / "data"
 MODELS = ("own", "skf", "palmgren")
+SUPPLIES: tuple[str | float, ...] = ("skf", "flooded", 0.7)
+#: Part of a load case that is simulated [s], before its time is stretched.
+SECONDS = 600.0
+#: Winds of the bundled cases [m/s].
+WINDS = tuple(range(4, 25, 2))
+BEARINGS = ("front", "rear")
+#: Rated rotor speeds [r/min].
+RATED_LHB, RATED_WT23 = 17.1, 17.7
+#: Rate at which a warm bearing of La Haute Borne cools [1/h]; its heat capacity [J/K], 4 to 8 t of steel.
+COOLING, CAPACITY = 0.1, (2e6, 4e6)
+#: Mean temperature of the bearings of La Haute Borne over wind [m/s], of the three turbines behind the heat [degC].
+LHB_MEANS = {4: 27.2, 6: 29.0, 8: 30.1, 10: 29.4, 12: 29.1, 14: 29.7, 16: 29.5}
+#: Temperature at rated speed and 8 m/s there [degC].
+LHB_RATED = LHB_MEANS[8]
 
 
 class Heat(NamedTuple):
-    """Friction power [W]: own, and the handbooks' under the same loads; mean speed of the shaft [rad/s]."""
+    """Friction power [W]: own, and the handbooks' under the same loads."""
 
     own: float
     skf: float
     palmgren: float
-    speed: float
 
 
-def wind_cases() -> dict[int, list[str]]:
-    """Names of the bundled cases by mean wind speed [m/s], without events."""
-    found: dict[int, list[str]] = {}
-    for name in bundled_cases("year"):
-        wind = re.match(r"\d+", name)
-        if wind:
-            found.setdefault(int(wind[0]), []).append(name)
-    return dict(sorted(found.items()))
+class State(NamedTuple):
+    """What a bearing runs under."""
+
+    wind: float  #: Of its loads [m/s]
+    speed: float  #: Of the rotor, over its rated speed [1]
+    celsius: float  #: Temperature of bearing and oil [degC]
+    supply: str | float = "skf"  #: As `oil_supply` has it
 
 
 @lru_cache
-def heat(
-    name: str, speed: float | None = None, oil_supply: str | None = None, every: bool = False
-) -> Heat:
-    """Heat of a load case, at its own speed or at a constant one [rad/s]; with `every` of all rollers."""
-    loads = main_bearing_load(HubLoads.bundled(name), Drivetrain())
-    if speed is not None:
-        loads = BearingLoads(
-            loads.time, np.full_like(loads.time, speed), loads.force, source=loads.source
-        )
+def power_of_case(wind: int, speed: float, celsius: float, supply: str | float) -> Heat:
+    """Heat under the loads of a bundled wind [m/s], its time stretched to a part of rated speed."""
+    whole = main_bearing_load(HubLoads.bundled(f"{wind}B"), Drivetrain()).window(0.0, SECONDS)
+    faster = speed * SPEED / float(np.mean(whole.shaft_speed))
+    loads = BearingLoads(
+        whole.time / faster, whole.shaft_speed * faster, whole.force, source=whole.source
+    )
     case = Case(
         loads=loads,
-        rollers="all" if every else ROLLERS,
+        rollers=ROLLERS,
         laws=Laws.physical(),
-        oil_supply=oil_supply,
+        oil_supply=supply,
+        temperature=ZERO_CELSIUS + celsius,
         rating=False,
     )
-    found, mean = torque(case, loads), float(np.mean(loads.shaft_speed))
-    return Heat(found.total * mean, found.skf * mean, found.palmgren * mean, mean)
+    parts = torque(case, loads)
+    return Heat(*(speed * SPEED * one for one in (parts.total, parts.skf, parts.palmgren)))
 
 
-def over_wind(speed: float | None = None, oil_supply: str | None = None) -> pd.DataFrame:
-    """Heat [W] by model over wind speed [m/s]: mean of all cases; at another speed or supply turbulence class B, first seed."""
-    changed = speed is not None or oil_supply is not None
-    rows = {
-        wind: np.mean(
-            [heat(name, speed, oil_supply) for name in ([f"{wind}B"] if changed else names)], axis=0
-        )
-        for wind, names in wind_cases().items()
-    }
-    return pd.DataFrame.from_dict(rows, orient="index", columns=list(Heat._fields))
+def power(state: State) -> Heat:
+    """Heat in a state, between those of the two bundled winds beside its wind."""
+    wind = float(np.clip(state.wind, WINDS[0], WINDS[-1]))
+    below = max(one for one in WINDS if one <= wind)
+    part = (wind - below) / 2.0
+    heat = np.array(power_of_case(below, *state[1:]))
+    if part > 0.0:
+        heat = (1.0 - part) * heat + part * np.array(power_of_case(below + 2, *state[1:]))
+    return Heat(*(float(one) for one in heat))
 
 
-@lru_cache
-def measured() -> pd.DataFrame:
-    """Heat in K per hour over rotor speed [r/min] and wind [m/s], with its error; without wind below rated speed."""
-    return pd.read_csv(DATA, comment="#")
+def ratio(over: State, under: State) -> Heat:
+    """Heat in a state over that in another one, by model [1]."""
+    return Heat(*(a / b for a, b in zip(power(over), power(under), strict=True)))
+
+
+def measured_lhb() -> pd.DataFrame:
+    """Heat of La Haute Borne in K per hour over rotor speed [r/min] and wind [m/s], without wind below rated."""
+    return pd.read_csv(DATA / "main_bearing_heat.csv", comment="#")
+
+
+def measured_wt23(bearing: str) -> pd.DataFrame:
+    """Heat of a main bearing of WT23 over that at 16 r/min, by rotor speed, with wind and temperature."""
+    table = pd.read_csv(DATA / "wt23_heat.csv", comment="#")
+    return table[(table.bearing == bearing) & (table.part == "all sound")]
 
 
 def measured_ratio(over: tuple[float, float | None], under: tuple[float, float | None]) -> Range:
-    """Heat at one rotor speed [r/min] and wind [m/s] over that at another, less and plus the error."""
-    table = measured()
-
-    def at(place: tuple[float, float | None]) -> tuple[float, float]:
-        speed, wind = place
-        here = table.wind_mps.isna() if wind is None else table.wind_mps == wind
-        row = table[(table.rotor_speed_rpm == speed) & here].iloc[0]
-        return float(row.q_K_per_h), float(row.error)
-
-    (high, high_error), (low, low_error) = at(over), at(under)
-    ratio = high / low
-    error = ratio * float(np.hypot(high_error / high, low_error / low))
-    return Range(ratio - error, ratio + error)
+    """Heat at one rotor speed [r/min] and wind [m/s] over that at another at La Haute Borne, with its error."""
+    (high, high_error), (low, low_error) = _lhb_at(over), _lhb_at(under)
+    quotient = high / low
+    error = quotient * float(np.hypot(high_error / high, low_error / low))
+    return Range(quotient - error, quotient + error)
 
 
-def at_rated_speed(wind: float, model: str = "own") -> float:
-    """Heat [W] at a wind speed [m/s] and rated rotor speed, between the two cases beside it."""
-    winds = list(wind_cases())
-    above = int(np.searchsorted(winds, wind))
-    near = winds[max(above - 1, 0) : above + 1]
-    return float(np.interp(wind, near, [getattr(heat(f"{one}B", SPEED), model) for one in near]))
+def _lhb_at(place: tuple[float, float | None]) -> tuple[float, float]:
+    """Heat and error [K/h] at a rotor speed [r/min] and wind [m/s]."""
+    table = measured_lhb()
+    speed, wind = place
+    here = table.wind_mps.isna() if wind is None else table.wind_mps == wind
+    row = table[(table.rotor_speed_rpm == speed) & here].iloc[0]
+    return float(row.q_K_per_h), float(row.error)
 
 
-def computed_ratio(over: float, under: float, model: str = "own") -> float:
-    """Heat at one wind over that at another [m/s], loads of the cases at rated speed."""
-    return at_rated_speed(over, model) / at_rated_speed(under, model)
+def wt23_states(bearing: str, supply: str | float = "skf") -> list[State]:
+    """States of the points of a main bearing of WT23, the last one at 16 r/min."""
+    return [
+        State(float(row.wind_mps), float(row.rotor_speed_rpm) / RATED_WT23, float(row.bearing_degC), supply)
+        for row in measured_wt23(bearing).itertuples()
+    ]  # fmt: skip
 
 
-def speed_ratio(model: str = "own", low: float = 8.7) -> float:
-    """Heat at a low rotor speed [r/min of the measured turbine] over that at rated speed, loads of 8 m/s."""
-    slow, fast = (getattr(heat("8B", speed), model) for speed in (SPEED * low / RATED_RPM, SPEED))
-    return float(slow / fast)
+def wt23_ratios(
+    bearing: str, *, equal_loads: bool = False, supply: str | float = "skf"
+) -> list[Heat]:
+    """Heat of the points over that at 16 r/min; with `equal_loads` all under the loads at 16 r/min."""
+    states = wt23_states(bearing, supply)
+    last = states[-1]
+    if equal_loads:
+        states = [state._replace(wind=last.wind) for state in states]
+    return [ratio(state, last) for state in states]
+
+
+def wt23_slowest(bearing: str, *, equal_loads: bool = False, supply: str | float = "skf") -> Heat:
+    """Heat at the lowest speed over that at 16 r/min."""
+    first, *_, last = wt23_states(bearing, supply)
+    return ratio(first._replace(wind=last.wind) if equal_loads else first, last)
+
+
+def wt23_parts(bearing: str) -> Heat:
+    """Own heat at the lowest speed over that at 16 r/min, as factors of speed, temperature and load."""
+    first, *_, last = wt23_states(bearing)
+    slow = last._replace(speed=first.speed)
+    cool = slow._replace(celsius=first.celsius)
+    return Heat(ratio(slow, last).own, ratio(cool, slow).own, ratio(first, cool).own)
+
+
+def lhb_temperatures(speed: float, wind: float | None) -> Range:
+    """Temperature of a bearing at La Haute Borne [degC] at a rotor speed [r/min] and wind [m/s].
+
+    Its two ends are the mean of the bearing's temperature in the rows at such a wind, in which cold and warm seasons are
+    mixed, and that in equal surroundings, where temperature goes with heat.
+    """
+    heat, _ = _lhb_at((speed, wind))
+    rated, _ = _lhb_at((17.0, 8.0))
+    equal = LHB_RATED + (heat - rated) / COOLING
+    # Below rated speed the wind is 4 m/s at the lowest speeds, and 8 m/s at rated speed.
+    share = (speed / RATED_LHB - 0.4) / 0.6
+    near = wind if wind is not None else float(np.interp(share, (0.0, 1.0), (4.0, 8.0)))
+    mean = float(np.interp(near, list(LHB_MEANS), list(LHB_MEANS.values())))
+    return Range(min(equal, mean), max(equal, mean))
+
+
+def lhb_ratio(
+    over: tuple[float, float | None], *, loads: float | None = None, supply: str | float = "skf"
+) -> dict[str, Range]:
+    """Heat at a place over that at rated speed and 8 m/s by model, over its two temperatures.
+
+    `loads` is the wind of the loads [m/s], the place's own if not given.
+    """
+    speed, wind = over
+    under = State(8.0, 1.0, LHB_RATED, supply)
+    part = 1.0 if speed == 17.0 else speed / RATED_LHB
+    drawn = loads if loads is not None else wind
+    assert drawn is not None
+    found = [
+        ratio(State(drawn, part, celsius, supply), under)
+        for celsius in lhb_temperatures(speed, wind)
+    ]
+    return {model: Range.of([getattr(one, model) for one in found]) for model in MODELS}
 
 
 def compare() -> list[Comparison]:
     """The lines of the table."""
     rows = []
-
-    def add(quantity: str, found: Range, own: dict[str, float], decides: str) -> None:
-        others = f"; SKF {own['skf']:.2f}, Palmgren {own['palmgren']:.2f}"
-        ratio = Range(own["own"] / found.high, own["own"] / found.low)
-        rows.append(Comparison(quantity + others, found, Range.of(own["own"]), ratio, decides))
-
-    for over, under, decides in (
-        (12.0, 15.0, "nothing: all three models have it"),
-        (12.0, 13.25, "nothing: all three models have it"),
-        (12.0, 8.0, "growth with load: microslip has a part of it, the handbooks have less"),
-    ):
-        found = measured_ratio((RATED_RPM, over), (RATED_RPM, under))
-        own = {model: computed_ratio(over, under, model) for model in MODELS}
-        add(f"heat at {over:g} over {under:g} m/s, rated speed [-]", found, own, decides)
-    add(
-        "heat at 8.7 over 17 r/min [-]",
-        measured_ratio((8.7, None), (RATED_RPM, 8.0)),
-        {model: speed_ratio(model) for model in MODELS},
-        "power of speed; a dry part such as seals is missing",
-    )
-    level = measured_level()
-    own = float(np.mean([heat(name).own for name in wind_cases()[12]]))
+    for bearing in BEARINGS:
+        low = measured_wt23(bearing).iloc[0]
+        found = Range(low.ratio_to_16rpm - low.ratio_error, low.ratio_to_16rpm + low.ratio_error)
+        own = _by_model([wt23_slowest(bearing)])
+        rows.append(
+            _row(
+                f"heat at 10.4 over 16 r/min, WT23 {bearing} [-]",
+                found,
+                own,
+                "load, speed, temperature",
+            )
+        )
+        equal = _by_model([wt23_slowest(bearing, equal_loads=True)])
+        rows.append(
+            _row(
+                "the same with equal loads at both speeds [-]",
+                found,
+                equal,
+                "how thrust and load are shared",
+            )
+        )
+    slow = measured_ratio((8.7, None), (17.0, 8.0))
+    for wind in (8.0, 4.0):
+        own = lhb_ratio((8.7, None), loads=wind)
+        rows.append(
+            _row(
+                f"heat at 8.7 over 17 r/min, loads of {wind:g} m/s [-]",
+                slow,
+                own,
+                "load at low speed",
+            )
+        )
+    rows.append(
+        _row("heat at 12 over 8 m/s, rated speed [-]", measured_ratio((17.0, 12.0), (17.0, 8.0)), lhb_ratio((17.0, 12.0)), "growth with load: open")
+    )  # fmt: skip
+    level, own = measured_level(), _level()
     rows.append(
         Comparison(
-            "heat at 12 m/s [W]", level, Range.of(own), Range(own / level.high, own / level.low),
+            "heat at 12 m/s [W]", level, own, Range(own.low / level.high, own.high / level.low),
             "nothing alone: another turbine, its heat capacity estimated",
         )
     )  # fmt: skip
     return rows
 
 
+def _by_model(heats: list[Heat]) -> dict[str, Range]:
+    """Range by model."""
+    return {model: Range.of([getattr(one, model) for one in heats]) for model in MODELS}
+
+
+def _row(quantity: str, measured: Range, own: dict[str, Range], decides: str) -> Comparison:
+    """A line with the handbooks' ratios beside the quantity."""
+    others = f"; SKF {own['skf']}, Palmgren {own['palmgren']}"
+    computed = own["own"]
+    quotient = Range(computed.low / measured.high, computed.high / measured.low)
+    return Comparison(quantity + others, measured, computed, quotient, decides)
+
+
 def measured_level() -> Range:
     """Heat at rated speed and 12 m/s [W] with the estimated heat capacity."""
-    table = measured()
-    q = float(table[table.wind_mps == 12.0].q_K_per_h.iloc[0])
+    q, _ = _lhb_at((17.0, 12.0))
     return Range(*(q * capacity / 3600.0 for capacity in CAPACITY))
 
 
+def _level() -> Range:
+    """Own heat at rated speed and 12 m/s [W] over the two temperatures there."""
+    return Range.of(
+        [power(State(12.0, 1.0, celsius)).own for celsius in lhb_temperatures(17.0, 12.0)]
+    )
+
+
+def print_supplies() -> None:
+    """Print what the supply of oil changes, and the factors of speed, temperature and load."""
+    for bearing in BEARINGS:
+        print(bearing, "speed, temperature, load:", *(f"{one:.2f}" for one in wt23_parts(bearing)))
+        for supply in SUPPLIES:
+            own, equal = (
+                wt23_slowest(bearing, equal_loads=same, supply=supply).own for same in (False, True)
+            )
+            print(bearing, supply, f"{own:.3f}, equal loads {equal:.3f}")
+    for supply in SUPPLIES:
+        found = lhb_ratio((8.7, None), loads=8.0, supply=supply)
+        print("La Haute Borne, 8.7 over 17 r/min", supply, found["own"])
+
+
 def draw(path: Path) -> None:
-    """Heat over the wind by model; its trend at rated speed and over the speed beside measured values."""
+    """Heat over rotor speed and over the wind, over that of a reference, measured and computed."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(13, 3.8), layout="constrained")
-    level, trend, slow = figure.subplots(1, 3)
-    labels = dict(zip(MODELS, ("this program", "SKF", "Palmgren"), strict=True))
-    table, rated = over_wind(), over_wind(SPEED)
-    for model, colour in zip(MODELS, ("C0", "C1", "C2"), strict=True):
-        level.plot(table.index, table[model], color=colour, label=labels[model])
-        trend.plot(rated.index, rated[model] / rated[model][12], color=colour, label=labels[model])
-        speeds = (4.0, 8.7, 11.4, 14.8, RATED_RPM)
-        slow.plot(
-            speeds, [speed_ratio(model, one) for one in speeds], color=colour, label=labels[model]
-        )
-    level.plot(
-        table.index,
-        over_wind(oil_supply="flooded").own,
-        "--",
-        color="C0",
-        label="this program, flooded",
-    )
-    for wind, names in wind_cases().items():
-        level.plot([wind] * len(names), [heat(name).own for name in names], ".", color="C0", ms=4)
-    found = measured()
-    full = found[found.wind_mps.notna()]
-    for axis, rows, place, unit in (
-        (trend, full, full.wind_mps, float(full[full.wind_mps == 12.0].q_K_per_h.iloc[0])),
-        (slow, found[found.wind_mps.isna() | (found.wind_mps == 8.0)], None, float(full[full.wind_mps == 8.0].q_K_per_h.iloc[0])),
-    ):  # fmt: skip
-        where = rows.rotor_speed_rpm if place is None else place
-        axis.errorbar(
-            where,
-            rows.q_K_per_h / unit,
-            rows.error / unit,
-            fmt="ko",
-            ms=4,
-            capsize=2,
-            label="measured",
-        )
-    level.set(xlabel="mean wind speed [m/s]", ylabel="friction power [W]", ylim=(0.0, None))
-    trend.set(
-        xlabel="wind speed [m/s]",
-        ylabel="heat at rated speed, over that at 12 m/s",
-        ylim=(0.0, None),
-    )
-    slow.set(
-        xlabel="rotor speed [r/min]",
-        ylabel="heat, over that at 17 r/min and 8 m/s",
-        ylim=(0.0, None),
-    )
-    for axis in (level, trend, slow):
+    axes = figure.subplots(1, 4, sharey=False)
+    for axis, bearing in zip(axes[:2], BEARINGS, strict=True):
+        _draw_wt23(axis, bearing)
+    _draw_lhb_speed(axes[2])
+    _draw_lhb_wind(axes[3])
+    for axis in axes:
+        axis.set_ylim(0.0, None)
         axis.legend(fontsize="x-small")
     figure.savefig(path, dpi=110)
+
+
+_LABELS = {"own": "this program", "skf": "SKF", "palmgren": "Palmgren"}
+_COLOURS = {"own": "C0", "skf": "C1", "palmgren": "C2"}
+
+
+def _draw_wt23(axis, bearing: str) -> None:
+    """Heat of a bearing of WT23 over rotor speed."""
+    table = measured_wt23(bearing)
+    found = wt23_ratios(bearing)
+    for model in MODELS:
+        values = [getattr(one, model) for one in found]
+        axis.plot(table.rotor_speed_rpm, values, color=_COLOURS[model], label=_LABELS[model])
+    ends = [0, len(found) - 1]
+    equal = [wt23_slowest(bearing, equal_loads=True).own, 1.0]
+    axis.plot(table.rotor_speed_rpm.iloc[ends], equal, "--", color="C0", label="equal loads")
+    axis.errorbar(
+        table.rotor_speed_rpm, table.ratio_to_16rpm, table.ratio_error, fmt="ko", ms=4, capsize=2, label="measured"
+    )  # fmt: skip
+    axis.set(
+        xlabel="rotor speed [r/min]", ylabel="heat, over that at 16 r/min", title=f"WT23, {bearing}"
+    )
+
+
+def _draw_lhb_speed(axis) -> None:
+    """Heat at La Haute Borne over rotor speed, with loads of 8 and of 4 m/s."""
+    speeds = (8.7, 11.4, 14.8)
+    unit, _ = _lhb_at((17.0, 8.0))
+    for wind, colour in ((8.0, "C0"), (4.0, "C3")):
+        ranges = [lhb_ratio((one, None), loads=wind)["own"] for one in speeds]
+        axis.fill_between(
+            speeds, [one.low for one in ranges], [one.high for one in ranges],
+            color=colour, alpha=0.5, label=f"this program, loads of {wind:g} m/s",
+        )  # fmt: skip
+    skf = [lhb_ratio((one, None), loads=8.0)["skf"] for one in speeds]
+    axis.plot(speeds, [np.mean(one) for one in skf], color="C1", label="SKF, loads of 8 m/s")
+    rows = [(*_lhb_at((one, None)), one) for one in speeds] + [(*_lhb_at((17.0, 8.0)), 17.0)]
+    axis.errorbar(
+        [row[2] for row in rows], [row[0] / unit for row in rows], [row[1] / unit for row in rows],
+        fmt="ko", ms=4, capsize=2, label="measured",
+    )  # fmt: skip
+    axis.set(
+        xlabel="rotor speed [r/min]",
+        ylabel="heat, over that at 17 r/min and 8 m/s",
+        title="La Haute Borne",
+    )
+
+
+def _draw_lhb_wind(axis) -> None:
+    """Heat at La Haute Borne at rated speed over wind."""
+    table = measured_lhb().dropna()
+    table = table[(table.wind_mps >= 8.0) & (table.wind_mps <= 15.0)]
+    unit, _ = _lhb_at((17.0, 8.0))
+    winds = (8.0, 10.0, 12.0)
+    for model in MODELS:
+        ranges = [lhb_ratio((17.0, one))[model] for one in winds]
+        axis.fill_between(
+            winds, [one.low for one in ranges], [one.high for one in ranges],
+            color=_COLOURS[model], alpha=0.4, label=_LABELS[model],
+        )  # fmt: skip
+    axis.errorbar(
+        table.wind_mps, table.q_K_per_h / unit, table.error / unit, fmt="ko", ms=4, capsize=2, label="measured"
+    )  # fmt: skip
+    axis.set(
+        xlabel="wind speed [m/s]",
+        ylabel="heat at rated speed, over that at 8 m/s",
+        title="La Haute Borne",
+    )
+
+
+if __name__ == "__main__":
+    print_supplies()

@@ -12,6 +12,7 @@ __version__ = "0.2.0"
 _HOMES = {
     "Bearing": "macroslip.bearing",
     "Lubricant": "macroslip.lubricant",
+    "Turbine": "macroslip.turbine",
     "HubLoads": "macroslip.loads",
     "BearingLoads": "macroslip.loads",
     "RollerLoads": "macroslip.loads",

@@ -1,12 +1,12 @@
-"""`macroslip bearing` and `macroslip lubricant`."""
+"""`macroslip bearing`, `macroslip lubricant` and `macroslip turbine`."""
 
 import json
 
 import pytest
 
-from macroslip import Bearing, Lubricant
+from macroslip import Bearing, Lubricant, Turbine
 
-KINDS = [("bearing", Bearing), ("lubricant", Lubricant)]
+KINDS = [("bearing", Bearing), ("lubricant", Lubricant), ("turbine", Turbine)]
 
 
 @pytest.mark.parametrize(("noun", "kind"), KINDS)
@@ -40,6 +40,16 @@ def test_show_tells_what_follows_from_a_bearing(macroslip):
     assert "truncation load 203.2 kN" in out
     assert "orbit ratio 0.4539" in out
     assert "contact_angle 11.2 deg D: derived" in out
+
+
+def test_show_tells_what_is_assumed_of_a_turbine(macroslip):
+    out = " ".join(macroslip("turbine", "show", "nrel5-rear").out.split())
+    assert "four-point, moment-carrying front, front locating, rear simulated" in out
+    assert "its parts, and what is assumed of them" in out
+    found = json.loads(macroslip("turbine", "show", "nrel5", "--json").out)
+    parts = {one["quantity"]: one for one in found["its parts, and what is assumed of them"]}
+    assert parts["bearing"]["value"] == "skf-240-950-bc"
+    assert parts["bearing"]["meaning"].startswith("Assumed:")
 
 
 def test_show_a_file_of_the_users_own(folder, macroslip):

@@ -143,3 +143,30 @@ def test_an_example_replaces_nothing(folder, macroslip):
     done = macroslip("init", "--example", "laws")
     assert done.code == 2 and "own_law.py: the file exists" in done.err
     assert [path.name for path in folder.iterdir()] == ["own_law.py"]
+
+
+def test_the_case_of_a_turbine(folder, macroslip):
+    from macroslip import Turbine, read_case
+
+    for name in Turbine.catalogue():
+        done = macroslip("init", f"{name}.yaml", "--turbine", name)
+        assert (done.code, done.err) == (0, "")
+        assert done.out.splitlines()[0] == f"written:    {name}.yaml"
+        assert read_case(f"{name}.yaml").bearing.name == Turbine.read(name).bearing
+
+
+def test_a_turbine_and_an_example_are_two_different_files(folder, macroslip):
+    done = macroslip("init", "--turbine", "nrel5", "--example", "study")
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        "error: --turbine nrel5 and --example study ask for two different files. Allowed: one of them. "
+        "--turbine writes a case of that turbine; leave --example out for it.\n"
+    )
+    assert not list(folder.iterdir())
+
+
+def test_a_turbine_that_does_not_exist(folder, macroslip):
+    done = macroslip("init", "--turbine", "nrel15")
+    assert (done.code, done.out) == (2, "")
+    assert "no turbine can be read from 'nrel15'" in done.err
+    assert "nrel5, nrel5-rear, windpact1.5" in done.err and not list(folder.iterdir())

@@ -1,9 +1,10 @@
-"""`macroslip bearing` and `macroslip lubricant`: catalogue, own files, estimates, drawings."""
+"""`macroslip bearing`, `lubricant` and `turbine`: catalogue, own files, estimates, drawings."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, overload
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, overload
 
 import typer
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from macroslip.bearing.estimate import EstimatedBearing
     from macroslip.input.record import Record
     from macroslip.input.units import Dimension
+    from macroslip.turbine import Turbine
 
 _BASE = "skf-240-600-bc"
 _DRAWINGS = (".svg", ".pdf", ".png")
@@ -47,15 +49,22 @@ def _write(path: Path, record: Record, force: bool) -> None:
 
 
 def _record(noun: str) -> type[Record]:
-    from macroslip import Bearing, Lubricant
+    from macroslip import Bearing, Lubricant, Turbine
 
-    return Bearing if noun == "bearing" else Lubricant
+    return {"bearing": Bearing, "lubricant": Lubricant, "turbine": Turbine}[noun]
+
+
+_HELP = {
+    "bearing": "The bearing catalogue and files of your own.",
+    "lubricant": "The lubricant catalogue and files of your own.",
+    "turbine": "Named turbines, each with bearing, mount, loads and oil, and files of your own.",
+}
 
 
 def _catalogue(noun: str) -> typer.Typer:
     app = typer.Typer(
         name=noun,
-        help=f"The {noun} catalogue and files of your own.",
+        help=_HELP[noun],
         no_args_is_help=True,
         rich_markup_mode=None,
     )
@@ -79,7 +88,8 @@ def _catalogue(noun: str) -> typer.Typer:
         if yaml:
             typer.echo(record.as_yaml(), nl=False)
         else:
-            _show(record, _of_bearing(record) if noun == "bearing" else [], as_json)
+            about = _ABOUT.get(noun)
+            _show(record, _Rows(about.heading, about.rows(record)) if about else None, as_json)
 
     def schema() -> None:
         import json
@@ -94,26 +104,26 @@ def _catalogue(noun: str) -> typer.Typer:
     return app
 
 
-def _show(record: Record, follows: list[list[str]], as_json: bool) -> None:
-    """Print a record with name, value and meaning of the numbers that follow from it."""
+class _Rows(NamedTuple):
+    """Rows of name, value and meaning beside the quantities of a record."""
+
+    heading: str
+    lines: list[list[str]]
+
+
+def _show(record: Record, more: _Rows | None, as_json: bool) -> None:
+    """Print a record, and what there is to say of it beside its quantities."""
     from dataclasses import asdict
 
     from macroslip.input.record import TAGS
     from macroslip.input.units import with_unit
 
     if as_json:
-        derived = [
-            dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in follows
-        ]
+        names = ("quantity", "value", "meaning")
         values = {key: asdict(origin) for key, origin in record.provenance.items()}
-        print_json(
-            {
-                "name": record.name,
-                "title": record.title,
-                "values": values,
-                "what follows from it": derived,
-            }
-        )
+        printed = {"name": record.name, "title": record.title, "values": values}
+        heading, lines = more or _Rows(_FOLLOWS, [])
+        print_json(printed | {heading: [dict(zip(names, line, strict=True)) for line in lines]})
         return
     rows = [
         [
@@ -126,13 +136,10 @@ def _show(record: Record, follows: list[list[str]], as_json: bool) -> None:
     ]
     headings = [("key", False), ("value", True), ("where it comes from", False), ("note", False)]
     print_table(f"{record.name}: {record.title}" if record.title else record.name, headings, rows)
-    if follows:
+    if more:
         typer.echo()
-        print_table(
-            "what follows from it",
-            [("quantity", False), ("value", True), ("meaning", False)],
-            follows,
-        )
+        columns = [("quantity", False), ("value", True), ("meaning", False)]
+        print_table(more.heading, columns, more.lines)
 
 
 def _of_bearing(bearing: Bearing) -> list[list[str]]:
@@ -160,6 +167,34 @@ def _of_bearing(bearing: Bearing) -> list[list[str]]:
             "orbital speed of rollers in pure rolling / shaft speed",
         ],
     ]
+
+
+def _of_turbine(turbine: Turbine) -> list[list[str]]:
+    mount = turbine.mount
+    if turbine.mount == "four-point":
+        front = f", {turbine.front} front" if turbine.front else ""
+        mount += f"{front}, {turbine.locating} locating, {turbine.simulated} simulated"
+    return [
+        ["bearing", turbine.bearing, turbine.bearing_choice],
+        ["lubricant", turbine.lubricant, turbine.lubricant_choice],
+        ["mount", mount, "supports of the shaft"],
+        ["loads", turbine.loads, f"simulated; all of them: bundled: [{turbine.load_set}]"],
+        ["not known", "", turbine.not_known],
+    ]
+
+
+class _About(NamedTuple):
+    """What is told of a kind of record beside its quantities."""
+
+    heading: str
+    rows: Callable[[Any], list[list[str]]]
+
+
+_FOLLOWS = "what follows from it"
+_ABOUT = {
+    "bearing": _About(_FOLLOWS, _of_bearing),
+    "turbine": _About("its parts, and what is assumed of them", _of_turbine),
+}
 
 
 def _option(help: str) -> Any:
@@ -365,6 +400,7 @@ def _estimate_lubricant(
 
 bearing = _catalogue("bearing")
 lubricant = _catalogue("lubricant")
+turbine = _catalogue("turbine")
 command(bearing, _estimate_bearing, "estimate")
 command(bearing, _init, "init")
 command(bearing, _draw, "draw")

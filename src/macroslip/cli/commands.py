@@ -8,7 +8,7 @@ import typer
 
 import macroslip
 from macroslip.cli.aggregate import aggregate
-from macroslip.cli.catalogue import bearing, lubricant
+from macroslip.cli.catalogue import bearing, lubricant, turbine
 from macroslip.cli.compare import compare
 from macroslip.cli.damage import damage
 from macroslip.cli.doctor import doctor
@@ -42,6 +42,7 @@ app.add_typer(loads)
 app.add_typer(scada)
 app.add_typer(bearing)
 app.add_typer(lubricant)
+app.add_typer(turbine)
 
 
 def _version(requested: bool) -> None:

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.options import Force
+from macroslip.errors import InputError, legible
 from macroslip.storage.files import check_new_file, new_file
 
 
@@ -49,27 +50,53 @@ def init(
         ),
     ] = None,
     example: Annotated[
-        Example,
+        Example | None,
         typer.Option(
-            help="What to write; `laws` also writes own_film.py and own_law.py beside the file."
+            help="What to write, a case if not given; `laws` also writes own_film.py and "
+            "own_law.py beside the file."
         ),
-    ] = Example.CASE,
+    ] = None,
+    turbine: Annotated[
+        str | None,
+        typer.Option(
+            help="Write a case of a named turbine with its bearing, mount, loads and oil; "
+            "`macroslip turbine list` has the names. Not with --example."
+        ),
+    ] = None,
     force: Force = False,
 ) -> None:
-    """Write a case file with every key explained, or another example."""
-    first, *others = _FILES[example]
+    """Write a case file with every key explained, the case of a turbine, or another example."""
+    if turbine is not None and example is not None:
+        raise InputError(
+            f"--turbine {legible(turbine, 60)} and --example {example} ask for two different files",
+            allowed="one of them",
+            remedy="--turbine writes a case of that turbine; leave --example out for it.",
+        )
+    example = example or Example.CASE
     path = path or Path("own_laws.yaml" if example is Example.LAWS else f"{example}.yaml")
-    texts = {path: _text(first)} | {
-        path.with_name(name.rpartition("/")[2]): _text(name) for name in others
-    }
-    for one in texts:
-        check_new_file(one, force=force)
-    for one, text in texts.items():
-        with new_file(one, force=force) as temporary:
+    texts = _texts_of(example, path) if turbine is None else {path: _case_of(turbine)}
+    for target in texts:
+        check_new_file(target, force=force)
+    for target, text in texts.items():
+        with new_file(target, force=force) as temporary:
             temporary.write_text(text, encoding="utf-8")
-        typer.echo(f"written:    {one}")
+        typer.echo(f"written:    {target}")
     folder = "" if path.parent == Path() else f"{path.parent}/"
     typer.echo(_NEXT[example].format(path=path, stem=path.with_suffix(""), folder=folder))
+
+
+def _texts_of(example: Example, path: Path) -> dict[Path, str]:
+    """Text of every file of an example, by the path that it gets."""
+    first, *others = _FILES[example]
+    return {path: _text(first)} | {
+        path.with_name(name.rpartition("/")[2]): _text(name) for name in others
+    }
+
+
+def _case_of(turbine: str) -> str:
+    from macroslip.turbine import Turbine
+
+    return Turbine.read(turbine).case_text()
 
 
 def _text(name: str) -> str:
