@@ -42,6 +42,8 @@ _HOMES = {
     "run_study": "macroslip.study.run",
     "open_study": "macroslip.study.reader",
     "Scada": "macroslip.scada",
+    "histogram": "macroslip.scada",
+    "real_year": "macroslip.study.real_year",
     "heat_fit": "macroslip.study.heat",
     "InputError": "macroslip.errors",
     "MacroslipError": "macroslip.errors",

@@ -59,6 +59,7 @@ def aggregate(
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
     from macroslip.study.aggregation import aggregation_in_use
     from macroslip.study.export import FORMATS, tables, write_tables
+    from macroslip.study.over_temperature import weighted_study
     from macroslip.study.reader import open_study
     from macroslip.study.year import coverage, year
 
@@ -67,7 +68,7 @@ def aggregate(
     if xlsx is not None and xlsx.parent == output:
         make_folder(output)
     check_workbook(xlsx, force=force, inputs=[probabilities] if probabilities else [])
-    study = open_study(directory)
+    study = weighted_study(open_study(directory))
     stored = aggregation_in_use(study, _weights(weibull, probabilities), years)
     aggregation = replace(
         stored,

@@ -22,6 +22,7 @@ from macroslip.result.plausibility import doubtful_result
 from macroslip.result.run_input import stored_settings
 from macroslip.study.aggregation import aggregation_in_use
 from macroslip.study.effects import sampled_parameters
+from macroslip.study.over_temperature import weighted_study
 from macroslip.study.reader import is_study, open_study
 from macroslip.study.weights import BinProbabilities, Weibull, binned
 from macroslip.study.year import DESIGN_COLUMNS, LIVES, coverage, design_names, designs, year
@@ -288,6 +289,7 @@ def compare_designs(
     wind: Weibull | BinProbabilities | None = None,
 ) -> pd.DataFrame:
     """Compare designs of a study over a year, `wind` in place of its file's; as `compare`."""
+    study = weighted_study(study)
     aggregation = aggregation_in_use(study, wind)
     varied = _varied_labels(study)
     labels = _labels_of_designs(study, by, varied)

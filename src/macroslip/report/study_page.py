@@ -37,6 +37,7 @@ from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance
 from macroslip.study.export import as_table
 from macroslip.study.lifetime import lifetime_energy, weighted_maps, worst
+from macroslip.study.over_temperature import weighted_study
 from macroslip.study.weights import (
     IEC_CLASSES,
     BinProbabilities,
@@ -111,6 +112,7 @@ def study_page(
     str
         The page.
     """
+    study = weighted_study(study)
     text = words(_TEMPLATE)
     weighted = _weighted(study, weights, years)
     table, unknown = designs(weighted.year)

@@ -12,9 +12,12 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any
+
+import numpy as np
 
 from macroslip.case.case import BALANCE, Case
 from macroslip.case.load_source import CUT_KEYS
@@ -27,7 +30,9 @@ from macroslip.input.record import Record
 from macroslip.input.section import MappingOf, input_section, read_all, read_fields
 from macroslip.result.heat_balance import at_balance
 from macroslip.result.variables import VARIABLES
+from macroslip.scada.bins import JointShares
 from macroslip.study.loads_list import Load, LoadList, load_list
+from macroslip.study.over_temperature import LABEL, check_span, check_varied, kelvin
 from macroslip.study.settings import RECORDS, Sample, Setting, read_loads, template
 from macroslip.study.weights import Weighting
 
@@ -483,6 +488,9 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
     weights = values.get("weights")
     if weights is not None and loads is not None:
+        weights = attempt("weights", partial(weights.with_measured_year, loads.loads, folder))
+    if weights is not None and loads is not None:
+        attempt("weights", lambda: _check_temperatures(weights, variations))
         lengths = _event_lengths(weights, loads, base, mapping, folder)
         attempt("weights", lambda: weights.check(loads.loads, lengths))
     if problems:
@@ -509,10 +517,27 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         parameters=parameters,
         cycles=values.get("cycles", False),
         keep=values.get("keep"),
-        content=dict(data),
+        content=_content(data, weights),
         heat=heat,
         weights=weights,
     )
+
+
+def _content(data: Mapping[str, Any], weights: Weighting | None) -> dict[str, Any]:
+    """The study file as plain data, with a measured year as what was read of it."""
+    if weights is None or not isinstance(weights.scada, JointShares):
+        return dict(data)
+    return {**data, "weights": {**data["weights"], "scada": weights.scada.content()}}
+
+
+def _check_temperatures(weights: Weighting, variations: Variations) -> None:
+    """Check that the runs span the temperatures of the weights."""
+    if weights.temperatures is None:
+        return
+    settings: list[Setting] = (variations.grid or {}).get(LABEL, [])  # pyright: ignore[reportAssignmentType]
+    at = [float(kelvin(np.array(one.value), one.unit)) for one in settings]
+    check_varied(len(at))
+    check_span(weights.temperatures, np.sort(at))
 
 
 def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Case:

@@ -6,7 +6,8 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -20,7 +21,10 @@ from macroslip.input.fields import IN_FILE, Form, Given, Quantity, Text
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import NUMBER
 from macroslip.result.variables import described
+from macroslip.scada.bins import JointShares
+from macroslip.scada.reader import Scada
 from macroslip.study.loads_list import Load
+from macroslip.study.temperature_shares import ByWind, MeasuredYear, TemperatureShares
 
 _SCALE = Quantity(
     "scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True
@@ -188,6 +192,15 @@ _RATES = MappingOf(
 )
 
 
+@input_section("weights.temperature", "temperature of the oil at each wind speed")
+class OilTemperature:
+    """Temperature of the oil in each bin of wind speed; of events it is the mean over the year."""
+
+    by_wind: Annotated[
+        dict[float, float], ByWind("temperature of the oil by the middle of each bin")
+    ]
+
+
 @input_section(
     "weights",
     "what each load history counts in a year: wind speeds, which the histories of a bin share, "
@@ -196,7 +209,8 @@ _RATES = MappingOf(
 class Weighting:
     """How much each load history counts.
 
-    Scale and shape beside `field` are read as those of `wind.weibull`.
+    Scale and shape beside `field` are read as those of `wind.weibull`. A measured year, `scada`,
+    stands in place of wind speeds and temperatures.
     """
 
     field: Annotated[str, Text("label of the loads to sort into bins")] = "wind_speed"
@@ -204,12 +218,26 @@ class Weighting:
         float, Quantity("width of a bin, in the unit of the field", NUMBER, 0.0, above=True)
     ] = 2.0
     wind: Wind | None = None
+    temperature: OilTemperature | None = None
+    scada: Annotated[
+        str | JointShares | None, MeasuredYear("description of the means of a turbine")
+    ] = None
     events: Annotated[dict[str, Any] | None, _RATES] = None
     scale: Annotated[float | None, _SCALE] = None
     shape: Annotated[float | None, _SHAPE] = None
 
     def __post_init__(self) -> None:
         flat = self.scale is not None, self.shape is not None
+        others = ("wind", "temperature", "scale", "shape")
+        beside = [name for name in others if getattr(self, name) is not None]
+        if self.scada is not None and beside:
+            raise InputError(
+                f"{' and '.join(beside)} and the measured year scada stand together",
+                allowed="scada without wind, temperature, scale and shape",
+                remedy="The means of a turbine tell how likely each wind speed is, and how warm.",
+            )
+        if self.scada is not None:
+            return
         if (self.wind is not None and any(flat)) or (self.wind is None and not all(flat)):
             raise InputError(
                 "the wind speeds are given twice"
@@ -222,12 +250,38 @@ class Weighting:
     @property
     def year(self) -> Year:
         """What a year consists of."""
-        wind = (
-            self.wind.weibull
-            if self.wind
-            else Weibull(scale=float(self.scale or 0.0), shape=float(self.shape or 0.0))
-        )
-        return Year(wind, self.events or {})
+        return Year(self._wind, self.events or {})
+
+    @property
+    def _wind(self) -> Weibull | BinProbabilities:
+        if isinstance(self.scada, JointShares):
+            return BinProbabilities(self.scada.wind_shares())
+        if self.wind:
+            return self.wind.weibull
+        return Weibull(scale=float(self.scale or 0.0), shape=float(self.shape or 0.0))
+
+    @property
+    def temperatures(self) -> TemperatureShares | None:
+        """How long the oil is at each temperature; None where only the runs tell it."""
+        if isinstance(self.scada, JointShares):
+            return TemperatureShares.measured(self.scada)
+        if self.temperature is None:
+            return None
+        of_wind = self.temperature.by_wind
+        likely = [self._wind.probability(centre, self.width) for centre in of_wind]
+        return TemperatureShares.given(of_wind, likely)
+
+    def with_measured_year(self, loads: Sequence[Load], folder: Path) -> Weighting:
+        """The same with the means of the turbine read and sorted into the bins of the loads.
+
+        Raises InputError if the means cannot be read; relative paths start at `folder`.
+        """
+        if not isinstance(self.scada, str):
+            return self
+        centres = self._bins(loads, {}).centres
+        measured = Scada.read(folder / self.scada)
+        joint = JointShares.of(measured, centres[np.isfinite(centres)], self.width)
+        return replace(self, scada=joint)
 
     def of(self, loads: Sequence[Load]) -> list[float]:
         """Weight of each load history in the mean friction power [1], together 1.

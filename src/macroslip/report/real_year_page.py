@@ -1,0 +1,129 @@
+"""The page on a year at the winds and temperatures of a turbine."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.report.page import Opening, Table, number, render, sections, words
+from macroslip.report.real_year_figures import (
+    plot_over_fixed,
+    plot_over_wind_and_temperature,
+)
+from macroslip.report.style import OPENING, Picture, picture
+from macroslip.study.real_year import OFFSET
+from macroslip.study.year import DESIGN_COLUMNS
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from macroslip.study.real_year import RealYear
+
+_TEMPLATE = "real_year.html"
+#: What is shared out over wind speed and temperature, and its name.
+_SHARED = {"share": "time", "energy [J]": "energy", "wear [m]": "wear"}
+
+
+def verdict(found: RealYear) -> list[str]:
+    """What a reader has to know first, in sentences.
+
+    How much the mean temperature decides, and how much the place of the sensor.
+    """
+    first = found.table[found.table["design"] == found.table["design"].iloc[0]]
+    of = first.set_index("quantity")
+    temperatures = (
+        f"The oil is at {found.mean_production:.1f} °C in the mean while the rotor turns, "
+        f"{found.mean_standing:.1f} °C while it stands."
+    )
+    energy = of.loc["energy"]
+    told = [f"{temperatures} Energy is {energy['real_over_fixed']:.2f} of that at 35 °C."]
+    if "wear" not in of.index or not np.isfinite(of.loc["wear", "real"]):
+        return told
+    wear = of.loc["wear"]
+    ends = wear["oil_warmer"] / wear["real"], wear["real"] / wear["oil_cooler"]
+    told.append(
+        f"Wear is {wear['real_over_fixed']:.2f} of that at 35 °C, and "
+        f"{wear['real_over_at_mean']:.2f} of that at the mean temperature, which does "
+        "nearly all of it."
+    )
+    told.append(
+        f"{OFFSET:g} K between sensor and oil change wear by a factor of {min(ends):.2g} to "
+        f"{max(ends):.2g}: more than anything that is measured here. Wear itself is known to a "
+        f"factor of {wear['factor']:g}, by its coefficient k."
+    )
+    return told
+
+
+def real_year_page(found: RealYear) -> str:
+    """A page on what `macroslip.real_year` gives: HTML in one piece."""
+    text = words(_TEMPLATE)
+    designs = list(dict.fromkeys(found.table["design"]))
+    first = designs[0]
+    of_first = found.bins[found.bins["design"] == first]
+    bodies = {
+        "numbers": text.numbers(_table(found.table)),
+        "where": text.where(_maps(of_first), _coarse(of_first)),
+        "how": text.how(),
+    }
+    table = found.table[found.table["design"] == first]
+    opening = Opening(
+        text.answer(verdict(found), found.notes),
+        [
+            picture(plot_over_fixed, "A year over one at 35 °C", table, **OPENING),
+            *_maps(of_first)[2:],
+        ],
+    )
+    of_designs = f"; {len(designs)} designs, pictures of {first}" if len(designs) > 1 else ""
+    subtitle = f"{found.source}{of_designs}."
+    return render("A real year", subtitle, opening, sections(_TEMPLATE, bodies))
+
+
+def _maps(bins: pd.DataFrame) -> list[Picture]:
+    """Time, energy and wear over wind speed and temperature of the oil."""
+    turning = bins[bins["state"] == "turning"]
+    return [
+        picture(
+            plot_over_wind_and_temperature,
+            f"{title.capitalize()} over wind speed and temperature of the oil",
+            turning,
+            column,
+            title,
+        )
+        for column, title in _SHARED.items()
+        if _is_known(turning, column)
+    ]
+
+
+def _is_known(turning: pd.DataFrame, column: str) -> bool:
+    return bool(np.nansum(turning[column].to_numpy()) > 0.0)
+
+
+def _table(table: pd.DataFrame) -> Table:
+    """The numbers of every design."""
+    several = len(set(table["design"])) > 1
+    rows = []
+    for line in table.to_dict("records"):
+        name = DESIGN_COLUMNS[line["quantity"]].meaning
+        unit = f" [{line['unit']}]" if line["unit"] != "1" else ""
+        head = f"{line['design']}: {name}{unit}" if several else f"{name}{unit}"
+        keys = ("real", "at_mean", "fixed", "real_over_fixed", "oil_cooler", "oil_warmer")
+        cells = [number(line[key], 3) for key in (*keys, "seeds [%]", "factor")]
+        rows.append((head, *cells))
+    headings = ("", "real", "at the mean", "at 35 °C", "real over 35 °C")
+    headings += ("oil 5 K cooler", "oil 5 K warmer", "seeds [%]", "known to a factor")
+    return Table(headings, rows, "A year")
+
+
+def _coarse(bins: pd.DataFrame) -> Table:
+    """Shares of production's time, energy and wear by wind speed."""
+    turning = bins[bins["state"] == "turning"]
+    columns = [column for column in _SHARED if _is_known(turning, column)]
+    sums = turning.groupby("wind_speed [m/s]")[columns].sum()
+    of_winds = np.array(sums, dtype=float)
+    rows = [
+        (f"{wind:g}", *(number(value, 3) for value in line))
+        for wind, line in zip(sums.index, 100.0 * of_winds / of_winds.sum(axis=0), strict=True)
+    ]
+    headings = ("wind speed [m/s]", *(f"{_SHARED[column]} [%]" for column in columns))
+    return Table(headings, rows, "Shares of production")

@@ -1,0 +1,194 @@
+"""Shares of a year over wind speed and temperature of the bearing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+import pandas as pd
+
+from macroslip.constants import ZERO_CELSIUS
+from macroslip.errors import InputError
+from macroslip.scada.reader import Scada
+
+#: Width of a bin of temperature [K]; bins are centred on its multiples in degC.
+TEMPERATURE_WIDTH = 2.5
+#: Digits of the shares that a study keeps.
+_DIGITS = 15
+
+
+@dataclass(frozen=True)
+class JointShares:
+    """Share of the rows with data in each bin of wind speed and temperature; together 1."""
+
+    KEYS: ClassVar[set[str]] = {
+        "source", "wind", "temperature", "turning", "idle", "mean_turning", "oil_offset", "hours",
+    }  # fmt: skip
+
+    source: str  #: Turbine and period
+    wind: np.ndarray  #: Middles of the bins, shape (bins,) [m/s]
+    temperature: np.ndarray  #: Of the sensor, middles of the bins, shape (n,) [K]
+    turning: np.ndarray  #: Shares of rows in which the rotor turns, shape (bins, n)
+    idle: np.ndarray  #: And of all other rows, shape (n,)
+    mean_turning: float  #: Mean temperature of the rows in which the rotor turns [K]
+    oil_offset: float  #: Temperature of the oil over that of the sensor [K]
+    hours: float  #: Hours with data [h]
+
+    @classmethod
+    def of(cls, scada: Scada, centres: np.ndarray, width: float) -> JointShares:
+        """Sort the rows of a record into bins.
+
+        Parameters
+        ----------
+        scada : Scada
+        centres : ndarray, shape (bins,)
+            Middles of the bins of wind speed [m/s]; a row outside them counts in the nearest.
+        width : float
+            Their width [m/s]; the lower edge is in a bin.
+
+        Raises
+        ------
+        InputError
+            If the rotor turns in no row that is used.
+        """
+        used = scada.data[scada.kept]
+        turning = scada.turning[scada.kept].to_numpy()
+        if not turning.any():
+            raise InputError("the rotor turns in no row that is used", where="rated.rotor_speed")
+        centres = np.sort(np.asarray(centres, dtype=float))
+        speeds = load_speeds(scada)[turning]
+        row = nearest_bins(speeds, centres, width)
+        sensor = used["bearing_temperature"].to_numpy()
+        number = np.floor((sensor - ZERO_CELSIUS) / TEMPERATURE_WIDTH + 0.5).astype(int)
+        first = number.min()
+        shape = (centres.size, number.max() - first + 1)
+        counts = np.zeros(shape)
+        np.add.at(counts, (row, number[turning] - first), 1.0)
+        idle = np.bincount(number[~turning] - first, minlength=shape[1]).astype(float)
+        span = f"{used.index[0]:%Y-%m-%d} to {used.index[-1]:%Y-%m-%d}"
+        return cls(
+            source=f"{scada.description.turbine or 'turbine'}, {span}",
+            wind=centres,
+            temperature=ZERO_CELSIUS + TEMPERATURE_WIDTH * (first + np.arange(shape[1])),
+            turning=counts / len(used),
+            idle=idle / len(used),
+            mean_turning=float(sensor[turning].mean()),
+            oil_offset=scada.description.oil_offset,
+            hours=scada.hours,
+        )
+
+    @property
+    def oil_temperatures(self) -> np.ndarray:
+        """Middles of the bins of temperature, of the oil in the contacts, shape (n,) [K]."""
+        return self.temperature + self.oil_offset
+
+    @property
+    def mean_idle(self) -> float:
+        """Mean temperature of the sensor while the rotor stands [K]; NaN if it never does."""
+        total = self.idle.sum()
+        return float(self.idle @ self.temperature / total) if total > 0.0 else np.nan
+
+    def wind_shares(self) -> dict[float, float]:
+        """Share of the time in which the rotor turns at each wind speed, by the middle of the bin."""
+        return dict(zip(self.wind.tolist(), self.turning.sum(axis=1).tolist(), strict=True))
+
+    def content(self) -> dict[str, Any]:
+        """Plain data, from which `from_content` makes it again."""
+        return {
+            "source": self.source,
+            "wind": self.wind.tolist(),
+            "temperature": self.temperature.tolist(),
+            "turning": [[round(one, _DIGITS) for one in row] for row in self.turning.tolist()],
+            "idle": [round(one, _DIGITS) for one in self.idle.tolist()],
+            "mean_turning": self.mean_turning,
+            "oil_offset": self.oil_offset,
+            "hours": self.hours,
+        }
+
+    @classmethod
+    def from_content(cls, content: Mapping[str, Any]) -> JointShares:
+        """The shares that `content` has written."""
+        arrays = {
+            name: np.array(content[name], dtype=float)
+            for name in ("wind", "temperature", "turning", "idle")
+        }
+        return cls(**{**content, **arrays})
+
+
+def load_speeds(scada: Scada) -> np.ndarray:
+    """Wind speed of the rows that are used by which their load is known, shape (rows,) [m/s].
+
+    With `load_by: power` it is w_r (P/P_r)^(1/3) below rated power, with w_r of the study's
+    turbine: the wind that gives another rotor the same share of its rated power. At rated power it
+    is the measured one, w_r at least.
+    """
+    used = scada.data[scada.kept]
+    measured = used["wind_speed"].to_numpy()
+    if scada.description.load_by == "wind":
+        return measured
+    rated = scada.description.rated
+    share = np.clip(used["power"].to_numpy() / rated.power, 0.0, None)
+    below = rated.wind_speed * np.cbrt(share)
+    return np.where(share < 1.0, below, np.maximum(measured, rated.wind_speed))
+
+
+def nearest_bins(values: np.ndarray, centres: np.ndarray, width: float) -> np.ndarray:
+    """Number of the bin of each value; outside all bins the nearest one.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+    centres : ndarray, shape (bins,)
+        Middles of the bins, ascending multiples of their width.
+    width : float
+
+    Returns
+    -------
+    ndarray of int, shape (n,)
+
+    Examples
+    --------
+    >>> nearest_bins(np.array([1.0, 5.0, 40.0]), np.array([4.0, 6.0, 24.0]), 2.0).tolist()
+    [0, 1, 2]
+    """
+    middle = np.floor(values / width + 0.5) * width
+    above = np.clip(np.searchsorted(centres, middle), 1, max(centres.size - 1, 1))
+    if centres.size == 1:
+        return np.zeros(values.size, dtype=int)
+    is_lower = middle - centres[above - 1] <= centres[above] - middle
+    return np.where(is_lower, above - 1, above)
+
+
+def histogram(scada: Scada, width: float = 2.0) -> pd.DataFrame:
+    """Shares of a record over wind speed and temperature of the bearing.
+
+    Parameters
+    ----------
+    scada : Scada
+    width : float
+        Width of a bin of wind speed [m/s], above 0; bins are centred on its multiples.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A line for each bin with a row of the record: `state`, turning or idle; `wind_speed [m/s]`
+        and `bearing_temperature [degC]`, middles of the bins; `share` of the rows with data, which
+        add up to 1; and `hours [h]` of the record.
+    """
+    used = scada.data[scada.kept]
+    speeds = np.floor(load_speeds(scada) / width + 0.5) * width
+    celsius = used["bearing_temperature"].to_numpy() - ZERO_CELSIUS
+    table = pd.DataFrame(
+        {
+            "state": np.where(scada.turning[scada.kept], "turning", "idle"),
+            "wind_speed [m/s]": speeds,
+            "bearing_temperature [degC]": np.floor(celsius / TEMPERATURE_WIDTH + 0.5)
+            * TEMPERATURE_WIDTH,
+        }
+    )
+    counts = table.value_counts(sort=False).sort_index().rename("share").reset_index()
+    counts["share"] /= len(used)
+    counts["hours [h]"] = counts["share"] * scada.hours
+    return counts

@@ -1,0 +1,297 @@
+"""Runs of a study over the temperature of their oil, and their mean over how long each lasts.
+
+Runs that differ in the temperature of the oil alone are a series. Between its temperatures the
+logarithm of what grows by factors (energies, powers, wear, e_a, lives) follows a monotone cubic
+(PCHIP), since viscosity is nearly exponential; shares and counts are interpolated linearly:
+
+* F. N. Fritsch and J. Butland, "A Method for Constructing Local Monotone Piecewise Cubic
+  Interpolants", SIAM J. Sci. Stat. Comput. 5 (1984) 300-304, doi:10.1137/0905021.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from scipy.interpolate import PchipInterpolator
+
+from macroslip.constants import ZERO_CELSIUS
+from macroslip.errors import InputError
+from macroslip.study.temperature_shares import TemperatureShares
+from macroslip.study.weights import bin_numbers, stored_weighting
+
+#: Label of the temperature of the oil at the inlets.
+LABEL = "lubricant.at"
+#: Fewest temperatures of a series.
+FEWEST = 4
+#: How far beyond the runs a temperature may lie; it is held at the nearest one [K].
+HELD = 5.0
+#: Share of the time that may lie further outside, as single rows of a sensor do.
+_SHARE_OUTSIDE = 1e-3
+#: Labels that are the same, or of no use, in all runs of a series.
+_OF_A_RUN = ("case", "run", "key", "outcome", "reason", LABEL)
+_LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
+#: Beginnings of the names of what grows by factors.
+_BY_FACTORS = ("energy_", "orbit_energy_", "peak_power_", "friction_power", "contact_torque")
+_BY_FACTORS += ("pressure_slip_rate", "wear_rate", *_LIVES)
+#: Extremes of a run: that of any temperature which occurs counts.
+_LARGEST = ("peak_power_max", "orbit_energy_max", "largest_entry_slip", "largest_pressure")
+_LEAST = ("lowest_spin_ratio", "static_safety", "least_film_ratio")
+
+
+@dataclass(frozen=True)
+class RunsOverTemperature:
+    """Runs of a study in series over the temperature of the oil."""
+
+    study: xr.Dataset
+    temperatures: np.ndarray  #: Of every series, shape (temperatures,), ascending [K]
+    runs: np.ndarray  #: Number of the run of each series and temperature
+
+    @classmethod
+    def of(cls, study: xr.Dataset) -> RunsOverTemperature:
+        """Sort the runs of `open_study`'s dataset into series.
+
+        Raises InputError if the study does not vary `lubricant.at` over `FEWEST` temperatures or
+        more, or not all its runs over the same.
+        """
+        if LABEL not in study.coords:
+            check_varied(0)
+        at = kelvin(study[LABEL].values.astype(float), study[LABEL].attrs.get("units", "K"))
+        names = [
+            str(name)
+            for name in study.coords
+            if study[name].dims == ("case",) and name not in _OF_A_RUN
+        ]
+        labels = study[names].reset_coords()[names].to_dataframe() if names else None
+        number = (
+            np.zeros(at.size, dtype=int)
+            if labels is None
+            else labels.groupby(names, sort=False, dropna=False).ngroup().to_numpy()
+        )
+        temperatures = np.unique(np.round(at, 6))
+        series = [np.flatnonzero(number == k) for k in range(number.max() + 1)]
+        ordered = [runs[np.argsort(at[runs], kind="stable")] for runs in series]
+        whole = all(
+            runs.size == temperatures.size and np.allclose(at[runs], temperatures, atol=1e-5)
+            for runs in ordered
+        )
+        check_varied(temperatures.size)
+        if not whole:
+            raise InputError(
+                "not all runs of the study have the same temperatures of the oil",
+                where=f"variations.{LABEL}",
+                allowed=_ALLOWED,
+                remedy=_REMEDY,
+            )
+        return cls(study, temperatures, np.array(ordered))
+
+    def values(self, name: str, at: np.ndarray) -> np.ndarray:
+        """A variable over (case) or (case, row) of each series at temperatures.
+
+        Parameters
+        ----------
+        name : str
+            Variable of the study.
+        at : ndarray, shape (n,)
+            Temperatures [K]; outside the runs the value at the nearest one holds.
+
+        Returns
+        -------
+        ndarray, shape (series, n) or (series, n, rows)
+            NaN where a run of the series has no value.
+        """
+        variable = self.study[name].transpose("case", ...).values.astype(float)
+        known = np.moveaxis(variable[self.runs], 1, 0)
+        held = np.clip(at, self.temperatures[0], self.temperatures[-1])
+        found = interpolated(
+            self.temperatures, known, held, by_factors=name.startswith(_BY_FACTORS)
+        )
+        return np.moveaxis(found, 0, 1)
+
+    def mean(self, shares: TemperatureShares, field: str, width: float) -> xr.Dataset:
+        """One case for each series: the mean over the time at each temperature.
+
+        Parameters
+        ----------
+        shares : TemperatureShares
+            How long each bin of wind speed and each event is at each temperature.
+        field : str
+            Label of the wind speed.
+        width : float
+            Width of a bin.
+
+        Returns
+        -------
+        xarray.Dataset
+            As the study, without the label `lubricant.at` and without what is not of the summary.
+        """
+        share = self._shares(shares, field, width)
+        at = shares.temperatures
+        first = self.study.isel(case=self.runs[:, 0])
+        data = {}
+        for name, variable in self.study.data_vars.items():
+            if not set(variable.dims) <= {"case", "row"} or "case" not in variable.dims:
+                continue
+            values = self.values(str(name), at)
+            dims = ("case", "row") if values.ndim == 3 else ("case",)
+            data[name] = (dims, _mean(str(name), values, share), dict(variable.attrs))
+        outcome = self.study["outcome"].values.astype(str)[self.runs]
+        worst = [next((one for one in row if one != "completed"), "completed") for row in outcome]
+        kept = first.drop_vars([LABEL, *first.data_vars])
+        kept = kept.drop_vars([n for n in kept.coords if not set(kept[n].dims) <= {"case", "row"}])
+        coordinates = {
+            "outcome": ("case", np.array(worst, dtype=object), dict(self.study.outcome.attrs)),
+            "case": ("case", np.arange(len(worst)), dict(self.study["case"].attrs)),
+        }
+        if "key" in kept.coords:
+            empty = np.full(len(worst), "", dtype=object)
+            coordinates["key"] = ("case", empty, dict(self.study["key"].attrs))
+        content = json.loads(self.study.attrs.get("study", "{}"))
+        (content.get("variations") or {}).get("grid", {}).pop(LABEL, None)
+        return kept.assign_coords(coordinates).assign(data).assign_attrs(study=json.dumps(content))
+
+    def _shares(self, shares: TemperatureShares, field: str, width: float) -> np.ndarray:
+        """Share of the time of each series at each temperature, shape (series, temperatures)."""
+        first = self.study.isel(case=self.runs[:, 0])
+        number = self.runs.shape[0]
+        events = (
+            first["event"].values.astype(str) if "event" in first.coords else np.full(number, "")
+        )
+        centres = bin_numbers(first[field].values, width) * width
+        return np.array(
+            [
+                shares.of_event(event) if event else shares.of_wind(centre, width)
+                for event, centre in zip(events, centres, strict=True)
+            ]
+        )
+
+
+_ALLOWED = (
+    f"variations: {{grid: {{{LABEL}: {{values: [5, 20, 35, 50], unit: degC}}}}}}, {FEWEST} or more"
+)
+_REMEDY = "Run a study of these load cases at temperatures that span those of the turbine."
+
+
+def check_varied(count: int) -> None:
+    """Refuse runs at fewer than `FEWEST` temperatures of the oil."""
+    if count < FEWEST:
+        raise InputError(
+            f"the runs of the study have {count or 'no'} temperatures of the oil of their own",
+            where=f"variations.{LABEL}",
+            allowed=_ALLOWED,
+            remedy=_REMEDY,
+        )
+
+
+def kelvin(values: np.ndarray, unit: str) -> np.ndarray:
+    """Temperatures in K or degC as temperatures in K.
+
+    Examples
+    --------
+    >>> kelvin(np.array([35.0]), "degC").tolist()
+    [308.15]
+    """
+    return values + ZERO_CELSIUS if unit == "degC" else values
+
+
+def interpolated(
+    temperatures: np.ndarray, known: np.ndarray, at: np.ndarray, *, by_factors: bool
+) -> np.ndarray:
+    """Values between temperatures: PCHIP of the logarithm, or linear.
+
+    Parameters
+    ----------
+    temperatures : ndarray, shape (n,)
+        Ascending [K].
+    known : ndarray, shape (n, ...)
+        Values at these.
+    at : ndarray, shape (m,)
+        Temperatures within them.
+    by_factors : bool
+        True for the logarithm; a series with a value that is not above 0 is linear all the same.
+
+    Returns
+    -------
+    ndarray, shape (m, ...)
+        NaN where a value of the series is.
+
+    Examples
+    --------
+    >>> wear = np.array([1.0, 2.0, 4.0, 8.0])
+    >>> interpolated(np.array([0.0, 5.0, 10.0, 15.0]), wear, np.array([7.5]), by_factors=True).round(3)
+    array([2.828])
+    """
+    flat = known.reshape(known.shape[0], -1)
+    result = np.full((at.size, flat.shape[1]), np.nan)
+    complete = np.isfinite(flat).all(axis=0)
+    logarithmic = complete & (flat > 0.0).all(axis=0) & by_factors
+    if logarithmic.any():
+        cubic = PchipInterpolator(temperatures, np.log(flat[:, logarithmic]), axis=0)
+        result[:, logarithmic] = np.exp(cubic(at))
+    for column in np.flatnonzero(complete & ~logarithmic):
+        result[:, column] = np.interp(at, temperatures, flat[:, column])
+    return result.reshape(at.size, *known.shape[1:])
+
+
+def _mean(name: str, values: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Mean of values (series, temperatures, ...) by the share of time; extremes as such."""
+    weight = share.reshape(share.shape + (1,) * (values.ndim - 2))
+    if name in _LARGEST:
+        return np.where(weight > 0.0, values, -np.inf).max(axis=1)
+    if name in _LEAST:
+        return np.where(weight > 0.0, values, np.inf).min(axis=1)
+    if name in _LIVES:
+        with np.errstate(divide="ignore"):
+            return 1.0 / (weight / values).sum(axis=1)
+    return (weight * values).sum(axis=1)
+
+
+def weighted_study(study: xr.Dataset) -> xr.Dataset:
+    """The study as its weights have it: at their temperatures, if they tell any; else as it is.
+
+    Raises InputError if the weights need temperatures that the runs do not span.
+    """
+    stored = stored_weighting(study)
+    if stored is None or stored.temperatures is None:
+        return study
+    runs = RunsOverTemperature.of(study)
+    check_span(stored.temperatures, runs.temperatures)
+    return runs.mean(stored.temperatures, stored.field, stored.width)
+
+
+def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]:
+    """Check that runs at temperatures [K] span those of the weights, and tell what is held.
+
+    Temperatures of a measured year may lie up to `HELD` outside, where the nearest run holds, and
+    one thousandth of the time anywhere; given temperatures may not.
+
+    Raises InputError otherwise.
+    """
+    low = temperatures[0]
+    high = temperatures[-1]
+    lasting = shares.lasting
+    margin = HELD if shares.is_measured else 1e-6
+    outside = (shares.temperatures < low - margin) | (shares.temperatures > high + margin)
+    most = _SHARE_OUTSIDE if shares.is_measured else 0.0
+    if lasting[outside].sum() > most:
+        used = shares.temperatures[lasting > 0.0]
+        raise InputError(
+            f"the oil is at {_celsius(used.min())} to {_celsius(used.max())} degC, and the runs "
+            f"are at {_celsius(low)} to {_celsius(high)} degC",
+            where="weights",
+            allowed=f"runs that span it{f', or up to {HELD:g} K less' if shares.is_measured else ''}",
+            remedy=_REMEDY,
+        )
+    held = lasting[(shares.temperatures < low) | (shares.temperatures > high)].sum()
+    if not held > 0.0:
+        return []
+    return [
+        f"In {100.0 * held:.2g} % of the time the oil is outside the runs, which are at "
+        f"{_celsius(low)} to {_celsius(high)} degC: there the nearest run holds."
+    ]
+
+
+def _celsius(temperature: float) -> str:
+    return f"{temperature - ZERO_CELSIUS:.4g}"

@@ -1,0 +1,278 @@
+"""A year at the winds and temperatures that a turbine had, beside years at one temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from macroslip.constants import HOURS_A_YEAR, YEAR, ZERO_CELSIUS
+from macroslip.errors import InputError
+from macroslip.result.criteria import CRITERIA
+from macroslip.scada.bins import JointShares
+from macroslip.scada.reader import Scada
+from macroslip.study.aggregation import Aggregation
+from macroslip.study.over_temperature import RunsOverTemperature, check_span
+from macroslip.study.reader import open_study
+from macroslip.study.temperature_shares import TemperatureShares
+from macroslip.study.weights import (
+    Binning,
+    BinProbabilities,
+    Weibull,
+    Weighting,
+    Year,
+    bin_numbers,
+    stored_weighting,
+)
+from macroslip.study.year import DESIGN_COLUMNS, design_names, designs, year
+
+#: Temperature of the year that others are compared with [K]: 35 degC.
+FIXED = ZERO_CELSIUS + 35.0
+#: How far the oil may be from the sensor [K].
+OFFSET = 5.0
+#: Least length of a record that stands for a year [h].
+_SHORT = 30.0 * 24.0
+#: Number of a run behind a number of a design whose scatter between seeds is told.
+_RATES = {"wear": "wear_rate", "entries": "entry_rate", "pressure_slip": "pressure_slip_rate"}
+
+
+@dataclass(frozen=True)
+class RealYear:
+    """A year of each design of a study under the winds and temperatures of a turbine."""
+
+    #: A line for each design and quantity: `design`, `quantity`, `unit`, `real`, `at_mean` (one
+    #: temperature, the mean one), `fixed` (35 degC), the ratios `real_over_fixed` and
+    #: `real_over_at_mean`, `oil_cooler` and `oil_warmer` (the oil 5 K below and above what the
+    #: sensor tells), `seeds [%]` (standard error by the scatter of runs that share a bin; NaN
+    #: where none do) and `factor`, within which the criterion is known (NaN: not told).
+    table: pd.DataFrame
+    #: A line for each design, state, bin of wind speed and of temperature of the oil: `design`,
+    #: `state`, `wind_speed [m/s]`, `oil_temperature [degC]`, `share` of the time, `hours [h]` a
+    #: year, `energy [J]` of a mean roller, both rows, and `wear [m]` of the worse row.
+    bins: pd.DataFrame
+    notes: tuple[str, ...]
+    #: Where the winds and temperatures come from.
+    source: str
+    #: Means of the oil in degC: production, standing.
+    mean_production: float
+    mean_standing: float
+
+    def ratio(self, quantity: str, over: str = "fixed", design: int = 0) -> float:
+        """Real value of a quantity over that at 35 degC, or `over` another column of the table."""
+        of = self.table[self.table["quantity"] == quantity].iloc[design]
+        return float(of["real"] / of[over])
+
+
+def real_year(
+    scada: Scada | str | PathLike[str],
+    study: xr.Dataset | str | PathLike[str],
+    *,
+    wind: Weibull | None = None,
+    allow_short: bool = False,
+) -> RealYear:
+    """A year at the winds and temperatures of a turbine.
+
+        year = 8766 h Σ_w,T p(w, T) rate(w, T) + Σ events at their temperature
+
+    p(w, T) is the share of the rows with data in which the rotor turns in a bin of wind speed and
+    temperature; rate(w, T) the mean over the runs of the bin, each between its temperatures as
+    `macroslip.study.over_temperature` has it. Events of the study's weights take their time first,
+    and production the rest. Idling and parked events have the temperatures of rows in which the
+    rotor stands, other events the mean one of rows in which it turns. Standing wears nothing.
+
+    Parameters
+    ----------
+    scada : Scada or path
+        From `Scada.read`, or its YAML file.
+    study : xarray.Dataset or path
+        From `open_study`, or its folder: load cases over `lubricant.at`, four temperatures or more
+        that span those of the bearing, up to 5 K less on either side.
+    wind : Weibull, optional
+        Distribution of the wind speed in place of the measured one; the temperatures at each wind
+        speed stay.
+    allow_short : bool
+        Whether less than 30 days may stand for a year.
+
+    Returns
+    -------
+    RealYear
+
+    Raises
+    ------
+    InputError
+        If the record is shorter than 30 days, or the study has too few temperatures or does not
+        span those of the record.
+    """
+    if not isinstance(scada, Scada):
+        scada = Scada.read(scada)
+    if not isinstance(study, xr.Dataset):
+        study = open_study(study)
+    if scada.hours < _SHORT and not allow_short:
+        raise InputError(
+            f"the record has {scada.hours / 24.0:.3g} days with data",
+            allowed="30 days or more",
+            remedy="Less tells nothing of a year; --allow-short takes it all the same.",
+        )
+    weighting = _weighting(study)
+    runs = RunsOverTemperature.of(study)
+    joint = JointShares.of(scada, _centres(study, weighting), weighting.width)
+    measured = TemperatureShares.measured(joint)
+    notes = [*scada.notes, *check_span(measured, runs.temperatures)]
+    winds = wind or BinProbabilities(joint.wind_shares())
+    aggregation = Aggregation(
+        Year(winds, weighting.events or {}), 1.0, weighting.field, weighting.width
+    )
+    mean = joint.mean_turning + joint.oil_offset
+    standing = joint.mean_idle + joint.oil_offset
+    standing = standing if np.isfinite(standing) else mean
+    cases = {
+        "real": measured,
+        "at_mean": measured.at(mean, standing),
+        "fixed": measured.at(FIXED, FIXED),
+        "oil_cooler": measured.warmer(-OFFSET),
+        "oil_warmer": measured.warmer(OFFSET),
+    }
+    collapsed = {
+        name: runs.mean(shares, weighting.field, weighting.width) for name, shares in cases.items()
+    }
+    years = {name: year(means, aggregation) for name, means in collapsed.items()}
+    notes += designs(years["real"])[1]
+    bins = aggregation.bins(collapsed["real"])
+    of_bins = bins.probabilities(aggregation.weights)[np.isfinite(bins.centres)]
+    given_wind = np.array([measured.of_wind(one, bins.width)[:-1] for one in joint.wind.tolist()])
+    rates = _rates(runs, joint.oil_temperatures, bins, years["real"])
+    names = design_names(years["real"])
+    return RealYear(
+        table=_table(years, _seeds(collapsed["real"], aggregation)),
+        bins=_bins(rates, joint, of_bins[:, None] * given_wind, names),
+        notes=tuple(notes),
+        source=joint.source,
+        mean_production=mean - ZERO_CELSIUS,
+        mean_standing=standing - ZERO_CELSIUS,
+    )
+
+
+def _weighting(study: xr.Dataset) -> Weighting:
+    """Field, width and events of the study's weights; those by default where it has none."""
+    stored = stored_weighting(study)
+    return stored if stored is not None else Weighting(scale=1.0, shape=2.0)
+
+
+def _centres(study: xr.Dataset, weighting: Weighting) -> np.ndarray:
+    """Middles of the bins of wind speed of a study's production [m/s]."""
+    speeds = study[weighting.field].values.astype(float)
+    if "event" in study.coords:
+        speeds = speeds[study["event"].values.astype(str) == ""]
+    if not speeds.size:
+        raise InputError("the study has no runs of production, only events", where="--study")
+    return np.unique(bin_numbers(speeds, weighting.width)) * weighting.width
+
+
+def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> pd.DataFrame:
+    """Numbers of the years side by side."""
+    columns = {name: designs(one)[0] for name, one in years.items()}
+    names = design_names(years["real"])
+    factors = {
+        yearly.name: criterion.factor for criterion in CRITERIA for yearly in criterion.yearly
+    }
+    lines = []
+    for group in columns["real"].index:
+        for quantity, column in DESIGN_COLUMNS.items():
+            if quantity not in columns["real"]:
+                continue
+            line = {"design": names[group], "quantity": quantity, "unit": column.unit}
+            line |= {name: float(one.loc[group, quantity]) for name, one in columns.items()}
+            line["seeds [%]"] = 100.0 * seeds[quantity][group] if quantity in seeds else np.nan
+            line["factor"] = factors.get(quantity, np.nan)
+            lines.append(line)
+    table = pd.DataFrame(lines)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratios = {f"real_over_{name}": table["real"] / table[name] for name in ("fixed", "at_mean")}
+    order = ["design", "quantity", "unit", "real", "at_mean", "fixed", *ratios]
+    order += ["oil_cooler", "oil_warmer", "seeds [%]", "factor"]
+    return table.assign(**ratios).reindex(columns=order)
+
+
+def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]:
+    """Relative standard error of a year by the scatter of runs that share a bin, by group."""
+    bins = aggregation.bins(study)
+    share = bins.probabilities(aggregation.weights)[None, :, None]
+    powers = {"energy": study.energy_mean / study.window_length}
+    powers |= {name: study[of_run] for name, of_run in _RATES.items() if of_run in study}
+    found: dict[str, np.ndarray] = {}
+    for name, rate in powers.items():
+        values = rate.transpose("case", "row").values
+        mean, runs, _ = bins.means(values)
+        square, _, _ = bins.means(values**2)
+        several = (runs > 1)[:, :, None]
+        spread = np.maximum(square - mean**2, 0.0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            variance = np.where(several, share**2 * spread / (runs - 1.0)[:, :, None], 0.0)
+            total = np.nansum(share * mean, axis=1)
+            relative = np.sqrt(variance.sum(axis=1)) / total
+        worse = total.argmax(axis=1)
+        chosen = relative[np.arange(worse.size), worse]
+        found[name] = np.where(several.any(axis=(1, 2)), chosen, np.nan)
+    return found
+
+
+def _bins(
+    rates: Mapping[str, np.ndarray], joint: JointShares, share: np.ndarray, names: list[str]
+) -> pd.DataFrame:
+    """Where energy and wear of production come from, over wind speed and temperature.
+
+    Parameters
+    ----------
+    rates : mapping
+        `energy` [W] and `wear` [m/s] of each design, shape (designs, winds, temperatures).
+    joint : JointShares
+    share : ndarray, shape (winds, temperatures)
+        Share of the time of production.
+    names : list of str
+        Names of the designs.
+    """
+    winds, at = np.meshgrid(joint.wind, joint.oil_temperatures - ZERO_CELSIUS, indexing="ij")
+    parts = []
+    for group, name in enumerate(names):
+        produced = {
+            "design": name,
+            "state": "turning",
+            "wind_speed [m/s]": winds.ravel(),
+            "oil_temperature [degC]": at.ravel(),
+            "share": share.ravel(),
+            "hours [h]": HOURS_A_YEAR * share.ravel(),
+            "energy [J]": YEAR * (share * rates["energy"][group]).ravel(),
+            "wear [m]": YEAR * (share * rates["wear"][group]).ravel(),
+        }
+        stood = {
+            "design": name,
+            "state": "idle",
+            "oil_temperature [degC]": at[0],
+            "share": joint.idle,
+            "hours [h]": HOURS_A_YEAR * joint.idle,
+        }
+        parts += [pd.DataFrame(produced), pd.DataFrame(stood)]
+    table = pd.concat(parts, ignore_index=True)
+    return table.query("share > 0").reset_index(drop=True)
+
+
+def _rates(
+    runs: RunsOverTemperature, at: np.ndarray, bins: Binning, real: xr.Dataset
+) -> dict[str, np.ndarray]:
+    """Power [W] of a mean roller, both rows, and wear [m/s] of the worse row in production.
+
+    Shape (designs, winds, temperatures).
+    """
+    windy = np.isfinite(bins.centres)
+    lengths = runs.study["window_length"].values[runs.runs[:, 0]]
+    power = bins.means(runs.values("energy_mean", at) / lengths[:, None, None])[0]
+    rates = {"energy": power.sum(axis=-1)[:, windy]}
+    if "wear_rate" not in runs.study:
+        return {**rates, "wear": np.full(rates["energy"].shape, np.nan)}
+    by_row = bins.means(runs.values("wear_rate", at))[0][:, windy]
+    worse = real["wear"].sum("bin").transpose("group", "row").values.argmax(axis=1)
+    return {**rates, "wear": np.stack([by_row[k, ..., row] for k, row in enumerate(worse)])}
