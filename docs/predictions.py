@@ -13,19 +13,11 @@ from collections.abc import Callable
 import numpy as np
 from skew_kellstroem import FILM, LOADS, rests
 
-from benchmarks.friction_torque import torque
-from macroslip import (
-    Case,
-    Drivetrain,
-    HubLoads,
-    Traces,
-    bundled_cases,
-    main_bearing_load,
-    simulate,
-)
+from macroslip import Case, HubLoads, Traces, bundled_cases, simulate
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.result.dataset import axial_values
 from macroslip.result.prepared import prepare
+from macroslip.torque import skf_torque
 
 ROLLERS = [0, 14]
 #: Temperatures of the oil [°C] and oil supplies of the idle rows.
@@ -80,11 +72,18 @@ def heat() -> None:
     for supply in SUPPLIES:
         line = []
         for name in ("4B", "8B", "12B"):
-            loads = main_bearing_load(HubLoads.bundled(name), Drivetrain())
-            case = Case(loads=loads, rollers=ROLLERS, oil_supply=supply, rating=False)
-            parts = torque(case, loads)
-            speed = float(np.mean(loads.shaft_speed))
-            line.append(f"{parts.total * speed:.0f} ({parts.skf * speed:.0f})")
+            case = Case(
+                loads=HubLoads.bundled(name), rollers=ROLLERS, oil_supply=supply, rating=False
+            )
+            found = simulate(case)
+            duration = found.attrs["window_end"] - found.attrs["window_start"]
+            scale = case.bearing.rollers_per_row / len(ROLLERS) / duration
+            friction = float((found.energy + found.rolling_energy).sum()) * scale
+            loads = case.bearing_loads
+            radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
+            given = (radial, loads.force[:, 2], loads.shaft_speed)
+            skf = skf_torque(case.bearing, case.oil, *given).total * loads.shaft_speed
+            line.append(f"{friction + found.attrs['drag_power']:.0f} ({skf.mean():.0f})")
         print(f"| {supply} |", " | ".join(line), "|", flush=True)
 
 
