@@ -29,6 +29,20 @@ def test_two_results(ran, macroslip):
     assert found["inputs"]["temperature"] == {"cold": None, "warm": pytest.approx(333.15)}
 
 
+def test_criteria_of_damage_stand_side_by_side(quick, folder, macroslip):
+    for name, further in (("cold", ""), ("warm", "temperature: 60 degC\n")):
+        case = quick("laws: {model: physical}\n" + further)
+        assert macroslip("run", case, "-o", f"{name}.nc", "--quiet").code == 0
+    done = macroslip("compare", "cold.nc", "warm.nc")
+    told = json.loads(macroslip("damage", "warm.nc", "--json").out)["criteria"]
+    assert done.code == 0 and "value over reference" in done.out
+    assert all(line["title"] in done.out for line in told)
+    page = (folder / "comparison.html").read_text(encoding="utf-8")
+    assert "From slip to damage" in page and "Criteria of damage of every result" in page
+    found = json.loads(macroslip("compare", "cold.nc", "warm.nc", "--json", "--force").out)
+    assert found["criteria"]["warm"] == told
+
+
 def test_designs_of_a_study_with_an_event(folder, macroslip):
     (folder / "study.yaml").write_text(
         "case: {rollers: [0], loads: {start: 30 s, end: 46 s}}\nloads: {bundled: [12A, stop-14]}\n"

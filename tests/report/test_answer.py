@@ -118,9 +118,10 @@ def test_films_full_and_mixed():
     )
 
 
-def criterion(title, value, reference, factor, *, is_time=False):
+def criterion(title, value, reference, factor, *, is_time=False, in_answer=True):
     ratio = reference / value if is_time else value / reference
-    return {"title": title, "value": value, "reference": reference, "ratio": ratio,
+    mechanism, quantity = title.split(": ")
+    return {"mechanism": mechanism, "quantity": quantity, "in answer": in_answer, "value": value, "reference": reference, "ratio": ratio,
             "factor": factor, "compared with": "a rig"}  # fmt: skip
 
 
@@ -139,6 +140,9 @@ def test_the_criterion_furthest_beyond_its_reference_and_all_others_beyond_their
         "so not told apart from it."
     )
     assert answer(one, [unknown]) == answer(one)
+    # A sum over a year beside a test of hours is left to the table.
+    other = criterion("friction energy: a year", 90.0, 1.0, 1.3, in_answer=False)
+    assert answer(one, [wear, other]) == answer(one, [wear])
 
 
 def numbers_in(sentence):

@@ -26,7 +26,8 @@ CRITERIA = (
     Criterion(
         order=50,
         name="most_passes",
-        title="test: most passes of a sector",
+        mechanism="test",
+        quantity="most passes of a sector",
         unit="1",
         variables=_passes,
         value=largest_of("most_passes"),

@@ -204,9 +204,8 @@ def _films(result: xr.Dataset) -> list[str]:
 
 def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
     """The criterion nearest to its reference, or furthest beyond, and others beyond theirs."""
-    judged = sorted(
-        (line for line in criteria if np.isfinite(line["ratio"])), key=lambda line: -line["ratio"]
-    )
+    told = [line for line in criteria if line["in answer"] and np.isfinite(line["ratio"])]
+    judged = sorted(told, key=lambda line: -line["ratio"])
     if not judged:
         return []
     first = judged[0]
@@ -226,8 +225,8 @@ def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def _name(line: Mapping[str, Any]) -> str:
-    """Title of a criterion inside a sentence: its mechanism, then its quantity."""
-    return line["title"].replace(":", ",", 1)
+    """Name of a criterion inside a sentence: its mechanism, then its quantity."""
+    return f"{line['mechanism']}, {line['quantity']}"
 
 
 def _times(line: Mapping[str, Any]) -> str:

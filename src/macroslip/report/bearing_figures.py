@@ -6,7 +6,7 @@ the orbit; polar axes look downwind, so that rollers rise on the left.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -507,6 +507,49 @@ def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
         )
     axes.set_ylim(-known.sizes["criterion"] + 0.4, 0.9)
+    axes.set_yticks([])
+    axes.margins(x=0.15)
+    finish(axes, "value / reference [–]", "")
+    axes.spines["left"].set_visible(False)
+    return axes
+
+
+def plot_criteria_side_by_side(
+    axes: Axes, by_name: Mapping[str, Sequence[Mapping[str, Any]]]
+) -> Axes:
+    """Criteria of damage of several results: value over reference, a colour for each result.
+
+    Takes the lines of `macroslip.result.damage.lines` by the results' names; criteria without a
+    reference are left out.
+    """
+    judged = {
+        name: {line["title"]: line for line in lines if np.isfinite(line["ratio"])}
+        for name, lines in by_name.items()
+    }
+    titles = list(dict.fromkeys(title for lines in judged.values() for title in lines))
+    axes.axvline(1.0, color=BLACK, linewidth=1.0)
+    axes.set_xscale("log")
+    gap = 0.5 / max(len(judged), 1)
+    for k, (name, lines) in enumerate(judged.items()):
+        places = [-titles.index(title) - gap * k for title in lines]
+        ratio = np.clip([line["ratio"] for line in lines.values()], _LEAST_RATIO, None)
+        factor = np.array([line["factor"] for line in lines.values()])
+        bars = [ratio - ratio / factor, ratio * factor - ratio]
+        colour = f"C{k % 10}"
+        axes.errorbar(
+            ratio, places, xerr=bars, color=colour, marker="o", linestyle="", capsize=3, label=name
+        )
+    for line, title in enumerate(titles):
+        axes.annotate(
+            title,
+            (0.01, -line),
+            xycoords=("axes fraction", "data"),
+            xytext=(0, 7),
+            textcoords="offset points",
+            fontsize=SMALL,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+        )
+    axes.set_ylim(-len(titles) + 0.4 - gap, 0.9)
     axes.set_yticks([])
     axes.margins(x=0.15)
     finish(axes, "value / reference [–]", "")

@@ -18,6 +18,7 @@ from macroslip.report.accessor import open_result
 from macroslip.report.ranking import ENERGY, ranking_sentences
 from macroslip.report.result_numbers import estimated_values
 from macroslip.report.run_names import study_about
+from macroslip.result.damage import lines
 from macroslip.result.plausibility import doubtful_result
 from macroslip.result.run_input import stored_settings
 from macroslip.study.aggregation import aggregation_in_use
@@ -63,6 +64,7 @@ def compare(
         the first design, and `low [%]` to `high [%]`, the 95 % range of the energy's difference by
         the scatter of the wind, which both designs have in common; NaN where there is none.
         `attrs`: `notes`, what restricts the comparison; `inputs`, what differs, by key and design;
+        of results `criteria`, the criteria of damage by design, as `macroslip.result.damage.lines`;
         `ranking`, a sentence; `about`, the results by their titles, or the runs, model and oil of
         the study.
 
@@ -140,6 +142,7 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
         notes=_notes(results, differ),
         inputs={key: values for key, values in differ.items() if key not in _NOT_SHOWN},
         about="; ".join(titles),
+        criteria={name: lines(result)[0] for name, result in results.items()},
     )
 
 
@@ -268,7 +271,7 @@ def _table(
         Attributes of the table.
     """
     first, *others = numbers.values()
-    lines = []
+    rows = []
     for (quantity, units), base in first.items():
         if not all((quantity, units) in other for other in others):
             continue
@@ -277,8 +280,8 @@ def _table(
             is_other = values is not first and base != 0.0
             change = 100.0 * (value / base - 1.0) if is_other else np.nan
             half = ranges.get(design, np.nan) if quantity == ENERGY else np.nan
-            lines.append((quantity, units, design, value, change, change - half, change + half))
-    table = pd.DataFrame(lines, columns=list(COLUMNS))
+            rows.append((quantity, units, design, value, change, change - half, change + half))
+    table = pd.DataFrame(rows, columns=list(COLUMNS))
     table.attrs = {**about, "ranking": " ".join(ranking_sentences(table))}
     return table
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import functools
 import itertools
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from macroslip.report import bearing_figures as draw
 from macroslip.report.page import Opening, Table, number, render, sections, words
 from macroslip.report.ranking import ranking_sentences
+from macroslip.report.result_numbers import usual_units
 from macroslip.report.style import (
     OPENING,
     Picture,
@@ -42,8 +43,10 @@ def comparison_page(
     """A page on what `macroslip.compare` gives, with curves of the results by name."""
     results = results or {}
     text = words(_TEMPLATE)
-    numbers, inputs = comparison_tables(found)
+    numbers, criteria, inputs = comparison_tables(found)
     bodies = {"side": text.shown(numbers)}
+    if criteria.rows:
+        bodies["damage"] = text.criteria(criteria, _criteria_pictures(found))
     if inputs.rows:
         bodies["inputs"] = text.shown(inputs)
     maps, have_differences = _maps(results)
@@ -55,6 +58,16 @@ def comparison_page(
         Opening(text.answer(ranking_sentences(found), found.attrs["notes"]), _exceedances(results)),
         sections(_TEMPLATE, bodies),
     )
+
+
+def _criteria_pictures(found: pd.DataFrame) -> list[Picture]:
+    """Criteria of damage of every result, value over reference."""
+    by_name = found.attrs["criteria"]
+    count = len({line["title"] for lines in by_name.values() for line in lines})
+    about = "Criteria of damage of every result: value over reference with what it is known to"
+    height = 0.9 + count * (0.25 + 0.1 * len(by_name))
+    options = {"width": 6.4, "height": height, "legend": "above"}
+    return [picture(draw.plot_criteria_side_by_side, about, by_name, **options)]
 
 
 def _exceedances(results: Mapping[str, xr.Dataset]) -> list[Picture]:
@@ -138,7 +151,7 @@ def _plot_exceeded(axes: Axes, curves: Mapping[str, np.ndarray], label: str) -> 
 
 
 def comparison_tables(found: pd.DataFrame) -> list[Table]:
-    """Headline numbers side by side, and inputs that differ."""
+    """Headline numbers side by side, criteria of damage alike, and inputs that differ."""
     names = list(dict.fromkeys(found["design"]))
     rows = [_line(quantity, designs) for quantity, designs in found.groupby("quantity", sort=False)]
     has_ranges = bool(np.isfinite(found["low [%]"]).any())
@@ -153,8 +166,22 @@ def comparison_tables(found: pd.DataFrame) -> list[Table]:
     more = f"; the first {_MOST_INPUTS} of {len(inputs)}" if len(inputs) > _MOST_INPUTS else ""
     return [
         Table(headings, rows, _RANGE if has_ranges else "Headline numbers"),
+        _criteria_table(found.attrs.get("criteria", {})),
         Table(("input", *names), shown, f"Inputs that differ{more}"),
     ]
+
+
+def _criteria_table(by_name: Mapping[str, list[dict[str, Any]]]) -> Table:
+    """Value of every criterion in each result, with value over reference in brackets."""
+    cells: dict[str, dict[str, str]] = {}
+    for name, lines in by_name.items():
+        for line in lines:
+            ratio = f" ({number(line['ratio'], 2)})" if np.isfinite(line["ratio"]) else ""
+            value = f"{usual_units(line['value'], line['unit'])}{ratio}"
+            cells.setdefault(line["title"], {})[name] = value
+    rows = [(title, *(of.get(name, "–") for name in by_name)) for title, of in cells.items()]
+    caption = "Criteria of damage; in brackets: value over reference"
+    return Table(("criterion", *by_name), rows, caption)
 
 
 def _line(quantity: str, designs: pd.DataFrame) -> tuple[str, ...]:

@@ -353,14 +353,13 @@ def how_sure(lines: Sequence[Mapping[str, Any]]) -> str:
 
     Examples
     --------
-    >>> both = [{"title": f"wear: {name}", "how sure": "factor 10: k"} for name in "ab"]
+    >>> both = [{"mechanism": "wear", "how sure": "factor 10: k"} for _ in "ab"]
     >>> how_sure(both)
     'factor 10: k (wear)'
     """
     mechanisms: dict[str, dict[str, None]] = {}
     for line in lines:
-        mechanism, _, _ = line["title"].partition(":")
-        mechanisms.setdefault(line["how sure"], {})[mechanism] = None
+        mechanisms.setdefault(line["how sure"], {})[line["mechanism"]] = None
     return "; ".join(f"{reason} ({', '.join(names)})" for reason, names in mechanisms.items())
 
 

@@ -132,6 +132,13 @@ def comparison_sheets(
     sheets = {
         "designs": designs,
         "differences": differences,
+        "criteria": pd.DataFrame(
+            [
+                {"design": name} | line
+                for name, lines in found.attrs.get("criteria", {}).items()
+                for line in lines
+            ]
+        ),
         "inputs that differ": inputs,
         "notes": pd.DataFrame({"note": [note for note in notes if note]}),
     }

@@ -41,6 +41,8 @@ _NO_ORBIT = (
 _COLUMNS = (
     "criterion",
     "title",
+    "mechanism",
+    "quantity",
     "value",
     "unit",
     "reference",
@@ -48,6 +50,7 @@ _COLUMNS = (
     "ratio",
     "factor",
     "how_sure",
+    "in_answer",
 )
 
 
@@ -230,6 +233,9 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
         "age": ("age", np.array(AGES) * YEAR, described("s", "time like this window")),
         "criterion": [criterion.name for criterion in CRITERIA],
         "title": ("criterion", [criterion.title for criterion in CRITERIA]),
+        "mechanism": ("criterion", [criterion.mechanism for criterion in CRITERIA]),
+        "quantity": ("criterion", [criterion.quantity for criterion in CRITERIA]),
+        "in_answer": ("criterion", [criterion.in_answer for criterion in CRITERIA]),
         "unit": ("criterion", [criterion.unit for criterion in CRITERIA]),
         "compared_with": ("criterion", compared),
         "how_sure": ("criterion", [criterion.how_sure for criterion in CRITERIA]),

@@ -52,7 +52,8 @@ class Criterion:
 
     order: int  #: Lines are in this order
     name: str
-    title: str
+    mechanism: str  #: Kind of damage: smearing, friction energy, micropitting, wear
+    quantity: str  #: Number that is compared
     unit: str
     #: Variables from which the value follows; none where the result lacks what they take.
     variables: Callable[[Evaluation], Variables]
@@ -68,6 +69,14 @@ class Criterion:
     lowest: bool = False  #: True if a value below the reference is bad
     references: tuple[str, ...] = ()  #: Works to cite
     yearly: tuple[Yearly, ...] = ()
+    #: False if the answer in words leaves it out, because value and reference are sums over times of
+    #: quite another length; it stays in the table.
+    in_answer: bool = True
+
+    @property
+    def title(self) -> str:
+        """Mechanism and quantity, as a table has them."""
+        return f"{self.mechanism}: {self.quantity}"
 
     @property
     def how_sure(self) -> str:

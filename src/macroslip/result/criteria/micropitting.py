@@ -65,7 +65,8 @@ CRITERIA = (
     Criterion(
         order=30,
         name="mixed_time",
-        title="micropitting: loaded time with Λ < 1",
+        mechanism="micropitting",
+        quantity="loaded time with Λ < 1",
         unit="1",
         variables=_mixed,
         value=lambda variables: largest(variables["mixed_time"][..., _BELOW_ONE - 1]),
@@ -94,7 +95,8 @@ CRITERIA = (
     Criterion(
         order=31,
         name="slower_time",
-        title="micropitting: ring slower, Λ < 3",
+        mechanism="micropitting",
+        quantity="ring slower, Λ < 3",
         unit="1",
         variables=_slower,
         value=largest_of("slower_share"),

@@ -207,7 +207,8 @@ CRITERIA = (
     Criterion(
         order=40,
         name="wear_time",
-        title="wear: time to 10 µm at the middle k",
+        mechanism="wear",
+        quantity="time to 10 µm at the middle k",
         unit="year",
         variables=_variables,
         value=_years,
