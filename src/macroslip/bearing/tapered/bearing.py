@@ -1,0 +1,214 @@
+"""Data of a double-row tapered roller bearing, or of two single-row ones on one shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Annotated, ClassVar
+
+from macroslip.bearing.tapered import geometry
+from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Positive, Quantity, Text
+from macroslip.input.files import Source
+from macroslip.input.record import Record
+from macroslip.input.units import ANGLE, DENSITY, FORCE, LENGTH, MASS, NUMBER, PRESSURE
+
+#: Arrangements of the two rows: O, the outer rings' back faces meet (large ends of the rollers away
+#: from the mid-plane), and X, their front faces meet.
+ARRANGEMENTS = ("O", "X")
+_KIND = Choice("kind of the bearing", lambda: ("tapered",))
+_ARRANGEMENT = Choice(
+    "O, large ends of the rollers away from the mid-plane, or X, towards it",
+    lambda: ARRANGEMENTS,
+)
+_Optional = float | None
+
+
+class TaperedBearing(Record):
+    """Data of a double-row tapered roller bearing, or of two single-row ones on one shaft.
+
+    Both rows are alike and mirrored. In O arrangement the row that carries thrust along +Z0 lies
+    upwind of the mid-plane, in X arrangement downwind, as in a spherical roller bearing: rows are
+    named by the thrust that they carry, not by their place.
+
+    Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Raises
+    InputError if a value is missing, out of range, or inconsistent with the others.
+
+    Examples
+    --------
+    >>> bearing = TaperedBearing.read("tdo-main-bearing")
+    >>> bearing.arrangement, bearing.provenance["rib_contact_height"].tag
+    ('O', 'E')
+    >>> round(1e3 * bearing.replace(preload=2e-4).preload, 3)
+    0.2
+    """
+
+    noun: ClassVar[str] = "tapered bearing"
+    sections: ClassVar[Mapping[str, str]] = {
+        "rib": "contact of the rollers' large ends with the rib of the inner ring"
+    }
+
+    kind: Annotated[str, _KIND] = "tapered"
+    name: Annotated[str, Text("short name of the bearing, used in results", line=True)]
+    title: Annotated[
+        str, Text("one line that describes the bearing", may_be_empty=True, line=True)
+    ] = ""
+    arrangement: Annotated[str, _ARRANGEMENT]
+
+    bore_diameter: Annotated[_Optional, Positive("bore diameter of the inner ring", LENGTH, 10)] = (
+        None
+    )
+    outside_diameter: Annotated[
+        _Optional, Positive("outside diameter of the outer ring", LENGTH, 10)
+    ] = None
+    width: Annotated[_Optional, Positive("width of the bearing with both rows", LENGTH, 5)] = None
+    dynamic_load_rating: Annotated[
+        _Optional, Positive("basic dynamic radial load rating C of both rows", FORCE, 1e9)
+    ] = None
+    static_load_rating: Annotated[
+        _Optional, Positive("basic static radial load rating C0 of both rows", FORCE, 1e9)
+    ] = None
+    fatigue_load_limit: Annotated[
+        _Optional, Positive("fatigue load limit C_u, in some catalogues P_u", FORCE, 1e9)
+    ] = None
+    mass: Annotated[_Optional, Positive("mass of the bearing", MASS, 1e6)] = None
+
+    rollers_per_row: Annotated[
+        int, Quantity("number of rollers in each row", NUMBER, 3, 500, whole=True)
+    ]
+    roller_diameter: Annotated[float, Positive("diameter of a roller at its middle", LENGTH, 1)]
+    roller_length: Annotated[float, Positive("effective length of a roller", LENGTH, 2)]
+    outer_angle: Annotated[
+        float,
+        Quantity(
+            "half-angle of the outer ring's raceway (cup angle), the nominal contact angle",
+            ANGLE,
+            math.radians(5),
+            math.radians(45),
+        ),
+    ]
+    pitch_radius: Annotated[
+        float, Positive("distance of the rollers' middles from the bearing axis", LENGTH, 5)
+    ]
+    row_offset: Annotated[
+        float, Positive("axial distance of the rollers' middles from the mid-plane", LENGTH, 5)
+    ]
+    preload: Annotated[
+        float,
+        Quantity(
+            "axial interference of both rows together, mounted and warm; negative is play",
+            LENGTH,
+            -5e-3,
+            2e-3,
+        ),
+    ]
+    rib_sphere_ratio: Annotated[
+        float,
+        Quantity(
+            "radius of the large end's sphere over the distance of that end from the apex",
+            NUMBER,
+            0.4,
+            0.99,
+        ),
+    ]
+    rib_contact_height: Annotated[
+        float, Positive("height of the rib contact above the line of the inner raceway", LENGTH, 1)
+    ]
+    rib_oil_supply: Annotated[
+        float,
+        Quantity("film at the rib over the film with a full inlet", NUMBER, 0.01, 1),
+    ] = 1.0
+
+    youngs_modulus: Annotated[
+        float, Quantity("Young's modulus of rollers and rings", PRESSURE, 1e9, 1e12)
+    ]
+    poisson_ratio: Annotated[
+        float, Quantity("Poisson ratio of rollers and rings", NUMBER, 0, 0.5, below=True)
+    ]
+    density: Annotated[float, Quantity("density of the rollers", DENSITY, 500, 25000)]
+    composite_roughness: Annotated[
+        float, Positive("composite RMS roughness of roller and raceway", LENGTH, 1e-4)
+    ]
+    hardness: Annotated[
+        float,
+        Quantity("Vickers hardness of the softer surface, as a pressure", PRESSURE, 1e8, 1e11),
+    ]
+    rib_roughness: Annotated[
+        float, Positive("composite RMS roughness of the large end and the rib", LENGTH, 1e-4)
+    ]
+
+    @property
+    def rows(self) -> int:
+        """Number of rows of rollers."""
+        return 2
+
+    def _inconsistencies(self, source: Source) -> Iterator[InputError]:
+        faults = list(_rollers_that_do_not_fit(self, source))
+        yield from faults
+        if not faults:
+            yield from _rib_beside_the_end(self, source)
+
+
+def _rollers_that_do_not_fit(bearing: TaperedBearing, source: Source) -> Iterator[InputError]:
+    """Yield rollers that overlap each other, the mid-plane, or are no rollers by their shape."""
+    slenderness = bearing.roller_length / bearing.roller_diameter
+    if not 0.5 <= slenderness <= 4.0:
+        yield InputError(
+            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} "
+            "times roller_diameter",
+            where=source.where("roller_length", "value"),
+            allowed="0.5 to 4 times roller_diameter",
+            remedy="Check roller_length and roller_diameter.",
+        )
+    spacing = 2.0 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
+    if spacing <= bearing.roller_diameter:
+        yield InputError(
+            f"{bearing.rollers_per_row} rollers do not fit round the circumference: "
+            f"roller_diameter is {bearing.written('roller_diameter')}, their middles are "
+            f"{bearing.written('roller_diameter', spacing)} apart",
+            where=source.where("rollers_per_row", "value"),
+            allowed="2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter",
+            remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row "
+            "counts one row only.",
+        )
+        return
+    beta = geometry.half_cone_angle(
+        bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle
+    )
+    apex = bearing.pitch_radius / math.sin(bearing.outer_angle - beta)
+    reach = bearing.roller_length / 2.0 * math.cos(bearing.outer_angle - beta)
+    if apex <= bearing.roller_length / 2.0:
+        yield InputError(
+            f"the rollers' small ends lie beyond the apex, which is "
+            f"{bearing.written('roller_length', apex)} from their middles",
+            where=source.where("outer_angle", "value"),
+            allowed="an apex farther than roller_length/2",
+            remedy="Check outer_angle, pitch_radius and roller_length.",
+        )
+    if bearing.row_offset <= reach:
+        yield InputError(
+            f"the rollers of the two rows overlap: row_offset is {bearing.written('row_offset')}",
+            where=source.where("row_offset", "value"),
+            allowed="above roller_length/2 cos(angle of the rollers' axes) = "
+            f"{bearing.written('row_offset', reach)}",
+            remedy="Check row_offset, which is half the distance of the two rows' middles, and "
+            "roller_length.",
+        )
+
+
+def _rib_beside_the_end(bearing: TaperedBearing, source: Source) -> Iterator[InputError]:
+    """Yield a rib contact that does not lie on the roller's large end."""
+    beta = geometry.half_cone_angle(
+        bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle
+    )
+    apex = bearing.pitch_radius / math.sin(bearing.outer_angle - beta)
+    large_radius = (apex + bearing.roller_length / 2.0) * math.tan(beta)
+    highest = large_radius * math.cos(beta)
+    if bearing.rib_contact_height >= highest:
+        yield InputError(
+            f"rib.contact_height is {bearing.written('rib_contact_height')}, above the middle of "
+            "the roller's large end",
+            where=source.where("rib", "contact_height"),
+            allowed=f"below {bearing.written('rib_contact_height', highest)}",
+            remedy="Check rib.contact_height: usual are 5 to 15 % of the roller's diameter.",
+        )
