@@ -11,7 +11,15 @@ from macroslip.report.style import program_style
 from validation.comparison import table
 
 #: Comparisons by name; each is a module with `compare`, which gives its lines of the table, and `draw`.
-NAMES = ("thrust_friction", "skf_parts", "regime", "wear_lines", "heat", "cage_slip")
+NAMES = (
+    "thrust_friction",
+    "skf_parts",
+    "regime",
+    "wear_lines",
+    "heat",
+    "cage_slip",
+    "tapered_torque",
+)
 
 
 def main() -> None:
