@@ -42,10 +42,14 @@ test-lowest:  ## input, a computed case and results with the lowest versions tha
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
 	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing src/macroslip/result/simulate.py
 
-lint: $(VENV)/.ready  ## format, lint and types
+lint: $(VENV)/.ready  ## format, lint, types on all three systems, workflows and Dockerfile
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
-	$(BIN)/pyright
+	printf '%s\n' Linux Windows Darwin | xargs -P 3 -I@ $(BIN)/pyright --pythonplatform @
+	$(BIN)/zizmor --offline --quiet .github
+	$(BIN)/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	$(BIN)/check-jsonschema --builtin-schema vendor.github-issue-forms .github/ISSUE_TEMPLATE/[!c]*.yml
+	@if [ -x $(BIN)/hadolint ]; then $(BIN)/hadolint Dockerfile; else echo "hadolint has no wheel for this system: the Dockerfile is not checked"; fi
 
 docs: $(VENV)/.ready  ## the documentation site in build/docs; warnings are errors
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs

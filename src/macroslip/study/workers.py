@@ -221,20 +221,37 @@ def _safe_start() -> Iterator[None]:
     before = {name: os.environ.get(name) for name in safe}
     os.environ.update(safe)
     sys.path[:] = [entry for entry in path if entry]
+    try:
+        with _without_interrupts():
+            yield
+    finally:
+        sys.path[:] = path
+        for name, value in before.items():
+            os.environ.pop(name) if value is None else os.environ.update({name: value})
+
+
+@contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Let processes started in the block have Ctrl-C blocked from their first instruction on.
+
+    Windows has no such mask; there they ignore it as soon as they run.
+    """
+    if sys.platform == "win32":
+        yield
+        return
     # It would be started with the first process, and then let Ctrl-C through again.
     resource_tracker.ensure_running()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     try:
         yield
     finally:
-        sys.path[:] = path
-        for name, value in before.items():
-            os.environ.pop(name) if value is None else os.environ.update({name: value})
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
 
 def _end_with_parent() -> None:
     """Have this worker end at once when the process that started it does, however that ends."""
+    if sys.platform == "win32":  # elsewhere it was started with Ctrl-C blocked
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
 
     def watch() -> None:
