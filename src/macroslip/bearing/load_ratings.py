@@ -20,7 +20,7 @@ from macroslip.errors import InputError
 if TYPE_CHECKING:
     from macroslip.bearing.bearing import Bearing
 
-RATING_FACTORS = {"spherical": 1.15, "cylindrical": 1.1}
+RATING_FACTORS = {"spherical": 1.15, "cylindrical": 1.1, "tapered": 1.1}
 """b_m by the kind of a roller bearing, ISO 281:2007, table 6."""
 _GEOMETRY_FACTORS = (
     52.1, 60.8, 66.5, 70.7, 74.1, 76.9, 79.2, 81.2, 82.8, 84.2, 85.4, 86.4, 87.1, 87.7, 88.2,
@@ -125,8 +125,8 @@ def dynamic_load_rating(
         alpha [rad].
     pitch : float
         Pitch diameter of the roller centres Dpw [m], above Dw cos(alpha).
-    kind : {"spherical", "cylindrical"}
-        Kind of the roller bearing, with b_m = 1.15 and 1.1.
+    kind : {"spherical", "cylindrical", "tapered"}
+        Kind of the roller bearing, with b_m = 1.15, 1.1 and 1.1.
 
     Returns
     -------
