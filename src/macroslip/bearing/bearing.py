@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
 from macroslip.bearing import geometry, load_ratings
 from macroslip.errors import InputError
@@ -202,6 +202,23 @@ class Bearing(Record):
     def rows(self) -> int:
         """Number of rows of rollers: 2 in a spherical roller bearing, 1 in a cylindrical one."""
         return _ROWS[self.kind]
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
+        """Build a bearing from the content of a file, as `Record.from_dict` does.
+
+        Raises InputError, in one sentence, for the file of a tapered roller bearing.
+        """
+        if entries.get("kind") == "tapered":
+            raise InputError(
+                "this is the file of a tapered roller bearing, of which single rollers' slip is not "
+                "computed",
+                where=(source or Source()).where("kind"),
+                allowed="a spherical or a cylindrical roller bearing",
+                remedy="Its roller loads, grip, ribs and friction are computed in Python, by "
+                "macroslip.result.tapered.tapered_history (docs/tapered.md).",
+            )
+        return super().from_dict(entries, source)
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         kind = list(_kind(self, source))
