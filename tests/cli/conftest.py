@@ -1,5 +1,6 @@
 """A folder with a quick case on a genuine OpenFAST file, and the command line run in this process."""
 
+import signal
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -42,7 +43,9 @@ def macroslip():
     def run(*arguments):
         from macroslip.cli.commands import app
 
+        before = signal.getsignal(signal.SIGINT)
         done = CliRunner().invoke(app, [str(argument) for argument in arguments])
+        signal.signal(signal.SIGINT, before)  # an interrupted command ignores further ones
         return SimpleNamespace(code=done.exit_code, out=done.stdout, err=done.stderr)
 
     return run

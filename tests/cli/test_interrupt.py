@@ -86,3 +86,19 @@ def test_an_interrupt_after_the_last_word_does_not_change_the_exit_code():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
+
+
+def test_an_interrupt_while_an_interrupt_is_told_is_ignored():
+    code = (
+        "import signal; from macroslip.cli import main\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "import macroslip.cli.commands as commands, macroslip.cli.failure as failure\n"
+        "def interrupted(): raise KeyboardInterrupt\n"
+        "tell = failure.to_stderr\n"
+        "def press_and_tell(text): signal.raise_signal(signal.SIGINT); tell(text)\n"
+        "failure.to_stderr = press_and_tell\n"
+        "import sys; sys.argv = ['macroslip', 'wait']\n"
+        "failure.command(commands.app, interrupted, 'wait'); main()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")

@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -238,18 +239,28 @@ def test_ctrl_c_ends_a_whole_bearing_within_a_step_and_leaves_nothing(folder):
         "loads: {bundled: 14B}\ndynamics: whole-bearing\nintegrator: {tolerance: 1e-10}\n"
     )
     # Where the tests run in the background, interrupts are ignored unless that is undone.
-    main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
+    main = (
+        "from signal import *; signal(SIGINT, default_int_handler); "
+        "from macroslip.cli import main; open('began', 'w').close(); main()"
+    )
     command = [sys.executable, "-c", main, "run", "case.yaml", "-o", "case.nc", "--quiet"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    with pytest.raises(subprocess.TimeoutExpired):
-        process.wait(timeout=8.0)
-    # Python drops an interrupt that falls into a destructor; a user presses again.
-    for _ in range(20):
-        process.send_signal(signal.SIGINT)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(timeout=10.0)
-            break
-    out, err = process.communicate(timeout=10.0)
+    try:
+        # On a busy machine Python alone may take long to start.
+        while not (folder / "began").exists():
+            time.sleep(0.1)
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(timeout=8.0)
+        # Python drops an interrupt that falls into a destructor; a user presses again.
+        for _ in range(30):
+            process.send_signal(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(timeout=10.0)
+                break
+        out, err = process.communicate(timeout=10.0)
+    finally:
+        process.kill()
+    (folder / "began").unlink()
     assert (process.returncode, out, err) == (130, "", "interrupted\n")
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 

@@ -61,6 +61,8 @@ def test_a_number_without_unit_has_the_same_advice(value):
         ("a: !own 3", ["type '!own'"]),
         ("a: 0xA0", ["'0xA0' is not a decimal number"]),
         ("a: [1, 0o17]", ["'0o17' is not a decimal number"]),
+        ("a: [1_0, 2]", ["'1_0' is not a decimal number", "in quotes if it is text"]),
+        ("a: 2024_01.5e3", ["'2024_01.5e3' is not a decimal number"]),
         ('a: "C:\\work"', ["escape character", "single quotes"]),
     ],
 )

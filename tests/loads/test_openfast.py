@@ -350,7 +350,7 @@ def test_text_without_the_final_line_end_is_complete(tmp_path, sample_out):
     assert HubLoads.read(path).time[-1] == 120.0
 
 
-@pytest.mark.parametrize("word", ["**********", "-", "1.0E+", "1,5"])
+@pytest.mark.parametrize("word", ["**********", "-", "1.0E+", "1,5", "1_0"])
 def test_what_is_no_number_matters_in_channels_that_are_taken(tmp_path, sample_out, word):
     head, names, units, rows = _selection(sample_out, lambda name: True, rows=20)
     plain = HubLoads.read(_write_text(tmp_path / "a.out", head, names, units, rows))

@@ -398,6 +398,57 @@ def test_every_mark_of_thousands(tmp_path):
         assert hub.force[:, 2].tolist() == [-1020.5e3, -975e3]
 
 
+def _grouped(*, time=("0", "1"), speed="12", fx="420", separator=";"):
+    """Two rows whose forces fz are -1.020 and -1.075, at given times, speed and fx."""
+    header = _NAMES.replace(";", separator)
+    rows = [
+        separator.join([time[0], speed, fx, "6", "-1.020", "900", "650", "-240"]),
+        separator.join([time[1], speed, fx, "6", "-1.075", "900", "650", "-240"]),
+    ]
+    return "\n".join([header, *rows])
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        _grouped(),
+        _grouped(separator=","),
+        _grouped(fx="20.125"),
+        # Nothing but thousands: 1,000 s and 1,001 s at a shaft speed of 12 rpm.
+        _grouped(time=("1.000", "1.001")),
+        # A whole number of four digits stands without marks, in another column.
+        _grouped(fx="1420"),
+        _grouped().replace(".", ","),
+    ],
+)
+def test_a_table_in_which_every_mark_may_separate_thousands_is_refused(tmp_path, text):
+    path = tmp_path / "a.csv"
+    path.write_text(text)
+    _message(path, "may separate decimals or thousands, and no number of another column tells")
+    mark = "," if "," in text.partition("\n")[2] and ";" in text else "."
+    assert HubLoads.read(path, thousands=mark).force[0, 2] == -1020e3
+    assert HubLoads.read(path, decimal=mark).force[0, 2] == pytest.approx(-1.02e3)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        # As programs export three decimals: a time of 0.000 s, a shaft speed of 12.345 rpm.
+        _grouped(time=("0.000", "1.000")),
+        _grouped(time=("0.05", "0.10")),
+        _grouped(speed="12.345"),
+        _grouped(speed="12.345", separator=","),
+        _grouped(fx="1420.123"),
+        _grouped(fx="420.5"),
+        _grouped(fx="-0.420"),
+        _grouped(fx="4.2e2"),
+        _grouped(time=("0.000", "1.000")).replace(".", ","),
+    ],
+)
+def test_one_number_that_cannot_be_in_groups_shows_that_a_table_has_decimals(tmp_path, text):
+    assert _read_text(tmp_path / "a.csv", text).force[:, 2] == pytest.approx([-1.02e3, -1.075e3])
+
+
 def test_a_number_with_a_zero_before_its_point_excludes_thousands(tmp_path):
     text = _THOUSANDS + "\n2;12;423;6;0.975;900;650;-240"
     assert _read_text(tmp_path / "a.csv", text).force[0, 2] == pytest.approx(-1.02e3)

@@ -47,6 +47,21 @@ def test_a_window_that_ends_a_rounding_off_the_last_sample_ends_there(bearing, d
     assert ready.edges[-1] == ready.end == last
 
 
+def test_a_window_and_traces_may_end_one_sample_after_the_loads(bearing):
+    """A record of 600 s at 20 Hz ends at 599.95 s."""
+    whole = two_orbits(bearing)
+    last = whole.loads.time[-1]
+    step = whole.loads.time[1] - whole.loads.time[0]
+    window = Window(start=0.0, end=float(last + step))
+    traces = Traces(step=0.5, end=float(last + step))
+    ready = prepare(two_orbits(bearing, window=window, traces=traces))
+    assert ready.edges[-1] == ready.end == last
+    assert ready.trace_time[-1] <= last
+    for late in (Window(end=float(last + 1.1 * step)), Window(start=float(last + 0.5 * step))):
+        with pytest.raises(ValueError, match="the window runs from"):
+            two_orbits(bearing, window=late)
+
+
 def test_a_window_of_some_roundings_is_refused(bearing):
     last = two_orbits(bearing).loads.time[-1]
     with pytest.raises(ValueError, match="the window runs from"):

@@ -150,6 +150,22 @@ def test_the_folder_of_a_process_that_lives_stays(tmp_path):
         process.communicate()
 
 
+def test_an_interrupt_while_kernels_are_stored_at_exit_loses_nothing(tmp_path):
+    """A user who presses Ctrl-C after the last word of a command."""
+    copy = Copy(tmp_path)
+    press = (
+        "import signal\nfrom macroslip.storage import kernels\nwrite = kernels.write_cache\n"
+        "def interrupted(*given):\n    signal.raise_signal(signal.SIGINT)\n    write(*given)\n"
+        "kernels.write_cache = interrupted\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    )
+    process = copy.start(ASK + press)
+    out, err = process.communicate(timeout=300)
+    assert (process.returncode, out.strip(), err) == (0, FRESH, "")
+    assert copy.ask() == STORED
+    assert copy.process_folders == []
+
+
 def test_several_processes_store_at_once(tmp_path):
     copy = Copy(tmp_path)
     processes = [copy.start() for _ in range(4)]

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from macroslip import InputError
 from macroslip.constants import YEAR
-from macroslip.study.aggregation import Aggregation
+from macroslip.study.aggregation import Aggregation, aggregation_in_use
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
 from macroslip.study.loads_list import Load
 from macroslip.study.summary import ROW_VARIABLES
@@ -107,6 +107,18 @@ def test_bins_and_groups():
     assert len(binned(some, "wind_speed", 2.0).groups) == 2
 
 
+def test_runs_that_nothing_weighs_need_no_wind_speed():
+    """A study whose load files are labelled by their seed only."""
+    calm = study().drop_vars("wind_speed")
+    aggregation = aggregation_in_use(calm)
+    spread = percentiles(calm, aggregation, [0.5])
+    # Five runs of one clearance, of 1, 2, 3, 0.1 and 0.1 W; two of another.
+    assert spread.runs.values.tolist() == [[5], [2]]
+    np.testing.assert_allclose(spread.power.sel(row="downwind")[:, 0, 0], [1.0, 0.01])
+    with pytest.raises(InputError, match=r"no label 'wind_speed'.*--field"):
+        lifetime_energy(calm, aggregation_in_use(calm, Weibull(9.0, 2.0)))
+
+
 def test_a_bin_reaches_half_its_width_to_either_side():
     """10.9 m/s counts as 10, 11.0 and 12.9 as 12, 13.0 as 14: the same for the weights of loads and the bins of results."""
     speeds = [10.9, 11.0, 12.9, 13.0]
@@ -127,7 +139,9 @@ def test_a_bin_reaches_half_its_width_to_either_side():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: binned(study(), "wind", 2.0), "no label 'wind'"),
+        (lambda: binned(study(), "wind", 2.0), "no label 'wind'.* Name .*--field"),
+        (lambda: binned(study(), "wind_speed", by=["site"]), "no label 'site'.*--by"),
+        (lambda: Aggregation(Weibull(9.0, 2.0), field=None), "no label sorts them"),
         (lambda: binned(study(), "bearing", 2.0), "not a number"),
         (lambda: binned(study(), "wind_speed", 0.0), "width of the bins"),
         (

@@ -166,7 +166,8 @@ def test_the_weights_of_the_file_are_used_by_all_and_an_option_replaces_the_wind
     assert aggregation_in_use(stored) == Aggregation(of_file(WEIGHTS).weights.year, width=1.0)
     used = aggregation_in_use(stored, Weibull(9.0, 2.0)).weights
     assert used.wind == Weibull(9.0, 2.0) and used.events["start-8"] == Rate(300.0)
-    assert aggregation_in_use(xr.Dataset()) == Aggregation()
+    windy = xr.Dataset(coords={"wind_speed": ("case", [8.0])})
+    assert aggregation_in_use(windy) == Aggregation()
 
 
 def test_the_balance_of_heat_counts_events_by_their_hours():

@@ -487,16 +487,17 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
     first = float(case.loads.time[0])
     last = float(case.loads.time[-1])
     rounding = TIME_ROUNDING * max(abs(first), abs(last))
+    # A record of 600 s often ends one sample before 600 s.
+    latest = last + (1.0 + 1e-6) * (last - first) / (case.loads.time.size - 1)
     for name, part, allowed in (
         ("window", case.window, "start before end, both within the loads'"),
         ("traces", case.traces, "times within the loads'"),
     ):
         start = first if part is None or part.start is None else part.start
         end = last if part is None or part.end is None else part.end
-        within = first - rounding <= start <= end <= last + rounding
-        if not within or (name == "window" and end - start <= rounding):
+        within = first - rounding <= start <= end <= latest and start <= last + rounding
+        if not within or (name == "window" and min(end, last) - start <= rounding):
             what = (
                 f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s"
             )
-            allowed = allowed
             yield InputError(what, where=name, allowed=f"{allowed} {first:g} s to {last:g} s")

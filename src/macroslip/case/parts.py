@@ -80,7 +80,7 @@ class Window:
         [s] on the loads' time axis. None: when the rollers have completed one orbit, or at the
         first sample if they never do, or if the loads are an event.
     end : float, optional
-        [s]; None: the last sample.
+        [s]; None: the last sample, which may also be one step before the end that is given.
     """
 
     start: Annotated[

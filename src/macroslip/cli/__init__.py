@@ -61,15 +61,15 @@ def main() -> None:
         if isinstance(getattr(end.__context__, "__cause__", None), KeyboardInterrupt):
             print("interrupted", file=sys.stderr)
         if end.code == INTERRUPTED:
-            _ignore_interrupts()
+            ignore_interrupts()
         raise
     except KeyboardInterrupt:  # before a command has begun
-        _ignore_interrupts()
+        ignore_interrupts()
         print("interrupted", file=sys.stderr)
         sys.exit(INTERRUPTED)
 
 
-def _ignore_interrupts() -> None:
+def ignore_interrupts() -> None:
     """Let Ctrl-C have no effect while an interrupted command puts its things away.
 
     Python takes its own handler away before it ends, and one more Ctrl-C would kill the process:

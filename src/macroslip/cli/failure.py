@@ -13,7 +13,7 @@ from typing import Any
 
 import typer
 
-from macroslip.cli import INTERRUPTED
+from macroslip.cli import INTERRUPTED, ignore_interrupts
 from macroslip.cli.printing import print_json
 from macroslip.errors import InputError, MacroslipError, legible
 from macroslip.storage.files import SHORTER
@@ -51,6 +51,8 @@ def command(app: typer.Typer, function: Callable[..., None], name: str | None = 
         except (typer.Exit, BrokenPipeError):  # a reader such as `head` closes the pipe early
             raise
         except BaseException as error:
+            if isinstance(error, KeyboardInterrupt):
+                ignore_interrupts()
             code, message = _code_and_message(error, quiet=bool(options.get("quiet")))
             if options.get("as_json"):
                 print_json({"error": message.removeprefix("error: ")})

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from macroslip.cli import INTERRUPTED
+from macroslip.cli import INTERRUPTED, ignore_interrupts
 from macroslip.cli.failure import CASES_FAILED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.options import AsJson, Force, Quiet, Threads
@@ -99,6 +99,7 @@ def study(
                 checked, output, **chosen, resume=resume, strict=strict, progress=report
             )
     except KeyboardInterrupt:
+        ignore_interrupts()
         to_stderr(
             f"interrupted; what is computed is kept in {output}. Go on with the same command and --resume."
         )

@@ -28,8 +28,8 @@ MOST_NODES = 10_000
 MOST_LEVELS = 20
 _KINDS = {type(None): "nothing", CommentedSeq: "a list"}
 _WIDTH = 118
-#: Whole numbers that YAML has beside decimal ones.
-_OTHER_INTEGER = re.compile(r"[+-]?0[xob][\da-fA-F_]+")
+#: Numbers that YAML has beside decimal ones, such as 0xA0 and 1_000.
+_OTHER_NUMBER = re.compile(r"[+-]?(0[xob][\da-fA-F_]+|\d[\d.]*_[\d_.]*([eE][+-]?\d+)?)")
 
 
 @dataclass(frozen=True)
@@ -211,7 +211,7 @@ def _check_size(text: str, file: str) -> None:
                 "Remove the type and write a plain value; [0, 1] is a list.",
             )
         is_plain = isinstance(event, ScalarEvent) and event.style is None
-        if is_plain and _OTHER_INTEGER.fullmatch(event.value):
+        if is_plain and _OTHER_NUMBER.fullmatch(event.value):
             raise problem(
                 f"{shown(event.value)} is not a decimal number",
                 "decimal digits",

@@ -31,6 +31,7 @@ from macroslip.loads.source_file import (
     Samples,
     announced_binary,
     announced_text,
+    fortran_number,
     numbers,
     text_lines,
 )
@@ -196,8 +197,8 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
         # Some versions declare binary data as F, with direct access. Sequential data are text.
         sequential = form == "F" and first_of.get("ACCESS", "S").strip().upper() == "S"
         number = None if sequential else _NUMBERS[first_of["FORMAT"].strip().upper()]
-        first = float(first_of["MIN"])
-        step = float(first_of["STEP"])
+        first = fortran_number(first_of["MIN"].strip())
+        step = fortran_number(first_of["STEP"].strip())
         if not (step > 0.0 and math.isfinite(first + step * samples)):
             raise ValueError(
                 f"MIN {first:g} and STEP {step:g}, where times are finite and the step is above 0"

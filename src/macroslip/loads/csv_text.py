@@ -33,6 +33,10 @@ _SEPARATORS = ",;\t"
 _COMMENT = re.compile(r"^[ \t]*[#%].*\n?", re.MULTILINE)
 _SEPARATOR_LINE = re.compile(r'"?sep=(.)"?', re.IGNORECASE)
 _EXPONENT = r"([eEdD][+-]?\d+)?"
+#: Columns of speeds and angles, whose values stay below a thousand.
+_BELOW_A_THOUSAND = re.compile(
+    r"(shaft_speed|rotor_speed|RotSpeed|LSSTip[VP]|Azimuth|angle)", re.IGNORECASE
+)
 _DATE = re.compile(r"\d{4}-\d\d-\d\d|\d\d?[./]\d\d?[./]\d\d|\d\d?:\d\d")
 
 
@@ -123,29 +127,51 @@ class CsvTable:
                 'such as loads: {decimal: ",", thousands: "."}',
             )
         mark = next(iter(examples), ".")
+        tells = any(
+            self._shows_decimals(self.names[index], column, mark)
+            for index, column in columns.items()
+        )
         for index, column in columns.items():
-            self._refuse_thousands(self.names[index], column, mark)
+            self._refuse_thousands(self.names[index], column, mark, decimals_elsewhere=tells)
         return mark
 
-    def _refuse_thousands(self, name: str, column: pa.ChunkedArray, mark: str) -> None:
-        """Refuse a column whose mark may separate thousands: -1.080 beside -995."""
+    def _shows_decimals(self, name: str, column: pa.ChunkedArray, mark: str) -> bool:
+        """True if a number of the column has the mark where none can separate thousands.
+
+        As 0.050, 12.5 and 1234.567 do, or a shaft speed of 12.345 rpm.
+        """
+        import pyarrow.compute as pc
+
+        marked = column.filter(pc.match_substring(column, mark))
+        if _BELOW_A_THOUSAND.match(name):
+            return len(marked) > 0
+        return _first(marked, _grouped(mark), matches=False) is not None
+
+    def _refuse_thousands(
+        self, name: str, column: pa.ChunkedArray, mark: str, *, decimals_elsewhere: bool
+    ) -> None:
+        """Refuse a column whose mark may separate thousands.
+
+        That is a mark twice in a number; three digits after each mark beside whole numbers, -1.080
+        beside -995; and three digits after each mark where no number of any column shows decimals.
+        """
         m = re.escape(mark)
-        grouped = rf"[+-]?[1-9]\d{{0,2}}({m}\d{{3}})+"
         several = _first(column, rf"[+-]?\d+({m}\d*){{2,}}")
-        marked = _first(column, grouped)
-        if several is None and marked is None:
-            return
-        whole = _first(column, r"[+-]?\d{1,3}")
-        other = _first(column, rf"[+-]?\d{{1,3}}|{grouped}", matches=False)
+        marked = _first(column, _grouped(mark))
         if several is not None:
             problem = f"column {name} holds '{several}', which has its {_MARK_NAMES[mark]} twice"
-        elif other is not None or (whole is None and mark != self.separator):
+        elif marked is None or _BELOW_A_THOUSAND.match(name):
             return
         else:
+            whole = _first(column, r"[+-]?\d{1,3}")
+            other = _first(column, rf"[+-]?\d{{1,3}}|{_grouped(mark)}", matches=False)
+            if other is not None or (whole is None and decimals_elsewhere):
+                return
             beside = f" beside '{whole}'" if whole else ""
+            tells = "" if whole else ", and no number of another column tells which"
             problem = (
                 f"column {name} holds '{marked}'{beside}, "
-                f"where the {_MARK_NAMES[mark]} may separate decimals or thousands"
+                f"where the {_MARK_NAMES[mark]} may separate decimals or thousands{tells}"
             )
         cell = several or marked or ""
         remedy = f'Write loads: {{thousands: "{mark}"}} if it means {cell.replace(mark, "")}'
@@ -188,6 +214,11 @@ class CsvTable:
             column = pc.replace_substring(column, decimal, ".")
         column = pc.replace_substring_regex(column, "[dD]", "e")
         return column.cast(pa.float64()).to_numpy()
+
+
+def _grouped(mark: str) -> str:
+    """Pattern of whole numbers in groups of three digits, with a mark between the groups."""
+    return rf"[+-]?[1-9]\d{{0,2}}({re.escape(mark)}\d{{3}})+"
 
 
 def _remedy(wrong: str) -> str:

@@ -45,6 +45,7 @@ from macroslip.loads.source_file import (
     Samples,
     announced_binary,
     announced_text,
+    fortran_number,
     in_si,
     text_lines,
     turn_to_fixed,
@@ -372,7 +373,7 @@ def _channel_list(
             f"the line below Scans, Channels, Time and Format has {len(announcement)} words"
         )
     scans, count = map(int, announcement[:2])
-    duration = float(announcement[2])
+    duration = fortran_number(announcement[2])
     kind = announcement[3]
     if not (0 < scans * count <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in (
         "ASCII",

@@ -6,6 +6,7 @@ Shared by all readers.
 from __future__ import annotations
 
 import codecs
+import contextlib
 import math
 import os
 import re
@@ -159,6 +160,11 @@ def text_lines(content: bytes) -> list[str]:
     return [line.decode(encoding) for line in lines]
 
 
+def _in_fortran(text: str) -> bool:
+    """False for what only Python takes for a number: 1_0 and digits of other scripts."""
+    return text.isascii() and "_" not in text
+
+
 def fortran_number(text: str) -> float:
     """Value of a number as Fortran writes it; ValueError if it is none.
 
@@ -169,6 +175,8 @@ def fortran_number(text: str) -> float:
     >>> fortran_number("1.5-101"), fortran_number("-2.5D+02"), fortran_number("-.5E1")
     (1.5e-101, -250.0, -5.0)
     """
+    if not _in_fortran(text):
+        raise ValueError(f"{text!r} is no number of Fortran's")
     without_letter = re.fullmatch(r"([-+]?\d*\.\d*)([-+]\d{3})", text)
     if without_letter:
         return float("E".join(without_letter.groups()))
@@ -177,17 +185,17 @@ def fortran_number(text: str) -> float:
 
 def numbers(words: Sequence[str]) -> tuple[NDArray[np.float64], dict[int, str]]:
     """Values of words, NaN for each that is no number, and those words by their index."""
-    try:
-        return np.array(words, dtype=np.float64), {}
-    except ValueError:
-        values = np.full(len(words), np.nan)
-        unreadable = {}
-        for index, word in enumerate(words):
-            try:
-                values[index] = fortran_number(word)
-            except ValueError:
-                unreadable[index] = repr(legible(word, 40))
-        return values, unreadable
+    if _in_fortran("".join(words)):
+        with contextlib.suppress(ValueError):
+            return np.array(words, dtype=np.float64), {}
+    values = np.full(len(words), np.nan)
+    unreadable = {}
+    for index, word in enumerate(words):
+        try:
+            values[index] = fortran_number(word)
+        except ValueError:
+            unreadable[index] = repr(legible(word, 40))
+    return values, unreadable
 
 
 def announced_binary(

@@ -132,7 +132,8 @@ def prepare(case: Case) -> Prepared:
     heaviest = largest + body
     end = float(motion.time[-1])
     if case.window.end is not None:
-        end = float(merged_times(np.array([case.window.end]), motion.time)[0])
+        asked = np.array([min(case.window.end, end)])
+        end = float(merged_times(asked, motion.time)[0])
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     return Prepared(
         case=case,

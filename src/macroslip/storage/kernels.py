@@ -18,6 +18,7 @@ import io
 import os
 import re
 import shutil
+import signal
 import tempfile
 import time
 import zipfile
@@ -59,6 +60,9 @@ class _ProcessFolder:
     def remove(self) -> None:
         """Put what was compiled into the archive, and remove the folder."""
         if os.getpid() == self.process:
+            # At exit a Ctrl-C would only lose the kernels and leave the folder behind.
+            with contextlib.suppress(ValueError):  # not in the main thread
+                signal.signal(signal.SIGINT, signal.SIG_IGN)
             keep_kernels()
             self.lock.release()
             shutil.rmtree(self.path, ignore_errors=True)

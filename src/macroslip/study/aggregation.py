@@ -28,7 +28,8 @@ class Aggregation:
 
     weights: Weights | None = None  #: What a year consists of; None: all runs count alike
     years: float = 20.0  #: Lifetime, years of 365.25 days, above 0
-    field: str = "wind_speed"  #: Label by which runs are sorted into bins, a number
+    #: Label by which runs are sorted into bins, a number; None, without weights: one bin for all
+    field: str | None = "wind_speed"
     width: float = 2.0  #: Width of a bin, in the unit of the field, above 0
     by: Sequence[str] = ()  #: Further labels that separate groups, as `turbulence`
 
@@ -36,6 +37,9 @@ class Aggregation:
         if not (math.isfinite(self.years) and self.years > 0.0):
             what = f"the lifetime is {self.years!r} years"
             raise InputError(what, allowed="a number above 0")
+        if self.weights is not None and self.field is None:
+            what = "the runs have weights, and no label sorts them into bins"
+            raise InputError(what, remedy="Give a label: field=, on the command line --field.")
 
     def bins(self, study: xr.Dataset) -> Binning:
         """Runs by group and bin, as `macroslip.study.weights.binned`; one bin without weights."""
@@ -46,9 +50,13 @@ class Aggregation:
 def aggregation_in_use(
     study: xr.Dataset, wind: Weibull | BinProbabilities | None = None, years: float = 20.0
 ) -> Aggregation:
-    """Weights, field and width of the study's file, with another `wind` in place of its own."""
+    """Weights, field and width of the study's file, with another `wind` in place of its own.
+
+    Runs that nothing weighs need no label `wind_speed`; without it they are in one bin.
+    """
     stored = stored_weighting(study)
     if stored is None:
-        return Aggregation(wind, years)
+        alike = wind is None and "wind_speed" not in study.coords
+        return Aggregation(wind, years, None if alike else "wind_speed")
     weights = replace(stored.year, wind=wind) if wind else stored.year
     return Aggregation(weights, years, stored.field, stored.width)

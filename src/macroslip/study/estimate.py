@@ -89,7 +89,8 @@ def _mean(values: list[float]) -> float:
 def _estimate_run(case: Case) -> _RunEstimate:
     """Time and size of a whole run, from the first parts of it."""
     first = float(case.loads.time[0])
-    end = float(case.loads.time[-1]) if case.window.end is None else case.window.end
+    last = float(case.loads.time[-1])
+    end = last if case.window.end is None else min(case.window.end, last)
     length = end - first
     stretch = min(_STRETCH, length)
     half_seconds, half_bytes = _measured(case, 0.5 * stretch)

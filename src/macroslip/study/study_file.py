@@ -570,7 +570,7 @@ def _event_lengths(
             first = float(record.time[0])
             last = float(record.time[-1])
             start = first if base.window.start is None else base.window.start
-            end = last if base.window.end is None else base.window.end
+            end = last if base.window.end is None else min(base.window.end, last)
             lengths.setdefault(load.event, []).append(end - start)
     return {event: sum(known) / len(known) for event, known in lengths.items()}
 

@@ -547,9 +547,13 @@ def binned(
         for name in study.coords
         if study[name].dims == ("case",) and name not in _NO_LABELS
     ]
-    for name in (*([field] if field else []), *by):
+    for name, option in (*([(field, "field")] if field else []), *((one, "by") for one in by)):
         if name not in labels:
-            raise InputError(f"the study has no label '{name}'", allowed=", ".join(labels))
+            raise InputError(
+                f"the study has no label '{name}'",
+                allowed=", ".join(labels),
+                remedy=f"Name one of these labels: --{option}, in Python {option}=.",
+            )
     if field and study[field].dtype.kind not in "if":
         remedy = "Read it as one: {" + field + ":g} in the pattern."
         raise InputError(f"the label '{field}' is not a number", remedy=remedy)
