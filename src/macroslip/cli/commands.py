@@ -19,6 +19,7 @@ from macroslip.cli.report import report
 from macroslip.cli.reproduce import reproduce
 from macroslip.cli.run import run
 from macroslip.cli.scada import scada
+from macroslip.cli.stiffness import stiffness
 from macroslip.cli.study import study
 
 app = typer.Typer(
@@ -36,6 +37,7 @@ command(app, aggregate)
 command(app, damage)
 command(app, report)
 command(app, compare)
+command(app, stiffness)
 command(app, reproduce)
 command(app, doctor)
 app.add_typer(loads)

@@ -311,6 +311,37 @@ def balance_series(
     return displacement, unbalanced
 
 
+def tangent_stiffness(
+    ring: RingGeometry, shaft_angle: np.ndarray, displacement: np.ndarray
+) -> np.ndarray:
+    """Change of the rollers' force on the ring with its displacement, the Hessian of Π.
+
+    K = Σ_j 1.5 K_j √δ_j₊ n_j n_jᵀ over the loaded rollers; it is symmetric, and singular where they
+    do not hold the ring.
+
+    Parameters
+    ----------
+    ring : RingGeometry
+    shaft_angle : ndarray, shape (n,)
+        Shaft angles [rad].
+    displacement : ndarray, shape (n, 3)
+        Displacements of the ring [m].
+
+    Returns
+    -------
+    ndarray, shape (n, 3, 3)
+        [N/m], in the bearing frame.
+
+    Examples
+    --------
+    >>> ring = RingGeometry(np.array([0.0]), np.array([-1.0]), np.zeros(1), 1.0, 1e-4, 1e11, 0.45)
+    >>> float(tangent_stiffness(ring, np.zeros(1), np.array([[0.0, -2e-4, 0.0]]))[0, 1, 1])
+    1500000000.0
+    """
+    contacts = _contacts(ring, shaft_angle)
+    return _evaluate(contacts, np.zeros_like(displacement), displacement).hessian
+
+
 def roller_loads(
     ring: RingGeometry, shaft_angle: np.ndarray, displacement: np.ndarray
 ) -> np.ndarray:
