@@ -1,10 +1,11 @@
-"""Heat of the bearing over speed and wind, at the temperatures that were measured, beside measured heat of two turbines.
+"""Heat of the bearing over speed and wind, at the measured temperatures, beside that of two turbines.
 
-The measured heat is of main bearings of unknown type: those of a 2 MW turbine (La Haute Borne) over rotor speed and wind,
-and the front and rear one of a turbine of 1.45 MW (WT23) over rotor speed. Own heat is that of two rollers of each row of
-the base bearing under the bundled loads of class B at the wind of the point, interpolated between the winds beside it, the
-record's time stretched so that the rotor has the same part of its rated speed. The oil has the temperature of the bearing.
-SKF's and Palmgren's friction at the same states stand beside it.
+The measured heat is of main bearings of unknown type: those of a 2 MW turbine (La Haute Borne) over
+rotor speed and wind, and the front and rear one of a turbine of 1.45 MW (WT23) over rotor speed.
+Own heat is that of two rollers of each row of the base bearing. Its loads are the bundled ones of
+class B at the wind of the point, between those of the winds beside it; the record's time is
+stretched so that the rotor has the same part of its rated speed, and the oil has the temperature of
+the bearing. SKF's and Palmgren's friction at the same states stand beside it.
 """
 
 from __future__ import annotations
@@ -31,9 +32,10 @@ WINDS = tuple(range(4, 25, 2))
 BEARINGS = ("front", "rear")
 #: Rated rotor speeds [r/min].
 RATED_LHB, RATED_WT23 = 17.1, 17.7
-#: Rate at which a warm bearing of La Haute Borne cools [1/h]; its heat capacity [J/K], 4 to 8 t of steel.
+#: Rate at which a warm bearing of La Haute Borne cools [1/h]; heat capacity [J/K] of 4 to 8 t of
+#: steel.
 COOLING, CAPACITY = 0.1, (2e6, 4e6)
-#: Mean temperature of the bearings of La Haute Borne over wind [m/s], of the three turbines behind the heat [degC].
+#: Mean temperature [degC] of the bearings of the three turbines of La Haute Borne over wind [m/s].
 LHB_MEANS = {4: 27.2, 6: 29.0, 8: 30.1, 10: 29.4, 12: 29.1, 14: 29.7, 16: 29.5}
 #: Temperature at rated speed and 8 m/s there [degC].
 LHB_RATED = LHB_MEANS[8]
@@ -93,18 +95,18 @@ def ratio(over: State, under: State) -> Heat:
 
 
 def measured_lhb() -> pd.DataFrame:
-    """Heat of La Haute Borne in K per hour over rotor speed [r/min] and wind [m/s], without wind below rated."""
+    """Heat at La Haute Borne [K/h] over rotor speed [r/min] and, at rated speed, wind [m/s]."""
     return pd.read_csv(DATA / "main_bearing_heat.csv", comment="#")
 
 
 def measured_wt23(bearing: str) -> pd.DataFrame:
-    """Heat of a main bearing of WT23 over that at 16 r/min, by rotor speed, with wind and temperature."""
+    """Heat of a bearing of WT23 over that at 16 r/min, by speed, with wind and temperature."""
     table = pd.read_csv(DATA / "wt23_heat.csv", comment="#")
-    return table[(table.bearing == bearing) & (table.part == "all sound")]
+    return pd.DataFrame(table[(table.bearing == bearing) & (table.part == "all sound")])
 
 
 def measured_ratio(over: tuple[float, float | None], under: tuple[float, float | None]) -> Range:
-    """Heat at one rotor speed [r/min] and wind [m/s] over that at another at La Haute Borne, with its error."""
+    """Heat at La Haute Borne at one speed [r/min] and wind [m/s] over that at another."""
     (high, high_error), (low, low_error) = _lhb_at(over), _lhb_at(under)
     quotient = high / low
     error = quotient * float(np.hypot(high_error / high, low_error / low))
@@ -122,16 +124,18 @@ def _lhb_at(place: tuple[float, float | None]) -> tuple[float, float]:
 
 def wt23_states(bearing: str, supply: str | float = "skf") -> list[State]:
     """States of the points of a main bearing of WT23, the last one at 16 r/min."""
+    table = measured_wt23(bearing)
+    parts = table.rotor_speed_rpm / RATED_WT23
+    points = zip(table.wind_mps, parts, table.bearing_degC, strict=True)
     return [
-        State(float(row.wind_mps), float(row.rotor_speed_rpm) / RATED_WT23, float(row.bearing_degC), supply)
-        for row in measured_wt23(bearing).itertuples()
-    ]  # fmt: skip
+        State(float(wind), float(part), float(celsius), supply) for wind, part, celsius in points
+    ]
 
 
 def wt23_ratios(
     bearing: str, *, equal_loads: bool = False, supply: str | float = "skf"
 ) -> list[Heat]:
-    """Heat of the points over that at 16 r/min; with `equal_loads` all under the loads at 16 r/min."""
+    """Heat of the points over that at 16 r/min; with `equal_loads` all under the loads there."""
     states = wt23_states(bearing, supply)
     last = states[-1]
     if equal_loads:
@@ -146,7 +150,7 @@ def wt23_slowest(bearing: str, *, equal_loads: bool = False, supply: str | float
 
 
 def wt23_parts(bearing: str) -> Heat:
-    """Own heat at the lowest speed over that at 16 r/min, as factors of speed, temperature and load."""
+    """Own heat at the lowest speed over that at 16 r/min: factors of speed, temperature, load."""
     first, *_, last = wt23_states(bearing)
     slow = last._replace(speed=first.speed)
     cool = slow._replace(celsius=first.celsius)
@@ -156,8 +160,8 @@ def wt23_parts(bearing: str) -> Heat:
 def lhb_temperatures(speed: float, wind: float | None) -> Range:
     """Temperature of a bearing at La Haute Borne [degC] at a rotor speed [r/min] and wind [m/s].
 
-    Its two ends are the mean of the bearing's temperature in the rows at such a wind, in which cold and warm seasons are
-    mixed, and that in equal surroundings, where temperature goes with heat.
+    Its two ends are the mean of the bearing's temperature in the rows at such a wind, in which cold
+    and warm seasons are mixed, and that in equal surroundings, where temperature goes with heat.
     """
     heat, _ = _lhb_at((speed, wind))
     rated, _ = _lhb_at((17.0, 8.0))
@@ -223,9 +227,9 @@ def compare() -> list[Comparison]:
                 "load at low speed",
             )
         )
-    rows.append(
-        _row("heat at 12 over 8 m/s, rated speed [-]", measured_ratio((17.0, 12.0), (17.0, 8.0)), lhb_ratio((17.0, 12.0)), "growth with load: open")
-    )  # fmt: skip
+    growth = measured_ratio((17.0, 12.0), (17.0, 8.0))
+    own = lhb_ratio((17.0, 12.0))
+    rows.append(_row("heat at 12 over 8 m/s, rated speed [-]", growth, own, "growth with load"))
     level, own = measured_level(), _level()
     rows.append(
         Comparison(
@@ -307,7 +311,8 @@ def _draw_wt23(axis, bearing: str) -> None:
     equal = [wt23_slowest(bearing, equal_loads=True).own, 1.0]
     axis.plot(table.rotor_speed_rpm.iloc[ends], equal, "--", color="C0", label="equal loads")
     axis.errorbar(
-        table.rotor_speed_rpm, table.ratio_to_16rpm, table.ratio_error, fmt="ko", ms=4, capsize=2, label="measured"
+        table.rotor_speed_rpm, table.ratio_to_16rpm, table.ratio_error,
+        fmt="ko", ms=4, capsize=2, label="measured",
     )  # fmt: skip
     axis.set(
         xlabel="rotor speed [r/min]", ylabel="heat, over that at 16 r/min", title=f"WT23, {bearing}"
@@ -351,7 +356,8 @@ def _draw_lhb_wind(axis) -> None:
             color=_COLOURS[model], alpha=0.4, label=_LABELS[model],
         )  # fmt: skip
     axis.errorbar(
-        table.wind_mps, table.q_K_per_h / unit, table.error / unit, fmt="ko", ms=4, capsize=2, label="measured"
+        table.wind_mps, table.q_K_per_h / unit, table.error / unit,
+        fmt="ko", ms=4, capsize=2, label="measured",
     )  # fmt: skip
     axis.set(
         xlabel="wind speed [m/s]",
