@@ -25,7 +25,7 @@ test: lint  ## what a contributor runs: the package's own tests, and one run of 
 check: $(VENV)/.ready  ## all else that has to hold: documentation, paper, validation, benchmarks, golden numbers, lowest versions, release
 	$(PYTEST) -m "check and not deep" $(ARGS)
 	$(BIN)/python -m benchmarks.pair
-	$(VENV)/bin/python .ci/lowest >.lowest.txt
+	$(BIN)/python .ci/lowest >.lowest.txt
 	$(MAKE) test-lowest
 	$(MAKE) release
 

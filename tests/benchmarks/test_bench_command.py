@@ -10,8 +10,6 @@ from benchmarks import histories as room
 from benchmarks import rivals, run
 from benchmarks.__main__ import app
 
-pytestmark = pytest.mark.deep
-
 
 @pytest.fixture
 def short(monkeypatch):

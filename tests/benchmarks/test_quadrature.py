@@ -6,8 +6,6 @@ import pytest
 from benchmarks.quadrature import patch_by_quadrature
 from macroslip.contact.closed_form import patch_integral
 
-pytestmark = pytest.mark.deep
-
 
 @pytest.mark.parametrize("exponent", [0.05, 1.0, 5.0, 12.0, 25.0])
 @pytest.mark.parametrize("heating", [1e-12, 1e-6, 1e-3, 0.1])

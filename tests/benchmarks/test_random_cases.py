@@ -20,8 +20,6 @@ from benchmarks.random_cases import (
 )
 from tests.fuzz.oracle import examples
 
-pytestmark = pytest.mark.deep
-
 
 def test_a_number_gives_the_same_case_whenever_it_is_asked_for():
     (kind, case), (again, same) = random_case(5), random_case(5)

@@ -7,8 +7,6 @@ from benchmarks.right_hand_side import evaluations, jacobian, pack, rates
 from macroslip.mechanics.spin import FORCES, STATION, slip_forces, station
 from macroslip.ring.orbit import instant
 
-pytestmark = pytest.mark.deep
-
 
 def states(history, count=40):
     """Random times, and slips of every size and sign."""

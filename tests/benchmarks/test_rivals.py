@@ -12,8 +12,6 @@ from benchmarks.quiet import silence
 from macroslip.mechanics.spin import STATION, station
 from macroslip.ring.orbit import instant
 
-pytestmark = pytest.mark.deep
-
 TIGHT = {
     "lsoda": {"stops": True, "rtol": 1e-10, "atol": 1e-12},
     "cvode": {"stops": "restart", "rtol": 1e-9, "atol": 1e-11, "longest_step": 0.02},

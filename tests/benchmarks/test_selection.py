@@ -12,8 +12,6 @@ from benchmarks.rivals import RIVALS
 from benchmarks.scan import scan
 from benchmarks.work_precision import least_cost
 
-pytestmark = pytest.mark.deep
-
 REFERENCE = Reference(1.0, np.array([-0.2, -1e-5]), np.array([0.4, 0.4]))
 
 

@@ -10,8 +10,6 @@ from benchmarks.soak import Found, Sample, content, growth, looked_through, soak
 from macroslip import run_study
 from macroslip.study.study_file import study_of
 
-pytestmark = pytest.mark.deep
-
 SAMPLES = [
     Sample(float(t), 200_000_000 + 100_000 * t, 300_000_000, 400_000_000, 10 * t, t // 60)
     for t in range(0, 600, 10)
