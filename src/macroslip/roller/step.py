@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from macroslip.compiled import jit_inline
+from macroslip.mechanics.power import raceway_power
 
 #: Most stages of a step.
 STAGES = 3
@@ -101,7 +102,10 @@ def write_stage(row, k, body, at, forces, slip, power):
         row.power[k, i] = power[i]
         row.rolling[k, i] = forces.rolling[i]
         row.rough[k, i] = forces.rough[i]
-    row.lag_power[k, 0] = at.ring_speed * body.inner.curvature * forces.lag[0]
-    row.lag_power[k, 1] = at.ring_speed * body.outer.curvature * forces.lag[1]
-    row.skew_power[k, 0] = -at.ring_speed * body.inner.spin * forces.skew[0]
-    row.skew_power[k, 1] = -at.ring_speed * body.outer.spin * forces.skew[1]
+    speed = at.ring_speed
+    inner = raceway_power(body.inner, slip, speed, forces.inner, forces.lag[0], forces.skew[0])
+    outer = raceway_power(body.outer, slip, speed, forces.outer, forces.lag[1], forces.skew[1])
+    row.lag_power[k, 0] = inner.curvature
+    row.lag_power[k, 1] = outer.curvature
+    row.skew_power[k, 0] = inner.spin
+    row.skew_power[k, 1] = outer.spin

@@ -58,9 +58,9 @@ from macroslip.whole.stage import (
 from macroslip.whole.tractions import (
     cage_shear_from,
     evaluate_marked,
+    extrapolated_power,
     locate,
     raceway_from,
-    raceway_powers,
     shear_from,
 )
 
@@ -301,14 +301,12 @@ def _write_stage(assembly, k, time, weight, space, row):
 
     The stage is at `time` [s] and has the weight `weight` [s].
     """
-    bearing = assembly.bearing[0]
     moments = space.moments[k]
     sheets = space.sheets[0]
     rollers = space.rollers
-    inner_ratio = bearing.pitch_radius / bearing.inner_radius
-    outer_ratio = bearing.pitch_radius / bearing.outer_radius
     for j in range(row.size):
         step = row[j]
+        body = assembly.bodies[assembly.places[j].row]
         at = moments[j]
         sheet = sheets[j]
         own = rollers[j].y[FIRST + k]
@@ -317,11 +315,11 @@ def _write_stage(assembly, k, time, weight, space, row):
         shear_in = shear_from(sheet.inner, *at_inner)
         shear_out = shear_from(sheet.outer, *at_outer)
         shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
-        inner = raceway_powers(
-            sheet.inner, inner_ratio, at.spin_inner, at.pull_inner, shear_in, *at_inner
+        inner, rolling_in, rough_in = extrapolated_power(
+            sheet.inner, body.inner, at.spin_inner, at.pull_inner, shear_in, *at_inner
         )
-        outer = raceway_powers(
-            sheet.outer, outer_ratio, at.spin_outer, at.pull_outer, shear_out, *at_outer
+        outer, rolling_out, rough_out = extrapolated_power(
+            sheet.outer, body.outer, at.spin_outer, at.pull_outer, shear_out, *at_outer
         )
         step.time[k] = time
         step.weight[k] = weight
@@ -338,21 +336,21 @@ def _write_stage(assembly, k, time, weight, space, row):
         force[0] = at.spin_inner - shear_in
         force[1] = at.spin_outer - shear_out
         force[2] = at.friction - shear_cage
-        power[0] = inner[0] + inner[1] + inner[2]
-        power[1] = outer[0] + outer[1] + outer[2]
+        power[0] = inner.slip + inner.curvature + inner.spin
+        power[1] = outer.slip + outer.curvature + outer.spin
         power[2] = force[2] * at.sliding
-        rolling[0] = inner[3]
-        rolling[1] = outer[3]
+        rolling[0] = rolling_in
+        rolling[1] = rolling_out
         rolling[2] = shear_cage * at.sliding
-        rough[0] = inner[4]
-        rough[1] = outer[4]
+        rough[0] = rough_in
+        rough[1] = rough_out
         rough[2] = (
             sheet.cage.rough * abs(at.push) / sheet.cage.load if sheet.cage.load > 0.0 else 0.0
         )
-        step.lag_power[k, 0] = inner[1]
-        step.lag_power[k, 1] = outer[1]
-        step.skew_power[k, 0] = inner[2]
-        step.skew_power[k, 1] = outer[2]
+        step.lag_power[k, 0] = inner.curvature
+        step.lag_power[k, 1] = outer.curvature
+        step.skew_power[k, 0] = inner.spin
+        step.skew_power[k, 1] = outer.spin
 
 
 @jit_inline
@@ -471,24 +469,28 @@ def _step_error(assembly, limits, h, space):
 
 
 @jit_inline
-def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_scale):
+def _contact_off(known, sheet, law, mass, limits, span, power_scale):
     """Error of extrapolated forces and powers of a raceway contact over what is allowed.
 
-    They are extrapolated from `known` to the new evaluation `sheet`, at `load` [N] and `speed`
-    [m/s] and `span` [s] later; `ratio` is r~ over the raceway's radius, `mass` a roller's [kg].
+    They are extrapolated from `known` to the new evaluation `sheet`, `span` [s] later; `law` is the
+    raceway's record of `CONTACT`, `mass` a roller's [kg].
     """
+    load = sheet.load
+    speed = sheet.speed
     slip = sheet.slip
     spin, pull = raceway_from(known, load, speed, slip)
     off = max(abs(spin - sheet.spin), abs(pull - sheet.pull))
     drift = off / (mass / max(span, 1e-9) + max(sheet.spin_by_slip, sheet.pull_by_slip, 0.0))
     shear = shear_from(known, load, speed, slip)
-    predicted = raceway_powers(known, ratio, spin, pull, shear, load, speed, slip)
-    found = raceway_powers(sheet, ratio, sheet.spin, sheet.pull, sheet.shear, load, speed, slip)
-    wrong = 0.0
-    power = 0.0
-    for k in range(4):
-        wrong += predicted[k] - found[k]
-        power += abs(found[k])
+    guess, rolling_guess, _ = extrapolated_power(known, law, spin, pull, shear, load, speed, slip)
+    friction, rolling, _ = extrapolated_power(
+        sheet, law, sheet.spin, sheet.pull, sheet.shear, load, speed, slip
+    )
+    wrong = rolling_guess - rolling
+    power = abs(rolling)
+    for k in range(3):
+        wrong += guess[k] - friction[k]
+        power += abs(friction[k])
     change = abs(load - known.load) / (tuning.LOAD_CHANGE * max(load, known.load) + 1e-9)
     worst = max(
         drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12)
@@ -503,7 +505,6 @@ def _refresh(assembly, limits, time, space, power_scale):
     `power_scale` is the mean frictional power of a raceway contact so far [W]. Returns whether the
     forces of all resting rollers were near those predicted; otherwise the step has to be repeated.
     """
-    bearing = assembly.bearing[0]
     rests = space.rests
     moments = space.moments[1]
     sheets = space.sheets[0]
@@ -517,39 +518,17 @@ def _refresh(assembly, limits, time, space, power_scale):
     space.memory[0].evaluations += evaluate_marked(
         assembly, time, moments, space.rollers, FIRST + 1, rests, sheets
     )
-    inner_ratio = bearing.pitch_radius / bearing.inner_radius
-    outer_ratio = bearing.pitch_radius / bearing.outer_radius
+    mass = assembly.bearing[0].roller_mass
     good = True
     for j in range(rests.size):
         one = rests[j]
-        at = moments[j]
+        body = assembly.bodies[assembly.places[j].row]
         new = sheets[j]
         old = known[j]
         if one.due:
             span = time - old.when
-            mass = bearing.roller_mass
-            inner = _contact_off(
-                old.inner,
-                new.inner,
-                inner_ratio,
-                mass,
-                limits,
-                at.inner_load,
-                at.inner_speed,
-                span,
-                power_scale,
-            )
-            outer = _contact_off(
-                old.outer,
-                new.outer,
-                outer_ratio,
-                mass,
-                limits,
-                at.outer_load,
-                at.outer_speed,
-                span,
-                power_scale,
-            )
+            inner = _contact_off(old.inner, new.inner, body.inner, mass, limits, span, power_scale)
+            outer = _contact_off(old.outer, new.outer, body.outer, mass, limits, span, power_scale)
             one.ratio = max(inner, outer)
             if not one.fresh and one.ratio > tuning.FAR_OFF and span > 0.0:
                 one.rest = 0.0

@@ -15,6 +15,7 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import contact_load, log_speed
 from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.loads import roller_loads
+from macroslip.mechanics.power import RacewayPower, raceway_power
 from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
 from macroslip.mechanics.speeds import inner_ring_speed, outer_ring_speed
 from macroslip.whole import tuning
@@ -35,7 +36,7 @@ SHEET = np.dtype(
             "pull_by_load",  # [-]
             "spin_by_speed",  # [N s/m]
             "pull_by_speed",  # [N s/m]
-            "skew",  # power of the skew moment [W]
+            "skew",  # skew moment ∫τ ζ dA [N m]
             "shear",  # rolling resistance, which both forces hold [N]
             "shear_by_slip",  # [N s/m]
             "shear_by_load",  # [-]
@@ -203,7 +204,7 @@ def _evaluate(body, law, tables, load, speed, slip, sheet):
     sheet.spin_by_speed = forces.friction_by_speed + forces.shear_by_speed
     sheet.pull_by_speed = forces.pull_by_speed
     sheet.shear_by_speed = forces.shear_by_speed
-    sheet.skew = -speed * law.spin * forces.skew
+    sheet.skew = forces.skew
     sheet.rough = forces.asperity_power
 
 
@@ -350,15 +351,17 @@ def is_out_of_reach(sheet, at, slips, slip_reach):
 
 
 @jit_inline
-def raceway_powers(sheet, ratio, spin, pull, shear, load, speed, slip):
-    """Frictional powers of a raceway contact by cause, extrapolated between evaluations.
+def extrapolated_power(sheet, law, spin, pull, shear, load, speed, slip):
+    """Frictional power of a raceway contact (33), extrapolated between evaluations.
+
+    The skew moment grows with load to the power 3/2, the power of asperities in proportion to it.
 
     Parameters
     ----------
     sheet : record of `SHEET`
         Tractions at the last evaluation.
-    ratio : float
-        Pitch radius r~ over the raceway's radius [-].
+    law : record of `macroslip.roller.model.CONTACT`
+        Of the raceway.
     spin, pull, shear : float
         S, P and rolling resistance of the stage [N].
     load : float
@@ -368,27 +371,22 @@ def raceway_powers(sheet, ratio, spin, pull, shear, load, speed, slip):
 
     Returns
     -------
-    slip_power : float
-        Friction by the slip of the middle [W].
-    lag_power : float
-        Friction by the curvature of the contact [W].
-    skew_power : float
-        Friction by the contact angle, which follows the load [W].
-    rolling_power : float
-        Rolling resistance [W].
-    asperity_power : float
-        The part of friction by asperities, which follows the load [W].
+    friction : macroslip.mechanics.power.RacewayPower
+        By what makes the surfaces slide [W].
+    rolling : float
+        Power of rolling resistance [W].
+    asperities : float
+        Part of the frictional power that asperities dissipate [W].
     """
     if load <= 0.0 or sheet.load <= 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0
-    grown = (load - sheet.load) / sheet.load
-    lag = pull - spin + 2.0 / ratio * shear
+        return RacewayPower(0.0, 0.0, 0.0), 0.0, 0.0
+    growth = (load - sheet.load) / sheet.load
+    lag = pull - spin + (1.0 - law.push) * shear
+    skew = sheet.skew * (1.0 + 1.5 * growth)
     return (
-        (spin - shear) * slip,
-        speed * ratio * lag,
-        sheet.skew * (1.0 + 1.5 * grown),
+        raceway_power(law, slip, speed, spin - shear, lag, skew),
         -shear * (2.0 * speed - slip),
-        sheet.rough * (1.0 + grown),
+        sheet.rough * (1.0 + growth),
     )
 
 
