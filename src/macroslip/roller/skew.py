@@ -22,7 +22,7 @@ import numpy as np
 
 from macroslip.bearing import geometry
 from macroslip.contact.rolling import light_contact
-from macroslip.contact.skewed import SkewedContact, resultants, skewed_contact
+from macroslip.contact.skewed import Resultants, SkewedContact, resultants, skewed_contact
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -151,6 +151,100 @@ def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return lies[0], lies[1], np.tensordot(middle, lies, 1)
 
 
+class _States(NamedTuple):
+    """States of a roller, arrays of shape (n,)."""
+
+    load: np.ndarray  #: Q [N]
+    ring_speed: np.ndarray  #: u2 [m/s]
+    skew: np.ndarray  #: ψ [rad]
+
+    def at(self, index: np.ndarray) -> _States:
+        """The states of these numbers."""
+        return _States(*(values[index] for values in self))
+
+
+#: What is known of a state beside its slip and its axial tractions: fields of `Equilibrium`.
+_KNOWN = np.dtype(
+    [
+        ("tilt", "f8"),  # [rad]
+        ("shift", "f8"),  # [m]
+        ("moments", "f8", (2,)),  # [N m]
+        ("power", "f8", (2,)),  # [W]
+        ("asperity_power", "f8", (2,)),  # [W]
+        ("axial", "f8"),  # [N]
+        ("push", "f8"),  # [N]
+        ("unbalanced", "f8"),  # [-]
+    ]
+)
+
+
+class _SlipSearch:
+    """Newton's search for the slips at which spin moments vanish, one a state.
+
+    Behind a zero a step goes at most half of the way back: where the slope falls to both sides,
+    whole steps would swing for ever. From iteration `_BRACKETED` on it stays between the slips at
+    which the moment last had either sign.
+    """
+
+    def __init__(self, slip: np.ndarray, longest: np.ndarray):
+        self.slip = slip  #: Shape (n,) [m/s]
+        self._longest = longest  # steps [m/s]
+        self._spin = np.zeros(slip.size)  # the last moments over radius [N]
+        self._taken = np.zeros(slip.size)  # the last steps [m/s]
+        self._below = np.full(slip.size, -np.inf)  # slips at which moments last were < 0 [m/s]
+        self._above = np.full(slip.size, np.inf)  # the same, > 0 [m/s]
+
+    def advance(
+        self,
+        going: np.ndarray,
+        spin: np.ndarray,
+        slope: np.ndarray,
+        moving: np.ndarray,
+        iteration: int,
+    ) -> None:
+        """Take a step from moments over radius [N] and slopes [N s/m] where states are moving."""
+        here = self.slip[going]
+        longest = self._longest[going]
+        back = spin * self._spin[going] < 0.0
+        most = np.where(back, 0.5 * np.abs(self._taken[going]), longest)
+        change = np.clip(spin / np.maximum(slope, np.abs(spin) / longest), -most, most)
+        following = here - change
+        if iteration >= _BRACKETED:
+            following = self._bracketed(going, spin, following)
+        self._spin[going] = spin
+        self._taken[going] = here - following
+        self.slip[going] = np.where(moving, following, here)
+
+    def _bracketed(self, going: np.ndarray, spin: np.ndarray, following: np.ndarray) -> np.ndarray:
+        """The following slips, or the middles of their brackets where they lie outside."""
+        here = self.slip[going]
+        self._below[going] = np.where(spin < 0.0, here, self._below[going])
+        self._above[going] = np.where(spin > 0.0, here, self._above[going])
+        below = self._below[going]
+        above = self._above[going]
+        outside = (following <= below) | (following >= above)
+        return np.where(
+            outside & np.isfinite(above - below), below + 0.5 * (above - below), following
+        )
+
+
+def _contacts_at(
+    pair: Pair, states: _States, slip, tilt, middles
+) -> tuple[list[Resultants], np.ndarray]:
+    """What the raceways do to a roller, and the slope of their spin moments by slip [N s/m]."""
+    step = _STEP * np.abs(states.ring_speed)
+    # Each state, and the same with a little more slip.
+    load, ring_speed, skew, tilts = (np.tile(values, 2) for values in (*states, tilt))
+    slips = np.append(slip, slip + step)
+    both = [
+        resultants(contact, load, ring_speed, slips, skew, np.tile(middle, 2), tilts)
+        for contact, middle in zip(pair, middles, strict=True)
+    ]
+    spin, more = np.split(both[0].spin + both[1].spin, 2)
+    first = [Resultants(*(values[: slip.size] for values in contact)) for contact in both]
+    return first, (more - spin) / step
+
+
 def equilibrium(
     pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equilibrium | None = None
 ) -> Equilibrium:
@@ -158,6 +252,8 @@ def equilibrium(
 
     Parameters
     ----------
+    pair : Pair
+        Both raceway contacts.
     laws : RollerLaws
         For rolling resistance.
     load : array_like
@@ -168,102 +264,67 @@ def equilibrium(
         ψ [rad].
     start : Equilibrium, optional
         States nearby, such as those of a smaller skew, of the same shape.
+
+    Returns
+    -------
+    Equilibrium
+        Arrays of the shape to which load, speed and skew broadcast.
     """
-    states = np.broadcast_arrays(
-        *(np.asarray(one, dtype=float) for one in (load, ring_speed, skew))
+    arrays = np.broadcast_arrays(
+        *(np.asarray(values, dtype=float) for values in (load, ring_speed, skew))
     )
-    shape = states[0].shape
-    load, ring_speed, skew = (one.ravel() for one in states)
-    (resistance, push), longest = (
-        _resistance_on(laws, load, ring_speed),
-        _LONGEST * np.abs(ring_speed),
-    )
-    beside = push
-    push = push.copy()
-    slip = np.zeros(load.size)
-    axial = np.zeros((2, load.size))
-    last_spin = np.zeros(load.size)
-    taken = np.zeros(load.size)
-    below = np.full(load.size, -np.inf)
-    above = np.full(load.size, np.inf)
+    shape = arrays[0].shape
+    states = _States(*(values.ravel() for values in arrays))
+    resistance, push = _resistance_on(laws, states.load, states.ring_speed)
+    slip = np.zeros(states.load.size)
+    axial = np.zeros((2, states.load.size))
     if start is not None:
-        slip, axial = (
-            np.nan_to_num(one).reshape(-1, load.size) for one in (start.slip, start.tractions)
-        )
-        slip = slip[0].copy()
-    tilt = np.empty(load.size)
-    shift = np.empty(load.size)
-    left = np.empty(load.size)
-    moments, power, rough = (np.empty((load.size, 2)) for _ in range(3))
-    inward = np.empty(load.size)
-    bend = pair.inner.along
-    r = pair.inner.roller_radius
-    going = np.arange(load.size)
+        slip = np.nan_to_num(start.slip).reshape(-1).copy()
+        axial = np.nan_to_num(start.tractions).reshape(2, -1)
+    search = _SlipSearch(slip, _LONGEST * np.abs(states.ring_speed))
+    known = np.zeros(states.load.size, _KNOWN)
+    going = np.arange(states.load.size)
     for iteration in range(_ITERATIONS):
-        here = slip[going]
-        u = ring_speed[going]
-        tilt[going], shift[going], middles = placed(pair, load[going], axial[:, going])
-        step = _STEP * np.abs(u)
-        # Each state, and the same with a little more slip.
-        twice = [np.tile(one, 2) for one in (load[going], u, skew[going], tilt[going])]
-        inner, outer = (
-            resultants(
-                one,
-                twice[0],
-                twice[1],
-                np.append(here, here + step),
-                twice[2],
-                np.tile(place, 2),
-                twice[3],
-            )
-            for one, place in zip(pair, middles, strict=True)
-        )
-        count = going.size
-        spin, more = np.split(inner.spin + outer.spin, 2)
-        slope = (more - spin) / step
-        spin = spin + resistance[going]
-        push[going] = beside[going] + (inner.pull - outer.pull)[:count]
-        found = np.stack([inner.axial[:count], outer.axial[:count]])
-        change = np.abs(found - axial[:, going]).max(axis=0)
-        axial[:, going] = found if iteration < _DAMPED else 0.5 * (found + axial[:, going])
-        left[going] = np.abs(spin) / load[going]
-        moments[going] = np.stack(
-            [(one.moment + one.pressure_moment)[:count] for one in (inner, outer)], axis=-1
-        )
-        power[going] = np.stack([one.power[:count] for one in (inner, outer)], axis=-1)
-        rough[going] = np.stack([one.asperity_power[:count] for one in (inner, outer)], axis=-1)
-        place = middles[0] + shift[going] - r * tilt[going]
-        inward[going] = load[going] * bend * place - found[0]
-        moving = (left[going] >= _LEFT) | (change >= _STILL * load[going])
-        # Behind a zero at most half of the way back: where the slope falls to both sides, whole
-        # steps would swing for ever.
-        most = np.where(spin * last_spin[going] < 0.0, 0.5 * np.abs(taken[going]), longest[going])
-        change = np.clip(spin / np.maximum(slope, np.abs(spin) / longest[going]), -most, most)
-        following = here - change
-        if iteration >= _BRACKETED:
-            below[going] = np.where(spin < 0.0, here, below[going])
-            above[going] = np.where(spin > 0.0, here, above[going])
-            bracketed = np.isfinite(above[going] - below[going])
-            outside = (following <= below[going]) | (following >= above[going])
-            middle = below[going] + 0.5 * (above[going] - below[going])
-            following = np.where(outside & bracketed, middle, following)
-        last_spin[going] = spin
-        taken[going] = here - following
-        slip[going] = np.where(moving, following, here)
+        here = states.at(going)
+        tilt, shift, middles = placed(pair, here.load, axial[:, going])
+        both, slope = _contacts_at(pair, here, search.slip[going], tilt, middles)
+        inner, outer = both
+        spin = inner.spin + outer.spin + resistance[going]
+        tractions = np.stack([inner.axial, outer.axial])
+        change = np.abs(tractions - axial[:, going]).max(axis=0)
+        damped = 0.5 * (tractions + axial[:, going])
+        axial[:, going] = tractions if iteration < _DAMPED else damped
+        now = np.zeros(going.size, _KNOWN)
+        now["tilt"] = tilt
+        now["shift"] = shift
+        for i, contact in enumerate(both):
+            now["moments"][:, i] = contact.moment + contact.pressure_moment
+            now["power"][:, i] = contact.power
+            now["asperity_power"][:, i] = contact.asperity_power
+        station = middles[0] + shift - pair.inner.roller_radius * tilt
+        now["axial"] = here.load * pair.inner.along * station - inner.axial
+        now["push"] = push[going] + inner.pull - outer.pull
+        now["unbalanced"] = np.abs(spin) / here.load
+        known[going] = now
+        moving = (now["unbalanced"] >= _LEFT) | (change >= _STILL * here.load)
+        search.advance(going, spin, slope, moving, iteration)
         going = going[moving]
         if not going.size:
             break
-    for one in (slip, tilt, shift, moments, power, rough, inward, push, left):
-        one[going] = np.nan
+    slip[going] = np.nan
     axial[:, going] = np.nan
-
-    def shaped(values: np.ndarray) -> np.ndarray:
-        return values.reshape((*shape, *values.shape[1:]))[()]
-
+    for name in known.dtype.names or ():
+        known[name][going] = np.nan
+    fields = {
+        name: known[name].reshape((*shape, *known[name].shape[1:]))[()]
+        for name in known.dtype.names or ()
+    }
     return Equilibrium(
-        shaped(slip), axial.reshape(2, *shape), shaped(tilt), shaped(shift), shaped(moments.sum(axis=-1)),
-        shaped(moments), shaped(power), shaped(rough), shaped(inward), shaped(push), shaped(left),
-    )  # fmt: skip
+        slip=slip.reshape(shape)[()],
+        tractions=axial.reshape(2, *shape),
+        moment=fields["moments"].sum(axis=-1),
+        **fields,
+    )
 
 
 class Pocket(NamedTuple):
