@@ -127,30 +127,26 @@ SLIDE_ROLL_RATIO = Criterion(
         ),
     ),
 )
-POWER_DENSITY = Criterion(
-    order=11,
-    name="entry_power_density",
-    mechanism="smearing",
-    quantity="power density at entry",
-    unit="W/m2",
-    variables=lambda evaluation: _largest(evaluation, POWER_DENSITY),
-    value=largest_of("entry_power_density"),
-    reference=math.nan,
-    compared_with="",
-    factor=3.0,
-    reason=_IDLE,
-)
-FLASH_TEMPERATURE = Criterion(
-    order=12,
-    name="entry_flash_temperature",
-    mechanism="smearing",
-    quantity="flash temperature at entry",
-    unit="K",
-    variables=lambda evaluation: _largest(evaluation, FLASH_TEMPERATURE),
-    value=largest_of("entry_flash_temperature"),
-    reference=math.nan,
-    compared_with="",
-    factor=3.0,
-    reason=_IDLE,
-)
+
+
+def _without_reference(order: int, name: str, unit: str, quantity: str) -> Criterion:
+    """Criterion of the largest value at entries, for which no rig gives a reference."""
+    criterion = Criterion(
+        order=order,
+        name=name,
+        mechanism="smearing",
+        quantity=f"{quantity} at entry",
+        unit=unit,
+        variables=lambda evaluation: _largest(evaluation, criterion),
+        value=largest_of(name),
+        reference=math.nan,
+        compared_with="",
+        factor=3.0,
+        reason=_IDLE,
+    )
+    return criterion
+
+
+POWER_DENSITY = _without_reference(11, "entry_power_density", "W/m2", "power density")
+FLASH_TEMPERATURE = _without_reference(12, "entry_flash_temperature", "K", "flash temperature")
 CRITERIA = (SLIDE_ROLL_RATIO, POWER_DENSITY, FLASH_TEMPERATURE)
