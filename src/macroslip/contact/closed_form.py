@@ -16,7 +16,8 @@ in which x = ln q, and u0, u1 belong to s = 0 and s = 1. M has a power series fo
 polylogarithm form for large u. For small P the bracket cancels, and Φ is taken by a Gauss rule with
 the weight s: the integrand's singularities, B = −1, lie π/P or more from the interval, so that the
 error of n nodes is of order (4π/P)^(−2n), below round-off. For small B0 e^P the power series of g
-is integrated term by term. The same I gives the derivatives: dI/dx0 = h w1 − (u1² − u0²)/2 and
+is integrated term by term; its first term, ∫₀¹ s e^{Ps} ds = [e^P (P − 1) + 1]/P², is a power series
+where that cancels. The same I gives the derivatives: dI/dx0 = h w1 − (u1² − u0²)/2 and
 dI/dh = h w1.
 """
 
@@ -48,6 +49,10 @@ _M_SERIES = np.concatenate(
 )
 _SMALL_U = 1.1
 _HALF_ZETA_3 = 0.6010284515797971
+#: Coefficients of ∫₀¹ s e^{Ps} ds in powers of P, for P up to `_LARGEST_P`.
+_COLD_SERIES = np.array([1.0 / (math.factorial(k) * (k + 2)) for k in range(17)])
+#: Least P served by the power series of g: its slope by P is a difference over P.
+_LEAST_P = 0.1
 #: Largest P served by the Gauss rule, its nodes and weights of ∫₀¹ s f(s) ds.
 _LARGEST_P = 0.8
 _RULE = roots_jacobi(7, 0.0, 1.0)
@@ -109,17 +114,29 @@ def _patch_by_rule(p, heating):
 
 
 @jit_inline
+def _cold_patch(p, exp_p):
+    """∫₀¹ s e^{Ps} ds, which is Φ without heating."""
+    if p >= _LARGEST_P:
+        # No factor leaves floating point before the value does.
+        return exp_p * (p - 1.0 + 1.0 / exp_p) / (p * p)
+    value = 0.0
+    for k in range(_COLD_SERIES.size - 1, -1, -1):
+        value = value * p + _COLD_SERIES[k]
+    return value
+
+
+@jit_inline
 def _patch_by_series(p, heating, exp_p):
     """Φ and its derivatives by the power series of g, integrated term by term."""
-    value = 0.0
+    value = _cold_patch(p, exp_p)
     by_slip = 0.0
-    by_pressure = 0.0
     per_p = 1.0 / p
+    by_pressure = (exp_p - 2.0 * value) * per_p
     per_exp_p = 1.0 / exp_p
     # (B0 e^P)^n e^P and e^{−(n+1)P} keep every factor within floating point.
-    power = exp_p
-    decay = 1.0
-    for n in range(_G_SERIES.size):
+    power = exp_p * (heating * exp_p)
+    decay = per_exp_p
+    for n in range(1, _G_SERIES.size):
         decay *= per_exp_p
         x = (n + 1.0) * p
         weight = _G_SERIES[n] * power
@@ -170,12 +187,12 @@ def patch_integral(pressure_exponent, root_heating):
     """
     p = pressure_exponent
     heating = root_heating * root_heating
-    if p < _LARGEST_P:
-        return _patch_by_rule(p, heating)
     growth = math.exp(0.5 * p)
     q1 = root_heating * growth
-    if q1 * q1 < _COOL:
+    if p >= _LEAST_P and q1 * q1 < _COOL:
         return _patch_by_series(p, heating, growth * growth)
+    if p < _LARGEST_P:
+        return _patch_by_rule(p, heating)
     h = 0.5 * p
     u0 = math.asinh(root_heating)
     u1 = math.asinh(q1)

@@ -148,6 +148,14 @@ class _Vectors:
             total = self.add_product(weight, vector, total)
         return total
 
+    def lines(self, address: Any, stride: Any) -> list[list[Any]]:
+        """Lines of four neighbouring nodes along another axis."""
+        found = []
+        for _ in range(4):
+            found.append(self.line(address))
+            address = self.builder.add(address, stride)
+        return found
+
     def line(self, address: Any) -> list[Any]:
         """Four neighbouring nodes along the last axis, each with its four splines."""
         step = ir.Constant(_SIZE, 8 * CHANNELS)
@@ -276,14 +284,11 @@ def splines_in_square(typingctx, table, start, stride, t, u):
             [write.weights(terms, place) for terms in (_CUBIC, _QUADRATIC)]
             for place in arguments[3:]
         )
-        sums = []
-        slopes = []
-        for _ in range(4):
-            line = write.line(address)
-            sums.append(write.sum(z, line))
-            slopes.append(write.sum(dz, line))
-            address = builder.add(address, step)
-        found = [write.sum(w, sums), write.sum(dw, sums), write.sum(w, slopes)]
+        # Along the first axis first: without its derivative half of the sums are left.
+        nodes = list(zip(*write.lines(address, step), strict=True))
+        sums = [write.sum(w, values) for values in nodes]
+        slopes = [write.sum(dw, values) for values in nodes]
+        found = [write.sum(z, sums), write.sum(z, slopes), write.sum(dz, sums)]
         fours = [context.make_tuple(builder, _FOUR, write.lanes(one)) for one in found]
         return context.make_tuple(builder, signature.return_type, fours)
 
@@ -331,27 +336,23 @@ def splines_in_cube(typingctx, table, start, strides, places):
             ]
             for k in range(3)
         )
-        planes = []
-        by_second = []
+        # Along the first axis first: without its derivative little more than half of the sums are
+        # left.
+        values = []
+        by_first = []
         by_third = []
         for _ in range(4):
-            address = corner
-            sums = []
-            slopes = []
-            for _ in range(4):
-                line = write.line(address)
-                sums.append(write.sum(v, line))
-                slopes.append(write.sum(dv, line))
-                address = builder.add(address, second)
-            planes.append(write.sum(z, sums))
-            by_second.append(write.sum(dz, sums))
-            by_third.append(write.sum(z, slopes))
-            corner = builder.add(corner, first)
+            nodes = list(zip(*write.lines(corner, first), strict=True))
+            corner = builder.add(corner, second)
+            sums = [write.sum(w, four) for four in nodes]
+            values.append(write.sum(v, sums))
+            by_third.append(write.sum(dv, sums))
+            by_first.append(write.sum(v, [write.sum(dw, four) for four in nodes]))
         found = [
-            write.sum(w, planes),
-            write.sum(dw, planes),
-            write.sum(w, by_second),
-            write.sum(w, by_third),
+            write.sum(z, values),
+            write.sum(z, by_first),
+            write.sum(dz, values),
+            write.sum(z, by_third),
         ]
         fours = [context.make_tuple(builder, _FOUR, write.lanes(one)) for one in found]
         return context.make_tuple(builder, signature.return_type, fours)

@@ -305,16 +305,21 @@ def set_step(path, work, length, held):
     work.scale = 1.0 / (length * path.body.mobility)
     work.held = 1 if held else 0
     interval = work.interval
+    films = work.at.film_load
     for k in range(3):
         work.weights[k] = SIMPSON[k] if held else WEIGHTS[k]
         if held and k == 0:
-            work.times[0], work.stage_at[0] = work.time, work.at
+            work.times[0] = work.time
+            work.stage_at[0] = work.at
             continue
         part = 0.5 * k if held else NODES[k]
         # The last stage is the end, without rounding.
         work.times[k] = work.time + (length if k == 2 else part * length)
         interval = interval_of(path.motion, work.times[k], interval)
+        # The search for the films' load begins with that of the stage before.
+        work.stage_at[k].film_load = films
         locate(path, work.times[k], interval, work.stage_at[k])
+        films = work.stage_at[k].film_load
     work.end_interval = interval
 
 
@@ -437,6 +442,7 @@ def collocation(part, z1, z2, z3):
 def look_between(path, work, part):
     """Find station, slip and the rate of its increment at a part of the step that was solved."""
     time = work.time + part * work.length
+    work.there.film_load = work.stage_at[1].film_load
     locate(path, time, interval_of(path.motion, time, work.interval), work.there)
     increment, work.there_rate = collocation(part, work.s[0], work.s[1], work.s[2])
     work.there_slip = work.slip + work.there.ring_speed - work.at.ring_speed + increment

@@ -93,7 +93,7 @@ def firm_interference(body, tables, ring_speed):
         else:
             low = load
         load = math.sqrt(low * high)
-    return (high / body.stiffness) ** (2.0 / 3.0)
+    return body.compliance * high ** (2.0 / 3.0)
 
 
 @jit_inline

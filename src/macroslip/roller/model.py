@@ -65,6 +65,8 @@ BODY = np.dtype(
         ("closed_form", "i8"),  # 1 where traction has the paper's closed form
         ("microslip", "i8"),  # 1 where slip varies over the raceway contacts
         ("oily", "i8"),  # 1 with rolling resistance
+        # K^(−2/3): elastic approach over load^(2/3) [m/N^(2/3)]
+        ("compliance", "f8"),
         ("faded_load", "f8"),  # elastic load from which on the films' load is negligible [N]
         ("highest_load", "f8"),  # of the tables [N]
         ("highest_speed", "f8"),  # of the tables, w [m/s]
@@ -290,6 +292,7 @@ def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
     body["closed_form"] = laws.inner.closed_form is not None
     body["microslip"] = laws.inner.shape.microslip
     body["oily"] = laws.inner.rolling is not None
+    body["compliance"] = model.stiffness ** (-2.0 / 3.0)
     body["faded_load"] = math.inf
     body["highest_load"] = box.load
     body["highest_speed"] = box.fastest
