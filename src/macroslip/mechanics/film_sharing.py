@@ -18,9 +18,8 @@ _LIGHTEST = math.log(1e-9)
 _HEAVIEST = math.log(1e7)
 #: Most iterations of Newton's method; it takes about two.
 _ITERATIONS = 60
-#: Change of ln q after which Newton's next one, of the order of a tenth of its square, is below
-#: 1e-9.
-_CONVERGED = 1e-4
+#: Change of ln q after which Newton's next one, of the order of its square, is below 1e-9.
+_CONVERGED = 2e-5
 
 
 @jit_inline
