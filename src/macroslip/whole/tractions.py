@@ -352,7 +352,7 @@ def is_out_of_reach(sheet, at, slips, slip_reach):
 
 @jit_inline
 def extrapolated_power(sheet, law, spin, pull, shear, load, speed, slip):
-    """Frictional power of a raceway contact (33), extrapolated between evaluations.
+    """Frictional power of a raceway contact, extrapolated between evaluations.
 
     The skew moment grows with load to the power 3/2, the power of asperities in proportion to it.
 
