@@ -22,6 +22,7 @@ class Example(StrEnum):
     BEARING = "bearing"
     LUBRICANT = "lubricant"
     LAWS = "laws"
+    SCADA = "scada"
 
 
 #: The files of each example: the first takes the name that the user gives, the others are written
@@ -32,6 +33,7 @@ _FILES = {
     Example.BEARING: ("macroslip.bearing/catalogue/skf-240-600-bc.yaml",),
     Example.LUBRICANT: ("macroslip.lubricant/catalogue/vg460-pao.yaml",),
     Example.LAWS: ("examples/own_laws.yaml", "examples/own_film.py", "examples/own_law.py"),
+    Example.SCADA: ("examples/scada.yaml", "examples/scada.csv.gz", "examples/scada_study.yaml"),
 }
 _NEXT = {
     Example.CASE: "run it:     macroslip run {path} -o {stem}.nc",
@@ -39,6 +41,9 @@ _NEXT = {
     Example.BEARING: "look at it: macroslip bearing show {path}\nuse it:     bearing: {path}, in a case file beside it",
     Example.LUBRICANT: "look at it: macroslip lubricant show {path}\nuse it:     lubricant: {path}, in a case file beside it",
     Example.LAWS: "run it:     macroslip run {path} --laws {folder}own_film.py --laws {folder}own_law.py -o {stem}.nc",
+    Example.SCADA: "look at it: macroslip scada inspect {path}\n"
+    "load cases: macroslip study {folder}scada_study.yaml -o {folder}scada-study\n"
+    "a year:     macroslip scada year {path} --study {folder}scada-study -o {folder}scada-year",
 }
 
 
@@ -52,8 +57,8 @@ def init(
     example: Annotated[
         Example | None,
         typer.Option(
-            help="What to write, a case if not given; `laws` also writes own_film.py and "
-            "own_law.py beside the file."
+            help="What to write, a case if not given; `laws` and `scada` also write "
+            "files beside it."
         ),
     ] = None,
     turbine: Annotated[
@@ -74,39 +79,37 @@ def init(
         )
     example = example or Example.CASE
     path = path or Path("own_laws.yaml" if example is Example.LAWS else f"{example}.yaml")
-    texts = _texts_of(example, path) if turbine is None else {path: _case_of(turbine)}
-    for target in texts:
+    contents = _contents_of(example, path) if turbine is None else {path: _case_of(turbine)}
+    for target in contents:
         check_new_file(target, force=force)
-    for target, text in texts.items():
+    for target, content in contents.items():
         with new_file(target, force=force) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+            temporary.write_bytes(content)
         typer.echo(f"written:    {target}")
     folder = "" if path.parent == Path() else f"{path.parent}/"
     typer.echo(_NEXT[example].format(path=path, stem=path.with_suffix(""), folder=folder))
 
 
-def _texts_of(example: Example, path: Path) -> dict[Path, str]:
-    """Text of every file of an example, by the path that it gets."""
+def _contents_of(example: Example, path: Path) -> dict[Path, bytes]:
+    """Content of every file of an example, by the path that it gets."""
     first, *others = _FILES[example]
-    return {path: _text(first)} | {
-        path.with_name(name.rpartition("/")[2]): _text(name) for name in others
+    return {path: _content(first)} | {
+        path.with_name(name.rpartition("/")[2]): _content(name) for name in others
     }
 
 
-def _case_of(turbine: str) -> str:
+def _case_of(turbine: str) -> bytes:
     from macroslip.turbine import Turbine
 
-    return Turbine.read(turbine).case_text()
+    return Turbine.read(turbine).case_text().encode()
 
 
-def _text(name: str) -> str:
+def _content(name: str) -> bytes:
     package, _, inside = name.partition("/")
     if package != "examples":
-        return resources.files(package).joinpath(inside).read_text(encoding="utf-8")
+        return resources.files(package).joinpath(inside).read_bytes()
     # A wheel has the examples beside this module; a clone has them at its root, where people look
     # for them.
     here = Path(__file__)
     folder = here.with_name("examples")
-    return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_text(
-        encoding="utf-8"
-    )
+    return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_bytes()
