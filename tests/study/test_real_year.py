@@ -9,6 +9,7 @@ from macroslip.constants import YEAR, ZERO_CELSIUS
 from macroslip.input.fields import IN_FILE
 from macroslip.input.section import form_from
 from macroslip.input.units import POWER, RECORDED_TEMPERATURE, SPEED, WIND_SPEED
+from macroslip.report.comparison import compare_designs
 from macroslip.scada.bins import JointShares, histogram, nearest_bins
 from macroslip.scada.description import (
     Clock,
@@ -334,3 +335,16 @@ def test_extremes_and_lives_are_no_means():
     assert means.basic_life.values == pytest.approx(2.0 / (1.0 / 2e5 + 1.0 / 8e5), rel=1e-9)
     assert means.lowest_spin_ratio.values == pytest.approx(0.2)
     assert means.peak_power_max.values[0, 0] == pytest.approx(3.0 * power(4.0, 15.0, 0))
+
+
+def test_two_designs_are_compared_on_a_measured_year():
+    wind, celsius = months()
+    joint = JointShares.of(turbine(wind, celsius), np.array([4.0, 8.0, 12.0]), 4.0)
+    weights = {"width": 4.0, "scada": joint.content(), "events": EVENTS}
+    study = made_up_study(weights=weights, clearances=(0.0, 0.5))
+    found = compare_designs(study)
+    wear = found[found["quantity"].str.startswith("wear")]
+    assert wear["difference [%]"].iloc[1] == pytest.approx(50.0, rel=1e-9)
+    expected = real_year(turbine(wind, celsius), study).table
+    real = expected[expected["quantity"] == "wear"]["real"].to_numpy()
+    assert wear["value"].to_numpy() == pytest.approx(real, rel=1e-9)

@@ -27,6 +27,7 @@ SCHEDULER = Need("--scheduler", ("dask", "distributed"), "cluster")
 COMMANDS: Mapping[str, Need] = MappingProxyType(
     {
         "macroslip report": FIGURES,
+        "macroslip scada year": FIGURES,
         "macroslip loads inspect -o": PICTURE,
         "macroslip bearing draw": PICTURE,
         "macroslip scada heat": FIGURES,

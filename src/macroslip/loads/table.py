@@ -4,7 +4,7 @@ A name is quantity, underscore, unit. Of each quantity there is one column; othe
 
 =============================================  =================================================================
 time                                           ``time_s``
-shaft speed (``shaft_speed``/``rotor_speed``)  ``…_rpm``, ``…_r/min``, ``…_rad_s``, ``…_radps``
+shaft speed (``shaft_speed``/``rotor_speed``)  ``…_rpm``, ``…_r_min``, ``…_rad_s``, ``…_radps``
 hub force ``fx``, ``fy``, ``fz``               ``…_N``, ``…_kN``
 hub moment ``mx``, ``my``, ``mz``              ``…_Nm``, ``…_kNm``
 main-bearing force ``F_X0``, ``F_Y0``, ``F_Z0``  ``…_N``, ``…_kN``
@@ -47,7 +47,7 @@ _BASE = {
     "time": (("time",), {"s": 1.0}),
     "shaft_speed": (
         ("shaft_speed", "rotor_speed"),
-        {"rpm": RPM, "r/min": RPM, "rad_s": 1.0, "radps": 1.0},
+        {"rpm": RPM, "r_min": RPM, "rad_s": 1.0, "radps": 1.0},
     ),
 }
 _UNITS = {"force": FORCE, "moment": MOMENT}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.style import BLUE, GREY, LABEL, ORANGE, SMALL, finish
+from macroslip.report.style import BLUE, GREY, LABEL, ORANGE, SMALL, finish, log_ticks
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 WIND = "wind_speed [m/s]"
 OIL = "oil_temperature [degC]"
+#: Quantities that a year sums up; extremes of single runs say little of a temperature.
+_SUMS = ("energy", "entries", "pressure_slip", "mixed_time", "wear")
 
 
 def plot_over_wind_and_temperature(axes: Axes, bins: pd.DataFrame, column: str, title: str) -> Axes:
@@ -33,39 +35,29 @@ def plot_over_wind_and_temperature(axes: Axes, bins: pd.DataFrame, column: str, 
         Its name.
     """
     table = bins.pivot_table(index=OIL, columns=WIND, values=column, aggfunc="sum")
-    winds = _grid(np.array(table.columns, dtype=float))
-    oils = _grid(np.array(table.index, dtype=float))
-    nearest = {"method": "nearest", "tolerance": 1e-6}
-    table = table.reindex(oils, **nearest).reindex(winds, axis="columns", **nearest)
-    values = 100.0 * table.to_numpy() / np.nansum(table.to_numpy())
-    half_wind = 0.5 * _step(winds)
-    half_oil = 0.5 * _step(oils)
-    image = axes.imshow(
-        values,
-        origin="lower",
-        aspect="auto",
+    values = np.array(table, dtype=float)
+    image = axes.pcolormesh(
+        _edges(np.array(table.columns, dtype=float)),
+        _edges(np.array(table.index, dtype=float)),
+        100.0 * values / np.nansum(values),
         cmap="cividis",
         vmin=0.0,
-        extent=(
-            winds[0] - half_wind, winds[-1] + half_wind, oils[0] - half_oil, oils[-1] + half_oil,
-        ),
-        interpolation="nearest",
-    )  # fmt: skip
+        rasterized=True,
+    )
     scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
     scale.set_label("% of production's", fontsize=LABEL)
     scale.ax.tick_params(labelsize=SMALL)
     return finish(axes, "wind speed [m/s]", "oil [°C]", title)
 
 
-def _step(values: np.ndarray) -> float:
-    """Smallest distance of ascending values; 1 where there is one only."""
-    return float(np.diff(values).min()) if values.size > 1 else 1.0
-
-
-def _grid(values: np.ndarray) -> np.ndarray:
-    """Even values from the first to the last, at the smallest distance."""
-    step = _step(values)
-    return values[0] + step * np.arange(round((values[-1] - values[0]) / step) + 1)
+def _edges(middles: np.ndarray) -> np.ndarray:
+    """Edges half-way between ascending middles; the outer ones as far out as the next are in."""
+    if middles.size == 1:
+        return middles[0] + np.array([-0.5, 0.5])
+    between = 0.5 * (middles[1:] + middles[:-1])
+    first = 2.0 * middles[0] - between[0]
+    last = 2.0 * middles[-1] - between[-1]
+    return np.concatenate([[first], between, [last]])
 
 
 def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
@@ -73,7 +65,7 @@ def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
 
     Takes `macroslip.study.real_year.RealYear.table` of one design.
     """
-    shown = table[(table["fixed"] > 0.0) & table["real"].notna()]
+    shown = table[table["quantity"].isin(_SUMS) & (table["fixed"] > 0.0) & table["real"].notna()]
     places = np.arange(len(shown))
     fixed = shown["fixed"].to_numpy()
     real = shown["real"].to_numpy() / fixed
@@ -91,13 +83,8 @@ def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
         label="at the mean temperature",
     )
     axes.axhline(1.0, color=GREY, linewidth=0.8)
-    axes.set_yscale("log")
     names = [str(name).replace("_", "\n") for name in shown["quantity"]]
     axes.set_xticks(places, names)
     axes.set_xlim(-0.5, len(shown) - 0.5)
-    from matplotlib.ticker import LogLocator, ScalarFormatter
-
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axes.yaxis.set_major_formatter(ScalarFormatter())
-    axes.yaxis.set_minor_formatter("")
+    log_ticks(axes)
     return finish(axes, "", "over a year at 35 °C")

@@ -1,0 +1,105 @@
+"""Wear and energy of a year at the temperatures that main bearings had, over those at 35 °C.
+
+macroslip study examples/year_temperatures.yaml -o temperatures     # an hour of one processor
+python -m validation.real_years temperatures
+
+The temperatures are shares of ten-minute rows by wind speed and temperature of the main bearing,
+`validation/data/scada_temperatures.csv`, of four turbines of La Haute Borne and of the two bearings
+of another turbine. Its head says where they come from.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from macroslip import open_study
+from macroslip.constants import ZERO_CELSIUS
+from macroslip.scada.bins import TEMPERATURE_WIDTH, JointShares
+from macroslip.study.aggregation import Aggregation
+from macroslip.study.over_temperature import RunsOverTemperature
+from macroslip.study.real_year import FIXED, OFFSET
+from macroslip.study.temperature_shares import TemperatureShares
+from macroslip.study.weights import BinProbabilities, Weighting, Year, stored_weighting
+from macroslip.study.year import designs, year
+
+SHARES = Path(__file__).parent / "data" / "scada_temperatures.csv"
+
+
+def measured_shares(table: pd.DataFrame, turbine: str, winds: np.ndarray) -> JointShares:
+    """Shares of a turbine of the table in bins of wind speed [m/s], the nearest one each."""
+    rows = table[table["turbine"] == turbine]
+    lowest = rows["bearing_degC"].min()
+    count = round((rows["bearing_degC"].max() - lowest) / TEMPERATURE_WIDTH) + 1
+    number = ((rows["bearing_degC"] - lowest) / TEMPERATURE_WIDTH).round().to_numpy(dtype=int)
+    share = rows["share"].to_numpy() / rows["share"].sum()
+    is_idle = (rows["state"] == "idle").to_numpy()
+    idle = np.bincount(number[is_idle], share[is_idle], minlength=count)
+    turning = np.zeros((winds.size, count))
+    nearest = np.abs(rows["wind_mps"].to_numpy()[:, None] - winds).argmin(axis=1)
+    np.add.at(turning, (nearest[~is_idle], number[~is_idle]), share[~is_idle])
+    kelvin = ZERO_CELSIUS + lowest + TEMPERATURE_WIDTH * np.arange(count)
+    mean = float(turning.sum(axis=0) @ kelvin / turning.sum())
+    return JointShares(turbine, winds, kelvin, turning, idle, mean, 0.0, 0.0)
+
+
+def ratios(study: xr.Dataset, table: pd.DataFrame) -> pd.DataFrame:
+    """Energy and wear of a year at the temperatures of each turbine, over other temperatures.
+
+    `site` is True with the turbine's own wind, False with that of the study's weights.
+    """
+    runs = RunsOverTemperature.of(study)
+    weighting = stored_weighting(study)
+    if weighting is None:
+        raise SystemExit("the study has no weights")
+    speeds = study["wind_speed"].values[study["event"].values.astype(str) == ""]
+    lines = []
+    for turbine in table["turbine"].unique():
+        joint = measured_shares(table, turbine, np.unique(speeds))
+        real = TemperatureShares.measured(joint)
+        cases = {
+            "real": real,
+            "mean": real.at(joint.mean_turning, joint.mean_idle),
+            "fixed": real.at(FIXED, FIXED),
+            "cooler": real.warmer(-OFFSET),
+            "warmer": real.warmer(OFFSET),
+        }
+        for site in (False, True):
+            wind = BinProbabilities(joint.wind_shares()) if site else weighting.year.wind
+            found = {
+                name: _numbers(runs, shares, Year(wind, weighting.year.events), weighting)
+                for name, shares in cases.items()
+            }
+            wear = {name: float(one["wear"]) for name, one in found.items()}
+            energy = {name: float(one["energy"]) for name, one in found.items()}
+            lines.append(
+                {
+                    "turbine": turbine,
+                    "site": site,
+                    "mean [degC]": joint.mean_turning - ZERO_CELSIUS,
+                    "energy over 35 degC": energy["real"] / energy["fixed"],
+                    "wear over 35 degC": wear["real"] / wear["fixed"],
+                    "wear over the mean": wear["real"] / wear["mean"],
+                    "5 K cooler": wear["cooler"] / wear["real"],
+                    "5 K warmer": wear["warmer"] / wear["real"],
+                }
+            )
+    return pd.DataFrame(lines)
+
+
+def _numbers(
+    runs: RunsOverTemperature, shares: TemperatureShares, of_year: Year, weighting: Weighting
+) -> pd.Series:
+    """Numbers of the study's one design."""
+    means = runs.mean(shares, weighting.field, weighting.width)
+    aggregation = Aggregation(of_year, 1.0, weighting.field, weighting.width)
+    return designs(year(means, aggregation))[0].iloc[0]
+
+
+if __name__ == "__main__":
+    found = ratios(open_study(sys.argv[1]), pd.read_csv(SHARES, comment="#"))
+    print(found.round(2).to_string(index=False))
