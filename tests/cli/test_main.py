@@ -11,6 +11,7 @@ import pytest
 
 import macroslip as package
 from macroslip.cli import progress
+from macroslip.storage import waiting
 
 pytestmark = pytest.mark.slow
 
@@ -167,10 +168,37 @@ def test_no_bar_for_what_is_quick(stderr):
     assert "rollers" not in screen.getvalue()
 
 
-def test_no_bar_when_quiet_or_without_a_terminal(stderr):
-    stderr(Terminal)
+def test_nothing_when_quiet(stderr):
+    screen = stderr(Terminal)
     with progress.command_progress(quiet=True) as report:
         assert report is None
-    stderr(io.StringIO)
+        waiting.tell(waiting.COMPILING, 1, 150)
+    assert screen.getvalue() == ""
+
+
+def test_without_a_terminal_a_stage_that_takes_long_gets_one_line(stderr, monkeypatch):
+    text = stderr(io.StringIO)
+    monkeypatch.setattr(progress, "LINE_AFTER", 0.05)
     with progress.command_progress(quiet=False) as report:
-        assert report is None
+        report("quick", 1, 1)
+        for done in range(5):
+            report("rollers", done, 5)
+            time.sleep(0.06)
+    assert text.getvalue() == "rollers: 2 of 5 done\n"
+
+
+def test_compiling_and_tables_are_shown_while_rollers_wait(stderr, monkeypatch):
+    screen = stderr(Terminal)
+    monkeypatch.setattr(progress, "DELAY", 0.0)
+    with progress.command_progress(quiet=False) as report:
+        for done in range(1, 4):
+            waiting.tell(waiting.COMPILING, done, 150)
+            report("rollers", 0, 2)
+            time.sleep(0.12)
+        shown = screen.getvalue()
+        assert "compiling, which happens once" in shown and "3/150" in shown and "0/2" in shown
+        report("rollers", 1, 2)
+        time.sleep(0.12)
+        screen.truncate(0)
+        time.sleep(0.12)
+        assert "1/2" in screen.getvalue() and "compiling" not in screen.getvalue()

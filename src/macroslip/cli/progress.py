@@ -1,37 +1,66 @@
-"""A progress bar with the time left."""
+"""How far a command is: bars with the time left, or a line for each stage."""
 
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from macroslip.cli.failure import to_stderr
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 DELAY = 1.0
 """Work that is done within this time [s] shows no bar."""
+LINE_AFTER = 10.0
+"""A stage that is done within this time [s] is not told where there is no terminal."""
 
 
 @contextmanager
 def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | None]:
-    """Show a bar while the block runs, if standard error is a terminal and it takes a moment.
+    """Show how far work is while the block runs, on standard error.
+
+    A terminal gets bars if it takes a moment; elsewhere every stage that takes long gets a line.
+    Compiling and tables are stages of their own.
 
     Gives a function to be called as `report(label, done, total)`, each label with a bar of its own;
-    None if it is quiet or nothing is shown.
+    None if it is quiet.
     """
     from rich.console import Console
 
-    from macroslip.progress import PREPARING, bar_with_time_left
+    from macroslip.storage.waiting import heard_by
 
-    console = Console(stderr=True)
-    if quiet or not console.is_terminal:
+    if quiet:
         yield None
         return
+    console = Console(stderr=True)
+    showing = _bar(console) if console.is_terminal else _lines()
+    with showing as report, heard_by(report):
+        yield report
+
+
+@contextmanager
+def _bar(console: Console) -> Iterator[Callable[[str, int, int], None]]:
+    """A bar for every stage, after a moment; what is waited for goes when work goes on."""
+    from macroslip.progress import PREPARING, bar_with_time_left
+    from macroslip.storage.waiting import COMPILING, TABLES
+
     bar = bar_with_time_left(console)
-    task = bar.add_task(PREPARING, total=None)
+    tasks = {PREPARING: bar.add_task(PREPARING, total=None)}
+    waiting = (PREPARING, COMPILING, TABLES)
+    guard = threading.Lock()
 
     def report(label: str, done: int, total: int) -> None:
-        if label != bar.tasks[0].description:  # another piece of work: its speed is its own
-            bar.reset(task)
-        bar.update(task, description=label, completed=done, total=total)
+        with guard:
+            over = waiting if done > 0 and label not in waiting else (PREPARING,)
+            for stage in tasks.keys() & set(over):
+                bar.remove_task(tasks.pop(stage))
+            if label not in tasks:
+                tasks[label] = bar.add_task(label, total=total)
+            bar.update(tasks[label], completed=done, total=total)
 
     start = threading.Timer(DELAY, bar.start)
     start.daemon = True
@@ -42,3 +71,18 @@ def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None]
         start.cancel()
         start.join()
         bar.stop()
+
+
+@contextmanager
+def _lines() -> Iterator[Callable[[str, int, int], None]]:
+    """A line for every stage that takes long, once."""
+    began: dict[str, float] = {}
+    told: set[str] = set()
+
+    def report(label: str, done: int, total: int) -> None:
+        now = time.monotonic()
+        if done > 0 and label not in told and now - began.setdefault(label, now) >= LINE_AFTER:
+            told.add(label)
+            to_stderr(f"{label}: {done} of {total} done")
+
+    yield report
