@@ -23,6 +23,7 @@ from macroslip.contact.starvation import (
     inlet_for_film,
     inlet_for_rolling,
     rigid_rolling_factor,
+    shared_gaps,
 )
 from macroslip.errors import InputError
 from macroslip.input.files import Source
@@ -168,3 +169,36 @@ def test_yield_stress_of_a_grease_holds_rollers_back():
     assert 0.0 < resistance[1] - resistance[0] <= 0.035 * 0.106 * 300.0
     heavy = [float(light_contact(law.inner.rolling, 3e4, 0.4)[1]) for law in (here, there)]
     assert heavy[0] < heavy[1] < 1.005 * heavy[0]
+
+
+@pytest.mark.parametrize("film", [1e-7, 1e-6])
+def test_two_gaps_of_the_grid_give_the_film_of_those_between(film):
+    """Against the film itself, at the thickest film over the gap that is allowed and far from it."""
+    for gap in film * np.geomspace(8.0, 2000.0, 300):
+        shared = shared_gaps(gap, film, 1.0)
+        assert sum(weight for _, weight in shared) == pytest.approx(1.0, abs=1e-12)
+        assert shared[0][0] <= gap <= shared[1][0]
+        inverse = sum(weight / film_factor(inlet_at_gap(one, film)) for one, weight in shared)
+        exact = 1.0 / film_factor(inlet_at_gap(gap, film))
+        assert inverse == pytest.approx(exact, rel=5e-5 if gap < 20.0 * film else 2e-5)
+
+
+def test_a_finer_table_has_gaps_that_are_nearer():
+    (near, _), (far, _) = shared_gaps(2e-4, 1e-6, 0.5)
+    assert math.log(far / near) == pytest.approx(0.125 / 4.0)
+
+
+def test_empty_and_flooded_inlets_have_tables_of_their_own():
+    assert shared_gaps(7.9e-6, 1e-6, 1.0) == ((7.9e-6, 1.0),)
+    assert shared_gaps(math.inf, 1e-6, 1.0) == ((math.inf, 1.0),)
+
+
+def test_a_raceway_at_another_gap_is_the_one_that_is_prepared_with_it():
+    oil = Lubricant.read("vg460-pao")
+    bearing = Bearing.read("skf-240-600-bc")
+    laws = Laws.physical()
+    thick, thin = (prepare(laws, bearing, oil.supplied(gap), 1) for gap in (2e-4, 5e-5))
+    moved = thick.outer.at_gap(5e-5)
+    assert moved.film_thickness(LOAD, SPEED) == thin.outer.film_thickness(LOAD, SPEED)
+    found = light_contact(moved.rolling, 30.0, SPEED)
+    assert found == pytest.approx(light_contact(thin.outer.rolling, 30.0, SPEED), rel=1e-12)

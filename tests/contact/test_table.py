@@ -10,6 +10,7 @@ import pytest
 
 from macroslip import Laws
 from macroslip.compiled import jit
+from macroslip.contact import table as contact_table
 from macroslip.contact.laws import POCKET_GAP, prepare
 from macroslip.contact.look_up import (
     PLANE,
@@ -35,6 +36,7 @@ from macroslip.contact.table import (
     write_plane,
     write_traction,
 )
+from macroslip.storage import tables as store
 from tests.one_roller import BEARING, OIL
 
 FULL = Laws.physical()
@@ -52,8 +54,8 @@ RUNNING, TURNING = (
 class Table:
     """A raceway's table, its laws, and look-ups in it."""
 
-    def __init__(self, laws: Laws, box: Box, ring: str = "inner", sign: int = 1):
-        self.law, self.box = getattr(prepare(laws, BEARING, OIL, sign), ring), box
+    def __init__(self, laws: Laws, box: Box, ring: str = "inner", sign: int = 1, oil=OIL):
+        self.law, self.box = getattr(prepare(laws, BEARING, oil, sign), ring), box
         record, tables = np.zeros(1, TRACTION), Tables()
         self.errors = write_traction(record[0], tables, self.law, box)
         self.record, self.flat = record[0], tables.flat()
@@ -301,3 +303,28 @@ def test_planes_are_their_laws(name):
         np.testing.assert_allclose(
             values(load, speed)[0] * speed, law.uniform_traction(load, film, speed), rtol=2e-3
         )
+
+
+@pytest.mark.parametrize("gap", [2.1e-4, 1.2e-5], ids=["nearly full", "barely wide"])
+def test_tables_at_two_gaps_serve_all_between(gap, monkeypatch, tmp_path):
+    """Histories that differ in their mean speeds share tables, which give what tables of their own gap would."""
+    made = []
+    sheet = contact_table._sheet
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(store, "_in_memory", store.LRUCache(1e9, getsizeof=store._size))
+    monkeypatch.setattr(
+        contact_table, "_sheet", lambda *given: (made.append(given), sheet(*given))[1]
+    )
+    Table(FULL, RUNNING, oil=OIL.supplied(0.99 * gap))
+    first = len(made)
+    shared = Table(FULL, RUNNING, oil=OIL.supplied(gap))
+    assert first > 0 and len(made) == first
+    monkeypatch.setattr(contact_table, "shared_gaps", lambda gap, *_: ((gap, 1.0),))
+    own = Table(FULL, RUNNING, oil=OIL.supplied(gap))
+    assert len(made) == first + first // 2
+    reached = states((1.0, 1.2e5), (0.37, 0.42), (-0.01, 1.2))
+    pull = own(*reached).pull
+    largest = np.abs(pull).max(axis=1, keepdims=True)
+    off = np.abs(shared(*reached).pull - pull) / np.maximum(np.abs(pull), 0.05 * largest)
+    # The integrator's tolerance is 2e-4; contacts of some newtons, whose films are thick, are off most.
+    assert np.median(off) < 1e-5 and off.max() < 2e-4

@@ -6,7 +6,7 @@ They give values on arrays, from which tables are made.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +22,7 @@ from macroslip.contact.kellstroem import SaturatingFriction
 from macroslip.contact.mechanisms import Laws, check_lubricant
 from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
-from macroslip.contact.rolling import RollingNumbers, prepare_rolling
+from macroslip.contact.rolling import RollingNumbers, at_oil_gap, prepare_rolling
 from macroslip.contact.starvation import film_factor, inlet_at_gap
 from macroslip.contact.traction import Fluid, chord_table, prepare_fluid
 from macroslip.lubricant import Lubricant
@@ -79,6 +79,19 @@ class ContactLaws:
             if math.isfinite(self.oil_gap)
             else height
         )
+
+    @property
+    def inlet_gap(self) -> float:
+        """Gap where the inlet begins to be full [m], of film or rolling; infinite where flooded."""
+        return self.oil_gap if self.rolling is None else min(self.oil_gap, self.rolling.oil_gap)
+
+    def at_gap(self, oil_gap: float) -> ContactLaws:
+        """The same raceway with inlets full from another gap on [m], where they are not flooded."""
+        rolling = self.rolling
+        if rolling is not None and math.isfinite(rolling.oil_gap):
+            rolling = at_oil_gap(rolling, oil_gap)
+        film = oil_gap if math.isfinite(self.oil_gap) else math.inf
+        return replace(self, oil_gap=film, rolling=rolling)
 
     def film_in_range(self, load, entrainment_speed) -> np.ndarray:
         """Whether the film law, without its corrections, is in its range."""

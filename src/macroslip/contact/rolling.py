@@ -301,6 +301,14 @@ def prepare_rolling(
     )
 
 
+def at_oil_gap(numbers: RollingNumbers, oil_gap: float) -> RollingNumbers:
+    """The same raceway contact with inlets that are full from another gap on [m]."""
+    shape = GapShape(
+        0.5 * numbers.plug.double_radius, 0.5 * numbers.double_lateral, 2.0 * numbers.half_length
+    )
+    return numbers._replace(oil_gap=oil_gap, gap=prepare_gap(shape, oil_gap))
+
+
 def _log_group(numbers: RollingNumbers, log_load, log_speed):
     return log_load - log_speed - math.log(numbers.viscosity)
 

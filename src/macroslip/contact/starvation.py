@@ -25,6 +25,10 @@ from macroslip.contact.gap import starved_martin
 _LEAST = 1e-3
 _LARGEST = 1e7
 _KNOTS = 400
+#: Distance between neighbouring gaps at which tables are made, in the logarithm, and the gap over
+#: the flooded film from which on tables of two of them serve for those between.
+_GAP_SPACING = 0.125
+_WIDE = 8.0
 
 
 def film_factor(inlet):
@@ -113,3 +117,45 @@ def rigid_rolling_factor(inlet):
     """
     spline = _martin()
     return np.exp(spline(np.clip(np.log(np.asarray(inlet) - 1.0), spline.x[0], spline.x[-1])))
+
+
+def shared_gaps(
+    oil_gap: float, flooded_film: float, fineness: float
+) -> tuple[tuple[float, float], ...]:
+    """Gaps of a grid that all cases share, with weights that make a table of them.
+
+    Where inlets are nearly full, what a contact does is nearly linear in the reciprocal of the gap
+    from which on they are full: at a fineness of 1, 1/h is interpolated within 5e-5 where the gap is
+    8 to 20 times the flooded film, and within 2e-5 beyond. Tables of cases whose gaps differ by their mean
+    loads and speeds only are then sums of the same few.
+
+    Parameters
+    ----------
+    oil_gap : float
+        Gap where the inlet begins to be full [m]; infinite where flooded.
+    flooded_film : float
+        Film of the contact under its highest load, flooded [m].
+    fineness : float
+        Distances between nodes of tables over those at the default tolerance.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Gaps [m] and weights [-], of sum 1: two neighbours of the grid, or the gap itself where the
+        inlet is flooded, or so empty that the film is far from flooded.
+
+    Examples
+    --------
+    >>> [(round(1e6 * gap, 1), round(weight, 3)) for gap, weight in shared_gaps(2e-4, 1e-6, 1.0)]
+    [(179.6, 0.13), (203.5, 0.87)]
+    >>> shared_gaps(2e-6, 1e-6, 1.0)
+    ((2e-06, 1.0),)
+    """
+    if math.isinf(oil_gap) or oil_gap < _WIDE * flooded_film:
+        return ((oil_gap, 1.0),)
+    spacing = _GAP_SPACING * fineness**2
+    number = math.floor(math.log(oil_gap) / spacing)
+    near = math.exp(number * spacing)
+    far = math.exp((number + 1) * spacing)
+    weight = (1.0 / oil_gap - 1.0 / near) / (1.0 / far - 1.0 / near)
+    return (near, 1.0 - weight), (far, weight)

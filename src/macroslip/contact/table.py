@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -20,8 +21,10 @@ from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.patch import Patch, patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
+from macroslip.contact.starvation import shared_gaps
 from macroslip.contact.traction import chord_table
 from macroslip.storage.tables import remembered, stored, table_key
+from macroslip.storage.waiting import TABLES, tell
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k
 #: Q^(1/3), of asinh, and of w^(1/4) for the fastest speed of the box of 1 m/s.
@@ -338,7 +341,9 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
         math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle)
     )
     # Speeds of sheets are those of all cases whose fastest speed is of the same order.
-    spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
+    # Orders go by factors of four, such as 1/4 to 1 m/s: fast and slow winds of a turbine share one.
+    order = 2 * math.ceil(0.5 * math.log2(box.fastest)) - 1
+    spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * order)
     first = max(math.floor(box.slowest**0.25 / spacing) - _BEYOND, 0)
     last = max(math.ceil(box.fastest**0.25 / spacing) + _BEYOND, first + 4)
     return _Grid(
@@ -395,10 +400,18 @@ class TableErrors(NamedTuple):
     worst: float
 
 
+def table_gaps(contact: ContactLaws, box: Box) -> tuple[tuple[float, float], ...]:
+    """Gaps at which a raceway's tables are made, with weights that make its own table of theirs.
+
+    See `macroslip.contact.starvation.shared_gaps`.
+    """
+    film = replace(contact, oil_gap=math.inf).film_thickness(box.load, box.fastest)
+    return shared_gaps(contact.inlet_gap, float(film), box.fineness)
+
+
 class _Made(NamedTuple):
     coefficients: np.ndarray
     rising: np.ndarray
-    errors: TableErrors
 
 
 def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> TableErrors:
@@ -420,21 +433,33 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
     TableErrors
         Relative errors of force and power [-].
     """
-    grid = _grid(contact, box)
-    key = table_key("traction", *contact_parts(contact))
-    made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
-    record["start"] = tables.add(made.coefficients)
-    record["rising"] = tables.add(made.rising)
+    near, *far = ((contact.at_gap(gap), weight) for gap, weight in table_gaps(contact, box))
+    grid = _grid(near[0], box)
+    made = _nodes(near[0], grid)
+    coefficients = made.coefficients
+    rising = made.rising
+    for neighbour, weight in far:
+        made = _nodes(neighbour, grid)
+        coefficients = coefficients + weight * (made.coefficients - coefficients)
+        rising = np.minimum(rising, made.rising)
+    record["start"] = tables.add(coefficients)
+    record["rising"] = tables.add(rising)
     for name in ("load", "speed", "ratio"):
         record[name] = tuple(getattr(grid, name))
     record["stretch"] = grid.stretch
     record["middle"] = grid.middle
     record["scale"] = grid.scale
     record["side"] = math.copysign(1.0, contact.shape.spin_ratio)
-    return made.errors
+    return _errors(contact, grid, coefficients, box)
 
 
-def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
+def _nodes(contact: ContactLaws, grid: _Grid) -> _Made:
+    """Traction at the nodes of a grid, made or from store."""
+    key = table_key("traction", *contact_parts(contact))
+    return remembered(table_key(key, grid), lambda: _traction(contact, grid, key))
+
+
+def _traction(contact: ContactLaws, grid: _Grid, key: str) -> _Made:
     sheets = []
     for root_speed in grid.speed.nodes:
         name = table_key(
@@ -447,10 +472,9 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
             round(float(root_speed), 12),
         )
         sheets += stored(name, lambda speed=float(root_speed) ** 4: [_sheet(contact, grid, speed)])
+        tell(TABLES, len(sheets), grid.speed.cells + 1)
     nodes = np.stack(sheets, axis=1)
-    coefficients = spline_coefficients(nodes, 3)
-    errors = _errors(contact, grid, coefficients, box)
-    return _Made(coefficients, _rising(grid, nodes), errors)
+    return _Made(spline_coefficients(nodes, 3), _rising(grid, nodes))
 
 
 def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:

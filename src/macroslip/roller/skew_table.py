@@ -21,10 +21,11 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import cell_of
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients, splines_in_cube
-from macroslip.contact.table import Box, contact_parts
+from macroslip.contact.table import Box, contact_parts, table_gaps
 from macroslip.errors import MacroslipError
 from macroslip.roller.skew import LARGEST_SKEW, Equilibrium, Pocket, equilibrium, raceways
 from macroslip.storage.tables import remembered, stored, table_key
+from macroslip.storage.waiting import TABLES, tell
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -106,23 +107,39 @@ def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
     load = axis(math.log(_LIGHTEST), math.log(max(box.load, 4.0 * _LIGHTEST)), _LOAD)
     skew = Axis(-end * _SKEW, 1.0 / _SKEW, 2 * end)
     speed = Axis(first * _SPEED, 1.0 / _SPEED, last - first)
+    axes = load, speed, skew
+    near, *far = table_gaps(laws.inner, box)
+    cubes = near[1] * _cubes(laws, near[0], bearing, axes)
+    for gap, weight in far:
+        cubes = cubes + weight * _cubes(laws, gap, bearing, axes)
+    return SkewTable(cubes.ravel(), cubes[0].size, load, speed, skew)
+
+
+def _cubes(
+    laws: RollerLaws, oil_gap: float, bearing: Bearing, axes: tuple[Axis, Axis, Axis]
+) -> np.ndarray:
+    """Coefficients of three cubes with inlets full from a gap on [m], shape (3, coefficients).
+
+    Made or from store.
+    """
+    load, speed, skew = axes
+    laws = laws._replace(inner=laws.inner.at_gap(oil_gap), outer=laws.outer.at_gap(oil_gap))
     pair = raceways(laws, bearing, 1)
     numbers = [(contact_parts(one.laws), tuple(one)[2:], one.laws.rolling) for one in pair]
     key = table_key("skew", tuple(numbers), load, skew)
+    first = round(speed.first / _SPEED)
 
-    def make() -> SkewTable:
-        sheets = [
-            stored(
-                table_key(key, int(n)),
+    def make() -> np.ndarray:
+        sheets = []
+        for n in range(first, first + speed.cells + 1):
+            sheets += stored(
+                table_key(key, n),
                 lambda at=(n * _SPEED) ** 4: [_sheet(laws, bearing, load, skew, at)],
-            )[0]
-            for n in range(first, last + 1)
-        ]
-        cubes = [
-            spline_coefficients(np.stack(sheets, axis=1)[..., part : part + 4], 3).ravel()
-            for part in (0, 4, 8)
-        ]
-        return SkewTable(np.concatenate(cubes), cubes[0].size, load, speed, skew)
+            )
+            tell(TABLES, len(sheets), speed.cells + 1)
+        nodes = np.stack(sheets, axis=1)
+        parts = (nodes[..., part : part + CHANNELS] for part in (0, 4, 8))
+        return np.stack([spline_coefficients(part, 3).ravel() for part in parts])
 
     return remembered(table_key(key, speed), make)
 
