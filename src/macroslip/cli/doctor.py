@@ -5,20 +5,42 @@ from __future__ import annotations
 import importlib.metadata
 import re
 from collections.abc import Iterator
-from typing import Any
+from pathlib import Path
+from typing import Annotated, Any
 
 import typer
 
-from macroslip.cli.options import AsJson
+from macroslip.cli.options import AsJson, Quiet
 from macroslip.cli.printing import print_json, print_table
+from macroslip.cli.progress import command_progress
+from macroslip.errors import InputError
 
 _OF_THE_MACHINE = ("python", "system", "processor", "cores")
 
 
 def doctor(
+    case: Annotated[
+        Path | None, typer.Argument(help="A case file whose tables --warm makes beside.")
+    ] = None,
+    warm: Annotated[
+        bool,
+        typer.Option(
+            "--warm",
+            help="Compile everything, and make the tables of CASE, so that later runs need not.",
+        ),
+    ] = False,
     as_json: AsJson = False,
+    quiet: Quiet = False,
 ) -> None:
     """Show versions, the folder of kernels and tables, and packages missing for a command."""
+    if warm:
+        _warm(case, quiet)
+    elif case is not None:
+        raise InputError(
+            f"{case} is given, and nothing is to be made ahead",
+            where="CASE",
+            remedy="Add --warm to make its tables, or leave it out.",
+        )
     import macroslip
     from macroslip.cli.needs import COMMANDS, missing_packages
     from macroslip.machine import machine
@@ -67,6 +89,18 @@ def doctor(
         for one in found["commands"]
     ]
     print_table("commands that need more", [("command", False), ("", False), ("", False)], rows)
+
+
+def _warm(case: Path | None, quiet: bool) -> None:
+    """Compile everything, and make the tables of a case."""
+    from macroslip.case.case_file import bearings_in, read_case
+    from macroslip.result.warm import compile_all, make_tables
+
+    cases = [read_case(case, bearing=name) for name in bearings_in(case)] if case else []
+    with command_progress(quiet=quiet):
+        compile_all()
+        for one in cases:
+            make_tables(one)
 
 
 def _packages() -> Iterator[dict[str, Any]]:

@@ -28,7 +28,7 @@ from macroslip.result.skew import skewing
 from macroslip.roller.model import Roller, TableReport, with_tables
 from macroslip.storage.kernels import keep_kernels
 from macroslip.whole import sdirk
-from macroslip.whole.model import whole_bearing
+from macroslip.whole.model import WholeBearing, whole_bearing
 from macroslip.whole.model import with_tables as assembled
 
 #: Times that tables are made larger for a roller whose state leaves them.
@@ -191,11 +191,9 @@ def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Even
     return Measured(measures, outcome)
 
 
-def _whole_bearing(
-    ready: Prepared, wanted: Wanted, threads: int, progress: Callable | None, stop: threading.Event
-) -> xr.Dataset:
-    case = ready.case
-    bearing = whole_bearing(
+def bearing_of(case: Case) -> WholeBearing:
+    """All rollers and cages of a case at a known temperature."""
+    return whole_bearing(
         case.bearing,
         case.oil,
         case.cage,
@@ -204,6 +202,12 @@ def _whole_bearing(
         drag=case.drag,
         laws=case.laws,
     )
+
+
+def _whole_bearing(
+    ready: Prepared, wanted: Wanted, threads: int, progress: Callable | None, stop: threading.Event
+) -> xr.Dataset:
+    bearing = bearing_of(ready.case)
     count = bearing.places.size
     # All rollers are done together.
     together = progress and (lambda done, total: progress(done * count, total * count))

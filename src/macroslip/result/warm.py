@@ -1,0 +1,73 @@
+"""Compiling ahead, and making the tables of a case: for containers, clusters and runs of tests."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
+from macroslip.case.parts import BackwardEuler, ExplicitEuler, Traces
+from macroslip.contact.mechanisms import Laws
+from macroslip.errors import InputError
+from macroslip.loads import BearingLoads
+from macroslip.result.prepared import prepare
+from macroslip.result.simulate import bearing_of, simulate
+from macroslip.result.skew import skewing
+from macroslip.roller.model import with_tables
+from macroslip.whole.model import with_tables as assembled
+
+#: Force on the inner ring [N] and shaft speed [rad/s] of the cases that compile, and their length
+#: [s]: both rows carry load at the bottom, and an orbit is completed.
+_FORCE = (20e3, -400e3, 150e3)
+_SHAFT_SPEED = 1.8
+_LENGTH = 10.0
+
+
+def compile_all() -> None:
+    """Compile everything that cases of the bundled laws call, and keep it.
+
+    Cases of every engine, model and integrator are computed, with traces and details; the
+    coarsest tables serve.
+    """
+    for case in _cases():
+        simulate(case)
+
+
+def _cases() -> Iterator[Case]:
+    """Small cases that call every compiled function."""
+    loads = BearingLoads.constant(list(_FORCE), _SHAFT_SPEED, _LENGTH)
+    physical = Laws.physical()
+    common = {"loads": loads, "rollers": [0], "traces": Traces(step=0.5)}
+    for laws in (physical, Laws.paper(), physical.but(skew="quasi-static")):
+        yield Case(**common, laws=laws)
+    for integrator in (BackwardEuler(step=0.01), ExplicitEuler(step=1e-4)):
+        yield Case(**common, laws=Laws.paper(), integrator=integrator)
+    for laws in (physical, Laws.paper()):
+        yield Case(**common, laws=laws, dynamics=WHOLE_BEARING)
+
+
+def make_tables(case: Case) -> None:
+    """Make the tables of a case and keep them; nothing is computed with them.
+
+    Parameters
+    ----------
+    case : Case
+
+    Raises
+    ------
+    InputError
+        For a case whose temperature follows from its own friction: its oil is not known before.
+    """
+    if case.temperature == BALANCE:
+        raise InputError(
+            "the oil's temperature follows from the friction of the case itself, so its tables are "
+            "not known before it is computed",
+            where="temperature",
+            allowed="a temperature, to make tables ahead",
+            remedy="Give the temperature that you expect, or compute the case once.",
+        )
+    ready = prepare(case)
+    skewing(case, ready.model.laws, ready.box)
+    if case.dynamics == WHOLE_BEARING:
+        assembled(bearing_of(case), ready.box)
+    else:
+        with_tables(ready.models, ready.box)
