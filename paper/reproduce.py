@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import math
 import re
+import threading
 import time
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -115,42 +117,54 @@ def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
     return torque_histories(computed, varying_load(), case.bearing, case.lubricant)
 
 
-def all_figures(
-    runs: Mapping[str, ModelRun],
-    made: Mapping[str, xr.Dataset],
-    torques: Mapping[str, TorqueHistory],
-) -> dict[str, Callable[[], Figure]]:
-    """How each figure is drawn, by file name; `made` has the experiments."""
-    found: dict[str, Callable[[], Figure]] = {
+def experiment_figures(made: Mapping[str, xr.Dataset]) -> dict[str, Callable[[], Figure]]:
+    """How the figures of the experiments are drawn, by file name."""
+    return {
         "figure_A1": partial(draw.stability_figure, made["A1"]),
         "nonlinear_tolerance": partial(
             draw.nonlinear_tolerance_figure, made["nonlinear_tolerance"]
         ),
         "step_size": partial(draw.step_size_figure, made["step_size"]),
+    }
+
+
+def model_figures(name: str, run: ModelRun) -> dict[str, Callable[[], Figure]]:
+    """How the figures of a model are drawn, by file name."""
+    static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
+    found = {
+        "figure_3a": partial(draw.turns_figure, static),
+        "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
+        "figure_3b_peak": partial(draw.turns_figure, run.turns["peak"]),
+        "figure_4a": partial(draw.energy_figure, run.numbers),
+        "figure_4b": partial(draw.ratio_figure, run.numbers, "energy_ratio"),
+        "figure_5a": partial(draw.peak_power_figure, run.numbers),
+        "figure_5b": partial(draw.ratio_figure, run.numbers, "peak_power_ratio"),
+    }
+    if run.parts is not None:
+        found["mechanisms"] = partial(draw.mechanisms_figure, run.parts)
+    if run.uncertainty is not None:
+        found["uncertainty"] = partial(draw.uncertainty_figure, run.uncertainty)
+    return {of_model(title, name): figure for title, figure in found.items()}
+
+
+def joint_figures(
+    runs: Mapping[str, ModelRun], torques: Mapping[str, TorqueHistory]
+) -> dict[str, Callable[[], Figure]]:
+    """How the figures of all models together are drawn, by file name."""
+    return {
         "friction_torque": partial(draw.torque_figure, torques, *draw.TORQUE_WINDOW),
         "figures_4_5_models": partial(
             draw.models_figure, {name: run.numbers for name, run in runs.items()}
         ),
     }
-    for name, run in runs.items():
-        static = {
-            f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS
-        }
-        of_run = {
-            "figure_3a": partial(draw.turns_figure, static),
-            "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
-            "figure_3b_peak": partial(draw.turns_figure, run.turns["peak"]),
-            "figure_4a": partial(draw.energy_figure, run.numbers),
-            "figure_4b": partial(draw.ratio_figure, run.numbers, "energy_ratio"),
-            "figure_5a": partial(draw.peak_power_figure, run.numbers),
-            "figure_5b": partial(draw.ratio_figure, run.numbers, "peak_power_ratio"),
-        }
-        if run.parts is not None:
-            of_run["mechanisms"] = partial(draw.mechanisms_figure, run.parts)
-        if run.uncertainty is not None:
-            of_run["uncertainty"] = partial(draw.uncertainty_figure, run.uncertainty)
-        found |= {of_model(title, name): figure for title, figure in of_run.items()}
-    return found
+
+
+def draw_all(jobs: Mapping[str, Callable[[], Figure]], folder: Path, report: Report) -> None:
+    """Draw figures into a folder."""
+    for done, (name, figure) in enumerate(jobs.items(), start=1):
+        with program_style():
+            save(figure(), folder, name)
+        report("figures", done, len(jobs))
 
 
 def failed_integrations(
@@ -255,6 +269,94 @@ def as_json(summary: dict[str, Any]) -> str:
     )
 
 
+class _StoppedError(Exception):
+    """The reproduction was ended; what is under way is thrown away."""
+
+
+class Stages:
+    """Wall time of every stage, and whether they are to go on; stages of two models overlap.
+
+    `progress` is called as progress(stage, done, total).
+    """
+
+    def __init__(self, progress: Report | None):
+        self._progress = progress
+        self._guard = threading.Lock()
+        self._clocks: dict[int, float] = {}
+        self.seconds: dict[str, float] = {}
+        self.stop = threading.Event()
+
+    def begin(self) -> None:
+        """Let the first stage of this thread begin now."""
+        self._clocks[threading.get_ident()] = time.perf_counter()
+
+    def report(self, stage: str, done: int, total: int) -> None:
+        """Tell how far a stage of this thread is."""
+        if self.stop.is_set():
+            raise _StoppedError
+        with self._guard:
+            self.seconds.setdefault(stage, 0.0)
+            if done == total:
+                now = time.perf_counter()
+                spent = now - self._clocks[threading.get_ident()]
+                self.seconds[stage] = round(self.seconds[stage] + spent, 2)
+                self._clocks[threading.get_ident()] = now
+            if self._progress:
+                self._progress(stage, done, total)
+
+
+@dataclass(frozen=True, slots=True)
+class Lane:
+    """What the stages of every model need."""
+
+    directory: Path  #: Of the studies
+    threads: int | None
+    stages: Stages
+    reused: list[str]  #: Takes the names of studies that were whole
+    sampled: bool
+
+    def model(self, name: str) -> ModelRun:
+        """Compute a model."""
+        self.stages.begin()
+        return compute_model(
+            name,
+            self.directory,
+            self.threads,
+            self.stages.report,
+            self.reused,
+            sampled=self.sampled,
+        )
+
+    def experiments(self) -> dict[str, xr.Dataset]:
+        """Compute the experiments, from the detailed case of the paper's model."""
+        self.stages.begin()
+        _, detail = next(stored_results(self.directory / f"detail_{PAPER}"))
+        return experiments(detail, self.threads, partial(self.stages.report, "experiments"))
+
+
+def computed(lane: Lane, folder: Path) -> tuple[dict[str, ModelRun], dict[str, xr.Dataset]]:
+    """Compute all models and the experiments, side by side, and draw what is ready meanwhile.
+
+    One model's cases keep a processor busy while tables or results of the other's are made.
+    """
+    runs: dict[str, ModelRun] = {}
+    with ThreadPoolExecutor(len(MODELS) + 1) as pool:
+        try:
+            jobs = {name: pool.submit(lane.model, name) for name in MODELS}
+            runs[PAPER] = jobs[PAPER].result()
+            beside = pool.submit(lane.experiments)
+            lane.stages.begin()
+            draw_all(model_figures(PAPER, runs[PAPER]), folder, lane.stages.report)
+            made = beside.result()
+            lane.stages.begin()
+            draw_all(experiment_figures(made), folder, lane.stages.report)
+            runs = {name: job.result() for name, job in jobs.items()}
+        except BaseException:
+            lane.stages.stop.set()
+            raise
+    return runs, made
+
+
 def reproduce(
     directory: Path,
     *,
@@ -270,25 +372,14 @@ def reproduce(
     the same folder computed is used again as long as its inputs and the program are the same. All other files are written
     at the end, over those of an earlier run. `progress` is called as progress(stage, done, total).
     """
-    clock, seconds = time.perf_counter(), {}
-
-    def report(stage: str, done: int, total: int) -> None:
-        nonlocal clock
-        if done == total:
-            seconds[stage] = round(seconds.get(stage, 0.0) + time.perf_counter() - clock, 2)
-            clock = time.perf_counter()
-        if progress:
-            progress(stage, done, total)
-
+    stages = Stages(progress)
+    report = stages.report
     directory = Path(directory)
     reused: list[str] = []
     with published_together(directory, SUMMARY) as folder:
-        runs = {
-            name: compute_model(name, directory / STUDIES, threads, report, reused, sampled=sampled)
-            for name in MODELS
-        }
-        _, detail = next(stored_results(directory / STUDIES / f"detail_{PAPER}"))
-        made = experiments(detail, threads, partial(report, "experiments"))
+        lane = Lane(directory / STUDIES, threads, stages, reused, sampled)
+        runs, made = computed(lane, folder)
+        stages.begin()
         judged = {
             name: statements(
                 name,
@@ -319,23 +410,22 @@ def reproduce(
                 "conventions": (Path(__file__).parent / "conventions.txt")
                 .read_text(encoding="utf-8")
                 .splitlines(),
-                "seconds": seconds,
-                "reused": reused,
+                "seconds": stages.seconds,
+                "reused": sorted(reused),
                 "figures": plotted(runs, made),
                 "study": {name: run.study.to_dict(data="list") for name, run in runs.items()},
             }
         )
         torques = bearing_torques(runs)
-        jobs = all_figures(runs, made, torques)
-        for done, (name, figure) in enumerate(jobs.items(), start=1):
-            with program_style():
-                save(figure(), folder, name)
-            report("figures", done, len(jobs))
-        summary["seconds"] = dict(seconds)
+        jobs = joint_figures(runs, torques)
+        for name, run in runs.items():
+            jobs |= model_figures(name, run) if name != PAPER else {}
+        draw_all(jobs, folder, report)
+        summary["seconds"] = dict(stages.seconds)
         (folder / REPORT).write_text(
             page(folder, runs, made, judged, torques, summary), encoding="utf-8"
         )
         report("report", 1, 1)
-        summary["seconds"] = dict(seconds)
+        summary["seconds"] = dict(stages.seconds)
         (folder / SUMMARY).write_text(as_json(summary), encoding="utf-8")
     return summary
