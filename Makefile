@@ -8,6 +8,9 @@ PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --no-loadscope-reorde
 # Without stored bytecode every process that a test starts would translate all modules anew.
 unexport PYTHONDONTWRITEBYTECODE
 
+# Kernels are compiled once, before workers and the processes that tests start would each compile them.
+WARM := $(BIN)/macroslip doctor --warm
+
 .PHONY: reproduce reproduce-all validate test check test-fast test-lowest test-deep release lint docs bench clean
 
 reproduce: $(VENV)/.figures  ## the paper's study: report.html, figures and summary.json in results/
@@ -19,14 +22,22 @@ reproduce-all: $(VENV)/.figures  ## the same with the sample over values that we
 validate: $(VENV)/.figures  ## the program beside what was measured: the figures of docs/measurements.md, and its table
 	$(BIN)/python -m validation $(ARGS)
 
-test: lint  ## what a contributor runs: the package's own tests, and one run of each command
+test: $(VENV)/.ready  ## what a contributor runs: the package's own tests, and one run of each command
+	@echo "stage 1 of 2: format, lint and types, while kernels are compiled"
+	@$(WARM) >/dev/null & warming=$$!; $(MAKE) --no-print-directory lint && wait $$warming
+	@echo "stage 2 of 2: tests"
 	$(PYTEST) -m "not deep and not check" $(ARGS)
 
 check: $(VENV)/.ready  ## all else that has to hold: documentation, paper, validation, benchmarks, golden numbers, lowest versions, release
+	@echo "stage 1 of 4: tests of documentation, paper, validation, benchmarks and golden numbers"
+	@$(WARM) >/dev/null
 	$(PYTEST) -m "check and not deep" $(ARGS)
+	@echo "stage 2 of 4: speed beside the last state"
 	$(BIN)/python -m benchmarks.pair
+	@echo "stage 3 of 4: the lowest versions"
 	$(BIN)/python .ci/lowest >.lowest.txt
 	$(MAKE) test-lowest
+	@echo "stage 4 of 4: the release"
 	$(MAKE) release
 
 release:  ## what a user installs: wheel and sdist, in fresh environments

@@ -53,6 +53,8 @@ CHECKED = (
     "tests/golden/",
     "tests/study/test_cluster.py",
     "tests/report/test_browser.py",
+    # Compiles everything anew, in a folder of its own.
+    "tests/cli/test_current_folder.py::test_a_first_run_and_a_study_with_workers",
 )
 #: Golden cases that stay in `make test`, one of each kind.
 QUICK_GOLDEN = (
