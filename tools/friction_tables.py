@@ -9,7 +9,7 @@ of speed are printed for `scada/speed_exponents.py`.
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,57 +20,79 @@ from macroslip import HubLoads, open_study, run_study
 from macroslip.scada.speed_exponents import TEMPERATURES
 from macroslip.scada.synthetic import BASE_TURBINE
 from macroslip.study.friction import friction_table
-from macroslip.study.study_file import study_of
+from macroslip.study.study_file import Study, study_of
 
 SUPPLIES = ["skf", "flooded", 0.7, 0.5]
-#: Histories over wind speed, and those over speed of the rotor with the length that is simulated
-#: [s].
-HISTORIES = ["4B", "6B", "8B", "10B", "12B", "16B", "24B"]
-AT_OTHER_SPEEDS = ["6B", "12B"]
-_LENGTH = 90.0
+#: Histories over wind speed, and those over speed of the rotor.
+HISTORIES = ("4B", "6B", "8B", "10B", "12B", "18B")
+AT_OTHER_SPEEDS = ("6B", "12B")
+#: Length of a stretch of a history that is simulated, and the step of its possible starts [s].
+LENGTH = 120.0
+_START_STEP = 10.0
 #: Speed over the history's own.
 SPEEDS = (0.5, 1.0)
 
 
+def stretch(name: str) -> HubLoads:
+    """Two minutes of a bundled history whose mean speed and thrust are nearest to those of it all.
+
+    Wind that lulls for two minutes would stand for a wind that is weaker by a fifth.
+    """
+    whole = HubLoads.bundled(name)
+
+    def distance(part: HubLoads) -> float:
+        speed = part.shaft_speed.mean() / whole.shaft_speed.mean() - 1.0
+        thrust = part.force[:, 0].mean() / whole.force[:, 0].mean() - 1.0
+        return float(np.hypot(speed, thrust))
+
+    starts = np.arange(0.0, whole.duration - LENGTH, _START_STEP)
+    return min((whole.window(start, start + LENGTH) for start in starts), key=distance)
+
+
+def write_history(history: HubLoads, path: Path, factor: float = 1.0) -> None:
+    """Write a history as a table, its speed times a factor."""
+    table = pd.DataFrame(
+        {"time_s": history.time, "shaft_speed_rad_s": factor * history.shaft_speed}
+    )
+    table[["fx_N", "fy_N", "fz_N"]] = history.force
+    table[["mx_Nm", "my_Nm", "mz_Nm"]] = history.moment
+    table.to_csv(path, index=False)
+
+
 def friction_study(
-    histories: list[str] = HISTORIES, supplies: list[Any] = SUPPLIES
-) -> Mapping[str, Any]:
-    """The study of the table as plain data."""
-    return {
-        "title": "Friction of the base turbine's main bearing over temperature and supply of oil",
-        "case": {"rollers": [0, 14], "laws": {"model": "physical"}, "loads": {"end": "120 s"}},
-        "loads": {"bundled": histories},
-        "keep": ["energy"],
-        "variations": {"grid": _grid(supplies)},
-    }
+    folder: Path, histories: Sequence[str] = HISTORIES, supplies: Sequence[Any] = SUPPLIES
+) -> Study:
+    """The study of the table, its histories written into the folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in histories:
+        write_history(stretch(name), folder / f"{name.rstrip('B')}mps.csv")
+    title = "Friction of the base turbine's main bearing over temperature and supply of oil"
+    return _study(title, "{wind_speed:g}mps.csv", supplies, folder)
 
 
-def _grid(supplies: list[Any]) -> dict[str, Any]:
-    return {
-        "oil_supply": {"values": supplies},
-        "lubricant.at": {"values": list(TEMPERATURES), "unit": "degC"},
-    }
-
-
-def speed_study(folder: Path) -> Mapping[str, Any]:
-    """The study of speeds as plain data, its histories written into the folder."""
+def speed_study(folder: Path) -> Study:
+    """The study over the speed of the rotor, its histories written into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     for name in AT_OTHER_SPEEDS:
-        history = HubLoads.bundled(name).window(0.0, _LENGTH)
         for factor in SPEEDS:
-            table = pd.DataFrame(
-                {"time_s": history.time, "shaft_speed_rad_s": factor * history.shaft_speed}
-            )
-            table[["fx_N", "fy_N", "fz_N"]] = history.force
-            table[["mx_Nm", "my_Nm", "mz_Nm"]] = history.moment
-            table.to_csv(folder / f"{name.rstrip('B')}mps_{factor:g}.csv", index=False)
-    return {
-        "title": "Friction of the base turbine's main bearing over the speed of the rotor",
-        "case": {"rollers": [0, 14], "laws": {"model": "physical"}},
-        "loads": {"files": "{wind_speed:g}mps_{factor:g}.csv"},
+            path = folder / f"{name.rstrip('B')}mps_{factor:g}.csv"
+            write_history(stretch(name), path, factor)
+    title = "Friction of the base turbine's main bearing over the speed of the rotor"
+    return _study(title, "{wind_speed:g}mps_{factor:g}.csv", SUPPLIES, folder)
+
+
+def _study(title: str, files: str, supplies: Sequence[Any], folder: Path) -> Study:
+    oil = {"values": list(TEMPERATURES), "unit": "degC"}
+    content = {
+        "title": title,
+        "case": {"rollers": [0], "laws": {"model": "physical"}},
+        "loads": {"files": files},
         "keep": ["energy"],
-        "variations": {"grid": _grid(SUPPLIES)},
+        "variations": {
+            "grid": {"oil_supply": {"values": list(supplies)}, "lubricant.at": oil},
+        },
     }
+    return study_of(content, folder)
 
 
 def exponents(folder: Path) -> pd.DataFrame:
@@ -94,13 +116,11 @@ def exponents(folder: Path) -> pd.DataFrame:
 def main(folder: Path) -> None:
     """Run both studies, as far as they are not there, write the table and print the exponents."""
     table = folder / "friction"
-    run_study(study_of(friction_study()), table, resume=table.exists())
+    run_study(friction_study(folder / "winds"), table, resume=table.exists())
     friction_table(table).write_csv(BASE_TURBINE)
-    print(f"written: {BASE_TURBINE}")
-    histories = folder / "histories"
-    study = study_of(speed_study(histories), histories)
+    print(f"written: {BASE_TURBINE}", flush=True)
     speeds = folder / "speeds"
-    run_study(study, speeds, resume=speeds.exists())
+    run_study(speed_study(folder / "histories"), speeds, resume=speeds.exists())
     print(exponents(speeds).round(2).to_string())
 
 

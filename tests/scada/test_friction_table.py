@@ -47,6 +47,7 @@ def test_between_entries_it_is_pchip_over_temperature_and_linear_over_wind():
 def test_the_torque_goes_with_a_power_of_the_speed():
     own = table().torque("skf", 8.0, 0.8, 295.0)
     assert table().torque("skf", 8.0, 0.4, 295.0) == pytest.approx(own * 0.5**0.45, rel=1e-12)
+    assert table().torque("skf", 8.0, 0.0, 295.0) == table().torque("skf", 8.0, 0.08, 295.0)
     assert table().power("skf", 8.0, 0.0, 295.0) == 0.0
 
 

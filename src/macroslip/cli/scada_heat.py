@@ -33,7 +33,8 @@ def heat(
 ) -> None:
     """Fit the heat balance of a main bearing, beside rivals, and write its index over time."""
     require(FIGURES)
-    from macroslip.report.heat_page import fit_table, heat_page, heat_sentences
+    from macroslip.report.heat_figures import model_name
+    from macroslip.report.heat_page import heat_page, heat_sentences
     from macroslip.scada.description import ScadaDescription
     from macroslip.storage.files import write_durably
     from macroslip.study.export import write_tables
@@ -61,10 +62,11 @@ def heat(
         typer.echo(sentence)
     for note in found.notes:
         typer.echo(f"note: {note}")
-    table = fit_table(found)
-    rows = [list(row) for row in table.rows if row[0].startswith(found.chosen.model.name)]
-    print_table(
-        table.caption, [(name, k in (1, 3, 4)) for k, name in enumerate(table.headings)], rows
-    )
+    rows = [
+        [model_name(fit), f"{fit.residual:.4f}"]
+        for fit in sorted(found.fits, key=lambda fit: fit.residual)
+    ]
+    headings = [("model", False), ("root mean square of the residual [K/h]", True)]
+    print_table("What each model leaves of dT/dt", headings, rows)
     for path in written:
         typer.echo(f"written: {path}")

@@ -32,6 +32,8 @@ MODEL: Mapping[str, Mapping[str, Any]] = MappingProxyType(
 #: Windows that a mean of a figure needs.
 _LEAST = 10
 _RPM = np.pi / 30.0
+#: Range of an index that a figure shows.
+_SHOWN_INDEX = (0.0, 2.5)
 #: What a residual may go with: label, column of the windows, its factor, offset and width of a bin.
 OVER: Mapping[str, tuple[str, str, float, float, float]] = MappingProxyType(
     {
@@ -106,6 +108,8 @@ def plot_index(axes: Axes, heat: BearingHeat, column: str = "r") -> Axes:
         style = {**MODEL[str(model)], "markersize": 3}
         axes.plot(table["start"], table[column], label=str(model), **style)
     axes.axhline(1.0, color=BLACK, linewidth=0.8)
+    # A model that expects hardly any heat in some week would flatten all others.
+    axes.set_ylim(*np.clip(axes.get_ylim(), *_SHOWN_INDEX))
     _dates(axes)
     label = "heat over expected heat [-]" if column == "r" else "index over the sibling's [-]"
     return finish(axes, "", label)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 import pandas as pd
 
 from macroslip.report import heat_figures as draw
@@ -17,8 +18,10 @@ from macroslip.scada.heat_index import FLAGGED, first_flag
 from macroslip.scada.heat_models import FRICTION, FRICTION_ALONE, MEAN_TEMPERATURE
 
 _TEMPLATE = "heat.html"
-#: Part of the residual by which one model counts as better than another.
-_BETTER = 0.02
+#: Standard errors of the blocks from which on a difference of residuals counts, and percent of the
+#: residual from which on it is more than hardly.
+_RESOLVED = 2.0
+_CLEARLY = 2.0
 #: Units in which constants are shown: factor and name.
 _SHOWN = {"capacity": (1e-6, "MJ/K")}
 _HEADINGS = ("model", "residual [K/h]", "constant", "value", "standard error", "unit")
@@ -71,33 +74,51 @@ def heat_sentences(heat: BearingHeat, description: ScadaDescription) -> list[str
 def _worth(heat: BearingHeat) -> str:
     """Whether the physics earns its keep."""
     own = heat.chosen
-    rivals = [
-        fit
-        for fit in heat.fits
-        if fit.model.name not in (FRICTION, FRICTION_ALONE, MEAN_TEMPERATURE)
-    ]
+    names = (FRICTION, FRICTION_ALONE, MEAN_TEMPERATURE)
+    rivals = [fit for fit in heat.fits if fit.model.name not in names]
     best = min(rivals, key=lambda fit: fit.residual)
-    gain = 1.0 - own.residual / best.residual
+    difference = 100.0 * (own.residual / best.residual - 1.0)
     beside = (
-        f"it leaves {own.residual:.3f} K/h, the best rival, {best.model.name}, "
-        f"{best.residual:.3f} K/h"
+        f"{own.residual:.3f} K/h are left beside {best.residual:.3f} of the best rival, "
+        f"{best.model.name} ({difference:+.1f} %)"
     )
-    if gain > _BETTER:
-        verdict = f"The computed friction explains the heat better than its rivals: {beside}."
-    elif gain < -_BETTER:
-        verdict = f"The computed friction explains the heat worse than a rival: {beside}."
+    scatter = block_scatter(heat, best)
+    if abs(scatter) < _RESOLVED:
+        verdict = f"The computed friction explains the heat no better than a rival: {beside}, "
+        verdict += "which the scatter of three-day blocks does not resolve. "
+        verdict += "Here the physics does not earn its keep."
+    elif scatter < 0.0:
+        verdict = f"The computed friction explains the heat worse than a rival: {beside}. "
+        verdict += "Here the physics does not earn its keep."
+    elif difference > -_CLEARLY:
+        verdict = f"The computed friction explains the heat hardly better than a rival: {beside}."
     else:
-        verdict = (
-            f"The computed friction explains the heat no better than a rival does: {beside}. "
-            "Here the physics does not earn its keep."
-        )
+        verdict = f"The computed friction explains the heat better than its rivals: {beside}."
     alone = _same_supply(heat, FRICTION_ALONE)
     steady = _same_supply(heat, MEAN_TEMPERATURE)
-    cooler = (
-        f" With the friction at the mean temperature it would be {steady.residual:.3f} in place of "
-        f"{alone.residual:.3f} K/h (both without seals)."
+    return (
+        f"{verdict} Without seals it leaves {alone.residual:.3f} K/h, and {steady.residual:.3f} "
+        "with the friction at the mean temperature in place of that measured."
     )
-    return verdict + cooler
+
+
+def block_scatter(heat: BearingHeat, rival: HeatFit) -> float:
+    """Squares that a rival leaves beyond the chosen fit's, over their standard error by blocks.
+
+    Parameters
+    ----------
+    heat : BearingHeat
+    rival : HeatFit
+
+    Returns
+    -------
+    float
+        Mean over its standard error [-]; above 2 the chosen fit is better.
+    """
+    inside = heat.windows["reference"].to_numpy()
+    more = (rival.residuals**2 - heat.chosen.residuals**2)[inside]
+    blocks = pd.Series(more).groupby(heat.windows["block"].to_numpy()[inside]).sum().to_numpy()
+    return float(blocks.mean() / (blocks.std(ddof=1) / np.sqrt(blocks.size)))
 
 
 def _same_supply(heat: BearingHeat, model: str) -> HeatFit:

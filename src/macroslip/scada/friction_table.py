@@ -31,6 +31,8 @@ COLUMNS: Mapping[str, tuple[str, str]] = {
 #: Winds and temperatures that a supply needs at least: a curve through two is a straight line.
 LEAST_WINDS = 2
 LEAST_TEMPERATURES = 3
+#: Share of the speed of a case down to which the torque goes with a power of the speed.
+SLOWEST = 0.1
 #: Kelvin by which data may lie beyond the table; the torque at its end is held there.
 MOST_BEYOND = 5.0
 _REMEDY = (
@@ -196,7 +198,7 @@ class FrictionTable:
         Returns
         -------
         ndarray
-            Without a sign; 0 at standstill.
+            Without a sign; below a tenth of the case's speed that of a tenth.
         """
         winds, log_speeds, log_torque = self._curves[supply]
         wind, speed, oil = np.broadcast_arrays(
@@ -213,7 +215,9 @@ class FrictionTable:
         log_case = (1.0 - part) * log_speeds[below] + part * log_speeds[above]
         exponents = self.speed_exponents[supply]
         exponent = np.interp(held, exponents.index.to_numpy(float), exponents.to_numpy(float))
-        return np.exp((1.0 - part) * lower + part * upper - exponent * log_case) * speed**exponent
+        # Towards standstill no law of powers holds, and the exponent may be negative.
+        ratio = np.maximum(speed / np.exp(log_case), SLOWEST)
+        return np.exp((1.0 - part) * lower + part * upper) * ratio**exponent
 
     def power(
         self, supply: str, wind_speed: ArrayLike, shaft_speed: ArrayLike, temperature: ArrayLike

@@ -70,8 +70,8 @@ class BearingHeat:
     #: days [-]
     index: pd.DataFrame
     #: A line a window: `start` (UTC), means `wind_speed` [m/s], `rotor_speed` [rad/s],
-    #: `bearing_temperature` [K], `rate` dT/dt [K/h], and whether it is of the `reference`, and the
-    #: rotor is `turning`
+    #: `bearing_temperature` [K], `rate` dT/dt [K/h], number of the `block` of three days, and
+    #: whether it is of the `reference`, and the rotor is `turning`
     windows: pd.DataFrame
     marks: tuple[str, ...]  #: What is doubtful, a sentence each
     notes: tuple[str, ...]  #: What a reader has to know, a sentence each
@@ -317,7 +317,9 @@ def _window_table(analysed: _Analysed) -> pd.DataFrame:
     table = pd.DataFrame({"start": balance.start, **means, "rate": balance.rate})
     for name, units in {**WINDOW_UNITS, "rate": "K/h"}.items():
         table[name].attrs["units"] = units
-    return table.assign(reference=analysed.reference, turning=analysed.turning)
+    return table.assign(
+        block=balance.blocks, reference=analysed.reference, turning=analysed.turning
+    )
 
 
 def _regressed_rise(analysed: _Analysed) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

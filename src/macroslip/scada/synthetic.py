@@ -50,8 +50,10 @@ _STOP_ROWS = 30.0
 _LAG_ROWS = 12.0
 #: Gaps: their mean length [rows].
 _GAP_ROWS = 6.0
-#: Step of temperature over which friction is taken as linear [K].
+#: Step of temperature over which friction is taken as linear, and how far the bearing may be beyond
+#: the friction table [K].
 _CELL = 1.0
+_BEYOND = 20.0
 
 
 @dataclass(frozen=True)
@@ -234,11 +236,14 @@ def _bearing(
     per_heat = 3600.0 / truth.capacity
     factor = np.ones(wind.size)
     factor[truth.more_from * _ROWS_A_DAY :] = truth.more_friction
-    grid = friction.temperatures
-    grid = np.arange(grid[0] - 20.0, grid[-1] + 20.0, _CELL)
-    powers = [friction.power(truth.supply, wind, speed, kelvin) for kelvin in grid]
+    low = friction.temperatures[0]
+    high = friction.temperatures[-1]
+    grid = np.arange(low - _BEYOND, high + _BEYOND, _CELL)
+    # Beyond the table its ends are held.
+    known, place = np.unique(np.clip(grid, low, high), return_inverse=True)
+    powers = [friction.power(truth.supply, wind, speed, kelvin) for kelvin in known]
     seals = truth.seal_torque * speed
-    heats = per_heat * (factor[:, None] * np.stack(powers, axis=1) + seals[:, None])
+    heats = per_heat * (factor[:, None] * np.stack(powers, axis=1)[:, place] + seals[:, None])
     slopes = np.diff(heats, axis=1) / _CELL
     loss = truth.to_nacelle + truth.to_ambient
     drive = truth.to_nacelle * nacelle + truth.to_ambient * ambient

@@ -64,6 +64,8 @@ def friction_table(directory: str | PathLike[str]) -> FrictionTable:
     study = open_study(directory)
     where = str(directory)
     _check_labels(study, where)
+    production = study.isel(case=np.flatnonzero(_is_production(study)))
+    _check_loads(production, where)
     settings = _first_settings(directory)
     if settings["laws"]["rolling"] == "none":
         raise InputError(
@@ -72,8 +74,6 @@ def friction_table(directory: str | PathLike[str]) -> FrictionTable:
             where=where,
             allowed="laws with rolling, such as laws: {model: physical}",
         )
-    production = study.isel(case=np.flatnonzero(_is_production(study)))
-    _check_loads(production, where)
     entries = _entries(production, settings)
     exponents, exponent_notes = speed_exponents(entries["supply"].unique())
     loads, load_notes = _mean_loads(study, directory)
