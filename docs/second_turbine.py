@@ -29,6 +29,7 @@ from macroslip import (
     Case,
     HubLoads,
     Laws,
+    Lubricant,
     Traces,
     Turbine,
     main_bearing_load,
@@ -117,7 +118,7 @@ def case_of(run: Run) -> Case:
     return Case(
         loads=loads,
         bearing=bearing,
-        lubricant=turbine.lubricant,
+        lubricant=Lubricant.read(turbine.lubricant),
         drivetrain=turbine.drivetrain,
         rollers=[0, bearing.rollers_per_row // 2],
         laws=Laws.paper() if run.model == "paper" else Laws.physical(),
