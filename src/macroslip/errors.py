@@ -71,7 +71,9 @@ class InputError(MacroslipError, ValueError):
     is_placed: bool = False
 
     def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = ""):
-        what, allowed, remedy = (legible(part, self.longest) for part in (what, allowed, remedy))
+        what = legible(what, self.longest)
+        allowed = legible(allowed, self.longest)
+        remedy = legible(remedy, self.longest)
         where = legible(where, self.longest_place)
         self.what = what
         self.where = where

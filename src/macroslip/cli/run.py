@@ -94,8 +94,9 @@ def run(
             from macroslip.report.sheets import result_sheets
 
             book = _of_bearing(xlsx, name)
-            answer, criteria = summaries[name]["answer"], summaries[name]["damage"]["criteria"]
-            write_workbook(book, result_sheets(dataset, answer, criteria), force=force)
+            criteria = summaries[name]["damage"]["criteria"]
+            sheets = result_sheets(dataset, summaries[name]["answer"], criteria)
+            write_workbook(book, sheets, force=force)
             summaries[name]["workbook"] = str(book)
         if not (quiet or as_json):
             _summary(dataset, summaries[name], name, path)

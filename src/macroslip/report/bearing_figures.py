@@ -220,7 +220,9 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
         known = one.notnull().any("roller").values
         one = one.isel(interface=known)
         x = x[known]
-        mean, low, high = (getattr(one, name)("roller").values for name in ("mean", "min", "max"))
+        mean = one.mean("roller").values
+        low = one.min("roller").values
+        high = one.max("roller").values
         axes.bar(x, mean, width, **style)
         axes.errorbar(
             x, mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3
@@ -407,7 +409,8 @@ def plot_along_roller(axes: Axes, density: xr.DataArray, row: str) -> Axes:
 
     Takes the array of `macroslip.result.surface_maps.roller_energy_density` [J/m²].
     """
-    density, place = 1e-6 * density.sel(row=row), 1e3 * density.station.values
+    density = 1e-6 * density.sel(row=row)
+    place = 1e3 * density.station.values
     axes.plot(place, density.sum(_SPLIT).values, color=BLACK, label="all", linewidth=1.8)
     for name, (part, style) in _PARTS.items():
         one = density.sel(part)

@@ -67,17 +67,16 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         values = factor * scene[name].transpose("row", "roller", "time").values.astype(float)
         finite = values[np.isfinite(values)]
         if logarithmic:
-            low, high = (
-                np.log10(LEAST_POWER),
-                np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0))),
-            )
+            low = np.log10(LEAST_POWER)
+            high = np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0)))
             with np.errstate(divide="ignore"):
                 values = np.log10(np.where(values <= 0.0, LEAST_POWER, values))
         elif name in _SIGNED:
             high = max(1e-6, np.abs(finite).max(initial=0.0))
             low = -high
         else:
-            low, high = 0.0, max(1e-6, finite.max(initial=0.0))
+            low = 0.0
+            high = max(1e-6, finite.max(initial=0.0))
         about = {
             "heading": heading,
             "unit": unit,

@@ -200,9 +200,10 @@ def pocket_table(result: xr.Dataset) -> Table:
     contact = 100.0 * result.pocket_contact_time.mean("roller") / span
     rows = []
     for row, side in itertools.product(result.row.values, result.side.values):
-        force, average, share = (
-            float(one.sel(row=row, side=side)) for one in (largest, mean, contact)
-        )
+        spar = {"row": row, "side": side}
+        force = float(largest.sel(spar))
+        average = float(mean.sel(spar))
+        share = float(contact.sel(spar))
         rows.append((row, side, f"{force:.4g}", f"{average:.4g}", f"{share:.3g}"))
     headings = (
         "row",
@@ -333,7 +334,8 @@ def criteria_table(lines: Sequence[Mapping[str, Any]]) -> Table:
     """Criteria of damage from `macroslip.result.damage.lines`, with their factors either way."""
     rows = []
     for line in lines:
-        value, reference = (usual_units(line[key], line["unit"]) for key in ("value", "reference"))
+        value = usual_units(line["value"], line["unit"])
+        reference = usual_units(line["reference"], line["unit"])
         has_reference = np.isfinite(line["reference"])
         ratio = "< 0.001" if 0.0 < line["ratio"] < 1e-3 else number(line["ratio"], 2)
         rows.append(

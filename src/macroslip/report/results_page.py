@@ -112,7 +112,8 @@ def _shown(result: xr.Dataset) -> ShownResult:
 def _subtitle(result: xr.Dataset) -> str:
     parts = [str(result.attrs.get("title", "")).rstrip(".")]
     if "window_end" in result.attrs:
-        start, end = (float(result.attrs[name]) for name in ("window_start", "window_end"))
+        start = float(result.attrs["window_start"])
+        end = float(result.attrs["window_end"])
         parts.append(f"{start:.4g} s to {end:.4g} s")
     return f"{', '.join(filter(None, parts))}."
 

@@ -138,7 +138,8 @@ def _of_results(
     directory: Path, runs: pd.DataFrame
 ) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """Variables, coordinates and attributes of the results, opened as far as listing needs."""
-    keys, checksums = (_column(runs, name) for name in ("key", "detail"))
+    keys = _column(runs, "key")
+    checksums = _column(runs, "detail")
     kinds, texts = pd.factorize(np.where(checksums != "", _column(runs, "layout"), np.array(None)))
     if not len(texts):
         return {}, {}, {}

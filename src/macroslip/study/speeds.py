@@ -42,10 +42,10 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
     if not isinstance(study, xr.Dataset):
         study = open_study(Path(study))
     weighting = stored_weighting(study) or Weighting(scale=1.0, shape=2.0)
-    field, width = weighting.field, weighting.width
+    width = weighting.width
     speeds = pd.DataFrame(
         {
-            WIND: bin_numbers(study[field].values, width) * width,
+            WIND: bin_numbers(study[weighting.field].values, width) * width,
             OF_STUDY: _RPM * study["shaft_speed_mean"].values,
         }
     )

@@ -163,8 +163,8 @@ class Processes:
                     self._idle.append(seat)
                 except BrokenProcessPool:
                     self._idle.append(self._another(seat))
-                    deaths = self._deaths[task["run"]] = self._deaths.get(task["run"], 0) + 1
-                    if deaths < _DEATHS:
+                    self._deaths[task["run"]] = self._deaths.get(task["run"], 0) + 1
+                    if self._deaths[task["run"]] < _DEATHS:
                         self.submit([task])
                     else:
                         found.append((task, _killed(task)))

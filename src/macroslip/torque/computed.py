@@ -135,12 +135,11 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
     ):
         here = {"interface": name}
         ring = (arm * (turning - orbit)).transpose("row", "roller", "time")
-        friction, power, rolling = (
-            result[each].sel(here, drop=True).transpose("row", "roller", "time")
-            for each in ("traction", "power", "rolling_power")
-        )
+        at_ring = result[["traction", "power", "rolling_power"]].sel(here, drop=True)
+        at_ring = at_ring.transpose("row", "roller", "time")
         with np.errstate(invalid="ignore", divide="ignore"):
-            force = -(power + friction * roller) / ring - rolling / (roller + ring)
+            sliding = (at_ring.power + at_ring.traction * roller) / ring
+            force = -sliding - at_ring.rolling_power / (roller + ring)
         found.append(arm * force.sum(("row", "roller"), skipna=False))
     torque = xr.concat(found, dim="raceway").drop_vars("start_angle", errors="ignore")
     return torque.assign_coords(raceway=["inner", "outer"]).transpose("raceway", "time")

@@ -123,10 +123,15 @@ def _operation(
         if not np.all(np.isfinite(np.asarray(value, dtype=float))):
             what = f"{name} holds a number that is not finite"
             raise InputError(what, where=_WHERE, allowed="finite numbers")
-    radial, axial, speed = (np.abs(np.asarray(value, dtype=float)) for value in given.values())
     viscosity = lubricant.viscosity / lubricant.density * 1e6
     return _Operation(
-        bore * 1e3, outside * 1e3, width * 1e3, speed * 30.0 / math.pi, viscosity, radial, axial
+        bore=bore * 1e3,
+        outside=outside * 1e3,
+        width=width * 1e3,
+        speed=np.abs(np.asarray(shaft_speed, dtype=float)) * 30.0 / math.pi,
+        viscosity=viscosity,
+        radial_load=np.abs(np.asarray(radial_load, dtype=float)),
+        axial_load=np.abs(np.asarray(axial_load, dtype=float)),
     )
 
 
