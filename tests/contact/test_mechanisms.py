@@ -13,6 +13,10 @@ def coulomb(package_laws):
     register_traction("coulomb", lambda interface, load, film, slip: 0.1 * load, reference="none")
 
 
+#: Keys that have an effect beside `traction: kellstroem` only.
+KELLSTROEM_NUMBERS = ("traction_limit_inner", "traction_limit_outer", "traction_saturation")
+
+
 def test_named_sets_and_what_differs():
     assert Laws.named("paper") == Laws.paper() == Laws()
     assert Laws.named("physical") == Laws.physical()
@@ -27,7 +31,8 @@ def test_every_mechanism_of_the_physical_model_changes_the_choice():
     paper, physical = Laws.paper(), Laws.physical()
     for field in fields(Laws):
         one = paper.but(**{field.name: getattr(physical, field.name)})
-        assert (one == paper) == (field.name in ("heating", "traction", "skew"))
+        alike = ("heating", "traction", "skew", *KELLSTROEM_NUMBERS)
+        assert (one == paper) == (field.name in alike)
 
 
 def test_the_closed_form_serves_the_papers_traction_alone():

@@ -117,6 +117,7 @@ class ContactLaws:
     def uniform_traction(self, load, film_thickness, slip) -> np.ndarray:
         """Force of the film [N] with the sign of the slip, which is the same all over the contact.
 
+        Of every traction but Kellström's, which has no film: `kellstroem.saturating_patch`.
         At loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]; the ellipse ends at the roller's
         ends.
         """
