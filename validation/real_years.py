@@ -21,7 +21,7 @@ from macroslip import open_study
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.scada.bins import TEMPERATURE_WIDTH, JointShares
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.over_temperature import RunsOverTemperature
+from macroslip.study.over_temperature import RunsOverTemperature, interpolated
 from macroslip.study.real_year import FIXED, OFFSET
 from macroslip.study.temperature_shares import TemperatureShares
 from macroslip.study.weights import BinProbabilities, Weighting, Year, stored_weighting
@@ -33,9 +33,10 @@ SHARES = Path(__file__).parent / "data" / "scada_temperatures.csv"
 def measured_shares(table: pd.DataFrame, turbine: str, winds: np.ndarray) -> JointShares:
     """Shares of a turbine of the table in bins of wind speed [m/s], the nearest one each."""
     rows = table[table["turbine"] == turbine]
-    lowest = rows["bearing_degC"].min()
-    count = round((rows["bearing_degC"].max() - lowest) / TEMPERATURE_WIDTH) + 1
-    number = ((rows["bearing_degC"] - lowest) / TEMPERATURE_WIDTH).round().to_numpy(dtype=int)
+    celsius = rows["bearing_degC"].to_numpy(dtype=float)
+    lowest = float(celsius.min())
+    number = np.round((celsius - lowest) / TEMPERATURE_WIDTH).astype(int)
+    count = int(number.max()) + 1
     share = rows["share"].to_numpy() / rows["share"].sum()
     is_idle = (rows["state"] == "idle").to_numpy()
     idle = np.bincount(number[is_idle], share[is_idle], minlength=count)
@@ -91,6 +92,31 @@ def ratios(study: xr.Dataset, table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(lines)
 
 
+def interpolation_errors(study: xr.Dataset) -> pd.DataFrame:
+    """Largest errors of wear and energy at a temperature of the runs that is left out.
+
+    The others are then twice as far apart as those of the study.
+    """
+    runs = RunsOverTemperature.of(study)
+    produces = study["event"].values.astype(str)[runs.runs[:, 0]] == ""
+    lines = []
+    for number in range(1, runs.temperatures.size - 1):
+        kept = np.arange(runs.temperatures.size) != number
+        line = {"left out [degC]": runs.temperatures[number] - ZERO_CELSIUS}
+        of_bearing = {
+            "wear_rate": study["wear_rate"].max("row"),  # that of the worse row
+            "energy_mean": study["energy_mean"].sum("row"),
+        }
+        for quantity, of_runs in of_bearing.items():
+            values = of_runs.values[runs.runs[produces]]
+            known = np.moveaxis(values, 1, 0)
+            at = runs.temperatures[[number]]
+            between = interpolated(runs.temperatures[kept], known[kept], at, by_factors=True)
+            line[f"{quantity} [%]"] = 100.0 * np.abs(between[0] / known[number] - 1.0).max()
+        lines.append(line)
+    return pd.DataFrame(lines)
+
+
 def _numbers(
     runs: RunsOverTemperature, shares: TemperatureShares, of_year: Year, weighting: Weighting
 ) -> pd.Series:
@@ -101,5 +127,6 @@ def _numbers(
 
 
 if __name__ == "__main__":
-    found = ratios(open_study(sys.argv[1]), pd.read_csv(SHARES, comment="#"))
-    print(found.round(2).to_string(index=False))
+    opened = open_study(sys.argv[1])
+    print(ratios(opened, pd.read_csv(SHARES, comment="#")).round(2).to_string(index=False))
+    print(interpolation_errors(opened).round(1).to_string(index=False))
