@@ -170,3 +170,23 @@ def test_a_turbine_that_does_not_exist(folder, macroslip):
     assert (done.code, done.out) == (2, "")
     assert "no turbine can be read from 'nrel15'" in done.err
     assert "nrel5, nrel5-rear, windpact1.5" in done.err and not list(folder.iterdir())
+
+
+def test_the_example_of_ten_minute_means_has_its_record_and_its_study(folder, macroslip):
+    from macroslip import Scada, read_study
+
+    done = macroslip("init", "--example", "scada")
+    assert (done.code, done.err) == (0, "")
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "scada.csv.gz",
+        "scada.yaml",
+        "scada_study.yaml",
+    ]
+    assert len(Scada.read("scada.yaml").data) == 52_560
+    assert len(read_study("scada_study.yaml")) == 28
+    text = (folder / "scada_study.yaml").read_text()
+    (folder / "weighted.yaml").write_text(text.replace("# weights:", "weights:"))
+    weights = read_study("weighted.yaml").content["weights"]
+    assert sum(map(sum, weights["scada"]["turning"])) + sum(weights["scada"]["idle"]) == (
+        pytest.approx(1.0)
+    )
