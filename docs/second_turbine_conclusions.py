@@ -442,26 +442,26 @@ def _mixed(seat: Seat) -> NDArray:
 
 CONCLUSIONS = (
     Conclusion(
-        "README",
+        "first page",
         "the upwind row is idle (its rollers pressed for less than 10 % of the time from 8 m/s on)",
         _idle_row,
         lambda seat: bool((_pressed(seat) < 0.1).all()),
     ),
     Conclusion(
-        "README",
+        "first page",
         "rollers without load turn far below rolling speed (mean below 30 %, 14 m/s)",
         _spin,
         lambda seat: seat.at("upwind", "spin idle", 14) < 0.3,
     ),
     Conclusion(
-        "README",
+        "first page",
         "loaded contacts run on a full film but for low wind (Λ < 3: most of the loaded time at "
         "4 m/s, less than 5 % at 14)",
         _films,
         _has_full_films,
     ),
     Conclusion(
-        "README",
+        "first page",
         "torque is that of the SKF model (within 15 % from 12 m/s on)",
         _torque_text,
         lambda seat: bool((np.abs(_torque(seat)[PAPER] - 1.0) < 0.15).all()),
