@@ -1,4 +1,4 @@
-"""Print the tables of physical-study.md and its notes, and the rows of findings.md, from the results of `make reproduce`.
+"""Print the tables of published-study.md and of notes/physical-study.md, from the results of `make reproduce`.
 
 make reproduce
 PYTHONPATH=. python docs/physical_study.py results

@@ -1,4 +1,4 @@
-"""A traction law of one's own: the Barus film without shear heating. 05_use_own_law.py simulates with it.
+"""A traction law of one's own: the Barus film without shear heating. 18_own_law.py simulates with it.
 
     python own_law.py
 

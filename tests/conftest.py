@@ -65,8 +65,14 @@ QUICK_GOLDEN = (
 )
 
 
+#: Examples that stay in `make test`.
+QUICK_EXAMPLES = ("01_constant_load", "05_csv_with_units", "10_clearance")
+
+
 def is_checked(nodeid: str) -> bool:
     """True if a test belongs to `make check`."""
+    if nodeid.startswith("tests/docs/test_examples.py"):
+        return not any(name in nodeid for name in QUICK_EXAMPLES)
     if nodeid.startswith("tests/golden/"):
         return not any(name in nodeid for name in QUICK_GOLDEN)
     return nodeid.startswith(CHECKED)

@@ -126,7 +126,7 @@ def test_a_slice(physical, count):
 
 @pytest.mark.deep
 def test_cases_in_which_the_whole_bearing_moves_end_well():
-    # Rows agree to 1e-3 in two of three; docs/integrator.md has the largest differences.
+    # Rows agree to 1e-3 in two of three; docs/meaning.md has the largest differences.
     outcomes = [compare(number, physical=0.0, whole=1.0) for number in range(9940, 9946)]
     assert all(
         one.verdict.startswith(("agrees", "off")) and one.energy_error < 5e-3 for one in outcomes

@@ -51,10 +51,9 @@ def test_relative_links_resolve(page):
 def test_index_names_every_page_and_every_example():
     index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
     pages = [path.name for path in (ROOT / "docs").glob("*.md") if path.name != "index.md"]
-    missing = [
-        name for name in [*pages, *(path.name for path in EXAMPLES)] if f"{name})" not in index
-    ]
-    assert missing == []
+    assert [name for name in pages if f"{name})" not in index] == []
+    gallery = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    assert [path.name for path in EXAMPLES if f"{path.name})" not in gallery] == []
 
 
 def test_case_file_page_names_every_key_of_a_case():
@@ -70,7 +69,7 @@ def test_case_file_page_names_every_key_of_a_case():
 
 
 def test_studies_page_names_every_key_of_a_study():
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"))
+    quoted = re.findall(r"`([^`\n]+)`", STUDIES)
     names = [key for key, _ in keys_of(StudyFile) if key != "variations"]
     assert [name for name in names if name not in quoted] == []
     choices = [*METHODS, *SCALES, *KINDS, "values", "low", "high", "unit", "scale"]

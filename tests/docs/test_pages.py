@@ -109,14 +109,14 @@ def test_energies_that_the_page_on_mechanisms_quotes(pages):
 
 
 def test_ratios_that_the_page_on_the_study_quotes(pages):
-    printed, _ = pages[ROOT / "docs" / "physical-study.md"]
+    printed, _ = pages[ROOT / "docs" / "published-study.md"]
     none, fifth, whole = np.reshape(
         [float(one) for one in re.findall(r"over upwind ([\d.]+)", printed)], (3, 2)
     )
     assert none == pytest.approx([1.0, 1.0], abs=5e-3)
     words = f"with a fifth of it {fifth[0]:.1f} under `paper` and {fifth[1]:.1f} under `physical`"
     assert f"{words}, with all of it {whole[0]:.1f} and {whole[1]:.0f}." in quoted_by(
-        "physical-study.md"
+        "published-study.md"
     )
 
 

@@ -152,7 +152,7 @@ def test_all_that_is_written_is_documented(written):
     target, summary, _ = written
     docs = Path(__file__).parents[2] / "docs"
     documented = "".join(
-        (docs / name).read_text(encoding="utf-8") for name in ("reproduce.md", "results.md")
+        (docs / name).read_text(encoding="utf-8") for name in ("published-study.md", "results.md")
     )
     figures = {path.stem.removesuffix("_physical") for path in target.glob("*.png")}
     with xr.open_dataset(target / "study_physical.nc", engine="h5netcdf") as stored:

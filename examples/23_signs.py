@@ -1,7 +1,4 @@
-"""Every sign of docs/frames.md, checked with a run.
-
-python examples/06_signs.py
-"""
+"""Every sign of docs/frames.md, checked with a run."""
 
 import numpy as np
 
@@ -40,3 +37,6 @@ assert (result.roller_load.sel(row="downwind") > 0).all() and (
     result.roller_load.sel(row="upwind") == 0
 ).all()
 print("loads, numbers, spin, slip and cage force have the signs of docs/frames.md")
+axes = start.roller_load.to_series().plot.bar(rot=0, ylabel="load at the start [N]")
+axes.set_xlabel("downwind roller: 0 at the bottom, 14 at the top")
+axes.figure.savefig("23_signs.png", dpi=80)
