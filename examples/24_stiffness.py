@@ -1,9 +1,9 @@
 """Stiffness of the main bearing over its load, for programs of drivetrain and rotor dynamics."""
 
 import matplotlib.pyplot as plt
-from macroslip.result.stiffness import ring_stiffness, stiffness_table
 
 from macroslip import BearingLoads, Case
+from macroslip.result.stiffness import ring_stiffness, stiffness_table
 
 radial = (100e3, 200e3, 400e3, 800e3)
 cases = {
