@@ -5,11 +5,11 @@ import matplotlib.pyplot as plt
 from macroslip import Case, HubLoads, simulate
 from macroslip.constants import ZERO_CELSIUS
 
-loads = HubLoads.bundled("14B").window(0.0, 15.0)
+loads = HubLoads.bundled("14B").window(0.0, 14.0)
 temperatures = (20.0, 35.0, 50.0, 65.0)
 film, spin = [], []
 for degrees in temperatures:
-    result = simulate(Case(loads=loads, temperature=degrees + ZERO_CELSIUS, rollers=[0, 14]))
+    result = simulate(Case(loads=loads, temperature=degrees + ZERO_CELSIUS, rollers=[0]))
     row = result.sel(row="downwind")
     film.append(float(row.min_film_ratio.sel(interface="inner").min()))
     spin.append(100.0 * float(row.min_spin_ratio.min()))

@@ -10,7 +10,7 @@ from macroslip.study.year import year
 
 with open("year.yaml", "w", encoding="utf-8") as file:
     file.write("""
-case: {rollers: [0], loads: {start: 0 s, end: 15 s}}     # whole records and all rollers in earnest
+case: {rollers: [0], loads: {start: 0 s, end: 14 s}}     # whole records and all rollers in earnest
 loads: {bundled: [12A, 14A, 18A, 24A]}
 weights: {wind: {weibull: IEC II}}
 """)

@@ -7,14 +7,14 @@ from macroslip import BearingLoads, Case, Laws, Traces, simulate
 
 loads = BearingLoads.constant([0.0, -343.5e3, 0.0], shaft_speed=2.143, duration=14.0)
 figure, axes = plt.subplots(figsize=(6, 3.2), layout="constrained")
-for name, laws in (
-    ("paper", Laws.paper()),
-    ("isothermal Barus", Laws.paper().but(traction="isothermal-barus")),
+for name, laws, style in (
+    ("paper", Laws.paper(), "-"),
+    ("isothermal Barus", Laws.paper().but(traction="isothermal-barus"), "--"),
 ):
     # The law is evaluated once, for a table of each contact; later runs find it on the disk.
     result = simulate(Case(loads=loads, rollers=[0], laws=laws, traces=Traces(step=0.02)))
     roller = result.sel(row="downwind").isel(roller=0)
-    axes.plot(roller.time, 100.0 * roller.spin / roller.spin_pure, label=name)
+    axes.plot(roller.time, 100.0 * roller.spin / roller.spin_pure, style, label=name)
     print(f"{name}: lowest spin {100 * float(roller.min_spin_ratio):.1f} % of pure rolling")
 axes.set(xlabel="time [s]", ylabel="spin / pure rolling [%]")
 axes.legend()

@@ -16,7 +16,7 @@ if __name__ == "__main__":
     with open("study.yaml", "w", encoding="utf-8") as file:
         file.write(STUDY)
     with (
-        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0") as cluster,
         TemporaryDirectory() as folder,
     ):
         run_study(read_study("study.yaml"), folder, scheduler=cluster.scheduler_address)

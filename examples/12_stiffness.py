@@ -21,4 +21,4 @@ for axis in "XYZ":
     print(f"along {axis}0:", ", ".join(f"{float(value):.2f}" for value in values), "GN/m")
 axes.set(xlabel="radial load [kN], with 100 kN of thrust", ylabel="stiffness [GN/m]")
 axes.legend()
-figure.savefig("24_stiffness.png", dpi=80)
+figure.savefig("12_stiffness.png", dpi=80)

@@ -16,4 +16,4 @@ for row in result.row.values:
     for side in result.side.values:
         print(f"{row}, {side} spar: at most {float(force.sel(row=row, side=side)):.3g} N")
 axes = result.macroslip.plot.load_zone("downwind")
-axes.figure.savefig("12_whole_bearing.png", dpi=80)
+axes.figure.savefig("24_whole_bearing.png", dpi=80)
