@@ -16,7 +16,6 @@ import pandas as pd
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Form, Given, Positive, Quantity, Text, Texts
 from macroslip.input.files import Place, parse, read_text
-from macroslip.input.messages import shown
 from macroslip.input.section import form_from, input_section
 from macroslip.input.units import (
     MASS,
@@ -351,9 +350,3 @@ class ScadaDescription:
         text = read_text(path, "the description cannot be read", where=str(path), remedy=_REMEDY)
         data, source = parse(text, str(path), _REMEDY)
         return form_from(cls).read(data, Given(Place(source), in_file=True))
-
-
-def described_rows(description: ScadaDescription) -> str:
-    """Files and turbine in words, for messages."""
-    of = f", turbine {shown(description.turbine)}" if description.turbine else ""
-    return f"{', '.join(description.files)}{of}"

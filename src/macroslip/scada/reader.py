@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -295,9 +294,3 @@ def told_rows(scada: Scada) -> str:
         f"{len(scada.data)} rows of {name} from {span}; {kept} of them, {scada.hours:.0f} h, are "
         f"used, and the rotor turns in {100.0 * scada.turning.sum() / max(kept, 1):.0f} % of these."
     )
-
-
-def data_of(scada: Scada) -> Mapping[str, np.ndarray]:
-    """Quantities of the rows that are used, by name, each shape (rows,), SI."""
-    used = scada.data[scada.kept]
-    return {name: used[name].to_numpy() for name in QUANTITIES}

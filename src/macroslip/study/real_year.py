@@ -111,12 +111,8 @@ def real_year(
         scada = Scada.read(scada)
     if not isinstance(study, xr.Dataset):
         study = open_study(study)
-    if scada.hours < _SHORT and not allow_short:
-        raise InputError(
-            f"the record has {scada.hours / 24.0:.3g} days with data",
-            allowed="30 days or more",
-            remedy="Less tells nothing of a year; --allow-short takes it all the same.",
-        )
+    if not allow_short:
+        _check_length(scada)
     weighting = _weighting(study)
     runs = RunsOverTemperature.of(study)
     joint = JointShares.of(scada, _centres(study, weighting), weighting.width)
@@ -154,6 +150,16 @@ def real_year(
         mean_production=mean - ZERO_CELSIUS,
         mean_standing=standing - ZERO_CELSIUS,
     )
+
+
+def _check_length(scada: Scada) -> None:
+    """Refuse a record that is too short to stand for a year."""
+    if scada.hours < _SHORT:
+        raise InputError(
+            f"the record has {scada.hours / 24.0:.3g} days with data",
+            allowed="30 days or more",
+            remedy="Less tells nothing of a year; --allow-short takes it all the same.",
+        )
 
 
 def _weighting(study: xr.Dataset) -> Weighting:
