@@ -43,7 +43,8 @@ _NEXT = {
     Example.LAWS: "run it:     macroslip run {path} --laws {folder}own_film.py --laws {folder}own_law.py -o {stem}.nc",
     Example.SCADA: "look at it: macroslip scada inspect {path}\n"
     "load cases: macroslip study {folder}scada_study.yaml -o {folder}scada-study\n"
-    "a year:     macroslip scada year {path} --study {folder}scada-study -o {folder}scada-year",
+    "a year:     macroslip scada year {path} --study {folder}scada-study -o {folder}scada-year\n"
+    "its heat:   macroslip scada heat {path} --study {folder}scada-study -o {folder}scada-heat",
 }
 
 
