@@ -39,7 +39,7 @@ class History(NamedTuple):
     motion : Motion
     start_angle : float
         Position φ at the first sample [rad].
-    limits : ndarray of `macroslip.imposed.radau.LIMITS`, shape (1,)
+    limits : ndarray of `macroslip.imposed.state.LIMITS`, shape (1,)
         Of the production integrator, at its default tolerance.
     edges : ndarray
         Times at which elastic load begins or ends [s], rising.

@@ -9,10 +9,10 @@ import numpy as np
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.contact.table import table_box
-from macroslip.imposed.euler import integrate_fixed_step
-from macroslip.imposed.radau import LIMITS, WORK, Path
+from macroslip.imposed.euler import FIXED_WORK, integrate_fixed_step
 from macroslip.imposed.run import radau_limits
 from macroslip.imposed.solve import integrate
+from macroslip.imposed.state import LIMITS, WORK, Path
 from macroslip.imposed.status import UNDER_WAY
 from macroslip.imposed.zones import classify
 from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces, station
@@ -135,8 +135,9 @@ def walk(
     path = Path(
         roller.body[0], roller.tables.ctypes.data, roller.tables, motion, float(angle), limits[0]
     )
-    work, classes, found = np.zeros(1, WORK), np.zeros(motion.time.size - 1, np.int8), []
-    work["slip"], buffer, status = slip, np.zeros(rows, STEP), UNDER_WAY
+    work = np.zeros(1, WORK if limits.dtype == LIMITS else FIXED_WORK)
+    classes, found = np.zeros(motion.time.size - 1, np.int8), []
+    work["now"]["slip"], buffer, status = slip, np.zeros(rows, STEP), UNDER_WAY
     if limits.dtype == LIMITS:
         classify(roller.body[0], motion, float(angle), limits["firm"][0], classes)
     while status == UNDER_WAY:

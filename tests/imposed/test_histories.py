@@ -132,7 +132,7 @@ def test_too_fast_a_ring_leaves_the_tables():
     ]
     motion = motion_of([0.0, 1.0], RATED, (0.0, 0.0, 0.0))
     _, status, work = walk(roller, motion, limits_of(roller, motion, 2e-4), [1.0], 0.0)
-    assert status == Status.OUTSIDE_TABLES and work["time"] == 0.0
+    assert status == Status.OUTSIDE_TABLES and work["now"]["time"] == 0.0
 
 
 def test_steps_follow_one_another_and_end_at_every_stop():
@@ -144,7 +144,7 @@ def test_steps_follow_one_another_and_end_at_every_stop():
     steps, _, work = walk(roller, motion, limits_of(roller, motion, 2e-4), stops, -0.55)
     real = steps[steps["weight"][:, 0] > 0.0]
     assert real["start"][0] == 0.0 and np.array_equal(real["start"][1:], real["end"][:-1])
-    assert set(stops) <= set(real["end"]) and work["count"][0] == real.size
+    assert set(stops) <= set(real["end"]) and work["sums"]["steps"] == real.size
     np.testing.assert_allclose(real["weight"].sum(axis=1), real["end"] - real["start"], rtol=1e-12)
 
 

@@ -19,20 +19,18 @@ from macroslip.imposed.control import (
     held_energy_error,
     missed_way,
 )
+from macroslip.imposed.held import held_update
 from macroslip.imposed.radau import (
     MATRIX,
     NODES,
     SIMPSON,
     WEIGHTS,
-    WORK,
-    Path,
     collocation,
-    held_update,
-    is_continuous,
     newton_update,
     residuals,
-    surely_rising,
 )
+from macroslip.imposed.root import is_continuous, surely_rising
+from macroslip.imposed.state import WORK, Path
 from macroslip.imposed.tuning import AT_END, HOT_CHANGE
 from macroslip.imposed.zones import EDGE, FREE
 from macroslip.ring.orbit import interval_of
@@ -166,10 +164,16 @@ def a_step(motion, roller, start, end, slip=0.0):
     body = roller.body[0]
     ratio = float(body["orbit_ratio"] * body["outer_radius"])
     times = [start + node * (end - start) for node in NODES]
-    work["time"], work["length"], work["times"], work["slip"] = start, end - start, times, slip
-    work["interval"], work["end_interval"] = (interval_of(motion, one, 0) for one in (start, end))
-    work["at"]["ring_speed"] = -ratio * np.interp(start, motion.time, motion.shaft_speed)
-    work["stage_at"]["ring_speed"] = -ratio * np.interp(times, motion.time, motion.shaft_speed)
+    now, attempt = work["now"], work["attempt"]
+    now["time"], attempt["length"], attempt["times"], now["slip"] = (
+        start,
+        end - start,
+        times,
+        slip,
+    )
+    now["interval"], attempt["end_interval"] = (interval_of(motion, t, 0) for t in (start, end))
+    now["at"]["ring_speed"] = -ratio * np.interp(start, motion.time, motion.shaft_speed)
+    attempt["at"]["ring_speed"] = -ratio * np.interp(times, motion.time, motion.shaft_speed)
     return work, Path(
         body,
         roller.tables.ctypes.data,
@@ -195,11 +199,11 @@ def test_what_is_missed_of_the_way_is_what_quadrature_of_the_speed_misses(roller
         ratio
         * quad(np.interp, start, end, (motion.time, motion.shaft_speed), points=kinks or None)[0]
     )
-    found = (end - start) * float(np.dot(WEIGHTS, work["stage_at"]["ring_speed"]))
-    assert missed_way(path, work) == pytest.approx(found - exact, abs=1e-9)
+    found = (end - start) * float(np.dot(WEIGHTS, work["attempt"]["at"]["ring_speed"]))
+    assert missed_way(path, work["now"], work["attempt"]) == pytest.approx(found - exact, abs=1e-9)
     linear = motion_of([0.0, 1.0, 3.0], [1.0, 1.3, 1.9], (0.0, 0.0, 0.0))
     work, path = a_step(linear, roller, 0.1, 2.9)
-    assert missed_way(path, work) == pytest.approx(0.0, abs=1e-14)
+    assert missed_way(path, work["now"], work["attempt"]) == pytest.approx(0.0, abs=1e-14)
 
 
 def test_steps_end_where_friction_has_a_cusp(roller):
@@ -208,21 +212,22 @@ def test_steps_end_where_friction_has_a_cusp(roller):
 
     def part(zone=EDGE, **values):
         work, _ = a_step(motion, roller, 0.0, 1.0)
-        work["zone"] = zone
-        work["at"]["tangential"], work["stage_at"]["tangential"] = 1.0, 1.0
-        work["forces"]["cage_load"] = 1.0
+        now, attempt = work["now"], work["attempt"]
+        now["at"]["tangential"], attempt["at"]["tangential"] = 1.0, 1.0
+        now["forces"]["cage_load"] = 1.0
         for name, line in values.items():
-            work["at"][name], work["stage_at"][name] = line[0], line[1:]
-        return first_cusp(work)
+            now["at"][name], attempt["at"][name] = line[0], line[1:]
+        return first_cusp(now, zone, attempt)
 
     falling = 0.6 - PLACES
     assert part() == 1.0
     assert part(tangential=falling + 0.4) == 1.0
     work, _ = a_step(motion, roller, 0.0, 1.0)
-    work["at"]["tangential"], work["stage_at"]["tangential"] = 0.6 - PLACES[0], 0.6 - PLACES[1:]
-    work["forces"]["cage_load"] = 0.6 - 0.25
+    now, attempt = work["now"], work["attempt"]
+    now["at"]["tangential"], attempt["at"]["tangential"] = (0.6 - PLACES[0], 0.6 - PLACES[1:])
+    now["forces"]["cage_load"] = 0.6 - 0.25
     # The traction at the start, −0.25 N, is taken along.
-    assert first_cusp(work) == pytest.approx(0.35, abs=1e-9)
+    assert first_cusp(now, EDGE, attempt) == pytest.approx(0.35, abs=1e-9)
     assert part(ring_speed=falling) == pytest.approx(0.6, abs=1e-9)
     assert part(outer_load=falling) == 1.0
     assert part(FREE, outer_load=falling) == pytest.approx(0.6, abs=1e-9)
@@ -235,10 +240,11 @@ def judged(roller, slip, stage_slips, slopes=(1.0, 1.0, 1.0), cold=0.0, load=4e4
     motion = motion_of([0.0, 1.0], [2.1, 2.1], (0.0, 0.0, 0.0))
     work, path = a_step(motion, roller, 0.0, 1e-3, slip)
     at = a_station(load)
-    work["at"], work["stage_at"], work["scale"], work["v"] = at, at, 100.0, stage_slips
-    work["stage_forces"]["slope"] = slopes
+    now, attempt = work["now"], work["attempt"]
+    now["at"], attempt["at"], attempt["scale"], attempt["slip"] = (at, at, 100.0, stage_slips)
+    attempt["forces"]["slope"] = slopes
     path.limits["cold_slip"] = cold
-    return bool(is_continuous(path, work))
+    return bool(is_continuous(path, now, attempt))
 
 
 @pytest.mark.parametrize("laws", [Laws.paper(), Laws.physical()], ids=lambda laws: laws.name)

@@ -14,7 +14,8 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.imposed import tuning
-from macroslip.imposed.radau import EIGENVALUE, NODES, WEIGHTS, evaluate, look_between
+from macroslip.imposed.radau import EIGENVALUE, NODES, WEIGHTS, sample_between
+from macroslip.imposed.state import evaluate
 from macroslip.imposed.zones import EDGE, FIRM, FREE
 from macroslip.mechanics.spin import net_force, powers
 from macroslip.ring.orbit import instant
@@ -108,24 +109,27 @@ def _lean(at):
 
 
 @jit
-def first_cusp(work):
+def first_cusp(now, zone, attempt):
     """Part of a step at which traction first has a cusp, as a light contact's load passes zero.
 
     It is 1 if there is none. At the cage it is predicted with the traction at the start, whose
     change is small against the roller's weight. A roller without elastic load has another where it
     leans over from one raceway to the other. Where the shaft turns back all friction has one.
     """
-    at = work.at
-    one = work.stage_at[0]
-    two = work.stage_at[1]
-    three = work.stage_at[2]
-    held = work.forces.cage_load - at.tangential
+    at = now.at
+    first = attempt.at[0]
+    second = attempt.at[1]
+    third = attempt.at[2]
+    held = now.forces.cage_load - at.tangential
     part = crossing(
-        at.tangential + held, one.tangential + held, two.tangential + held, three.tangential + held
+        at.tangential + held,
+        first.tangential + held,
+        second.tangential + held,
+        third.tangential + held,
     )
-    part = min(part, crossing(at.ring_speed, one.ring_speed, two.ring_speed, three.ring_speed))
-    if work.zone == FREE:
-        part = min(part, crossing(_lean(at), _lean(one), _lean(two), _lean(three)))
+    part = min(part, crossing(at.ring_speed, first.ring_speed, second.ring_speed, third.ring_speed))
+    if zone == FREE:
+        part = min(part, crossing(_lean(at), _lean(first), _lean(second), _lean(third)))
     return part
 
 
@@ -158,93 +162,139 @@ def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
 
 
 @jit_inline
-def slip_error(path, work):
+def slip_error(path, now, zone, attempt, sample, sums):
     """Estimated error of slip of a step [m/s].
 
     The embedded estimate is one number and may vanish by accident, especially where grip ceases
-    between two stages; so the equation's defect is looked at between them.
+    between two stages; so the equation's defect is sampled between them.
+
+    Parameters
+    ----------
+    path : macroslip.imposed.state.Path
+    now : record of `macroslip.imposed.state.STATE`
+        State at the start of the step.
+    zone : int
+        Class of the sample interval: `FREE`, `EDGE` or `FIRM`.
+    attempt : record of `macroslip.imposed.state.ATTEMPT`
+        The step, solved.
+    sample : record of `macroslip.imposed.state.SAMPLE`
+        Room for the samples.
+    sums : record of `macroslip.imposed.state.SUMS`
+        Counts the evaluations.
+
+    Returns
+    -------
+    float
+        Error, ≥ 0 [m/s].
     """
     microslip = path.body.microslip
-    firm = work.zone == FIRM
-    forces = work.stage_forces
+    firm = zone == FIRM
+    forces = attempt.forces
     error = 0.0
     last = forces[2].slope
     if not (firm and microslip):
         # A held roller's slip is the balance of the instant, solved for at the end of the step.
-        least = max(min(work.forces.slope, forces[0].slope, forces[1].slope, last), 0.0)
+        least = max(min(now.forces.slope, forces[0].slope, forces[1].slope, last), 0.0)
         error = abs(
             embedded_slip_error(
-                work.scale, least, net_force(work.forces), work.s[0], work.s[1], work.s[2]
+                attempt.scale,
+                least,
+                net_force(now.forces),
+                attempt.increment[0],
+                attempt.increment[1],
+                attempt.increment[2],
             )
         )
-    turn = work.length * path.body.mobility
+    turn = attempt.length * path.body.mobility
     # With microslip grip ceases gradually.
-    for check in range(0 if firm else (2 if work.zone == EDGE and not microslip else 1)):
-        look_between(path, work, tuning.DEFECT_NODES[check])
-        evaluate(path, work.there, work.there_slip, work.push)
-        work.count[2] += 1
-        defect = work.there_rate + turn * net_force(work.push)
-        error = max(error, tuning.DEFECT_WEIGHT * abs(defect) / (1.0 + turn * abs(work.push.slope)))
+    for check in range(0 if firm else (2 if zone == EDGE and not microslip else 1)):
+        sample_between(path, now, attempt, tuning.DEFECT_NODES[check], sample)
+        evaluate(path, sample.at, sample.slip, sample.forces)
+        sums.evaluations += 1
+        defect = sample.rate + turn * net_force(sample.forces)
+        error = max(
+            error, tuning.DEFECT_WEIGHT * abs(defect) / (1.0 + turn * abs(sample.forces.slope))
+        )
     # Slip that the next step forgets need not be known so well.
     return error / (1.0 + tuning.FORGOTTEN * turn * max(last, 0.0)) if microslip else error
 
 
 @jit
-def missed_way(path, work):
+def missed_way(path, now, attempt):
     """Error of the method's quadrature for the way of the rings past the roller in a step [m].
 
     The way is known exactly. Speed is linear between the samples of the loads, and friction follows
     it: kinks of both lie at the same instants.
     """
-    before = instant(path.motion, work.interval, work.time)
-    after = instant(path.motion, work.end_interval, work.times[2])
+    before = instant(path.motion, now.interval, now.time)
+    after = instant(path.motion, attempt.end_interval, attempt.times[2])
     way = -path.body.orbit_ratio * path.body.outer_radius * (after.shaft_angle - before.shaft_angle)
-    found = 0.0
+    mean_speed = 0.0
     for k in range(3):
-        found += WEIGHTS[k] * work.stage_at[k].ring_speed
-    return work.length * found - way
+        mean_speed += WEIGHTS[k] * attempt.at[k].ring_speed
+    return attempt.length * mean_speed - way
 
 
 @jit_inline
-def _kink_error(path, work):
+def _kink_error(path, now, attempt):
     """Error of the energy [J] by kinks of the speed inside a step that spans samples."""
-    if work.end_interval == work.interval:
+    if attempt.end_interval == now.interval:
         return 0.0
-    fastest = abs(work.at.ring_speed)
+    fastest = abs(now.at.ring_speed)
     for k in range(3):
-        fastest = max(fastest, abs(work.stage_at[k].ring_speed))
-    missed = abs(missed_way(path, work))
+        fastest = max(fastest, abs(attempt.at[k].ring_speed))
+    missed = abs(missed_way(path, now, attempt))
     if fastest == 0.0:
         # At rest at all stages; the shaft may have turned in between.
         return math.inf if missed > 0.0 else 0.0
-    totals = work.totals
+    totals = attempt.totals
     return tuning.KINK_WEIGHT * missed / fastest * max(totals[0], totals[1], totals[2], totals[3])
 
 
 @jit_inline
-def energy_error(path, work):
-    """Estimated error of the energy of a step [J]."""
+def energy_error(path, now, zone, attempt, sample, sums):
+    """Estimated error of the energy of a step [J].
+
+    Parameters
+    ----------
+    path : macroslip.imposed.state.Path
+    now : record of `macroslip.imposed.state.STATE`
+        State at the start of the step.
+    zone : int
+        Class of the sample interval: `FREE`, `EDGE` or `FIRM`.
+    attempt : record of `macroslip.imposed.state.ATTEMPT`
+        The step, solved.
+    sample : record of `macroslip.imposed.state.SAMPLE`
+        Room for a sample.
+    sums : record of `macroslip.imposed.state.SUMS`
+        Counts the evaluations.
+
+    Returns
+    -------
+    float
+        Error, ≥ 0 [J].
+    """
     error = 0.0
-    totals = work.totals
+    totals = attempt.totals
     for k in range(4):
         error += EMBEDDED[k] * totals[k]
-    error = max(abs(work.length * error), _kink_error(path, work))
-    first = abs(work.forces.cage_load)
-    last = abs(work.stage_forces[2].cage_load)
-    if work.zone == EDGE or min(first, last) >= tuning.FALLEN * max(first, last):
+    error = max(abs(attempt.length * error), _kink_error(path, now, attempt))
+    first = abs(now.forces.cage_load)
+    last = abs(attempt.forces[2].cage_load)
+    if zone == EDGE or min(first, last) >= tuning.FALLEN * max(first, last):
         return error
-    if work.zone == FIRM and path.body.microslip:
+    if zone == FIRM and path.body.microslip:
         return error  # the raceways' power, beside which the cage's is little, has no cusp there
     # The cage's load is all but gone at one end of the step: power is evaluated between the stages.
-    look_between(path, work, tuning.CUSP_LOOK)
+    sample_between(path, now, attempt, tuning.CUSP_LOOK, sample)
     # Between stages the polynomial of slip is far from balance; for the cage, balance is pure
     # rolling.
-    slip = 0.0 if work.zone == FIRM else work.there_slip
-    evaluate(path, work.there, slip, work.push)
-    work.count[2] += 1
-    power = powers(path.body, work.there, work.push, slip, work.push_powers[:])
+    slip = 0.0 if zone == FIRM else sample.slip
+    evaluate(path, sample.at, slip, sample.forces)
+    sums.evaluations += 1
+    power = powers(path.body, sample.at, sample.forces, slip, sample.powers[:])
     missed = abs(power - cubic(tuning.CUSP_LOOK, totals[0], totals[1], totals[2], totals[3]))
-    return max(error, tuning.CUSP_WEIGHT * work.length * missed)
+    return max(error, tuning.CUSP_WEIGHT * attempt.length * missed)
 
 
 @jit_inline

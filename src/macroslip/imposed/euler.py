@@ -14,9 +14,9 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.imposed import tuning
-from macroslip.imposed.radau import evaluate, frame, locate, start_at, write_point
+from macroslip.imposed.state import STATE, SUMS, evaluate, frame, locate, start_at, write_point
 from macroslip.imposed.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE, UNDER_WAY
-from macroslip.mechanics.spin import net_force
+from macroslip.mechanics.spin import FORCES, STATION, net_force
 from macroslip.ring.orbit import interval_of
 from macroslip.roller.step import write_stage
 
@@ -37,16 +37,26 @@ RULE = np.dtype(
         ("end", "f8"),
     ]
 )
+#: Mutable state of an integration at a fixed step, from which the next call goes on.
+FIXED_WORK = np.dtype(
+    [
+        ("now", STATE),
+        ("end", STATION),  # at the end of the step
+        ("forces", FORCES),  # there, at a spin that is tried
+        ("spin", "f8"),  # ω relative to the orbiting frame [rad/s]
+        ("sums", SUMS),
+    ]
+)
 
 
 @jit_inline
 def _defect(path, work, spin, step):
     """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s] after a step [s], for a spin [rad/s]."""
     body = path.body
-    at = work.stage_at[0]
-    evaluate(path, at, at.ring_speed - body.radius * spin, work.push)
-    work.count[2] += 1
-    return spin - work.spin - step * body.mobility / body.radius * net_force(work.push)
+    at = work.end
+    evaluate(path, at, at.ring_speed - body.radius * spin, work.forces)
+    work.sums.evaluations += 1
+    return spin - work.spin - step * body.mobility / body.radius * net_force(work.forces)
 
 
 @jit_inline
@@ -58,9 +68,9 @@ def backward_euler_step(path, work, step, tolerance):
 
     Parameters
     ----------
-    path : macroslip.imposed.radau.Path
-    work : record of `macroslip.imposed.radau.WORK`
-        State before the step; its first stage holds the station at the end of the step.
+    path : macroslip.imposed.state.Path
+    work : record of `FIXED_WORK`
+        State before the step, and the station at its end.
     step : float
         Length of the step, > 0 [s].
     tolerance : float
@@ -114,45 +124,46 @@ def integrate_fixed_step(path, work, steps):
     body = path.body
     motion = path.motion
     rule = path.limits
+    now = work.now
+    sums = work.sums
     start = motion.time[0]
-    if work.begun == 0:
-        work.begun = 1
-        work.time = start
-        work.interval = 0
-        start_at(path, work)
-        work.spin = (work.at.ring_speed - work.slip) / body.radius
+    if sums.begun == 0:
+        sums.begun = 1
+        now.time = start
+        now.interval = 0
+        start_at(path, now, sums)
+        work.spin = (now.at.ring_speed - now.slip) / body.radius
     for count in range(steps.size):
-        if work.time >= rule.end:
+        if now.time >= rule.end:
             # Explicit Euler evaluates the end for no step.
-            write_point(path, work, steps[count])
+            write_point(path, now, sums.steps, steps[count])
             return COMPLETED, count + 1
-        after = min(start + (work.count[0] + 1) * rule.step, rule.end)
-        span = after - work.time
-        interval = interval_of(motion, after, work.interval)
+        after = min(start + (sums.steps + 1) * rule.step, rule.end)
+        span = after - now.time
+        interval = interval_of(motion, after, now.interval)
         row = steps[count]
-        locate(path, after, interval, work.stage_at[0])
-        frame(work, row, 1, after)
+        locate(path, after, interval, work.end)
+        frame(now, sums.steps, row, 1, after)
         row.weight[0] = span
         if rule.implicit:
             work.spin, unbalanced = backward_euler_step(path, work, span, rule.tolerance)
-            work.unbalanced = max(work.unbalanced, unbalanced)
+            sums.unbalanced = max(sums.unbalanced, unbalanced)
         else:
-            row.time[0] = work.time
-            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers[:])
-            work.spin += span * body.mobility / body.radius * net_force(work.forces)
-        slip = work.stage_at[0].ring_speed - body.radius * work.spin
+            row.time[0] = now.time
+            write_stage(row, 0, body, now.at, now.forces, now.slip, now.powers[:])
+            work.spin += span * body.mobility / body.radius * net_force(now.forces)
+        slip = work.end.ring_speed - body.radius * work.spin
         if not math.isfinite(slip):
             return NO_ROOT if rule.implicit else NOT_FINITE, count
-        work.slip = slip
+        now.slip = slip
         if abs(slip) > rule.largest_slip:
-            work.time = after
+            now.time = after
             return IMPOSSIBLE_SLIP, count
-        work.time = after
-        work.interval = interval
-        start_at(path, work)
-        work.count[0] += 1
-        work.stretch = work.count[0]
+        now.time = after
+        now.interval = interval
+        start_at(path, now, sums)
+        sums.steps += 1
         if rule.implicit:
             row.time[0] = after
-            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers[:])
+            write_stage(row, 0, body, now.at, now.forces, now.slip, now.powers[:])
     return UNDER_WAY, steps.size

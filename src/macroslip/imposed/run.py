@@ -9,10 +9,11 @@ import numpy as np
 
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.imposed import tuning
-from macroslip.imposed.euler import RULE, integrate_fixed_step
-from macroslip.imposed.radau import LIMITS, WORK, Path, surely_rising
+from macroslip.imposed.euler import FIXED_WORK, RULE, integrate_fixed_step
+from macroslip.imposed.root import surely_rising
 from macroslip.imposed.solve import integrate
-from macroslip.imposed.status import COMPLETED, UNDER_WAY
+from macroslip.imposed.state import LIMITS, WORK, Path
+from macroslip.imposed.status import UNDER_WAY
 from macroslip.imposed.zones import classify, firm_interference
 from macroslip.ring.orbit import Motion
 from macroslip.roller.model import Roller
@@ -142,10 +143,10 @@ def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator
     body = problem.roller.body[0]
     tables = problem.roller.tables
     path = Path(body, tables.ctypes.data, tables, motion, float(start_angle), limits)
-    work = np.zeros(1, WORK)
     steps = new_steps()
     classes = np.empty(motion.time.size - 1, dtype=np.int8)
     radau = problem.limits.dtype == LIMITS
+    work = np.zeros(1, WORK if radau else FIXED_WORK)
     if radau:
         classify(body, motion, start_angle, limits["firm"], classes)
     status = UNDER_WAY
@@ -156,11 +157,11 @@ def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator
             status, count = integrate_fixed_step(path, work[0], steps[:, 0])
         if count:
             yield steps[:count]
-    last = work[0]
+    sums = work[0]["sums"]
     outcome.status = status
-    outcome.steps, outcome.rejections, outcome.evaluations = (int(one) for one in last["count"])
-    outcome.unbalanced = float(last["unbalanced"])
-    outcome.time = float(last["time"])
-    outcome.slip = float(last["slip"])
-    if status == COMPLETED and not radau:
-        outcome.rejections = 0
+    outcome.steps = int(sums["steps"])
+    outcome.rejections = int(sums["rejections"])
+    outcome.evaluations = int(sums["evaluations"])
+    outcome.unbalanced = float(sums["unbalanced"])
+    outcome.time = float(work[0]["now"]["time"])
+    outcome.slip = float(work[0]["now"]["slip"])

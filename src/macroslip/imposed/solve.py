@@ -22,21 +22,11 @@ from macroslip.imposed.control import (
     slip_error,
     step_factor,
 )
-from macroslip.imposed.radau import (
-    Path,
-    evaluate,
-    follows_loads,
-    frame,
-    guess,
-    held_exponent,
-    is_continuous,
-    look_between,
-    set_step,
-    solve_held,
-    solve_stages,
-    start_at,
-    write_point,
-)
+from macroslip.imposed.guess import guess
+from macroslip.imposed.held import follows_loads, held_exponent, solve_held
+from macroslip.imposed.radau import sample_between, set_step, solve_stages
+from macroslip.imposed.root import is_continuous
+from macroslip.imposed.state import Path, evaluate, frame, start_at, write_point
 from macroslip.imposed.status import (
     COMPLETED,
     NOT_FINITE,
@@ -55,34 +45,35 @@ _ROWS = 2 + tuning.PEAK_PARTS // 3
 
 
 @jit_inline
-def _follows_acceleration(work):
+def _follows_acceleration(now):
     """True if tractions make up the cage's load: they jump with the shaft's acceleration."""
-    load = work.forces.cage_load
-    return abs(load - work.at.tangential) > tuning.INERTIA_PART * abs(load)
+    load = now.forces.cage_load
+    return abs(load - now.at.tangential) > tuning.INERTIA_PART * abs(load)
 
 
 @jit_inline
-def _rebalance(path, work):
+def _rebalance(path, now, sums, forces):
     """Take a firmly held roller to just after a sample, where the shaft's acceleration jumps.
 
     The transition takes the relaxation time, for which `firm_interference` gives a bound; here it
-    takes none. A roller that still skids, or has not settled yet, is left as it is.
+    takes none. A roller that still skids, or has not settled yet, is left as it is. `forces` is
+    room for the search.
     """
     body = path.body
     motion = path.motion
-    k = work.interval
+    k = now.interval
     acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
         motion.time[k + 1] - motion.time[k]
     )
     needed = -body.orbit_ratio * body.outer_radius * acceleration / body.mobility
-    slip = work.slip
+    slip = now.slip
     for _ in range(3):
-        evaluate(path, work.at, slip, work.push)
-        slip += (needed - net_force(work.push)) / work.push.slope
-    work.count[2] += 3
-    if abs(slip - work.slip) < tuning.SETTLED * path.limits.speed_scale:
-        work.slip = slip
-        start_at(path, work)
+        evaluate(path, now.at, slip, forces)
+        slip += (needed - net_force(forces)) / forces.slope
+    sums.evaluations += 3
+    if abs(slip - now.slip) < tuning.SETTLED * path.limits.speed_scale:
+        now.slip = slip
+        start_at(path, now, sums)
 
 
 @jit_inline
@@ -91,42 +82,49 @@ def _next_stretch(path, stops, classes, work):
 
     None is left after the last stop.
     """
-    time = work.time
+    now = work.now
+    stretch = work.stretch
+    time = now.time
     motion = path.motion
-    while work.next_stop < stops.size and stops[work.next_stop] <= time:
-        work.next_stop += 1
-    if work.next_stop == stops.size:
+    while stretch.next_stop < stops.size and stops[stretch.next_stop] <= time:
+        stretch.next_stop += 1
+    if stretch.next_stop == stops.size:
         return
-    stop = stops[work.next_stop]
-    before = work.zone
-    work.interval = interval = interval_of(motion, time, work.interval)
-    work.zone = zone = np.int64(classes[interval])
-    work.sample_step = sample_step = motion.time[interval + 1] - motion.time[interval]
+    stop = stops[stretch.next_stop]
+    before = stretch.zone
+    interval = interval_of(motion, time, now.interval)
+    zone = np.int64(classes[interval])
+    sample_step = motion.time[interval + 1] - motion.time[interval]
+    now.interval = interval
+    stretch.zone = zone
+    stretch.sample_step = sample_step
     jumps = not path.body.microslip
     last = interval
     # From where an earlier search ended: a run may have as many intervals as the history, and is
     # searched at every barrier.
-    work.run_end = max(work.run_end, interval)
-    while work.run_end < classes.size - 1 and classes[work.run_end + 1] == zone:
-        work.run_end += 1
+    stretch.run_end = max(stretch.run_end, interval)
+    while stretch.run_end < classes.size - 1 and classes[stretch.run_end + 1] == zone:
+        stretch.run_end += 1
     # With microslip the power of a held roller has a kink at every sample; without, that of a cage
     # that carries little.
-    kinks = zone == FIRM and (not jumps or _follows_acceleration(work))
-    if zone != EDGE and work.step > 2.0 * sample_step and not kinks:
-        last = max(interval, min(work.run_end, last_before(motion.time, stop)))
+    kinks = zone == FIRM and (not jumps or _follows_acceleration(now))
+    if zone != EDGE and stretch.step > 2.0 * sample_step and not kinks:
+        last = max(interval, min(stretch.run_end, last_before(motion.time, stop)))
         if zone == FIRM and last > interval and motion.time[last + 1] > stop:
             # The last step before a stop crosses no sample, so that tractions at the stop are those
             # of the instant.
             last -= 1
-    work.barrier = min(motion.time[last + 1], stop)
-    if jumps and work.at.interference > path.limits.firm and time == motion.time[interval]:
-        _rebalance(path, work)
+    stretch.barrier = min(motion.time[last + 1], stop)
+    if jumps and now.at.interference > path.limits.firm and time == motion.time[interval]:
+        _rebalance(path, now, work.sums, work.sample.forces)
     if zone == EDGE:
-        work.barrier = edge_time(path.body, motion, path.start_angle, interval, time, work.barrier)
+        stretch.barrier = edge_time(
+            path.body, motion, path.start_angle, interval, time, stretch.barrier
+        )
         # With microslip forces are as smooth there as before, unless rings press on the roller
         # anew.
         if before != EDGE and (jumps or before != FIRM):
-            work.step = min(work.step, tuning.EDGE_STEP)
+            stretch.step = min(stretch.step, tuning.EDGE_STEP)
 
 
 @jit_inline
@@ -135,34 +133,40 @@ def _attempt(path, work):
 
     It is infinite where the step was not solved on the continuous root.
     """
-    if work.held:
-        solve_held(path, work)
+    now = work.now
+    attempt = work.attempt
+    sums = work.sums
+    zone = work.stretch.zone
+    if attempt.held:
+        solved = solve_held(path, now, attempt, work.before, sums)
     else:
-        guess(path, work)
-        solve_stages(path, work)
-    work.totals[0] = work.powers[0] + work.powers[1] + work.powers[2]
-    work.energy = 0.0
+        guess(path, now, zone, work.before, attempt)
+        solved = solve_stages(path, now, zone, attempt, work.before, sums)
+    attempt.totals[0] = now.powers[0] + now.powers[1] + now.powers[2]
+    attempt.energy = 0.0
     for k in range(3):
         total = powers(
-            path.body, work.stage_at[k], work.stage_forces[k], work.v[k], work.stage_powers[k]
+            path.body, attempt.at[k], attempt.forces[k], attempt.slip[k], attempt.powers[k]
         )
-        work.totals[k + 1] = total
-        work.energy += work.length * work.weights[k] * total
-    if work.converged == 0 or not is_continuous(path, work):
+        attempt.totals[k + 1] = total
+        attempt.energy += attempt.length * attempt.weights[k] * total
+    if not solved or not is_continuous(path, now, attempt):
         return math.inf
-    if work.held:
+    if attempt.held:
         slip_off = 0.0
-        energy_off = held_energy_error(work.energy, work.length, work.totals[0], work.totals[3])
+        energy_off = held_energy_error(
+            attempt.energy, attempt.length, attempt.totals[0], attempt.totals[3]
+        )
     else:
-        slip_off = slip_error(path, work)
-        energy_off = energy_error(path, work)
-    since = path.limits.window if work.time >= path.limits.window else path.motion.time[0]
-    mean_power = (work.spent + work.energy) / (work.times[2] - since)
+        slip_off = slip_error(path, now, zone, attempt, work.sample, sums)
+        energy_off = energy_error(path, now, zone, attempt, work.sample, sums)
+    since = path.limits.window if now.time >= path.limits.window else path.motion.time[0]
+    mean_power = (sums.spent + attempt.energy) / (attempt.times[2] - since)
     # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a
     # sample interval may be off by what is allowed in that part.
-    share = max(work.length, tuning.SHORT_PART * work.sample_step)
+    share = max(attempt.length, tuning.SHORT_PART * work.stretch.sample_step)
     limits = path.limits
-    worth = max(mean_power * share, work.energy, tuning.NO_ENERGY * limits.energy_scale)
+    worth = max(mean_power * share, attempt.energy, tuning.NO_ENERGY * limits.energy_scale)
     slip_off /= tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
     return max(
         abs(slip_off), abs(energy_off) / (tuning.ENERGY_SHARE * limits.tolerance * worth + 1e-300)
@@ -172,9 +176,12 @@ def _attempt(path, work):
 @jit_inline
 def _reject(path, work, error):
     """Prepare another attempt: a held step with three stages, another one shorter."""
-    work.count[1] += 1
-    work.failed = 1
-    if work.held:
+    now = work.now
+    attempt = work.attempt
+    stretch = work.stretch
+    work.sums.rejections += 1
+    stretch.failed = 1
+    if attempt.held:
         return
     part = tuning.UNSOLVED_PART
     if error < math.inf:
@@ -184,20 +191,20 @@ def _reject(path, work, error):
             tuning.LEAST_PART,
             tuning.SAFETY / math.sqrt(error) if path.body.microslip else step_factor(error),
         )
-    work.step = part * work.length
+    stretch.step = part * attempt.length
     # A shorter step should not cross samples if it is short.
-    sample = path.motion.time[work.interval + 1]
-    if work.step <= 2.0 * (sample - path.motion.time[work.interval]):
-        work.barrier = min(work.barrier, sample)
+    sample = path.motion.time[now.interval + 1]
+    if stretch.step <= 2.0 * (sample - path.motion.time[now.interval]):
+        stretch.barrier = min(stretch.barrier, sample)
 
 
 @jit_inline
-def _leaves_tables(body, work):
+def _leaves_tables(body, attempt):
     """True if the step ends in a state outside the tables."""
-    at = work.stage_at[2]
-    slip = work.v[2]
+    at = attempt.at[2]
+    slip = attempt.slip[2]
     speed = math.sqrt(at.ring_speed * at.ring_speed + 0.25 * slip * slip)
-    load = max(at.inner_load, at.outer_load, abs(work.stage_forces[2].cage_load))
+    load = max(at.inner_load, at.outer_load, abs(attempt.forces[2].cage_load))
     return load > body.highest_load or speed > body.highest_speed + 2.0 * REST_SPEED
 
 
@@ -207,28 +214,30 @@ def _may_peak_inside(path, work, resolved):
 
     The largest is that since the roller had no load.
     """
-    if path.body.microslip or work.zone != EDGE:
+    if path.body.microslip or work.stretch.zone != EDGE:
         return False
+    slip = work.now.slip
+    attempt = work.attempt
     sliding = 0.0
     for k in range(3):
-        forces = work.stage_forces[k]
-        sliding = max(sliding, max(abs(forces.inner), abs(forces.outer)) * abs(work.v[k]))
-    return sliding > 0.5 * work.top_power or (
-        abs(work.slip) > resolved and abs(work.v[2]) < tuning.SNAP * abs(work.slip)
+        forces = attempt.forces[k]
+        sliding = max(sliding, max(abs(forces.inner), abs(forces.outer)) * abs(attempt.slip[k]))
+    return sliding > 0.5 * work.sums.top_power or (
+        abs(slip) > resolved and abs(attempt.slip[2]) < tuning.SNAP * abs(slip)
     )
 
 
 @jit_inline
-def _film_ends_at(work, resolved):
+def _film_ends_at(now, attempt, resolved):
     """Part of the step at which the entrainment of a sliding roller passes zero, else 1.
 
     The film ends there, and power has a cusp, but in tables, which smooth it. A gripped roller's
     passes zero with the ring's speed, and its slip between the stages is far from balance.
     """
-    if min(abs(work.slip), abs(work.v[2])) <= resolved:
+    if min(abs(now.slip), abs(attempt.slip[2])) <= resolved:
         return 1.0
-    before = work.at.ring_speed - 0.5 * work.slip
-    after = work.stage_at[2].ring_speed - 0.5 * work.v[2]
+    before = now.at.ring_speed - 0.5 * now.slip
+    after = attempt.at[2].ring_speed - 0.5 * attempt.slip[2]
     return before / (before - after) if before * after < 0.0 else 1.0
 
 
@@ -239,91 +248,97 @@ def _write_samples(path, work, resolved, cusp, rows):
     One of them is at the part `cusp` of the step. A slip that is small against what a step may be
     off says nothing of the power there.
     """
-    row = 0
+    now = work.now
+    attempt = work.attempt
+    sample = work.sample
+    filled = 0
     stage = 0
     parts = tuning.PEAK_PARTS
     for k in range(1, parts + 1):
         near = abs(cusp * parts - k) <= 0.5 or (k == 1 and cusp * parts < 0.5)
         part = cusp if near else k / parts
-        look_between(path, work, part)
-        slip = work.there_slip
+        sample_between(path, now, attempt, part, sample)
+        slip = sample.slip
         if abs(slip) <= resolved:
             continue
-        evaluate(path, work.there, slip, work.push)
-        powers(path.body, work.there, work.push, slip, work.push_powers[:])
-        one = rows[row]
-        one.time[stage] = work.time + part * work.length
-        one.weight[stage] = 0.0
-        write_stage(one, stage, path.body, work.there, work.push, slip, work.push_powers[:])
+        evaluate(path, sample.at, slip, sample.forces)
+        powers(path.body, sample.at, sample.forces, slip, sample.powers[:])
+        row = rows[filled]
+        row.time[stage] = now.time + part * attempt.length
+        row.weight[stage] = 0.0
+        write_stage(row, stage, path.body, sample.at, sample.forces, slip, sample.powers[:])
         stage += 1
-        frame(work, one, stage, one.time[stage - 1])
+        frame(now, work.stretch.number, row, stage, row.time[stage - 1])
         if stage == 3:
-            row = row + 1
+            filled += 1
             stage = 0
-    work.count[2] += parts
-    return row + (1 if stage > 0 else 0)
+    work.sums.evaluations += parts
+    return filled + (1 if stage > 0 else 0)
 
 
 @jit_inline
 def _accept(path, work, end, rows):
     """Write a step, which ends at `end` [s], and go on to there; returns the number of rows."""
+    now = work.now
+    attempt = work.attempt
+    sums = work.sums
+    zone = work.stretch.zone
     resolved = tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale
     count = 0
-    cusp = _film_ends_at(work, resolved) if path.body.closed_form else 1.0
+    cusp = _film_ends_at(now, attempt, resolved) if path.body.closed_form else 1.0
     sampled = cusp < 1.0 or _may_peak_inside(path, work, resolved)
     if sampled:
         count = _write_samples(path, work, resolved, cusp, rows)
     row = rows[count]
-    frame(work, row, 3, end)
+    frame(now, work.stretch.number, row, 3, end)
     row.sampled = 1 if sampled else 0
-    top = 0.0 if work.zone == FREE else work.top_power
+    top = 0.0 if zone == FREE else sums.top_power
     for k in range(3):
-        row.time[k] = end if k == 2 else work.times[k]
-        row.weight[k] = work.length * work.weights[k]
+        row.time[k] = end if k == 2 else attempt.times[k]
+        row.weight[k] = attempt.length * attempt.weights[k]
         write_stage(
-            row,
-            k,
-            path.body,
-            work.stage_at[k],
-            work.stage_forces[k],
-            work.v[k],
-            work.stage_powers[k],
+            row, k, path.body, attempt.at[k], attempt.forces[k], attempt.slip[k], attempt.powers[k]
         )
-        top = max(top, work.stage_powers[k, 0], work.stage_powers[k, 1])
-    work.count[0] += 1
-    work.spent = work.spent + work.energy
-    work.top_power = top
-    work.unbalanced = max(work.unbalanced, work.left)
-    if work.zone == FIRM:
-        work.exponent = held_exponent(
-            work.at, work.slip, work.stage_at[2], work.v[2], work.exponent
+        top = max(top, attempt.powers[k, 0], attempt.powers[k, 1])
+    sums.steps += 1
+    sums.spent += attempt.energy
+    sums.top_power = top
+    sums.unbalanced = max(sums.unbalanced, attempt.left)
+    before = work.before
+    if zone == FIRM:
+        before.exponent = held_exponent(
+            now.at, now.slip, attempt.at[2], attempt.slip[2], before.exponent
         )
-    work.last_length = 0.0 if work.held else work.length
+    before.length = 0.0 if attempt.held else attempt.length
     for k in range(3):
-        work.last_s[k], work.powers[k] = work.s[k], work.stage_powers[2, k]
+        before.increment[k] = attempt.increment[k]
+        now.powers[k] = attempt.powers[2, k]
     # A step ends in the interval it comes from, not in the next one that begins there.
-    work.time = end
-    work.interval = work.end_interval
-    work.slip = work.v[2]
-    work.at = work.stage_at[2]
-    work.forces = work.stage_forces[2]
+    now.time = end
+    now.interval = attempt.end_interval
+    now.slip = attempt.slip[2]
+    now.at = attempt.at[2]
+    now.forces = attempt.forces[2]
     return count + 1
 
 
 @jit_inline
 def _begin(path, work, row):
     """Start at the first sample, at which no step ends: it has a row of its own."""
-    work.begun = 1
-    work.time = path.motion.time[0]
-    work.interval = 0
-    work.step = min(path.limits.longest_step, tuning.FIRST_STEP)
-    work.barrier = work.time
-    work.zone = -1
-    work.run_end = -1
-    work.exponent = tuning.LIMIT_EXPONENT
-    work.bend = math.inf
-    start_at(path, work)
-    write_point(path, work, row)
+    now = work.now
+    stretch = work.stretch
+    before = work.before
+    work.sums.begun = 1
+    now.time = path.motion.time[0]
+    now.interval = 0
+    stretch.step = min(path.limits.longest_step, tuning.FIRST_STEP)
+    stretch.barrier = now.time
+    stretch.zone = -1
+    stretch.run_end = -1
+    before.exponent = tuning.LIMIT_EXPONENT
+    before.bend = math.inf
+    start_at(path, now, work.sums)
+    write_point(path, now, stretch.number, row)
 
 
 @jit
@@ -340,7 +355,7 @@ def integrate(path, stops, classes, work, steps):
         Times at which a step must end [s], rising, the last being the end of the integration.
     classes : ndarray of int8, shape (n − 1,)
         Classes of the n − 1 sample intervals, as `classify` writes them.
-    work : record of `WORK`
+    work : record of `macroslip.imposed.state.WORK`
         Zeros but for the slip at the first sample, and in later calls as the last call left it.
     steps : ndarray of `macroslip.roller.step.STEP`, shape (k,)
         Buffer, which is filled from the start.
@@ -356,53 +371,58 @@ def integrate(path, stops, classes, work, steps):
     motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]
     path = Path(path.body, path.tables, uncounted(path.flat), motion, path.start_angle, path.limits)
     limits = path.limits
+    now = work.now
+    attempt = work.attempt
+    stretch = work.stretch
+    sums = work.sums
     count = 0
-    if work.begun == 0:
+    if sums.begun == 0:
         _begin(path, work, steps[0])
         count = 1
     while count + _ROWS <= steps.size:
-        if work.time >= work.barrier:
-            if work.time == limits.window:
+        if now.time >= stretch.barrier:
+            if now.time == limits.window:
                 # Errors in the window are bounded as if the history began with it.
-                work.spent = 0.0
+                sums.spent = 0.0
             _next_stretch(path, stops, classes, work)
             # Loads have a kink at every sample; no parabola for a peak should reach across it.
-            work.stretch += 1
-            if work.next_stop == stops.size:
+            stretch.number += 1
+            if stretch.next_stop == stops.size:
                 return COMPLETED, count
-        if work.count[0] + work.count[1] >= limits.max_steps:
+        if sums.steps + sums.rejections >= limits.max_steps:
             return TOO_MANY_STEPS, count
-        work.step = min(work.step, limits.longest_step)
-        left = work.barrier - work.time
-        if left <= 1e-15 * abs(work.time):
+        stretch.step = min(stretch.step, limits.longest_step)
+        left = stretch.barrier - now.time
+        if left <= 1e-15 * abs(now.time):
             # Rounding has put the roller on the barrier.
-            work.time = work.barrier
+            now.time = stretch.barrier
             continue
         length = (
             left
-            if work.step >= 0.95 * left
-            else (0.5 * left if work.step > 0.6 * left else work.step)
+            if stretch.step >= 0.95 * left
+            else (0.5 * left if stretch.step > 0.6 * left else stretch.step)
         )
-        if length <= 4e-16 * abs(work.time) + 1e-300:
+        if length <= 4e-16 * abs(now.time) + 1e-300:
             return STEP_TOO_SMALL, count
-        set_step(path, work, length, work.failed == 0 and follows_loads(path, work, length))
-        if length > tuning.CUSP_PART * limits.longest_step and work.held == 0:
-            part = first_cusp(work)
+        held = stretch.failed == 0 and follows_loads(path, now, stretch.zone, length)
+        set_step(path, now, attempt, length, held)
+        if length > tuning.CUSP_PART * limits.longest_step and attempt.held == 0:
+            part = first_cusp(now, stretch.zone, attempt)
             if part < 1.0:
-                work.step = part * length
-                work.barrier = min(work.barrier, work.time + part * length)
+                stretch.step = part * length
+                stretch.barrier = min(stretch.barrier, now.time + part * length)
                 continue
         error = _attempt(path, work)
-        if error < math.inf and not math.isfinite(work.energy):
+        if error < math.inf and not math.isfinite(attempt.energy):
             return NOT_FINITE, count
         if not error <= 1.0:
             _reject(path, work, error)
             continue
-        if _leaves_tables(path.body, work):
+        if _leaves_tables(path.body, attempt):
             return OUTSIDE_TABLES, count
         count += _accept(
-            path, work, work.barrier if length == left else work.times[2], steps[count:]
+            path, work, stretch.barrier if length == left else attempt.times[2], steps[count:]
         )
-        work.step = length * min(1.0 if work.failed else tuning.GROWTH, step_factor(error))
-        work.failed = 0
+        stretch.step = length * min(1.0 if stretch.failed else tuning.GROWTH, step_factor(error))
+        stretch.failed = 0
     return UNDER_WAY, count

@@ -1,0 +1,224 @@
+"""Held steps: collocation at two stages, for a firmly held roller with microslip.
+
+Its slip is what the balance of the instant asks. There collocation at the middle and the end of the
+step, with the energy by Simpson's rule, takes two force evaluations in place of three, and is no
+worse, since slip forgets what it was within a small part of the step: L-stable, and of order 2
+where slip has a memory (its stability function is (1 + z/4)/(1 − 3z/4 + z²/4)).
+"""
+
+from __future__ import annotations
+
+import math
+
+from macroslip.compiled import jit_inline
+from macroslip.imposed import tuning
+from macroslip.imposed.radau import correct, evaluate_stages, force_tolerance, new_bend
+from macroslip.imposed.state import evaluate
+from macroslip.imposed.zones import FIRM
+from macroslip.mechanics.spin import magnitude, net_force
+
+
+@jit_inline
+def follows_loads(path, now, zone, length):
+    """True if a roller is at its balance and forgets its slip within a small part of a step.
+
+    Parameters
+    ----------
+    path : macroslip.imposed.state.Path
+    now : record of `macroslip.imposed.state.STATE`
+        State at the start of the step.
+    zone : int
+        Class of the sample interval: `FREE`, `EDGE` or `FIRM`.
+    length : float
+        Length of the step [s].
+
+    Returns
+    -------
+    bool
+    """
+    if zone != FIRM or not path.body.microslip:
+        return False
+    held = path.body.mobility * now.forces.slope * length > tuning.QUASI_STATIC
+    return held and abs(net_force(now.forces)) <= tuning.SETTLED_FORCE * magnitude(now.forces)
+
+
+@jit_inline
+def held_update(scale, d2, d3, rest_2, rest_3):
+    """Newton correction of the two stage slips of a held step.
+
+    It solves the linearised equations R_2 = scale (v_3 − …) + F_2 and R_3 = scale (3 v_3 − 4 v_2 +
+    …) + F_3.
+
+    Parameters
+    ----------
+    scale : float
+        1/(h r²/I_z') [N s/m].
+    d2, d3 : float
+        Slopes of the net force by slip at the middle and at the end, > 0 [N s/m].
+    rest_2, rest_3 : float
+        Residuals R_2 and R_3 [N].
+
+    Returns
+    -------
+    tuple of float
+        Changes of slip at the middle and at the end [m/s].
+
+    Examples
+    --------
+    >>> held_update(1.0, 2.0, 3.0, 16.0, 8.0)
+    (-5.5, -5.0)
+    """
+    last = 3.0 * scale + d3
+    change_3 = (-rest_3 * d2 - 4.0 * scale * rest_2) / (last * d2 + 4.0 * scale * scale)
+    return (-rest_2 - scale * change_3) / d2, change_3
+
+
+@jit_inline
+def solve_held(path, now, attempt, before, sums):
+    """Solve the stage equations of a held step.
+
+    They are not solved where Newton's method would need a better guess than is available.
+
+    Parameters
+    ----------
+    path : macroslip.imposed.state.Path
+    now : record of `macroslip.imposed.state.STATE`
+        State at the start of the step.
+    attempt : record of `macroslip.imposed.state.ATTEMPT`
+        Slips, increments, forces and what is left are written.
+    before : record of `macroslip.imposed.state.BEFORE`
+        Its exponent is used; its bend is used and renewed.
+    sums : record of `macroslip.imposed.state.SUMS`
+        Counts the evaluations.
+
+    Returns
+    -------
+    bool
+        Whether the equations were solved.
+    """
+    scale = attempt.scale
+    slip = now.slip
+    at = now.at
+    middle = attempt.at[1]
+    end = attempt.at[2]
+    second = attempt.forces[1]
+    third = attempt.forces[2]
+    attempt.forces[0] = now.forces
+    attempt.slip[0] = slip
+    attempt.increment[0] = 0.0
+    force_part = force_tolerance(path.limits.tolerance, path.body.microslip)
+    attempt.slip[1] = held_slip(path.body.microslip, slip, at, middle, before.exponent)
+    evaluate(path, middle, attempt.slip[1], second)
+    # The middle first, with the end as far ahead as the middle: its solution makes a good guess of
+    # the end.
+    rest = scale * 2.0 * (attempt.slip[1] - slip - (middle.ring_speed - at.ring_speed)) + net_force(
+        second
+    )
+    ahead = attempt.slip[1] - rest / (2.0 * scale + second.slope)
+    attempt.slip[2] = held_slip(
+        path.body.microslip,
+        ahead,
+        middle,
+        end,
+        held_exponent(at, slip, middle, ahead, before.exponent),
+    )
+    evaluate(path, end, attempt.slip[2], third)
+    sums.evaluations += 2
+    for k in range(1, 3):
+        attempt.increment[k] = attempt.slip[k] - slip - (attempt.at[k].ring_speed - at.ring_speed)
+    attempt.left = math.inf
+    change = 0.0
+    foreseen = math.inf
+    for iteration in range(tuning.HELD_ITERATIONS):
+        rest_2 = scale * attempt.increment[2] + net_force(second)
+        rest_3 = scale * (3.0 * attempt.increment[2] - 4.0 * attempt.increment[1]) + net_force(
+            third
+        )
+        size = max(abs(rest_2), abs(rest_3))
+        allowed = force_part * min(magnitude(second), magnitude(third))
+        if not math.isfinite(size) or second.slope <= 0.0 or third.slope <= 0.0:
+            return False
+        if iteration > 0:
+            if iteration == 1:
+                before.bend = new_bend(before.bend, size, change)
+            if size > 0.9 * attempt.left and size > allowed:
+                return False
+            foreseen = min(size, size * size / attempt.left)
+        update = held_update(scale, second.slope, third.slope, rest_2, rest_3)
+        change = max(abs(update[0]), abs(update[1]))
+        if iteration == 0:
+            foreseen = tuning.BEND_SAFETY * before.bend * change * change
+        attempt.left = size
+        last = foreseen <= allowed
+        correct(now, attempt, (0.0, update[0], update[1]), 1, last)
+        if last:
+            attempt.left = foreseen
+            return True
+        evaluate_stages(path, now, attempt, sums, 1)
+    return False
+
+
+@jit_inline
+def held_slip(microslip, slip, at, later, exponent):
+    """First guess of the slip of a firmly held roller at a later station.
+
+    With microslip the middle slips so that the two sides of the lines of pure rolling balance: in
+    proportion to speed, and to a power of the load that `held_exponent` measures.
+
+    Parameters
+    ----------
+    microslip : bool
+        Whether the contacts have microslip; the guess is the slip now without.
+    slip : float
+        Slip now [m/s].
+    at, later : record of `macroslip.mechanics.spin.STATION`
+        Stations now and later.
+    exponent : float
+        Power of the elastic load that slip follows [-].
+
+    Returns
+    -------
+    float
+        Slip at the later station [m/s]; that of now where load or speed give no ratio, or where
+        speed grows by more than `MOST_QUICKENING`.
+    """
+    if not microslip or at.elastic_load <= 0.0 or at.ring_speed == 0.0 or later.elastic_load <= 0.0:
+        return slip
+    if abs(later.ring_speed) > tuning.MOST_QUICKENING * abs(at.ring_speed):
+        return slip
+    return (
+        slip
+        * (later.elastic_load / at.elastic_load) ** exponent
+        * (later.ring_speed / at.ring_speed)
+    )
+
+
+@jit_inline
+def held_exponent(at, slip, later, later_slip, exponent):
+    """Power of the elastic load that the slip of a held roller has just followed.
+
+    Parameters
+    ----------
+    at, later : record of `macroslip.mechanics.spin.STATION`
+        Stations before and after the change.
+    slip, later_slip : float
+        Slips at these stations [m/s].
+    exponent : float
+        Power known from before [-].
+
+    Returns
+    -------
+    float
+        The power, between ±`STEEPEST` [-]; that of before where it cannot be measured.
+    """
+    if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
+        return exponent
+    change = math.log(later.elastic_load / at.elastic_load)
+    ratio = (
+        later_slip * at.ring_speed / (slip * later.ring_speed)
+        if slip * later.ring_speed != 0.0
+        else 0.0
+    )
+    if abs(change) < tuning.LEAST_CHANGE or ratio <= 0.0:
+        return exponent
+    return min(max(math.log(ratio) / change, -tuning.STEEPEST), tuning.STEEPEST)

@@ -1,0 +1,231 @@
+"""State of one roller on its imposed orbit while its slip is integrated, and its rows of steps."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces, station
+from macroslip.ring.orbit import instant
+from macroslip.roller.step import write_stage
+
+
+class Path(NamedTuple):
+    """The way of one roller and how it is to be integrated."""
+
+    body: Any  #: Record of a roller
+    #: Address of the flat array of its tables: an array would be counted at every look-up
+    tables: int
+    flat: np.ndarray  #: The array itself
+    motion: Any
+    start_angle: float  #: Position φ at the first sample [rad]
+    limits: Any  #: Record of `LIMITS`, or of `macroslip.imposed.euler.RULE`
+
+
+#: Tolerance and bounds of the integration, the same for all rollers of a case.
+LIMITS = np.dtype(
+    [
+        # Relative tolerance, of slip against the raceway speed and of energy per step [-].
+        ("tolerance", "f8"),
+        # Steps after which the integration gives up.
+        ("max_steps", "i8"),
+        # Largest raceway speed |u2| of the history [m/s].
+        ("speed_scale", "f8"),
+        # Twice the kinetic energy of a roller's spin at that speed, I_z' u2²/r² [J].
+        ("energy_scale", "f8"),
+        # Length of the longest step [s].
+        ("longest_step", "f8"),
+        # Slip below which traction rises with slip at every load of the history [m/s].
+        ("cold_slip", "f8"),
+        # Interference from which on the roller is firmly held [m].
+        ("firm", "f8"),
+        # Start of the window [s].
+        ("window", "f8"),
+        # Change of a slip near zero that does not change its place in a table [m/s]; 0 without
+        # tables of traction.
+        ("grain", "f8"),
+    ]
+)
+
+#: The roller now.
+STATE = np.dtype(
+    [
+        ("time", "f8"),  # [s]
+        ("interval", "i8"),  # index of the sample interval that holds it
+        ("slip", "f8"),  # Δu [m/s]
+        ("at", STATION),
+        ("forces", FORCES),
+        ("powers", "f8", (3,)),  # frictional powers of the interfaces [W]
+    ]
+)
+#: A step that is tried, and its solution.
+ATTEMPT = np.dtype(
+    [
+        ("length", "f8"),  # [s]
+        ("scale", "f8"),  # 1/(h r²/I_z') [N s/m]
+        ("end_interval", "i8"),  # index of the sample interval in which it ends
+        # 1 where the step is held, that is of two stages at its middle and end beside its start.
+        ("held", "i8"),
+        ("times", "f8", (3,)),  # of its stages [s]
+        ("weights", "f8", (3,)),  # of its stages, as parts of the step [-]
+        ("at", STATION, (3,)),  # at its stages
+        ("slip", "f8", (3,)),  # at its stages [m/s]
+        # Increments of slip by forces, s = v − v0 − (u2 − u2_0) [m/s].
+        ("increment", "f8", (3,)),
+        ("forces", FORCES, (3,)),  # at its stages
+        ("left", "f8"),  # largest force left unbalanced at a stage [N]
+        ("powers", "f8", (3, 3)),  # by stage and interface [W]
+        # Sums of the powers over the interfaces, at the start and at the stages [W].
+        ("totals", "f8", (4,)),
+        ("energy", "f8"),  # [J]
+    ]
+)
+#: A sample between the stages of a step.
+SAMPLE = np.dtype(
+    [
+        ("at", STATION),
+        ("slip", "f8"),  # [m/s]
+        ("rate", "f8"),  # derivative of the increment of slip by the part of the step [m/s]
+        ("forces", FORCES),
+        ("powers", "f8", (3,)),  # of the interfaces [W]
+    ]
+)
+#: What steps before tell of the next one.
+BEFORE = np.dtype(
+    [
+        ("exponent", "f8"),  # power of the load that the slip of a held roller follows [-]
+        # Residual left by Newton's correction over the square of the correction [N s²/m²]; infinite
+        # while it is not known.
+        ("bend", "f8"),
+        # Length of the last step of three stages [s]; 0 where a held one has come since.
+        ("length", "f8"),
+        ("increment", "f8", (3,)),  # increments of slip of the last step [m/s]
+    ]
+)
+#: A stretch of sample intervals of one class, and the step to try in it.
+STRETCH = np.dtype(
+    [
+        ("step", "f8"),  # length of the step to try next [s]
+        ("barrier", "f8"),  # time at which a step must end [s]
+        ("zone", "i8"),  # class of the sample interval; −1 before the first
+        # Index of the last of the sample intervals of this class that follow one another.
+        ("run_end", "i8"),
+        ("next_stop", "i8"),  # index of the first stop ahead
+        ("sample_step", "f8"),  # length of the sample interval [s]
+        ("failed", "i8"),  # 1 where the last attempt was rejected
+        ("number", "i8"),  # changes where loads have a kink
+    ]
+)
+#: What an integration has come to so far.
+SUMS = np.dtype(
+    [
+        ("begun", "i8"),  # 1 where the integration has begun
+        ("steps", "i8"),
+        ("rejections", "i8"),
+        ("evaluations", "i8"),  # of the forces
+        ("unbalanced", "f8"),  # largest force left unbalanced by an accepted step [N]
+        ("spent", "f8"),  # energy [J]; in the window from there on
+        ("top_power", "f8"),  # largest raceway power since the roller had no load [W]
+    ]
+)
+#: Mutable state of one integration, from which the next call goes on.
+WORK = np.dtype(
+    [
+        ("now", STATE),
+        ("attempt", ATTEMPT),
+        ("sample", SAMPLE),
+        ("before", BEFORE),
+        ("stretch", STRETCH),
+        ("sums", SUMS),
+    ]
+)
+
+
+@jit_inline
+def locate(path, time, interval, at):
+    """Write the station of the roller at a time.
+
+    Parameters
+    ----------
+    path : Path
+    time : float
+        [s]
+    interval : int
+        Index of the sample interval that holds the time.
+    at : record of `macroslip.mechanics.spin.STATION`
+        Is written; its film load is where the search for the new one begins.
+    """
+    station(path.body, path.tables, path.start_angle, instant(path.motion, interval, time), at)
+
+
+@jit_inline
+def evaluate(path, at, slip, forces):
+    """Write the forces on the roller at a station and a slip.
+
+    Parameters
+    ----------
+    path : Path
+    at : record of `macroslip.mechanics.spin.STATION`
+    slip : float
+        Δu at both raceways [m/s].
+    forces : record of `macroslip.mechanics.spin.FORCES`
+        Is written.
+    """
+    slip_forces(path.body, path.tables, at, slip, forces)
+
+
+@jit_inline
+def start_at(path, now, sums):
+    """Write station, forces and powers of the roller at its time and slip; count the evaluation."""
+    locate(path, now.time, now.interval, now.at)
+    evaluate(path, now.at, now.slip, now.forces)
+    powers(path.body, now.at, now.forces, now.slip, now.powers[:])
+    sums.evaluations += 1
+
+
+@jit_inline
+def frame(now, stretch_number, row, stages, end):
+    """Write the fields of a row that concern its whole step.
+
+    Parameters
+    ----------
+    now : record of `STATE`
+        State at the start of the step.
+    stretch_number : int
+        Number of the stretch of smooth loads that holds the step.
+    row : record of `macroslip.roller.step.STEP`
+        Is written.
+    stages : int
+        Number of stages of the row, 1 to 3.
+    end : float
+        End of the step [s].
+    """
+    row.start = now.time
+    row.end = end
+    row.stages = stages
+    row.stretch = stretch_number
+    row.sampled = 0
+    for i in range(3):
+        row.power_before[i] = now.powers[i]
+
+
+@jit_inline
+def write_point(path, now, stretch_number, row):
+    """Write a row without weight of the roller now.
+
+    Parameters
+    ----------
+    path : macroslip.imposed.state.Path
+    now : record of `STATE`
+    stretch_number : int
+        Number of the stretch of smooth loads that holds the time.
+    row : record of `macroslip.roller.step.STEP`
+        Is written.
+    """
+    frame(now, stretch_number, row, 1, now.time)
+    row.time[0] = now.time
+    row.weight[0] = 0.0
+    row.sampled = 1
+    write_stage(row, 0, path.body, now.at, now.forces, now.slip, now.powers[:])
