@@ -1,7 +1,8 @@
 """Speed of this state beside an earlier one: `python -m benchmarks.pair REVISION`.
 
 Both states integrate the same rollers in turns, each in a process and with compiled kernels of its own, so that a loss of
-speed is seen when it is made. CPU time counts, the least of several turns; a ratio below 1 is a loss.
+speed is seen when it is made; with `--whole` the whole bearing too. CPU time counts, the least of several turns; a ratio
+below 1 is a loss.
 """
 
 from __future__ import annotations
@@ -19,30 +20,60 @@ from typing import NamedTuple
 
 #: The state that `make check` compares with: the last one before this round of changes.
 LAST_STATE = "b2f5b5e"
-MODELS = ("paper", "physical")
 ROOT = Path(__file__).parents[1]
 
-#: What both states run. Rollers beyond the first of each row are timed by difference: what a case costs beside them is left out.
+
+class Setting(NamedTuple):
+    """What is timed."""
+
+    name: str
+    dynamics: str
+    model: str
+    impact: str = "squeeze-film"  #: How a roller meets a spar of the cage
+
+
+IMPOSED = (
+    Setting("paper", "imposed-orbit", "paper"),
+    Setting("physical", "imposed-orbit", "physical"),
+)
+WHOLE = (
+    Setting("whole, paper", "whole-bearing", "paper"),
+    Setting("whole, physical", "whole-bearing", "physical"),
+    Setting("whole, physical, dry", "whole-bearing", "physical", "dry"),
+)
+
+#: What both states run. Rollers beyond the first of each row are timed by difference, or the whole
+#: bearing beyond its first two seconds: what a case costs beside them is left out.
 _DRIVER = """
 import json, sys, time
-from macroslip import Case, HubLoads, Laws, simulate
+from macroslip import Cage, Case, HubLoads, Laws, simulate
 
-model, turns = sys.argv[1], int(sys.argv[2])
-laws = {"paper": Laws.paper, "physical": Laws.physical}[model]()
+dynamics, model, impact = sys.argv[1:4]
+turns = int(sys.argv[4])
 loads = HubLoads.bundled("14B")
+if dynamics == "whole-bearing":
+    beyond = 3.0 if impact == "dry" else 10.0
+    common = {"dynamics": dynamics, "cage": Cage(impact=impact)}
+    small = {"loads": loads.window(0.0, 2.0)}
+    large = {"loads": loads.window(0.0, 2.0 + beyond)}
+else:
+    beyond = 10 * loads.duration
+    common = {"loads": loads}
+    small = {"rollers": [0]}
+    large = {"rollers": list(range(6))}
 
-def spent(rollers):
-    case = Case(loads=loads, laws=laws, rollers=rollers, contact_details=False)
+def spent(part):
+    laws = {"paper": Laws.paper, "physical": Laws.physical}[model]()
+    case = Case(laws=laws, contact_details=False, **common, **part)
     start = time.process_time()
     result = simulate(case, threads=1)
     return time.process_time() - start, result
 
-spent([0])
-few = min(spent([0])[0] for _ in range(turns))
-many, result = min((spent(list(range(6))) for _ in range(turns)), key=lambda pair: pair[0])
-rollers = 10
+spent(small)
+few = min(spent(small)[0] for _ in range(turns))
+many, result = min((spent(large) for _ in range(turns)), key=lambda pair: pair[0])
 print(json.dumps({
-    "times_real_time": rollers * loads.duration / (many - few),
+    "times_real_time": beyond / (many - few),
     "evaluations": int(result["force_evaluations"].sum()),
     "energy": float(result["energy"].sum()),
 }))
@@ -50,10 +81,11 @@ print(json.dumps({
 
 
 class Speed(NamedTuple):
-    """What one state gave for one model."""
+    """What one state gave for one setting."""
 
-    times_real_time: float  #: Time of the history over CPU time, of one roller [-]
-    evaluations: int  #: Force evaluations of twelve rollers
+    #: Time of the history over CPU time, of one roller or of the whole bearing [-]
+    times_real_time: float
+    evaluations: int  #: Force evaluations
     energy: float  #: Their frictional energy [J]
 
 
@@ -81,11 +113,11 @@ def unpack(revision: str, folder: Path) -> Path:
     return folder / "src"
 
 
-def run(sources: Path, kernels: Path, model: str, turns: int) -> Speed:
+def run(sources: Path, kernels: Path, setting: Setting, turns: int) -> Speed:
     """Time one state in a process of its own."""
     environment = os.environ | {"PYTHONPATH": str(sources), "NUMBA_CACHE_DIR": str(kernels)}
     done = subprocess.run(
-        [sys.executable, "-c", _DRIVER, model, str(turns)],
+        [sys.executable, "-c", _DRIVER, *setting[1:], str(turns)],
         env=environment,
         capture_output=True,
         text=True,
@@ -94,8 +126,10 @@ def run(sources: Path, kernels: Path, model: str, turns: int) -> Speed:
     return Speed(**json.loads(done.stdout))
 
 
-def compare(revision: str, turns: int) -> dict[str, tuple[Speed, Speed]]:
-    """Speeds of the earlier state and of this one, by model, run in turns."""
+def compare(
+    revision: str, turns: int, settings: tuple[Setting, ...]
+) -> dict[str, tuple[Speed, Speed]]:
+    """Speeds of the earlier state and of this one, by setting, run in turns."""
     speeds = {}
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
@@ -103,13 +137,13 @@ def compare(revision: str, turns: int) -> dict[str, tuple[Speed, Speed]]:
             "before": (unpack(revision, folder / "before"), folder / "kernels_before"),
             "now": (ROOT / "src", folder / "kernels_now"),
         }
-        for model in MODELS:
+        for setting in settings:
             runs: dict[str, list[Speed]] = {name: [] for name in states}
             for _ in range(turns):
                 for name, (sources, kernels) in states.items():
-                    runs[name].append(run(sources, kernels, model, turns=2))
+                    runs[name].append(run(sources, kernels, setting, turns=2))
             # By its first field, a run's speed, the largest is the fastest.
-            speeds[model] = (max(runs["before"]), max(runs["now"]))
+            speeds[setting.name] = (max(runs["before"]), max(runs["now"]))
     return speeds
 
 
@@ -118,16 +152,22 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pair", description=__doc__)
     parser.add_argument("revision", nargs="?", default=LAST_STATE, help="the earlier state")
     parser.add_argument("--turns", type=int, default=2, help="runs of each state")
-    given = parser.parse_args()
-    if given.revision == LAST_STATE and not is_known(LAST_STATE):
+    parser.add_argument("--whole", action="store_true", help="the whole bearing too")
+    wanted = parser.parse_args()
+    if wanted.revision == LAST_STATE and not is_known(LAST_STATE):
         print(f"{LAST_STATE} is not in this copy of the sources: nothing to compare with")
         return
-    print(f"14B, 600 s, six rollers a row, one thread; before: {given.revision}")
-    print("model      times real time: before     now    ratio   evaluations: before       now")
-    for model, (before, now) in compare(given.revision, given.turns).items():
+    settings = IMPOSED + WHOLE if wanted.whole else IMPOSED
+    print(
+        f"14B, one thread; 600 s of six rollers a row, 10 s of all (dry 3 s); before: {wanted.revision}"
+    )
+    print(
+        "setting               times real time: before      now   ratio   evaluations: before       now"
+    )
+    for name, (before, now) in compare(wanted.revision, wanted.turns, settings).items():
         ratio = now.times_real_time / before.times_real_time
         print(
-            f"{model:10s} {before.times_real_time:23,.0f} {now.times_real_time:7,.0f} {ratio:8.2f}"
+            f"{name:22s} {before.times_real_time:22,.1f} {now.times_real_time:8,.1f} {ratio:7.2f}"
             f" {before.evaluations:21,d} {now.evaluations:9,d}"
         )
 
