@@ -11,8 +11,9 @@ from macroslip import Bearing, Case, Laws, Lubricant, RollerLoads, Traces, simul
 from macroslip.bearing.geometry import ROWS, roller_radius
 from macroslip.contact.laws import prepare
 from macroslip.contact.skewed import constant_friction, resultants, slip_lines
-from macroslip.measures import details as looks
-from macroslip.measures.details import STATIONS, new_details
+from macroslip.measures.along import STATIONS, contacts_of, power_along
+from macroslip.measures.details import new_details
+from macroslip.measures.samples import SAMPLE
 from macroslip.result.criteria.wear import slip_profile, working_skew
 from macroslip.result.damage import damage
 from macroslip.roller.skew import equilibrium, pocket, raceways
@@ -37,18 +38,18 @@ def profile(raceway, load, skew, sign=1):
     at = equilibrium(pair, laws, load, SPEED, skew)
     one, middle = pair[raceway], pair[raceway].middle(at.tilt, at.shift)
     lines = slip_lines(one, SPEED, at.slip, skew, middle, at.tilt)
-    look, maps = np.zeros(1, looks._LOOK)[0], new_details(np.array([0.0, 1.0])).maps
+    sample, maps = np.zeros(1, SAMPLE)[0], new_details(np.array([0.0, 1.0])).maps
     entrainment = abs(SPEED - 0.5 * at.slip)
-    look["film"][raceway] = film = one.laws.film_thickness(load, entrainment)
-    look["share"][raceway] = one.laws.asperity_share(load, entrainment, film)
-    look["lines"][raceway], look["time"], look["at"]["elastic_load"] = (
+    sample["film"][raceway] = film = one.laws.film_thickness(load, entrainment)
+    sample["share"][raceway] = one.laws.asperity_share(load, entrainment, film)
+    sample["lines"][raceway], sample["time"], sample["at"]["elastic_load"] = (
         [middle, *lines[:6]],
         1.0,
         load,
     )
     along = maps["along"][0, 2 * raceway]
-    looks._look_along(
-        maps[0], raceway, looks.prepare(laws)[raceway], (load, SPEED, at.slip), look, 1.0, along
+    power_along(
+        maps[0], raceway, contacts_of(laws)[raceway], (load, SPEED, at.slip), sample, 1.0, along
     )
     return along, one, lines, at, maps
 

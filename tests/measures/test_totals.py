@@ -1,4 +1,4 @@
-"""From steps to numbers: totals against plain sums, peaks against known maxima, energies of places and stations, and looks."""
+"""From steps to numbers: totals against plain sums, peaks against known maxima, energies of places and stations, and samples."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from hypothesis import strategies as st
 
 from macroslip import Laws
 from macroslip.constants import SECTORS
-from macroslip.measures import details as looks
-from macroslip.measures.details import Looker, new_details, prepare
+from macroslip.measures.along import contacts_of
+from macroslip.measures.details import ContactSampler, new_details
+from macroslip.measures.maps import spread
 from macroslip.measures.roller import RollerMeasures, Row, Wanted
+from macroslip.measures.samples import SAMPLE, choose
 from macroslip.measures.totals import (
     END,
     HIGHEST_RISE,
@@ -214,18 +216,18 @@ def test_outside_all_orbits_powers_count_for_the_rest_of_the_window():
 
 def looked(walked, cuts=(), edges=EDGES):
     model, roller, motion, steps = walked
-    looker = Looker(
+    sampler = ContactSampler(
         Wanted(edges, 0.4, np.zeros(0), True),
         roller,
         model.laws,
-        prepare(model.laws),
+        contacts_of(model.laws),
         motion,
         ANGLE,
     )
     for part in np.split(steps, cuts):
-        looker.add(part[:, None].copy(), 0)
-    looker.finish()
-    return looker.details
+        sampler.add(part[:, None].copy(), 0)
+    sampler.finish()
+    return sampler.details
 
 
 @pytest.fixture(scope="module")
@@ -253,24 +255,24 @@ def test_looks_do_not_depend_on_where_buffers_end(walked, details):
 
 
 def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch):
-    """Against looks at every step: extremes low by little, and little energy at other stations."""
+    """Against samples at every step: extremes low by little, and little energy at other stations."""
     assert details.memory["count"][0] < 0.8 * np.count_nonzero(walked[3]["weight"][:, 0])
     every = new_details(EDGES)
     model, roller, motion, steps = walked
-    looker = Looker(
+    sampler = ContactSampler(
         Wanted(EDGES, 0.4, np.zeros(0), True),
         roller,
         model.laws,
-        prepare(model.laws),
+        contacts_of(model.laws),
         motion,
         ANGLE,
     )
     for row in steps:
         # A new highest power makes every step a look.
-        looker.details.memory["highest"][0, :] = -1.0
-        looker.add(np.array([[row]]), 0)
-    looker.finish()
-    every = looker.details
+        sampler.details.memory["highest"][0, :] = -1.0
+        sampler.add(np.array([[row]]), 0)
+    sampler.finish()
+    every = sampler.details
     assert every.memory["count"][0] == np.count_nonzero(
         (steps["weight"][:, 0] > 0.0) & (steps["start"] >= EDGES[0])
     )
@@ -288,7 +290,7 @@ def test_energy_between_two_looks_lies_as_at_both_of_them():
     before, after = maps["along"][0, 2:]
     before["power"][3], after["power"][20] = 2.0, 5.0
     spent = (0.3 * 8.0 / 2.0, 0.7 * 8.0 / 5.0, 0.0, 0.0, 0.0, 0.0)
-    looks._spread(maps[0], 1, (0.5, 0.5), 0.7, spent, before, after)
+    spread(maps[0], 1, (0.5, 0.5), 0.7, spent, before, after)
     stations = maps["station_energy"][0, 1]
     assert stations[3] == pytest.approx(2.4) and stations[20] == pytest.approx(5.6)
 
@@ -324,7 +326,7 @@ def test_energy_lies_where_the_roller_passes(interface, start, end, mean_time):
     before, after = details.maps["along"][0, :2]
     after["power"][[3, 10]], after["regime"] = [-2.0, 6.0], 1
     spent = (0.0, energy / 8.0, 0.0, 0.0, 0.0, 0.0)
-    looks._spread(details.maps[0], interface, (start, end), mean_time, spent, before, after)
+    spread(details.maps[0], interface, (start, end), mean_time, spent, before, after)
     surface = details.surface_energy
     expected = by_brute_force(start, end, energy, 3.0 * (2.0 * mean_time - 1.0))
     np.testing.assert_allclose(surface.sum(axis=(0, 2, 3, 4)), expected, atol=2e-3)
@@ -343,7 +345,7 @@ def test_no_power_along_the_roller_takes_no_energy(walked):
 
 
 def test_what_makes_a_look_due(walked):
-    """After a change of power, a new highest value, or a way; thresholds pin the numbers that choose looks."""
+    """After a change of power, a new highest value, or a way; thresholds pin the numbers that choose samples."""
     _, roller, _, steps = walked
     held = steps[np.argmax(steps["elastic_load"][:, 2])]
 
@@ -361,7 +363,7 @@ def test_what_makes_a_look_due(walked):
         for name, value in change.items():
             rows[name.split()[0]][1, 0][(..., int(name[-1])) if " " in name else ...] = value
         found = new_details(EDGES)
-        return looks._choose(
+        return choose(
             rows,
             0,
             EDGES,
@@ -369,7 +371,7 @@ def test_what_makes_a_look_due(walked):
             found.memory[0],
             radius,
             spacing,
-            np.zeros(2, looks._LOOK),
+            np.zeros(2, SAMPLE),
         )
 
     assert count({}) == 1
@@ -384,7 +386,7 @@ def test_what_makes_a_look_due(walked):
     assert count({"outer_slip": 1.02e-3}) == 1 and count({"outer_slip": 1.04e-3}) == 2
     assert count({"inner_load": 0.98e4}) == 1 and count({"inner_load": 0.95e4}) == 2
     assert count({}, turn=0.34) == 1 and count({}, turn=0.36) == 2
-    # Closer looks where they are asked for.
+    # Closer samples where they are asked for.
     assert count({}, turn=0.34, spacing=0.5) == 2 and count({"power 0": 10.7}, spacing=0.5) == 2
 
 

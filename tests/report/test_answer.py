@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from macroslip import BearingLoads, Case, HubLoads, Laws, Traces, simulate
-from macroslip.measures.details import FILM_EDGES, SLIP_EDGES
+from macroslip.measures.along import FILM_EDGES, SLIP_EDGES
 from macroslip.report.answer import RowSlip, answer, row_sentence
 from macroslip.result.damage import lines
 from macroslip.result.orbit import in_window

@@ -9,7 +9,8 @@ import numpy as np
 
 from macroslip.constants import SECTORS
 from macroslip.contact.laws import RollerLaws
-from macroslip.measures.details import Details, Looker, Wanted, prepare
+from macroslip.measures.along import contacts_of
+from macroslip.measures.details import ContactSampler, Details, Wanted
 from macroslip.measures.skew import Skewing, SkewMeasures
 from macroslip.measures.totals import (
     END,
@@ -41,7 +42,7 @@ class Row:
         self.motion = motion
         self.wanted = wanted
         self.skewing = skewing
-        self.contacts = prepare(model.laws) if wanted.details else None
+        self.contacts = contacts_of(model.laws) if wanted.details else None
 
 
 class RollerMeasures:
@@ -58,8 +59,8 @@ class RollerMeasures:
         self._states = Batch(END)
         self.skew = SkewMeasures(row.skewing, row.roller, wanted.edges[0]) if row.skewing else None
         places = row.contacts, row.motion, start_angle, self.skew
-        self.looker = (
-            Looker(wanted, row.roller, row.model.laws, *places) if wanted.details else None
+        self.sampler = (
+            ContactSampler(wanted, row.roller, row.model.laws, *places) if wanted.details else None
         )
         self._last: np.ndarray | np.void = np.zeros((), END)
         #: Largest power by place on the orbit [W], where no orbit is complete.
@@ -71,7 +72,7 @@ class RollerMeasures:
     @property
     def details(self) -> Details | None:
         """Details of the contacts, where they were wanted."""
-        return self.looker.details if self.looker else None
+        return self.sampler.details if self.sampler else None
 
     def add(self, steps: np.ndarray, j: int) -> None:
         """Take up the steps of roller `j` in a buffer of shape (n, rollers)."""
@@ -83,8 +84,8 @@ class RollerMeasures:
         states = self._states.room(mine.size, self._add_law_times)
         book(steps, j, self.totals, states)
         self._states.count += mine.size
-        if self.looker:
-            self.looker.add(steps, j)
+        if self.sampler:
+            self.sampler.add(steps, j)
         if self.sector_power is not None:
             self._add_sectors(mine[mine["start"] >= self.row.wanted.edges[0]], self.sector_power)
         self._trace(mine, states)
@@ -102,8 +103,8 @@ class RollerMeasures:
         """Take up what is left in batches, and spread what is kept since the last sample."""
         self._last = self._last.copy()
         self._states.empty(self._add_law_times)
-        if self.looker:
-            self.looker.finish()
+        if self.sampler:
+            self.sampler.finish()
 
     def _add_sectors(self, steps: np.ndarray, largest: np.ndarray) -> None:
         """Raise the largest powers of the places on the orbit that the roller passes."""

@@ -155,9 +155,9 @@ class SkewMeasures:
         totals = self._before, self._sums, self.by_place
         _add(self._skewing[:2], roller, steps, j, places, self._window, totals)
 
-    def turn(self, looks: np.ndarray) -> None:
+    def turn(self, samples: np.ndarray) -> None:
         """Let sampled contacts slide as those of the skewed roller, where the rings press it."""
-        at = looks["at"]
+        at = samples["at"]
         found = self._states(at)
         pressed = at["elastic_load"] > 0.0
         skew, tilt, shift, more = found[pressed][:, [0, 1, 6, 7]].T
@@ -166,7 +166,7 @@ class SkewMeasures:
             slip = at[f"{name}_slip"][pressed]
             middle = one.middle(tilt, shift)
             lines = slip_lines(one, speed, slip + more, skew, middle, tilt)
-            looks["lines"][pressed, i] = np.stack([middle, *lines[:6]], axis=-1)
+            samples["lines"][pressed, i] = np.stack([middle, *lines[:6]], axis=-1)
 
     @property
     def energy(self) -> np.ndarray:

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from macroslip.damage.micropitting import share_below
-from macroslip.measures.details import FILM_EDGES
+from macroslip.measures.along import FILM_EDGES
 from macroslip.report.page import number
 from macroslip.result.orbit import in_window
 

@@ -14,7 +14,7 @@ import numpy as np
 from macroslip.bearing import geometry
 from macroslip.constants import YEAR
 from macroslip.errors import InputError
-from macroslip.measures.details import FILM_EDGES, SLIP_EDGES
+from macroslip.measures.along import FILM_EDGES, SLIP_EDGES
 from macroslip.report.style import (
     BLACK,
     BLUE,

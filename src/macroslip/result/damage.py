@@ -12,7 +12,7 @@ import xarray as xr
 from macroslip.constants import YEAR
 from macroslip.damage import smearing, wear
 from macroslip.errors import InputError
-from macroslip.measures.details import FILM_EDGES
+from macroslip.measures.along import FILM_EDGES
 from macroslip.result.criteria import CRITERIA
 from macroslip.result.criteria.criterion import Threshold, Variables
 from macroslip.result.criteria.evaluation import PLACES, Evaluation

@@ -24,15 +24,15 @@ from macroslip.bearing.geometry import initial_angles, row_names
 from macroslip.bearing.load_ratings import static_load_rating_of
 from macroslip.case.case import WHOLE_BEARING, Case
 from macroslip.case.parts import Radau
-from macroslip.constants import ZERO_CELSIUS
+from macroslip.constants import SECTORS, ZERO_CELSIUS
 from macroslip.contact.asperities import BOUNDED
 from macroslip.contact.laws import references
 from macroslip.imposed.run import Outcome
 from macroslip.imposed.status import Status
 from macroslip.loads import BearingLoads
 from macroslip.loads.source_file import without_folders
+from macroslip.measures.along import STATIONS
 from macroslip.measures.cage import SIDES, CageMeasures
-from macroslip.measures.details import SECTORS, STATIONS
 from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
 from macroslip.result import skew, surface_maps

@@ -23,14 +23,9 @@ from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
 from macroslip.constants import SECTORS
 from macroslip.errors import InputError
-from macroslip.measures.details import (
-    FILM_EDGES,
-    FILM_REGIMES,
-    SLIP_EDGES,
-    SLIP_SIGNS,
-    STATIONS,
-    Details,
-)
+from macroslip.measures.along import FILM_EDGES, SLIP_EDGES, STATIONS
+from macroslip.measures.details import Details
+from macroslip.measures.maps import FILM_REGIMES, SLIP_SIGNS
 
 
 def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.ndarray]:

@@ -595,7 +595,7 @@ CONTACT_DETAILS = tuple(one.name for one in _TABLE if one.when == DETAILS)
 #: Counts of an integrator.
 COUNTS = ("steps", "rejections", "force_evaluations")
 #: Extremes of an orbit, and of entries into the load zone, in the order of
-#: `macroslip.measures.details.EXTREMES`.
+#: `macroslip.measures.extremes.EXTREMES`.
 ORBIT_EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
 ENTRY_EXTREMES = tuple(
     f"entry_{name}"

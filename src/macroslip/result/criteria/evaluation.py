@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from macroslip.bearing import geometry
-from macroslip.measures.details import STATIONS
+from macroslip.measures.along import STATIONS
 from macroslip.result.criteria.criterion import Criterion, Threshold
 from macroslip.result.run_input import RunInput
 

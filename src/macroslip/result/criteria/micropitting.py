@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from macroslip.damage import micropitting
-from macroslip.measures.details import FILM_EDGES, SLIP_EDGES
+from macroslip.measures.along import FILM_EDGES, SLIP_EDGES
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest, largest_of
 from macroslip.result.criteria.evaluation import Evaluation
 from macroslip.result.variables import described

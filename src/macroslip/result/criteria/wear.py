@@ -13,7 +13,7 @@ from macroslip.bearing import geometry
 from macroslip.constants import YEAR
 from macroslip.damage import wear
 from macroslip.errors import InputError
-from macroslip.measures.details import STATIONS
+from macroslip.measures.along import STATIONS
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly
 from macroslip.result.criteria.evaluation import PLACES, Evaluation
 from macroslip.result.variables import described

@@ -1,0 +1,214 @@
+"""How power lies along a roller at a raceway, station by station."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
+from macroslip.contact.traction import ChordTable, chord_table
+from macroslip.mechanics.film_sharing import LOWEST_SPEED
+
+if TYPE_CHECKING:
+    from macroslip.contact.laws import ContactLaws, RollerLaws
+
+#: Stations along the roller's length.
+STATIONS = 24
+#: Upper edges of classes of Λ and of the slide-roll ratio (ring less roller over their mean: above
+#: 0 the ring is faster).
+FILM_EDGES = (0.5, 1.0, 1.5, 2.0, 3.0, 5.0)
+SLIP_EDGES = (-0.1, -0.03, -0.01, -0.003, -0.001, 0.0, 0.001, 0.003, 0.01, 0.03, 0.1)
+#: Least share of asperities by which their energy is spread along the roller: quotients of less
+#: overflow.
+_LEAST_SHARE = 1e-30
+#: How power lies along the roller at a raceway, at a sample.
+ALONG = np.dtype(
+    [
+        # Power by station, with the sign of slip [W].
+        ("power", "f8", (STATIONS,)),
+        # Power of asperities by station [W].
+        ("rough", "f8", (STATIONS,)),
+        # ∫ p |v| dA by station [W].
+        ("work", "f8", (STATIONS,)),
+        # Power per area by station [W/m²].
+        ("density", "f8", (STATIONS,)),
+        # Sum of |power| [W].
+        ("total", "f8"),
+        # Sum of the power of asperities [W].
+        ("rough_total", "f8"),
+        # Sum of ∫ p |v| dA [W].
+        ("work_total", "f8"),
+        # Film regime: 1 where Λ is 1 and above, 0 below.
+        ("regime", "i8"),
+    ]
+)
+
+
+class Contact(NamedTuple):
+    """A contact as compiled functions of samples take it."""
+
+    patch: Patch  #: Geometry
+    chords: ChordTable  #: Stresses of its oil
+    chorded: bool  #: Whether these serve
+    limit: float  #: Kellström's coefficient of friction [-]; 0 without
+    saturation: float  #: Kellström's slide-roll ratio from which on it is reached [-]
+    roughness: float  #: Composite RMS roughness [m]
+    effusivity: float  #: Thermal effusivity of its steel [J/(m² K s^½)]
+
+
+def contacts_of(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
+    """Inner, outer and cage contact of a roller."""
+
+    def contact(law: ContactLaws) -> Contact:
+        # Tables are made for one side; here the row's own tilt counts.
+        patch = patch_of(law)._replace(spin_ratio=law.shape.spin_ratio)
+        limit, saturation = law.friction or (0.0, 1.0)
+        return Contact(
+            patch,
+            chord_table(law.fluid),
+            law.fluid is not None,
+            limit,
+            saturation,
+            law.interface.roughness,
+            law.effusivity,
+        )
+
+    return contact(laws.inner), contact(laws.outer), contact(laws.cage)
+
+
+@jit_inline
+def class_of(edges, value):
+    """Class of a value between rising edges: the number of edges that it is not below."""
+    number = 0
+    while number < len(edges) and value >= edges[number]:
+        number += 1
+    return number
+
+
+@jit_inline
+def _parabola(line, first, station):
+    """Value at a station [m] of the parabola whose coefficients stand from `first` on."""
+    return line[first] + station * (line[first + 2] * station + line[first + 1])
+
+
+@jit_inline
+def _entrainment(ring_speed, slip):
+    """Entrainment speed with its sign, not slower than films are followed [m/s]."""
+    mean = ring_speed - 0.5 * slip
+    return math.copysign(max(abs(mean), LOWEST_SPEED), mean)
+
+
+@jit_inline
+def _saturating_friction(contact, slip, entrainment):
+    """Kellström's coefficient of friction at a slip and an entrainment speed [m/s]."""
+    return contact.limit * min(slip / (contact.saturation * abs(entrainment)), 1.0)
+
+
+@jit_inline
+def _covered(k, width, half_length, middle, across):
+    """Middle [m] of the part of a station under the ellipse, and that part [-].
+
+    So the lightest contact too lies in the two middle stations.
+    """
+    left = k * width - half_length
+    first = max(left, middle - across)
+    last = min(left + width, middle + across)
+    return 0.5 * (first + last), (last - first) / width
+
+
+@jit
+def power_along(maps, interface, contact, state, sample, passes, along):
+    """Find how power lies along the roller at a loaded raceway, and the station that is hottest.
+
+    Parameters
+    ----------
+    maps : record of `macroslip.measures.maps.MAPS`
+        Times under load by film and slip are added.
+    interface : int
+        0 for the inner raceway, 1 for the outer one.
+    contact : Contact
+    state : tuple of float
+        Load [N], u2 and Δu [m/s].
+    sample : record of `macroslip.measures.samples.SAMPLE`
+        What is hottest is written.
+    passes : float
+        Passes of the roller since the sample before [-].
+    along : record of `ALONG`
+        Is written.
+
+    Returns
+    -------
+    densest : float
+        Largest power per area [W/m²].
+    fastest : float
+        Largest slip [m/s].
+    entrainment : float
+        Entrainment speed, > 0 [m/s].
+    """
+    patch = contact.patch
+    film = sample.film[interface]
+    share = sample.share[interface]
+    load = state[0]
+    entrainment = _entrainment(state[1], state[2])
+    times = maps.film_slip[interface, class_of(FILM_EDGES, film / contact.roughness)]
+    span = (sample.time - sample.since) / STATIONS
+    root = load ** (1.0 / 3.0)
+    across = patch.across * root
+    line = sample.lines[interface]
+    width = 2.0 * patch.half_length / STATIONS
+    node = film_node(contact.chords, film)
+    boundary = 0.75 * patch.boundary_friction * max(share, _LEAST_SHARE) * load / across
+    hot = sample.hot[interface]
+    hottest = 0.0
+    densest = 0.0
+    fastest = 0.0
+    along.total = 0.0
+    along.rough_total = 0.0
+    along.work_total = 0.0
+    for k in range(STATIONS):
+        station, covered = _covered(k, width, patch.half_length, line[0], across)
+        if covered < 1e-6:
+            along.power[k] = 0.0
+            along.rough[k] = 0.0
+            along.work[k] = 0.0
+            along.density[k] = 0.0
+            continue
+        height = 1.0 - (station - line[0]) * (station - line[0]) / (across * across)
+        local = _parabola(line, 1, station)
+        speed = math.hypot(local, _parabola(line, 4, station))
+        chord = math.sqrt(height)
+        half_width = patch.along * root * chord
+        asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
+        per_length = 0.75 * height / across * sample.at.power[interface]
+        if contact.chorded:
+            stress = chord_stress_at(contact.chords, node, patch.pressure * root * chord, speed)
+            per_length = (1.0 - share) * 2.0 * half_width * stress * speed + asperities
+        elif contact.limit > 0.0:
+            per_length = (1.0 - share) * 0.75 * height / across * load * speed
+            per_length *= _saturating_friction(contact, speed, entrainment)
+            per_length += asperities
+        # Of power only its share of all stations counts; of p |v| its size does.
+        along.power[k] = math.copysign(per_length * covered, local)
+        along.rough[k] = asperities * covered
+        along.work[k] = 0.75 * height / across * load * speed * covered * width
+        along.total += abs(along.power[k])
+        along.rough_total += along.rough[k]
+        along.work_total += along.work[k]
+        if sample.at.elastic_load > 0.0:
+            spent = times[class_of(SLIP_EDGES, math.copysign(speed, local) / entrainment)]
+            spent[0] += span * covered
+            spent[1] += passes * covered / STATIONS
+        density = per_length / (2.0 * half_width)
+        along.density[k] = density
+        # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
+        if per_length * density > hottest:
+            hottest = per_length * density
+            hot[0] = per_length
+            hot[1] = half_width
+        densest = max(densest, density)
+        fastest = max(fastest, speed)
+    along.regime = 1 if film >= contact.roughness else 0
+    return densest, fastest, abs(entrainment)

@@ -1,0 +1,96 @@
+"""Largest flash temperature, power per area and slide-roll ratio, and least film ratio."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.contact.flash import transient_flash
+from macroslip.contact.look_up import log_speed
+from macroslip.mechanics.cage import cage_friction
+from macroslip.mechanics.film_sharing import LOWEST_SPEED
+
+EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
+
+
+@jit_inline
+def raise_extremes(extremes, orbit, interface, density, ratio, film_ratio):
+    """Raise the extremes of an orbit.
+
+    Parameters
+    ----------
+    extremes : ndarray, shape (orbits, interfaces, 4)
+        `EXTREMES` [K, W/m², 1, 1]; all but the temperature are raised, or lowered.
+    orbit : int
+        Number of the orbit; below 0 outside all complete ones, where nothing is done.
+    interface : int
+    density : float
+        Largest power per area [W/m²].
+    ratio : float
+        Largest slide-roll ratio [-].
+    film_ratio : float
+        Λ [-].
+    """
+    if orbit >= 0:
+        extremes[orbit, interface, 1] = max(extremes[orbit, interface, 1], density)
+        extremes[orbit, interface, 2] = max(extremes[orbit, interface, 2], ratio)
+        extremes[orbit, interface, 3] = min(extremes[orbit, interface, 3], film_ratio)
+
+
+@jit_inline
+def sample_cage(body, tables, contact, sample, extreme):
+    """Find power and extremes of the cage's contact, without the oil of its pocket.
+
+    The force of that oil is far larger than the force of a light contact.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    contact : macroslip.measures.along.Contact
+    sample : record of `macroslip.measures.samples.SAMPLE`
+        What is hottest is written.
+    extreme : ndarray
+        As of `raise_extremes`.
+    """
+    hot = sample.hot[2]
+    surface = sample.at.cage_speed
+    load = abs(sample.at.cage_load)
+    hot[0] = 0.0
+    hot[1] = 1.0
+    hot[2] = surface
+    hot[3] = 0.0
+    if load > 0.0:
+        root = load ** (1.0 / 3.0)
+        force = cage_friction(body, tables, load, surface, log_speed(surface)).force
+        hot[0] = 0.75 * abs(surface * force) / (contact.patch.across * root)
+        hot[1] = contact.patch.along * root
+        ratio = abs(surface) / max(0.5 * abs(surface), LOWEST_SPEED)
+        raise_extremes(
+            extreme,
+            sample.orbit,
+            2,
+            hot[0] / (2.0 * hot[1]),
+            ratio,
+            sample.film[2] / contact.roughness,
+        )
+
+
+def heat_entries(rows: np.ndarray, effusivity: float, extreme: np.ndarray) -> None:
+    """Raise the temperatures of entries to the load zone [K].
+
+    Rows have entry, orbit, time [s] and, by raceway, what is hottest as `SAMPLE` has it.
+    """
+    columns = np.ascontiguousarray(rows.T)
+    edges = np.flatnonzero(np.diff(columns[0], prepend=0.0, append=0.0))
+    for first, last in itertools.pairwise(edges):
+        orbit = int(columns[1, first])
+        if orbit < 0:
+            continue
+        for i in range(2):
+            band = (columns[3 + 4 * i + k, first:last] for k in range(4))
+            rise = transient_flash(columns[2, first:last], *band, effusivity, effusivity)
+            extreme[orbit, i, 0] = max(extreme[orbit, i, 0], rise)
