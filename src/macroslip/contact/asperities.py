@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from macroslip.compiled import jit_inline
 from macroslip.contact.film import RANGES, line_groups
 from macroslip.contact.interface import Interface
 
@@ -198,6 +199,20 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
     return bounded + _load_ratio_weight(loads) * (ratio - bounded)
 
 
+@jit_inline
+def _passes(level, sliding, bend, spin, half):
+    """Both stations within ±half at which v passes a level, in order [m].
+
+    They are its extremum where v does not reach the level: a corner too many does no harm.
+    """
+    inside = np.maximum(spin * spin - 4.0 * bend * (sliding - level), 0.0)
+    larger = 0.5 * (spin + np.copysign(np.sqrt(inside), spin))
+    first = np.minimum(np.maximum(larger / bend, -half), half)
+    smaller = (sliding - level) / (larger + _LEAST * (larger == 0.0))
+    second = np.minimum(np.maximum(smaller, -half), half)
+    return np.minimum(first, second), np.maximum(first, second)
+
+
 def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
     """Exact friction of asperities over a contact with the slip v(ζ) = sliding + bend ζ² − spin ζ.
 
@@ -230,45 +245,25 @@ def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
     >>> round(float(force), 9), round(float(power), 9)
     (20.0, 0.2)
     """
-    # Stations at which v passes each level, or its extremum where it does not reach it; a corner
-    # too many does no harm.
     bend = bend + _LEAST * (bend == 0.0)
-    above = 0.5 * (
-        spin
-        + np.copysign(
-            np.sqrt(np.maximum(spin * spin - 4.0 * bend * (sliding - full_slip), 0.0)), spin
-        )
+    low, high = _passes(full_slip, sliding, bend, spin, half)
+    less, more = _passes(-full_slip, sliding, bend, spin, half)
+    # The two in the middle, not yet in order.
+    later = np.maximum(low, less)
+    sooner = np.minimum(high, more)
+    corners = (
+        np.minimum(low, less),
+        np.minimum(later, sooner),
+        np.maximum(later, sooner),
+        np.maximum(high, more),
+        half,
     )
-    below = 0.5 * (
-        spin
-        + np.copysign(
-            np.sqrt(np.maximum(spin * spin - 4.0 * bend * (sliding + full_slip), 0.0)), spin
-        )
-    )
-    a = np.minimum(np.maximum(above / bend, -half), half)
-    b = np.minimum(
-        np.maximum((sliding - full_slip) / (above + _LEAST * (above == 0.0)), -half), half
-    )
-    c = np.minimum(np.maximum(below / bend, -half), half)
-    d = np.minimum(
-        np.maximum((sliding + full_slip) / (below + _LEAST * (below == 0.0)), -half), half
-    )
-    # The four in order.
-    low, high = np.minimum(a, b), np.maximum(a, b)
-    less = np.minimum(c, d)
-    more = np.maximum(c, d)
-    first = np.minimum(low, less)
-    last = np.maximum(high, more)
-    one = np.maximum(low, less)
-    two = np.minimum(high, more)
-    second_corner = np.minimum(one, two)
-    third_corner = np.maximum(one, two)
     force = 0.0 * scale
     second = 0.0 * scale
     skew = 0.0 * scale
     power = 0.0 * scale
     before = -half
-    for after in (first, second_corner, third_corner, last, half):
+    for after in corners:
         middle = 0.5 * (before + after)
         reach = 0.5 * (after - before)
         for node, weight in _RULE:

@@ -279,59 +279,88 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     1.0
     """
     states = np.broadcast_arrays(
-        *(np.asarray(one, dtype=float) for one in (load, ring_speed, slip, skew, shift, tilt))
+        *(np.asarray(values, dtype=float) for values in (load, ring_speed, slip, skew, shift, tilt))
     )
     shape = states[0].shape
-    load, ring_speed, slip, skew, shift, tilt = (one.reshape(-1, 1, 1) for one in states)
+    load, ring_speed, slip, skew, shift, tilt = (values.reshape(-1, 1, 1) for values in states)
     k = contact.side
     r = contact.roller_radius
-    hertz = contact.laws.interface.hertz
-    root = np.cbrt(load)
-    across, width, pressure = (
-        one * root for one in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure)
-    )
-    rim = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along)
-    offset = contact.lateral * shift
-    aside = (offset + k * tilt) / contact.along  # δ + k r θ
     lines = slip_lines(contact, ring_speed, slip, skew, shift, tilt)
     mean_speed = np.abs(ring_speed - 0.5 * slip)
+    points = _points(contact, load, lines, shift, mean_speed)
+    station = points.station
+    turned = contact.turn * skew * station
+    xi = points.chord + skew * station + turned
+    speed = np.maximum(np.hypot(points.v, points.w), _NO_SLIP)
+    film, rough = _stresses(
+        contact, load, mean_speed, np.maximum(points.pressure, _NO_PRESSURE), speed
+    )
+    stress = film + rough
+    part = stress * points.area / speed
+    along = part * points.v
+    axial = part * points.w
+    totals = (
+        ((along + axial * k * skew) * (r - points.drop) + axial * tilt * xi) / r,
+        along,
+        axial,
+        -k * along * (station + k * r * tilt) - axial * xi,
+        (1.0 / contact.roller_contour - 1.0 / r)
+        * points.area
+        * points.pressure
+        * (points.chord + turned)
+        * station,
+        stress * points.area * speed,
+        rough * points.area * speed,
+        -k * along * _distance(contact, points, tilt, shift) + axial * contact.sine * xi,
+    )
+    return Resultants(*(values.sum(axis=(1, 2)).reshape(shape)[()] for values in totals))
+
+
+def _distance(contact: SkewedContact, points: _Points, tilt, shift) -> np.ndarray:
+    """Distance of points of the contact from the bearing's axis [m]."""
+    k = contact.side
+    aside = (contact.lateral * shift + k * tilt) / contact.along  # δ + k r θ
+    return (
+        contact.raceway_radius
+        - k * contact.cosine * (points.drop + k * tilt * points.station)
+        - contact.sine * (points.station + aside)
+    )
+
+
+class _Points(NamedTuple):
+    """Points of quadrature over a contact, arrays over states, chords and points of a chord."""
+
+    station: np.ndarray  #: ζ [m]
+    drop: np.ndarray  #: h [m]
+    chord: np.ndarray  #: ξ from the long axis of the ellipse [m]
+    area: np.ndarray  #: Weights [m²]
+    pressure: np.ndarray  #: [Pa]
+    #: Slip in rolling and along the roller [m/s].
+    v: np.ndarray
+    w: np.ndarray
+
+
+def _points(contact: SkewedContact, load, lines: SlipLines, shift, mean_speed) -> _Points:
+    """Points of the ellipse at Q [N] and a mean speed [m/s], its middle at ζ_c = `shift` [m]."""
+    hertz = contact.laws.interface.hertz
+    root = np.cbrt(load)
+    across = hertz.semi_axis_across * root
+    width = hertz.semi_axis_along * root
+    rim = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along)
+    offset = contact.lateral * shift
     station, weight = _chords(contact, across, shift, lines, contact.corner * mean_speed)
     height = np.sqrt(np.maximum(1.0 - ((station - shift) / across) ** 2, 0.0))
-    drop = 0.5 * rim * station**2 + offset * (0.5 * station - 0.25 * shift)
     chord = width * height * _COSINES
-    xi = chord + skew * (1.0 + contact.turn) * station
     v = lines.v0 + station * (lines.v1 + lines.v2 * station)
     w = lines.w0 + station * (lines.w1 + lines.w2 * station) + lines.per_xi * chord
-    v, w = np.broadcast_arrays(v, w)
-    speed = np.maximum(np.hypot(v, w), _NO_SLIP)
-    local = np.maximum(pressure * height * _SINES, _NO_PRESSURE)
-    film, rough = _stresses(contact, load, mean_speed, local, speed)
-    stress = film + rough
-    area = weight * width * height * _CHORD_WEIGHTS
-    part = stress * area / speed
-    along = part * v
-    axial = part * w
-
-    def total(values: np.ndarray) -> np.ndarray:
-        return values.sum(axis=(1, 2)).reshape(shape)[()]
-
-    distance = (
-        contact.raceway_radius
-        - k * contact.cosine * (drop + k * tilt * station)
-        - contact.sine * (station + aside)
-    )
-    per_pressure = area * pressure * height * _SINES
-    bent = 1.0 / r - 1.0 / contact.roller_contour
-    own = chord + skew * contact.turn * station
-    return Resultants(
-        total(along * (r - drop) + axial * (k * skew * (r - drop) + tilt * xi)) / r,
-        total(along),
-        total(axial),
-        total(-k * along * (station + k * r * tilt) - axial * xi),
-        total(-bent * per_pressure * own * station),
-        total(stress * area * speed),
-        total(rough * area * speed),
-        total(-k * along * distance + axial * contact.sine * xi),
+    return _Points(
+        station=station,
+        drop=0.5 * rim * station**2 + offset * (0.5 * station - 0.25 * shift),
+        chord=chord,
+        area=weight * width * height * _CHORD_WEIGHTS,
+        pressure=hertz.pressure * root * height * _SINES,
+        v=np.broadcast_to(v, w.shape),
+        w=w,
     )
 
 

@@ -79,7 +79,7 @@ def simulate(
         ready.highest_speed,
         ready.trace_time,
         case.contact_details and ready.model.curved,
-        # Beside the steps of a whole bearing looks cost little.
+        # Beside the steps of a whole bearing samples cost little.
         spacing=0.05 if whole else 1.0,
     )  # fmt: skip
     stop = threading.Event()
@@ -102,10 +102,9 @@ def _imposed_orbits(
     ready: Prepared, wanted: Wanted, threads: int, progress: Callable | None, stop: threading.Event
 ) -> xr.Dataset:
     case = ready.case
-    numbers = case.roller_numbers
     names = row_names(case.bearing)
     angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in names}
-    left = [(row, number) for row in names for number in numbers]
+    left = [(row, number) for row in names for number in case.roller_numbers]
     results: dict[tuple[str, int], Measured] = {}
     total = len(left)
     report = None

@@ -202,7 +202,19 @@ class _SlipSearch:
         moving: np.ndarray,
         iteration: int,
     ) -> None:
-        """Take a step from moments over radius [N] and slopes [N s/m] where states are moving."""
+        """Take a step of Newton's method.
+
+        Parameters
+        ----------
+        going : ndarray of int
+            Numbers of the states that take part.
+        spin, slope : ndarray
+            Their moments over radius [N], and the slopes of these by slip [N s/m].
+        moving : ndarray of bool
+            Whether their slips change.
+        iteration : int
+            Number of the step.
+        """
         here = self.slip[going]
         longest = self._longest[going]
         back = spin * self._spin[going] < 0.0
@@ -245,6 +257,26 @@ def _contacts_at(
     return first, (more - spin) / step
 
 
+def _known_at(both: list[Resultants], tilt: np.ndarray, shift: np.ndarray) -> np.ndarray:
+    """Records of `_KNOWN` with what both raceways do to rollers at a tilt [rad] and a shift [m]."""
+    known = np.zeros(tilt.size, _KNOWN)
+    known["tilt"] = tilt
+    known["shift"] = shift
+    for i, contact in enumerate(both):
+        known["moments"][:, i] = contact.moment + contact.pressure_moment
+        known["power"][:, i] = contact.power
+        known["asperity_power"][:, i] = contact.asperity_power
+    return known
+
+
+def _fields(known: np.ndarray, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+    """Fields of records, by name, of the shape of the states."""
+    return {
+        name: known[name].reshape((*shape, *known[name].shape[1:]))[()]
+        for name in known.dtype.names or ()
+    }
+
+
 def equilibrium(
     pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equilibrium | None = None
 ) -> Equilibrium:
@@ -270,11 +302,13 @@ def equilibrium(
     Equilibrium
         Arrays of the shape to which load, speed and skew broadcast.
     """
-    arrays = np.broadcast_arrays(
-        *(np.asarray(values, dtype=float) for values in (load, ring_speed, skew))
+    shape = np.broadcast_shapes(*map(np.shape, (load, ring_speed, skew)))
+    states = _States(
+        *(
+            np.broadcast_to(values, shape).astype(float).ravel()
+            for values in (load, ring_speed, skew)
+        )
     )
-    shape = arrays[0].shape
-    states = _States(*(values.ravel() for values in arrays))
     resistance, push = _resistance_on(laws, states.load, states.ring_speed)
     slip = np.zeros(states.load.size)
     axial = np.zeros((2, states.load.size))
@@ -292,17 +326,14 @@ def equilibrium(
         spin = inner.spin + outer.spin + resistance[going]
         tractions = np.stack([inner.axial, outer.axial])
         change = np.abs(tractions - axial[:, going]).max(axis=0)
-        damped = 0.5 * (tractions + axial[:, going])
-        axial[:, going] = tractions if iteration < _DAMPED else damped
-        now = np.zeros(going.size, _KNOWN)
-        now["tilt"] = tilt
-        now["shift"] = shift
-        for i, contact in enumerate(both):
-            now["moments"][:, i] = contact.moment + contact.pressure_moment
-            now["power"][:, i] = contact.power
-            now["asperity_power"][:, i] = contact.asperity_power
-        station = middles[0] + shift - pair.inner.roller_radius * tilt
-        now["axial"] = here.load * pair.inner.along * station - inner.axial
+        if iteration >= _DAMPED:
+            tractions = 0.5 * (tractions + axial[:, going])
+        axial[:, going] = tractions
+        now = _known_at(both, tilt, shift)
+        # By the place of the contact on the inner raceway.
+        now["axial"] = middles[0] + shift - pair.inner.roller_radius * tilt
+        now["axial"] *= here.load * pair.inner.along
+        now["axial"] -= inner.axial
         now["push"] = push[going] + inner.pull - outer.pull
         now["unbalanced"] = np.abs(spin) / here.load
         known[going] = now
@@ -313,17 +344,13 @@ def equilibrium(
             break
     slip[going] = np.nan
     axial[:, going] = np.nan
-    for name in known.dtype.names or ():
+    for name in _KNOWN.names or ():
         known[name][going] = np.nan
-    fields = {
-        name: known[name].reshape((*shape, *known[name].shape[1:]))[()]
-        for name in known.dtype.names or ()
-    }
     return Equilibrium(
         slip=slip.reshape(shape)[()],
         tractions=axial.reshape(2, *shape),
-        moment=fields["moments"].sum(axis=-1),
-        **fields,
+        moment=known["moments"].sum(axis=-1).reshape(shape)[()],
+        **_fields(known, shape),
     )
 
 

@@ -208,6 +208,49 @@ def _arm(guide, place):
     return min(guide.effective_radius * _SCALE * math.sinh(place), 0.5 * guide.arm)
 
 
+@jit_inline
+def _left(table, guide, row, column, way, press, place):
+    """Moment that drives the roller on at a coordinate of skew, over Q^(4/3) [N m/N^(4/3)]."""
+    return way * _at(table, 0, row, column, way * place)[0] - press * _arm(guide, place)
+
+
+@jit_inline
+def _rest(table, guide, row, column, way, press, moment):
+    """Coordinate of skew of the first rest from none on, and whether it is the stop.
+
+    `moment` is the driving moment without skew, > 0 where the roller turns.
+    """
+    end = math.asinh(guide.largest / _SCALE)
+    low = 0.0
+    high = 0.0
+    excess = moment
+    beyond = moment
+    while beyond > 0.0 and high < end:
+        low = high
+        excess = beyond
+        high = min(low + 1.0 / table.skew.per_spacing, end)
+        beyond = _left(table, guide, row, column, way, press, high)
+    if beyond > 0.0 or high <= 0.0:
+        return high, beyond > 0.0
+    # Regula falsi, which halves the value at an end that stays (Illinois).
+    side = 0
+    place = low + (high - low) * excess / (excess - beyond)
+    for _ in range(_ITERATIONS):
+        left = _left(table, guide, row, column, way, press, place)
+        if left > 0.0:
+            low = place
+            excess = left
+            beyond = 0.5 * beyond if side > 0 else beyond
+            side = 1
+        else:
+            high = place
+            beyond = left
+            excess = 0.5 * excess if side < 0 else excess
+            side = -1
+        place = low + (high - low) * excess / (excess - beyond)
+    return place, beyond > 0.0
+
+
 @jit
 def turned(table, guide, load, ring_speed, push):
     """Rest position of a roller that its net moment turns against a spar.
@@ -233,40 +276,14 @@ def turned(table, guide, load, ring_speed, push):
     press = abs(push) / heavy
     first = _at(table, 0, row, column, 0.0)
     way = math.copysign(1.0, first[0])
-    end = math.asinh(guide.largest / _SCALE)
-    low = 0.0
-    high = 0.0
-    excess = way * first[0]
-    beyond = way * first[0]
-    while beyond > 0.0 and high < end:
-        low = high
-        excess = beyond
-        high = min(low + 1.0 / table.skew.per_spacing, end)
-        beyond = way * _at(table, 0, row, column, way * high)[0] - press * _arm(guide, high)
-    place = high
-    if beyond <= 0.0 and high > 0.0:
-        # Regula falsi, which halves the value at an end that stays (Illinois).
-        side = 0
-        place = low + (high - low) * excess / (excess - beyond)
-        for _ in range(_ITERATIONS):
-            left = way * _at(table, 0, row, column, way * place)[0] - press * _arm(guide, place)
-            if left > 0.0:
-                low = place
-                excess = left
-                beyond = 0.5 * beyond if side > 0 else beyond
-                side = 1
-            else:
-                high = place
-                beyond = left
-                excess = 0.5 * excess if side < 0 else excess
-                side = -1
-            place = low + (high - low) * excess / (excess - beyond)
+    place, stops = _rest(table, guide, row, column, way, press, way * first[0])
     value = _at(table, 0, row, column, way * place)
     other = _at(table, 1, row, column, way * place)
     change = _at(table, 2, row, column, way * place)
     angle = way * _SCALE * math.sinh(place)
     rest = heavy * (value[0] - way * press * _arm(guide, place))
-    held, left = (rest, 0.0) if beyond > 0.0 else (0.0, abs(rest))
+    held = rest if stops else 0.0
+    left = 0.0 if stops else abs(rest)
     # Straight, nothing is added, not even by rounding.
     tilt = 0.0
     shift = 0.0
