@@ -36,7 +36,7 @@ from macroslip import (
     simulate,
 )
 from macroslip.constants import ZERO_CELSIUS
-from macroslip.measures.details import FILM_EDGES
+from macroslip.measures.along import FILM_EDGES
 from macroslip.report.style import BLUE, GREEN, ORANGE, finish, new_figure
 from macroslip.result.criteria import CRITERIA
 from macroslip.result.damage import damage
