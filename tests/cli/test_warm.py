@@ -40,7 +40,8 @@ def test_a_warmed_case_makes_no_table(warmed, monkeypatch):
 
 @pytest.mark.parametrize("dynamics", ["imposed-orbit", "whole-bearing"])
 @pytest.mark.parametrize(
-    "further", ["laws: {model: paper}", "traces: none", "contact_details: false", "gravity: false"]
+    "further",
+    ["laws: {model: paper}", "traces: none", "contact_details: false", "forces: {gravity: false}"],
 )
 def test_nothing_is_compiled_any_more(warmed, tmp_path, dynamics, further):
     """Whatever else a case chooses."""
