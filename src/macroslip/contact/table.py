@@ -506,8 +506,33 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
     Rollers with more than 20 kN slip up to .6 % of the ring's speed, lighter ones up to all of it
     and more.
     """
-    from scipy.ndimage import map_coordinates
+    state = _random_states(grid, box)
+    interpolated = _interpolated(grid, coefficients, state)
+    load, speed, slip = state
+    root = np.cbrt(load)
+    along = speed * np.sqrt(1.0 - 0.25 * slip * slip)
+    expected = tractions(contact, load, along, speed * slip)
+    scales = (load, load * root * root, load * root, load * root * root * speed)
+    scaled = [value * scale for value, scale in zip(interpolated, scales, strict=True)]
+    spin, power = _spin_and_power(contact, along, speed * slip, expected)
+    other, other_power = _spin_and_power(contact, along, speed * slip, scaled)
+    largest = np.abs(spin).max(axis=-1, keepdims=True)
+    off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
+    least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)
+    off = np.maximum(off, np.abs(other_power - power) / np.maximum(power, least))
+    return TableErrors(float(np.median(off)), float(off.max()))
 
+
+class _States(NamedTuple):
+    """States of a contact at which a table is compared with its law, arrays of one shape."""
+
+    load: np.ndarray  #: Q [N]
+    speed: np.ndarray  #: Root mean square of both surfaces' speeds, as the grid has it [m/s]
+    slip: np.ndarray  #: Slip over that speed [-]
+
+
+def _random_states(grid: _Grid, box: Box) -> _States:
+    """Draw states inside the box of a table, shape (states, slips)."""
     random = np.random.default_rng(1)
     load = np.exp(random.uniform(math.log(1.0), math.log(box.load), (_STATES, 1)))
     speed = random.uniform(max(box.slowest, 0.02 * box.fastest), box.fastest, (_STATES, 1))
@@ -517,41 +542,34 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
         for edge, light in ((-_HELD_RATIO, -1e-3), (_HELD_RATIO, _MOST_RATIO))
     )
     slip = grid.slips(random.uniform(low, high, (_STATES, _SLIPS)))
-    load = np.broadcast_to(load, slip.shape)
-    speed = np.broadcast_to(speed, slip.shape)
-    root = np.cbrt(load)
-    places = [
-        (coordinate - one.first) * one.per_spacing + 1.0
-        for one, coordinate in (
-            (grid.load, np.log(load) + grid.stretch * root),
-            (grid.speed, speed**0.25),
-            (grid.ratio, grid.coordinates(slip)),
-        )
-    ]
-    found = [
+    return _States(np.broadcast_to(load, slip.shape), np.broadcast_to(speed, slip.shape), slip)
+
+
+def _interpolated(grid: _Grid, coefficients: np.ndarray, state: _States) -> list[np.ndarray]:
+    """Look up every channel of a table at states, by an interpolation of its own."""
+    from scipy.ndimage import map_coordinates
+
+    coordinates = (
+        (grid.load, np.log(state.load) + grid.stretch * np.cbrt(state.load)),
+        (grid.speed, state.speed**0.25),
+        (grid.ratio, grid.coordinates(state.slip)),
+    )
+    places = [(at - axis.first) * axis.per_spacing + 1.0 for axis, at in coordinates]
+    return [
         map_coordinates(coefficients[..., channel], places, order=3, prefilter=False)
         for channel in range(CHANNELS)
     ]
-    along = speed * np.sqrt(1.0 - 0.25 * slip * slip)
-    expected = tractions(contact, load, along, speed * slip)
-    scales = (load, load * root * root, load * root, load * root * root * speed)
+
+
+def _spin_and_power(
+    contact: ContactLaws,
+    along: np.ndarray,
+    slip: np.ndarray,
+    channels: list[np.ndarray] | tuple[np.ndarray, ...],
+) -> tuple[np.ndarray, np.ndarray]:
+    """Force that drives the spin [N] and power [W] from a table's channels at slips [m/s]."""
     shape = contact.shape
     curvature = shape.curvature_ratio * shape.roller_radius if shape.microslip else 0.0
-
-    def spin_and_power(
-        values: list[np.ndarray] | tuple[np.ndarray, ...],
-    ) -> tuple[np.ndarray, np.ndarray]:
-        pull, lag, skew, _ = values
-        return pull - lag, speed * slip * (pull - lag) + along * (
-            curvature * lag - abs(shape.spin_ratio) * skew
-        )
-
-    spin, power = spin_and_power(expected)
-    other, other_power = spin_and_power(
-        [one * scale for one, scale in zip(found, scales, strict=True)]
-    )
-    largest = np.abs(spin).max(axis=-1, keepdims=True)
-    off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
-    least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)
-    off = np.maximum(off, np.abs(other_power - power) / np.maximum(power, least))
-    return TableErrors(float(np.median(off)), float(off.max()))
+    pull, lag, skew, _ = channels
+    sliding = slip * (pull - lag)
+    return pull - lag, sliding + along * (curvature * lag - abs(shape.spin_ratio) * skew)

@@ -222,7 +222,18 @@ class FrictionTable:
     def power(
         self, supply: str, wind_speed: ArrayLike, shaft_speed: ArrayLike, temperature: ArrayLike
     ) -> NDArray[np.float64]:
-        """Friction power M n [W]; as `torque`."""
+        """Friction power M n [W].
+
+        Parameters
+        ----------
+        supply, wind_speed, shaft_speed, temperature
+            As of `torque`.
+
+        Returns
+        -------
+        ndarray
+            M n [W], of the shape that the arguments have together.
+        """
         torque = self.torque(supply, wind_speed, shaft_speed, temperature)
         return torque * np.asarray(shaft_speed, dtype=float)
 
