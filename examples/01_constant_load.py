@@ -1,4 +1,7 @@
-"""One roller under a constant load: it coasts through the unloaded top and is caught again at the bottom."""
+"""One roller under a constant load: it coasts through the unloaded top and is caught again at the bottom.
+
+python examples/01_constant_load.py
+"""
 
 from macroslip import BearingLoads, Case, Traces, simulate
 

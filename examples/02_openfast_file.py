@@ -1,4 +1,7 @@
-"""From an OpenFAST output file to the slip of both rows."""
+"""From an OpenFAST output file to the slip of both rows.
+
+python examples/02_openfast_file.py
+"""
 
 from pathlib import Path
 

@@ -1,4 +1,7 @@
-"""From Bladed output to the load on the main bearing: hub loads in, statics of the shaft, forces out."""
+"""From Bladed output to the load on the main bearing: hub loads in, statics of the shaft, forces out.
+
+python examples/03_bladed_file.py
+"""
 
 from pathlib import Path
 

@@ -1,4 +1,7 @@
-"""From HAWC2 output to the load on the main bearing: hub loads in, statics of the shaft, forces out."""
+"""From HAWC2 output to the load on the main bearing: hub loads in, statics of the shaft, forces out.
+
+python examples/04_hawc2_file.py
+"""
 
 from pathlib import Path
 

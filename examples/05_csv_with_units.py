@@ -1,4 +1,7 @@
-"""Loads from a table whose columns name quantity and unit, here as a German spreadsheet writes it."""
+"""Loads from a table whose columns name quantity and unit, here as a German spreadsheet writes it.
+
+python examples/05_csv_with_units.py
+"""
 
 import matplotlib.pyplot as plt
 import numpy as np

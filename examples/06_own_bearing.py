@@ -1,4 +1,7 @@
-"""A bearing of one's own, from a file with a provenance tag at every value."""
+"""A bearing of one's own, from a file with a provenance tag at every value.
+
+python examples/06_own_bearing.py
+"""
 
 import json
 

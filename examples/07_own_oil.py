@@ -1,4 +1,7 @@
-"""An oil of one's own: single values of a shipped one replaced, and its viscosity over temperature."""
+"""An oil of one's own: single values of a shipped one replaced, and its viscosity over temperature.
+
+python examples/07_own_oil.py
+"""
 
 import matplotlib.pyplot as plt
 import numpy as np

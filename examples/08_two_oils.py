@@ -1,4 +1,7 @@
-"""The same loads with two oils: what friction dissipates in either row."""
+"""The same loads with two oils: what friction dissipates in either row.
+
+python examples/08_two_oils.py
+"""
 
 import matplotlib.pyplot as plt
 

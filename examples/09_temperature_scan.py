@@ -1,4 +1,7 @@
-"""How the oil's temperature changes film and slip: one case at four temperatures."""
+"""How the oil's temperature changes film and slip: one case at four temperatures.
+
+python examples/09_temperature_scan.py
+"""
 
 import matplotlib.pyplot as plt
 

@@ -1,4 +1,7 @@
-"""What clearance does to the load zone: the load of each roller around the downwind row."""
+"""What clearance does to the load zone: the load of each roller around the downwind row.
+
+python examples/10_clearance.py
+"""
 
 import matplotlib.pyplot as plt
 import numpy as np

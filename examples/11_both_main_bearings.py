@@ -1,4 +1,7 @@
-"""Two main bearings on a four-point mount: what each of them carries."""
+"""Two main bearings on a four-point mount: what each of them carries.
+
+python examples/11_both_main_bearings.py
+"""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -1,4 +1,7 @@
-"""Stiffness of the main bearing over its load, for programs of drivetrain and rotor dynamics."""
+"""Stiffness of the main bearing over its load, for programs of drivetrain and rotor dynamics.
+
+python examples/12_stiffness.py
+"""
 
 import matplotlib.pyplot as plt
 

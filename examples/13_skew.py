@@ -1,4 +1,7 @@
-"""How far a roller turns about its contact normal, at rest in every position of its orbit."""
+"""How far a roller turns about its contact normal, at rest in every position of its orbit.
+
+python examples/13_skew.py
+"""
 
 import matplotlib.pyplot as plt
 

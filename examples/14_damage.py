@@ -1,4 +1,7 @@
-"""Criteria of damage of a result, each beside its published reference."""
+"""Criteria of damage of a result, each beside its published reference.
+
+python examples/14_damage.py
+"""
 
 from macroslip import Case, HubLoads, simulate
 

@@ -1,4 +1,7 @@
-"""A year of a site from a few wind speeds: hours and friction energy of each."""
+"""A year of a site from a few wind speeds: hours and friction energy of each.
+
+python examples/15_a_year.py
+"""
 
 from tempfile import TemporaryDirectory
 

@@ -1,4 +1,7 @@
-"""Design A against design B: the same loads, two clearances, all differences."""
+"""Design A against design B: the same loads, two clearances, all differences.
+
+python examples/16_a_against_b.py
+"""
 
 import matplotlib.pyplot as plt
 

@@ -1,4 +1,7 @@
-"""A sample of two uncertain values, and which of them matters: main effects."""
+"""A sample of two uncertain values, and which of them matters: main effects.
+
+python examples/17_sample_and_effects.py
+"""
 
 from tempfile import TemporaryDirectory
 

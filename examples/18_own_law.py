@@ -1,4 +1,7 @@
-"""A traction law of one's own, from own_law.py, beside the one of the paper."""
+"""A traction law of one's own, from own_law.py, beside the one of the paper.
+
+python examples/18_own_law.py
+"""
 
 import matplotlib.pyplot as plt
 import own_law  # noqa: F401  registers "isothermal-barus"

@@ -1,4 +1,7 @@
-"""Loads of the rollers from elsewhere, such as a finite-element model, in place of the ring's balance."""
+"""Loads of the rollers from elsewhere, such as a finite-element model, in place of the ring's balance.
+
+python examples/19_roller_loads_from_fe.py
+"""
 
 import numpy as np
 import pandas as pd

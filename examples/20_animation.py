@@ -1,4 +1,7 @@
-"""Rollers around the downwind row, coloured by slip, as an animated picture: GIF, or MP4 with ffmpeg."""
+"""Rollers around the downwind row, coloured by slip, as an animated picture: GIF, or MP4 with ffmpeg.
+
+python examples/20_animation.py
+"""
 
 import matplotlib.pyplot as plt
 import numpy as np

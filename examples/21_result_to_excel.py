@@ -1,4 +1,7 @@
-"""A result as a workbook of Excel, and a chart from what stands in it."""
+"""A result as a workbook of Excel, and a chart from what stands in it.
+
+python examples/21_result_to_excel.py
+"""
 
 import matplotlib.pyplot as plt
 import pandas as pd

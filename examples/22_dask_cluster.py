@@ -1,4 +1,7 @@
-"""A study on the workers of a Dask scheduler: here one on this machine, in earnest one of a cluster."""
+"""A study on the workers of a Dask scheduler: here one on this machine, in earnest one of a cluster.
+
+python examples/22_dask_cluster.py
+"""
 
 from tempfile import TemporaryDirectory
 

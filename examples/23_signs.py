@@ -1,4 +1,7 @@
-"""Every sign of docs/frames.md, checked with a run."""
+"""Every sign of docs/frames.md, checked with a run.
+
+python examples/23_signs.py
+"""
 
 import numpy as np
 

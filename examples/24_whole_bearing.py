@@ -1,4 +1,7 @@
-"""All rollers of both rows together with the cage: forces of the spars in two tenths of a second."""
+"""All rollers of both rows together with the cage: forces of the spars in two tenths of a second.
+
+python examples/24_whole_bearing.py
+"""
 
 from macroslip import BearingLoads, Case, Laws, Traces, simulate
 
