@@ -65,7 +65,9 @@ def reported(tmp_path):
             "case.yaml, line 1, loads.bundled: '14D' does not exist. Allowed: 12A, 12B, 12C, 14A, 14B, 14C, 16A, "
             "16B, 16C, 18A, 18B, 18C, 20A, 20B, 20C, 22A, 22B, 22C, 24A, 24B, 24C, 4A, "
             "4B, 6A, 6B, 8A, 8B, 10A, 10B, 8B-2, 10B-2, 12B-2, 16B-2, 24B-2, start-8, start-14, stop-14, stop-24, "
-            "estop-20, gridloss-14, idle-6, idle-25, parked-12, eog-14, ecd-14, yaw20-14. Did you mean 14C?",
+            "estop-20, gridloss-14, idle-6, idle-25, parked-12, eog-14, ecd-14, yaw20-14, nrel5-4B, nrel5-6B, nrel5-8B, "
+            "nrel5-10B, nrel5-12B, nrel5-14B, nrel5-16B, nrel5-18B, nrel5-20B, nrel5-22B, nrel5-24B, nrel5-12A, nrel5-18A, "
+            "nrel5-8B-2, nrel5-12B-2, nrel5-18B-2. Did you mean 14C?",
         ),
         (
             "loads: {file: nothing.outb}\n",
@@ -163,8 +165,8 @@ def reported(tmp_path):
             LOADS + "laws: {film: dowson, traction: barus-crook}\n",
             "2 problems: (1) case.yaml, line 2, laws.film: 'dowson' does not exist. Allowed: masjedi-khonsari, "
             "masjedi-khonsari-moes, moes. Choose one of these. A law of your own needs its file: macroslip run CASE "
-            "--laws FILE. (2) case.yaml, line 2, laws.traction: 'barus-crook' does not exist. Allowed: mechanisms. "
-            "Choose one of these. A law of your own needs its file: macroslip run CASE --laws FILE.",
+            "--laws FILE. (2) case.yaml, line 2, laws.traction: 'barus-crook' does not exist. Allowed: mechanisms, "
+            "kellstroem. Choose one of these. A law of your own needs its file: macroslip run CASE --laws FILE.",
         ),
         (
             LOADS + "laws: {model: real, rheology: limiting_shear, microslip: on}\n",
