@@ -102,7 +102,7 @@ def test_semicolons_and_decimal_commas_in_a_table_of_bearing_loads(folder, macro
         ("notes.txt", b"x", "notes.txt: the extension '.txt' is not known. Allowed: .outb (OpenFAST binary output), "
                             ".out (OpenFAST text output), .%nn (Bladed output, any file of the run), .$nn (the same), "
                             ".sel (HAWC2 output), .dat (HAWC2 output, with its .sel beside it), .hdf5 (HAWC2 output in the format gtsdf), .h5 (the same), .parquet (table), "
-                            ".csv (table)."),
+                            ".csv (table), .xlsx (workbook of Excel)."),
         ("empty.csv", b"", "empty.csv: the file is empty. Write or copy the file again."),
         ("cut.outb", b"\x02\x00\x01", "cut.outb: the file is cut off within its header. Copy the file again, or run "
                                       "OpenFAST again."),

@@ -109,7 +109,7 @@ def test_own_laws_beside_the_mechanisms_of_the_package(run, folder, laws):
 def test_without_its_file_a_law_is_told_with_how_to_name_it(run, folder):
     done = run(EXAMPLES / "own_laws.yaml", "-o", "own.nc")
     assert done.returncode == 2 and not Path("own.nc").exists()
-    assert "laws.traction: 'isothermal-barus' does not exist. Allowed: mechanisms. Choose one of these. A law of your own " \
+    assert "laws.traction: 'isothermal-barus' does not exist. Allowed: mechanisms, kellstroem. Choose one of these. A law of your own " \
            "needs its file: macroslip run CASE --laws FILE." in done.stderr  # fmt: skip
 
 
