@@ -166,12 +166,8 @@ def _attempt(path, work):
     # sample interval may be off by what is allowed in that part.
     share = max(attempt.length, tuning.SHORT_PART * work.stretch.sample_step)
     limits = path.limits
-    slip_share = tuning.SLIP_SHARE
-    if zone == FREE and path.body.oily and path.body.microslip:
-        share = max(share, tuning.IDLE_PART * limits.longest_step)
-        slip_share = tuning.IDLE_SLIP_SHARE
     worth = max(mean_power * share, attempt.energy, tuning.NO_ENERGY * limits.energy_scale)
-    slip_off /= slip_share * limits.tolerance * limits.speed_scale + 1e-300
+    slip_off /= tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
     return max(
         abs(slip_off), abs(energy_off) / (tuning.ENERGY_SHARE * limits.tolerance * worth + 1e-300)
     )

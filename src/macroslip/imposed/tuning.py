@@ -47,15 +47,6 @@ INERTIA_PART = 0.02
 #: far too large. With these, errors on the bundled histories stay below half of the tolerance from
 #: 2e-4 on.
 SLIP_SHARE = 0.1
-#: The same part for slip of a roller that the rings do not press, in oil, which makes it forget its
-#: slip within a few steps, so that errors do not add up along a coast; and the part of the longest
-#: step below which its energy is not controlled more finely: its power has a cusp where the cage's
-#: load passes zero, towards which steps would shrink. Idle rollers of 14B, 12B and 24A take 0.69 to
-#: 0.80 of the evaluations with both. Against a fiftieth of the tolerance energies of the raceways
-#: stay within 3e-5 and those of the cage within 4e-4; slide-roll ratios at entries stay within 2e-4,
-#: or as near as they were.
-IDLE_SLIP_SHARE = 0.5
-IDLE_PART = 0.1
 ENERGY_SHARE = 10.0
 #: Part of a roller's kinetic energy at the largest raceway speed below which a step's energy need
 #: not be known better. Without it, a start from standstill fails at tolerances from 1e-6 on; a
