@@ -85,7 +85,7 @@ ALLOWED = "Allowed: a Python file that registers film or traction laws, as macro
         (
             TRACTION.replace('"isothermal-barus"', '"mechanisms"'),
             f"my_laws.py, line {line_of(TRACTION, 'register_traction(')}: the traction law "
-            "'mechanisms' cannot be registered: the name is taken. Allowed: a name other than mechanisms. Choose another "
+            "'mechanisms' cannot be registered: the name is taken. Allowed: a name other than kellstroem, mechanisms. Choose another "
             "name; a law that was changed in its file needs a new Python process.",
         ),
     ],

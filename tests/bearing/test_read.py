@@ -104,7 +104,7 @@ def test_units_are_converted_exactly(base, tmp_path):
         ("{value: 70, unit: mm", "{value: 7e4, unit: um"),
         ("{value: 106, unit: mm", "{value: 0.106, unit: m"),
         ("{value: 8502, unit: kN", "{value: 8502e3, unit: N"),
-        ("hardness: {value: 7.0, unit: GPa", "hardness: {value: 7_000, unit: MPa"),
+        ("hardness: {value: 7.0, unit: GPa", "hardness: {value: 7000, unit: MPa"),
         (
             "contact_angle: {value: 11.2, unit: deg",
             f"contact_angle: {{value: {base.contact_angle!r}, unit: rad",
