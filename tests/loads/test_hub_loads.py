@@ -210,7 +210,8 @@ def test_import_is_cheap():
         ("nothing.outb", None, ["nothing.outb: no such file", "current folder"]),
         ("empty.outb", b"", ["empty.outb: the file is empty"]),
         ("empty.csv", b"", ["empty.csv: the file is empty"]),
-        ("loads.xlsx", b"x", ["'.xlsx' is not known", ".outb (OpenFAST binary output)", ".csv"]),
+        ("loads.xlsx", b"x", ["loads.xlsx: it is damaged"]),
+        ("loads.ods", b"x", ["'.ods' is not known", ".outb (OpenFAST binary output)", ".csv"]),
     ],
 )
 def test_files_that_cannot_be_read(tmp_path, name, content, words):

@@ -91,7 +91,7 @@ def _renamed(old, new):
         ),
         (
             _renamed("rotor_speed_rpm", "speed"),
-            ["shaft_speed_rpm or shaft_speed_rad_s", "rotor_speed_rpm"],
+            ["no column for shaft_speed_rpm", "shaft_speed_rad_s", "rotor_speed_rpm"],
         ),
         (HUB | {"fx_kN": HUB["fx_N"]}, ["columns fx_N and fx_kN both give fx"]),
         (
