@@ -26,7 +26,7 @@ def travel_rate(time: np.ndarray, position: np.ndarray, start: float, end: float
 
     Examples
     --------
-    >>> travel_rate(np.array([0.0, 1800.0, 3600.0]), np.array([0.0, 2e-4, 0.0]), 0.0, 3600.0)
+    >>> round(travel_rate(np.array([0.0, 1800.0, 3600.0]), np.array([0.0, 2e-4, 0.0]), 0.0, 3600.0), 9)
     0.0004
     """
     inside = _within(time, position, start, end)
