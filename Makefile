@@ -53,7 +53,7 @@ test-lowest:  ## input, a computed case and results with the lowest versions tha
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
 	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing src/macroslip/result/simulate.py
 
-lint: $(VENV)/.ready  ## format, lint, types on all three systems, workflows and Dockerfile
+lint: $(VENV)/.lint  ## format, lint, types on all three systems, workflows and Dockerfile
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	printf '%s\n' Linux Windows Darwin | xargs -P 3 -I@ $(BIN)/pyright --pythonplatform @
@@ -79,6 +79,10 @@ $(VENV)/.figures: pyproject.toml
 
 $(VENV)/.ready: $(VENV)/.figures
 	$(BIN)/python -m pip install --quiet --editable '.[test]' $(CONSTRAINTS)
+	touch $@
+
+$(VENV)/.lint: $(VENV)/.ready
+	$(BIN)/python -m pip install --quiet --editable '.[lint]' $(CONSTRAINTS)
 	touch $@
 
 clean:
