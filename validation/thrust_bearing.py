@@ -115,7 +115,7 @@ def friction_torque(
     contact = interface_of(bearing, load, oil)
     half, mean_speed = 0.5 * bearing.length, 0.5 * speed * bearing.pitch_radius
     root, radius = load ** (1.0 / 3.0), contact.rolling_radius
-    warming = thermal_loading(contact) * mean_speed**2
+    warming = thermal_loading(contact.lubricant) * mean_speed**2
     film = float(masjedi_khonsari_moes(contact, load, mean_speed) * inlet_heating_factor(warming))
     share = float(asperity_share("masjedi-khonsari", contact, load, mean_speed, film))
 

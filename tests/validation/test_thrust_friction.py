@@ -30,7 +30,7 @@ def test_crowned_roller_is_the_programs_patch():
     from macroslip.contact.film import inlet_heating_factor, masjedi_khonsari_moes, thermal_loading
 
     film = masjedi_khonsari_moes(contact, load, washer) * inlet_heating_factor(
-        thermal_loading(contact) * washer**2
+        thermal_loading(contact.lubricant) * washer**2
     )
     parts = np.empty(4)
     patch_traction(patch, chord_table(fluid), load, film, 0.0, washer, 0.0, parts)

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.contact.interface import Interface
+from macroslip.lubricant import Lubricant
 from macroslip.lubricant.temperature import dowson_higginson
 
 MASJEDI_KHONSARI_REFERENCE = (
@@ -317,10 +318,9 @@ def inlet_heating_factor(loading):
     return 1.0 / (1.0 + 0.1 * np.power(loading, 0.64))
 
 
-def thermal_loading(interface: Interface) -> float:
-    """Thermal loading parameter η0 β/k of an interface's oil at 1 m/s [s²/m²].
+def thermal_loading(oil: Lubricant) -> float:
+    """Thermal loading parameter η0 β/k of an oil at 1 m/s [s²/m²].
 
     It goes with the square of speed.
     """
-    oil = interface.lubricant
     return oil.viscosity * oil.temperature_viscosity / oil.thermal_conductivity

@@ -216,7 +216,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 shape=contact_shape(bearing, interface, axial_sign, microslip=laws.microslip),
                 film_name=laws.film,
                 oil_gap=oil_gap if laws.starvation else math.inf,
-                thermal_loading=film.thermal_loading(interface) if laws.inlet_heating else 0.0,
+                thermal_loading=film.thermal_loading(lubricant) if laws.inlet_heating else 0.0,
                 fluid=fluid if friction is None else None,
                 closed_form=prepare_barus_crook(interface, heated=laws.heating)
                 if laws.is_closed_form

@@ -12,7 +12,11 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
-from macroslip.contact.film import inlet_heating_factor, masjedi_khonsari_thickness
+from macroslip.contact.film import (
+    inlet_heating_factor,
+    masjedi_khonsari_thickness,
+    thermal_loading,
+)
 from macroslip.contact.hertz import effective_modulus
 from macroslip.contact.line import half_width, line_pressure
 from macroslip.contact.mechanisms import Laws
@@ -113,9 +117,7 @@ def rolling_resistance(contact: LineContact, load, speed, law: str = "zhou-hoepr
     radius = 1.0 / contact.curvature
     groups = oil.pressure_viscosity * oil.viscosity * np.asarray(speed) / radius
     per_length = np.asarray(load) / contact.length / (contact.modulus * radius)
-    loading = (
-        oil.viscosity * oil.temperature_viscosity / oil.thermal_conductivity * np.square(speed)
-    )
+    loading = thermal_loading(contact.lubricant) * np.square(speed)
     scale = factor * radius * contact.length / oil.pressure_viscosity
     isothermal = scale * np.power(groups, speed_exponent) * np.power(per_length, load_exponent)
     return isothermal * inlet_heating_of_rolling(loading)
@@ -158,9 +160,7 @@ def line_film(contact: LineContact, load, speed):
         contact.roughness / radius,
         contact.hardness / contact.modulus,
     )
-    loading = (
-        oil.viscosity * oil.temperature_viscosity / oil.thermal_conductivity * np.square(speed)
-    )
+    loading = thermal_loading(contact.lubricant) * np.square(speed)
     return radius * height * inlet_heating_factor(loading)
 
 

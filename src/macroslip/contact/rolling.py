@@ -285,7 +285,7 @@ def prepare_rolling(
         log_material=math.log(oil.pressure_viscosity * modulus) + 0.25 * math.log(doubled),
         log_film=math.log(radius) + 0.5 * math.log(doubled),
         log_scale=math.log(2.0 * across * modulus * radius) + 0.75 * math.log(doubled),
-        loading=thermal_loading(interface) if heating else 0.0,
+        loading=thermal_loading(interface.lubricant) if heating else 0.0,
         beside=2.0 * ROLLING_AT_GAP * per_root,
         double_lateral=2.0 * shape.lateral_radius,
         half_length=0.5 * shape.length,
