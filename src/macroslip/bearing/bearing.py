@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from macroslip.bearing import geometry, load_ratings
+from macroslip.bearing.rollers import no_roller, overlapping
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity, Text
 from macroslip.input.files import Source
@@ -227,9 +228,9 @@ class Bearing(Record):
             return
         # Positions or shapes that contradict each other make all that is computed from them
         # meaningless.
-        contradictions = list(_contradictions(self, source))
+        contradictions = [*_contradictions(self, source), *no_roller(self, source)]
         yield from contradictions
-        yield from _spacing(self, source)
+        yield from overlapping(self, source)
         if not contradictions:
             faults = [*_rows(self, source), *_rings(self, source)]
             yield from faults or _sizes(self, source)
@@ -279,34 +280,6 @@ def _contradictions(bearing: Bearing, source: Source) -> Iterator[InputError]:
                 remedy="Check pitch_radius, row_offset, outer_raceway_radius, roller_diameter and "
                 "contact_angle.",
             )
-    slenderness = bearing.roller_length / bearing.roller_diameter
-    if not 0.5 <= slenderness <= 4:
-        yield InputError(
-            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} "
-            "times roller_diameter",
-            where=source.where("roller_length", "value"),
-            allowed="0.5 to 4 times roller_diameter",
-            remedy="Check roller_length and roller_diameter.",
-        )
-
-
-def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
-    # Centres of neighbouring rollers are a chord of the pitch circle apart.
-    spacing = 2 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
-    if spacing <= bearing.roller_diameter:
-        most = math.floor(
-            math.pi / math.asin(min(1.0, bearing.roller_diameter / (2 * bearing.pitch_radius)))
-        )
-        yield InputError(
-            f"{bearing.rollers_per_row} rollers do not fit round the circumference: "
-            f"roller_diameter is {bearing.written('roller_diameter')}, centres are "
-            f"{bearing.written('roller_diameter', spacing)} apart",
-            where=source.where("rollers_per_row", "value"),
-            allowed="2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter, here at most "
-            f"{most} rollers",
-            remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row "
-            "counts one row only.",
-        )
 
 
 def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar
 
+from macroslip.bearing.rollers import no_roller, overlapping
 from macroslip.bearing.tapered import geometry
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity, Text
@@ -143,39 +144,19 @@ class TaperedBearing(Record):
         return 2
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
-        faults = list(_rollers_that_do_not_fit(self, source))
+        faults = [*no_roller(self, source), *overlapping(self, source)]
+        if not faults:
+            faults = list(_rows_beside_each_other(self, source))
         yield from faults
         if not faults:
             yield from _rib_beside_the_end(self, source)
 
 
-def _rollers_that_do_not_fit(bearing: TaperedBearing, source: Source) -> Iterator[InputError]:
-    """Yield rollers that overlap each other, the mid-plane, or are no rollers by their shape."""
-    slenderness = bearing.roller_length / bearing.roller_diameter
-    if not 0.5 <= slenderness <= 4.0:
-        yield InputError(
-            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} "
-            "times roller_diameter",
-            where=source.where("roller_length", "value"),
-            allowed="0.5 to 4 times roller_diameter",
-            remedy="Check roller_length and roller_diameter.",
-        )
-    spacing = 2.0 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
-    if spacing <= bearing.roller_diameter:
-        yield InputError(
-            f"{bearing.rollers_per_row} rollers do not fit round the circumference: "
-            f"roller_diameter is {bearing.written('roller_diameter')}, their middles are "
-            f"{bearing.written('roller_diameter', spacing)} apart",
-            where=source.where("rollers_per_row", "value"),
-            allowed="2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter",
-            remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row "
-            "counts one row only.",
-        )
-        return
-    beta = geometry.half_cone_angle(
+def _rows_beside_each_other(bearing: TaperedBearing, source: Source) -> Iterator[InputError]:
+    """Yield rollers that reach beyond the apex or over the mid-plane."""
+    beta, apex = geometry.cone(
         bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle
     )
-    apex = bearing.pitch_radius / math.sin(bearing.outer_angle - beta)
     reach = bearing.roller_length / 2.0 * math.cos(bearing.outer_angle - beta)
     if apex <= bearing.roller_length / 2.0:
         yield InputError(
@@ -198,12 +179,10 @@ def _rollers_that_do_not_fit(bearing: TaperedBearing, source: Source) -> Iterato
 
 def _rib_beside_the_end(bearing: TaperedBearing, source: Source) -> Iterator[InputError]:
     """Yield a rib contact that does not lie on the roller's large end."""
-    beta = geometry.half_cone_angle(
+    beta, apex = geometry.cone(
         bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle
     )
-    apex = bearing.pitch_radius / math.sin(bearing.outer_angle - beta)
-    large_radius = (apex + bearing.roller_length / 2.0) * math.tan(beta)
-    highest = large_radius * math.cos(beta)
+    highest = (apex + bearing.roller_length / 2.0) * math.sin(beta)
     if bearing.rib_contact_height >= highest:
         yield InputError(
             f"rib.contact_height is {bearing.written('rib_contact_height')}, above the middle of "

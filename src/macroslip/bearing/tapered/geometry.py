@@ -192,6 +192,21 @@ def half_cone_angle(roller_diameter: float, pitch_diameter: float, outer_angle: 
     return math.atan(tangent)
 
 
+def cone(roller_diameter: float, pitch_diameter: float, outer_angle: float) -> tuple[float, float]:
+    """Half-angle β of the roller [rad], and distance A of its middle from the apex [m].
+
+    Arguments are those of `half_cone_angle`; A = Dpw/(2 sin(α_o − β)).
+
+    Examples
+    --------
+    >>> _, apex = cone(0.062, 0.768, math.radians(30.40))
+    >>> round(apex, 5)
+    0.81223
+    """
+    beta = half_cone_angle(roller_diameter, pitch_diameter, outer_angle)
+    return beta, pitch_diameter / 2.0 / math.sin(outer_angle - beta)
+
+
 def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
     """Geometry of a row of rollers from a bearing's data.
 
@@ -222,9 +237,8 @@ def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
     (0.464431, 6.639)
     """
     radius = bearing.roller_diameter / 2.0
-    beta = half_cone_angle(bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle)
+    beta, apex = cone(bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle)
     alpha = bearing.outer_angle - beta
-    apex = bearing.pitch_radius / math.sin(alpha)
     end = apex + bearing.roller_length / 2.0
     sphere = bearing.rib_sphere_ratio * end
     centre = end - sphere
