@@ -1,17 +1,21 @@
 """Constants that several folders share."""
 
+import math
+
 #: Acceleration of free fall [m/s²].
 GRAVITY = 9.81
 
 #: 0 °C [K].
 ZERO_CELSIUS = 273.15
 
+#: A revolution a minute [rad/s].
+RPM = math.pi / 30.0
 #: An hour [s].
 HOUR = 3600.0
 #: A mean year of 365.25 days [s].
 YEAR = 365.25 * 86400.0
 #: The same [h].
-HOURS_A_YEAR = YEAR / 3600.0
+HOURS_A_YEAR = YEAR / HOUR
 
 #: Sectors into which maps divide the orbit of a roller and the circumference of a raceway, of 5°
 #: each.

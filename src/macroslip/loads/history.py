@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from macroslip.constants import RPM
 from macroslip.errors import InputError
 from macroslip.input.units import is_finite_number
 from macroslip.loads.bladed import read_bladed
@@ -20,7 +21,7 @@ from macroslip.loads.csv_text import csv_number_format
 from macroslip.loads.hawc2 import read_hawc2
 from macroslip.loads.openfast import read_openfast
 from macroslip.loads.sheet_table import check_sheet
-from macroslip.loads.source_file import DAMAGED, RPM, moment_at_hub, source_file
+from macroslip.loads.source_file import DAMAGED, moment_at_hub, source_file
 from macroslip.loads.table import read_bearing_table, read_hub_table
 from macroslip.overview import html_overview
 from macroslip.storage.files import reading

@@ -10,10 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.constants import RPM
 from macroslip.errors import InputError
 from macroslip.loads.csv_text import csv_number_format
 from macroslip.loads.history import BearingLoads, History, cut
-from macroslip.loads.source_file import DAMAGED, RPM, source_file
+from macroslip.loads.source_file import DAMAGED, source_file
 from macroslip.loads.table import open_table
 from macroslip.storage.files import reading
 

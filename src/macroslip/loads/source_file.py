@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from macroslip.constants import RPM
 from macroslip.errors import InputError, legible
 from macroslip.storage.files import check_regular
 
@@ -25,7 +26,6 @@ DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it h
 #: Values that a header may announce; more must be damage.
 MOST_VALUES = 500_000_000
 
-RPM = math.pi / 30.0
 #: Units of channels, and the factor that gives SI.
 FORCE = {"N": 1.0, "kN": 1e3}
 MOMENT = {"Nm": 1.0, "kNm": 1e3}

@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.constants import RPM
 from macroslip.errors import InputError
 from macroslip.loads.csv_text import NumberFormat, read_csv
 from macroslip.loads.openfast import (
@@ -36,7 +37,7 @@ from macroslip.loads.openfast import (
     loads_from_channels,
 )
 from macroslip.loads.sheet_table import check_sheet, read_sheet
-from macroslip.loads.source_file import FORCE, MOMENT, RPM, Samples
+from macroslip.loads.source_file import FORCE, MOMENT, Samples
 from macroslip.storage.workbook import EXTENSION
 
 if TYPE_CHECKING:

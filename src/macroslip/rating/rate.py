@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import row_names
+from macroslip.constants import HOUR
 from macroslip.contact.interface import highest_load, interfaces
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.registry import FILM_LAWS
@@ -34,7 +35,6 @@ CONTAMINATION = 0.5
 an estimate.
 """
 WOHLER_EXPONENTS = (4.0, 10.0)
-_HOUR = 3600.0
 
 
 def roller_load_history(
@@ -160,7 +160,7 @@ class _History(NamedTuple):
     def hours_a_revolution(self) -> float:
         """Mean time of a turn of the shaft [h]; NaN for a shaft at rest."""
         turned = self.revolutions.sum()
-        return self.duration.sum() / turned / _HOUR if turned > 0.0 else math.nan
+        return self.duration.sum() / turned / HOUR if turned > 0.0 else math.nan
 
 
 def _variable(values: object, units: str, long_name: str, *dims: str) -> tuple:

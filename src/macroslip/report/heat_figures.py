@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from macroslip.constants import ZERO_CELSIUS
+from macroslip.constants import RPM, ZERO_CELSIUS
 from macroslip.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, SMALL, finish
 from macroslip.scada.heat import BearingHeat
 from macroslip.scada.heat_balance import HeatFit
@@ -31,13 +31,12 @@ MODEL: Mapping[str, Mapping[str, Any]] = MappingProxyType(
 )
 #: Windows that a mean of a figure needs.
 _LEAST = 10
-_RPM = np.pi / 30.0
 #: Range of an index that a figure shows.
 _SHOWN_INDEX = (0.0, 2.5)
 #: What a residual may go with: label, column of the windows, its factor, offset and width of a bin.
 OVER: Mapping[str, tuple[str, str, float, float, float]] = MappingProxyType(
     {
-        "speed": ("speed of the rotor [rpm]", "rotor_speed", 1.0 / _RPM, 0.0, 1.0),
+        "speed": ("speed of the rotor [rpm]", "rotor_speed", 1.0 / RPM, 0.0, 1.0),
         "temperature": (
             "temperature of the bearing [°C]", "bearing_temperature", 1.0, -ZERO_CELSIUS, 2.5,
         ),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from macroslip.constants import RPM
 from macroslip.loads import BearingLoads, HubLoads, RollerLoads
 
 if TYPE_CHECKING:
@@ -28,7 +29,6 @@ _FASTEST = 40.0 * np.pi / 30.0
 #: Largest static safety and contact pressure [Pa] of a bearing in use.
 _SAFEST = 100.0
 _PRESSURE = 4e9
-_RPM = 30.0 / np.pi
 #: Largest mean lateral over vertical force; 0.10 in simulations of whole turbines.
 _SIDEWAYS = 0.2
 #: Share of the rollers' load that films may carry without the balance of the rings.
@@ -59,7 +59,7 @@ def doubtful_loads(
     fastest = float(np.abs(loads.shaft_speed).max())
     if fastest > _FASTEST and (bearing is None or bearing.kind == "spherical"):
         doubts.append(
-            f"the shaft turns at up to {_RPM * fastest:.3g} rpm, and rotors on main bearings stay "
+            f"the shaft turns at up to {fastest / RPM:.3g} rpm, and rotors on main bearings stay "
             "below 40 rpm; is the speed that of the generator, or in another unit?"
         )
     if isinstance(loads, HubLoads):

@@ -8,6 +8,7 @@ from zoneinfo import ZoneInfo
 import numpy as np
 import pandas as pd
 
+from macroslip.constants import HOUR
 from macroslip.errors import InputError
 from macroslip.input.messages import shown
 from macroslip.scada.description import Clock
@@ -111,4 +112,4 @@ def hours_shown_twice(utc: pd.DatetimeIndex, differs: np.ndarray, step: float) -
     """
     number, _ = pd.factorize(utc.floor("h"))
     twice = np.bincount(number, weights=differs)
-    return (twice >= max(0.5 * 3600.0 / step, 2.0))[number]
+    return (twice >= max(0.5 * HOUR / step, 2.0))[number]

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from macroslip.constants import HOUR
 from macroslip.scada.heat_models import HeatModel
 from macroslip.scada.windows import Windows
 
@@ -30,8 +31,6 @@ PARAMETERS: Mapping[str, tuple[str, str]] = {
 BLOCK_DAYS = 3
 SAMPLES = 400
 SEED = 1
-#: Seconds of an hour: a rate of 1 K/h takes a power of C/3600.
-_HOUR = 3600.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +135,7 @@ def _constants(names: Sequence[str], solved: NDArray[np.float64]) -> dict[str, N
     if "capacity" in values:
         per_heat = values["capacity"]
         with np.errstate(divide="ignore", invalid="ignore"):
-            values["capacity"] = _HOUR / per_heat
+            values["capacity"] = HOUR / per_heat
             if "seal_torque" in values:
                 values["seal_torque"] = values["seal_torque"] / per_heat
     return values

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from macroslip.constants import HOUR
 from macroslip.errors import InputError
 from macroslip.input.messages import shown
 from macroslip.scada.clock import Times, consecutive_times, hours_shown_twice, utc_times
@@ -88,7 +89,7 @@ class Scada:
     @property
     def hours(self) -> float:
         """Hours with data that no filter drops."""
-        return float(self.kept.sum()) * self.step / 3600.0
+        return float(self.kept.sum()) * self.step / HOUR
 
     @property
     def kept(self) -> pd.Series:

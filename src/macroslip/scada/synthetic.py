@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 from scipy.stats import norm, weibull_min
 
-from macroslip.constants import ZERO_CELSIUS
+from macroslip.constants import HOUR, RPM, ZERO_CELSIUS
 from macroslip.scada.friction_table import FrictionTable, read_entries
 from macroslip.scada.speed_exponents import speed_exponents
 
@@ -24,16 +24,14 @@ from macroslip.scada.speed_exponents import speed_exponents
 BASE_TURBINE = Path(str(resources.files("macroslip.scada") / "base_turbine_friction.csv"))
 _STEP = 600.0
 _ROWS_A_DAY = 144
-#: One revolution a minute [rad/s].
-_RPM = np.pi / 30.0
 #: The turbine, of the kind of the base turbine with a rotor that turns more slowly: wind where it
 #: starts and where power is rated [m/s], rated speed [rad/s], tip-speed constant [rad/m], least
 #: speed of production [rad/s], rated power [W], and own use [W].
 CUT_IN = 3.0
 RATED_WIND = 11.2
-RATED_SPEED = 17.1 * _RPM
-_SPEED_PER_WIND = 1.75 * _RPM
-_LEAST_SPEED = 6.5 * _RPM
+RATED_SPEED = 17.1 * RPM
+_SPEED_PER_WIND = 1.75 * RPM
+_LEAST_SPEED = 6.5 * RPM
 RATED_POWER = 1.5e6
 _OWN_USE = -3e3
 #: Weibull scale [m/s] and shape of the wind.
@@ -148,7 +146,7 @@ def write_record(record: pd.DataFrame, path: str | PathLike[str]) -> None:
         {
             "time": record.index.strftime("%Y-%m-%d %H:%M"),
             "wind_mps": [f"{value:.1f}" for value in record["wind_speed"]],
-            "rotor_rpm": [f"{value:.1f}" for value in record["rotor_speed"] / _RPM],
+            "rotor_rpm": [f"{value:.1f}" for value in record["rotor_speed"] / RPM],
             "power_kW": 10 * (record["power"] / 1e4).round().to_numpy(int),
             "bearing_degC": [f"{value:.1f}" for value in celsius["bearing_temperature"]],
             "nacelle_degC": (2.0 * celsius["nacelle_temperature"]).round().to_numpy() / 2.0,
@@ -192,7 +190,7 @@ def _operation(
     speed = np.minimum(speed * (1.0 + 0.01 * random.standard_normal(rows)), RATED_SPEED)
     power = RATED_POWER * np.minimum(wind / RATED_WIND, 1.0) ** 3
     idle = wind < CUT_IN
-    speed[idle] = 0.4 * _RPM * wind[idle]
+    speed[idle] = 0.4 * RPM * wind[idle]
     power[idle] = _OWN_USE
     stopped = _within_spells(random, rows, _STOPS * rows / 52560.0, _STOP_ROWS)
     speed[stopped] = 0.0
@@ -204,7 +202,7 @@ def _air(
     random: np.random.Generator, time: pd.DatetimeIndex, power: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Temperatures outside and in the nacelle [K]."""
-    hours = np.arange(time.size) * _STEP / 3600.0
+    hours = np.arange(time.size) * _STEP / HOUR
     of_year = -7.5 * np.cos(2.0 * np.pi * (hours / 24.0 - 20.0) / 365.0)
     of_day = -3.0 * np.cos(2.0 * np.pi * (hours - 3.0) / 24.0)
     weather = 2.5 * _smoothed(_correlated(random, time.size, 3.0 * _ROWS_A_DAY))
@@ -232,8 +230,8 @@ def _bearing(
     Within a row the friction is linear in the temperature, so that a row has the closed solution
     T = T_end + (T_0 − T_end) exp(−b t).
     """
-    step = _STEP / 3600.0
-    per_heat = 3600.0 / truth.capacity
+    step = _STEP / HOUR
+    per_heat = HOUR / truth.capacity
     factor = np.ones(wind.size)
     factor[truth.more_from * _ROWS_A_DAY :] = truth.more_friction
     low = friction.temperatures[0]

@@ -8,6 +8,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
+from macroslip.constants import HOUR
+
 #: Length of a window [s].
 LENGTH = 7200.0
 
@@ -49,7 +51,7 @@ class Windows:
         array([1.5])
         """
         known = np.asarray(values, dtype=float)
-        hours = self.steps * self.step / 3600.0
+        hours = self.steps * self.step / HOUR
         return (known[self.first + self.steps] - known[self.first]) / hours
 
     def at(self, chosen: NDArray[np.bool_]) -> Windows:

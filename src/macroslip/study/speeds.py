@@ -5,16 +5,15 @@ from __future__ import annotations
 from os import PathLike
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 
+from macroslip.constants import RPM
 from macroslip.scada.bins import load_speeds
 from macroslip.scada.reader import Scada
 from macroslip.study.reader import open_study
 from macroslip.study.weights import Weighting, bin_numbers, stored_weighting
 
-_RPM = 30.0 / np.pi
 #: Difference from which on it is told.
 _MOST = 0.1
 #: Columns of `speeds_beside`.
@@ -46,7 +45,7 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
     speeds = pd.DataFrame(
         {
             WIND: bin_numbers(study[weighting.field].values, width) * width,
-            OF_STUDY: _RPM * study["shaft_speed_mean"].values,
+            OF_STUDY: study["shaft_speed_mean"].values / RPM,
         }
     )
     if "event" in study.coords:
@@ -55,7 +54,7 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
     measured = pd.DataFrame(
         {
             WIND: bin_numbers(load_speeds(scada)[turning], width) * width,
-            MEASURED: _RPM * scada.data[scada.kept]["rotor_speed"].to_numpy()[turning],
+            MEASURED: scada.data[scada.kept]["rotor_speed"].to_numpy()[turning] / RPM,
         }
     )
     groups = measured.groupby(WIND)[MEASURED]
