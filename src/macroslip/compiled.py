@@ -52,8 +52,9 @@ class _Compiling(event.Listener):
         self._under_way -= 1
         if self._under_way == 0 and self._collects:
             gc.enable()
-        module = event.data["dispatcher"].py_func.__module__ if event.data else ""
-        if module.startswith("macroslip."):
+        # Accessors that numba makes for classes of other packages belong to no module.
+        module = event.data["dispatcher"].py_func.__module__ if event.data else None
+        if module is not None and module.startswith("macroslip."):
             self._done += 1
             if module.startswith("macroslip.whole."):
                 self._about = _ABOUT["whole"]

@@ -9,6 +9,8 @@ import sys
 import time
 from pathlib import Path
 
+import numba
+import numba.experimental
 import pytest
 
 import macroslip
@@ -192,3 +194,18 @@ def test_a_simulation_keeps_its_kernels_before_the_process_ends(tmp_path):
     process.kill()
     process.communicate()
     assert copy.ask() == STORED
+
+
+def test_functions_that_belong_to_no_module_are_compiled_beside_ours():
+    """Numba makes such accessors where a class of its own is handed to Python."""
+
+    @numba.experimental.jitclass([("value", numba.float64)])
+    class Other:
+        def __init__(self, value):
+            self.value = value
+
+    @numba.njit
+    def make(value):
+        return Other(value)
+
+    assert make(2.0).value == 2.0
