@@ -328,3 +328,17 @@ def test_tables_at_two_gaps_serve_all_between(gap, monkeypatch, tmp_path):
     off = np.abs(shared(*reached).pull - pull) / np.maximum(np.abs(pull), 0.05 * largest)
     # The integrator's tolerance is 2e-4; contacts of some newtons, whose films are thick, are off most.
     assert np.median(off) < 1e-5 and off.max() < 2e-4
+
+
+@pytest.mark.parametrize("slowest", [0.2, 0.3])
+def test_a_table_does_not_tell_which_case_made_its_sheets(slowest, monkeypatch, tmp_path):
+    """What lies in the store before may save sheets, and changes no byte of what a case reads."""
+
+    def table(box, folder):
+        monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / folder))
+        monkeypatch.setattr(store, "_in_memory", store.LRUCache(1e9, getsizeof=store._size))
+        return Table(FULL, box).flat
+
+    alone = table(RUNNING, "alone")
+    table(RUNNING._replace(slowest=slowest), "shared")
+    assert np.array_equal(table(RUNNING, "shared"), alone)

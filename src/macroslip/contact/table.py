@@ -461,17 +461,14 @@ def _nodes(contact: ContactLaws, grid: _Grid) -> _Made:
 
 def _traction(contact: ContactLaws, grid: _Grid, key: str) -> _Made:
     sheets = []
-    for root_speed in grid.speed.nodes:
+    for node in grid.speed.nodes:
+        # Grids that begin elsewhere have the same speeds but for rounding. A sheet is made at the
+        # rounded one, so that it does not tell which case made it.
+        root_speed = round(float(node), 12)
         name = table_key(
-            key,
-            grid.load,
-            grid.ratio,
-            grid.stretch,
-            grid.middle,
-            grid.scale,
-            round(float(root_speed), 12),
+            key, grid.load, grid.ratio, grid.stretch, grid.middle, grid.scale, root_speed
         )
-        sheets += stored(name, lambda speed=float(root_speed) ** 4: [_sheet(contact, grid, speed)])
+        sheets += stored(name, lambda speed=root_speed**4: [_sheet(contact, grid, speed)])
         tell(TABLES, len(sheets), grid.speed.cells + 1)
     nodes = np.stack(sheets, axis=1)
     return _Made(spline_coefficients(nodes, 3), _rising(grid, nodes))
