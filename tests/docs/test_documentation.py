@@ -56,6 +56,14 @@ def test_index_names_every_page_and_every_example():
     assert [path.name for path in EXAMPLES if f"{path.name})" not in gallery] == []
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_page_begins_with_what_the_reader_can_do_after_it(page):
+    if page.name in ("index.md", "README.md"):
+        pytest.skip("begins with what the program is")
+    _, first, *_ = page.read_text(encoding="utf-8").split("\n\n")
+    assert re.match(r"After this page you (can|have|know) ", first)
+
+
 def test_case_file_page_names_every_key_of_a_case():
     quoted = re.findall(
         r"`([^`\n]+)`", (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8")
