@@ -46,7 +46,7 @@ class InputError(MacroslipError, ValueError):
 
     Parameters
     ----------
-    what : str
+    fault : str
         The fault, with the offending value.
     where : str
         File, key, line or time stamp of the fault.
@@ -70,16 +70,16 @@ class InputError(MacroslipError, ValueError):
     #: file.
     is_placed: bool = False
 
-    def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = ""):
-        what = legible(what, self.longest)
+    def __init__(self, fault: str, *, where: str = "", allowed: str = "", remedy: str = ""):
+        fault = legible(fault, self.longest)
         allowed = legible(allowed, self.longest)
         remedy = legible(remedy, self.longest)
         where = legible(where, self.longest_place)
-        self.what = what
+        self.fault = fault
         self.where = where
         self.allowed = allowed
         self.remedy = remedy
-        parts = [f"{where}: {what}" if where else what]
+        parts = [f"{where}: {fault}" if where else fault]
         if allowed:
             parts.append(f"Allowed: {allowed}")
         if remedy:

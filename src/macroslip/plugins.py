@@ -67,9 +67,9 @@ writes. Check its path, which starts at the current folder.
     try:
         text = path.read_bytes()
     except OSError as error:
-        what = f"the file cannot be read ({error.strerror})"
+        fault = f"the file cannot be read ({error.strerror})"
         remedy = "Check its path, which starts at the current folder."
-        raise InputError(what, where=str(path), allowed=_ALLOWED, remedy=remedy) from None
+        raise InputError(fault, where=str(path), allowed=_ALLOWED, remedy=remedy) from None
     name = f"macroslip_laws_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
     if name in _loaded:
         return _loaded[name]
@@ -122,7 +122,7 @@ def _import(path: Path, name: str) -> None:
     except InputError as problem:
         where = ", ".join(part for part in (_place(path, problem), problem.where) if part)
         raise InputError(
-            problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+            problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
         ) from None
     except (Exception, SystemExit) as error:
         if isinstance(error, ImportError) and str(error.name).startswith("macroslip."):
@@ -136,9 +136,9 @@ def _import(path: Path, name: str) -> None:
                 "macroslip init --example laws shows.",
             ) from None
         reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
-        what = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
+        fault = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
         remedy = f"Mend it; python {path} shows where the error comes from."
-        raise InputError(what, where=_place(path, error), remedy=remedy) from None
+        raise InputError(fault, where=_place(path, error), remedy=remedy) from None
 
 
 def _place(path: Path, error: BaseException) -> str:

@@ -287,13 +287,13 @@ def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
     if space.nearest < 0.0 and bearing.kind == "spherical":
         overlap = bearing.written("row_offset", -2.0 * space.nearest)
         coincide = bearing.row_offset == 0.0
-        what = (
+        fault = (
             "both rows lie in one plane"
             if coincide
             else f"the rollers of the two rows overlap by {overlap}"
         )
         yield InputError(
-            f"{what}: row_offset is {bearing.written('row_offset')}, roller_length "
+            f"{fault}: row_offset is {bearing.written('row_offset')}, roller_length "
             f"{bearing.written('roller_length')}",
             where=source.where("row_offset", "value"),
             allowed="rollers that end before the mid-plane: row_offset > roller_length/2 "

@@ -144,8 +144,8 @@ class MakersPage:
                 allowed=f"below the width, {1e3 * self.width:g} mm",
             )
         if (self.bpfo is None) != (self.bpfi is None):
-            what = "only one overrolling frequency is given"
-            raise InputError(what, allowed="both bpfo and bpfi, or none", remedy="Add the other.")
+            check = "only one overrolling frequency is given"
+            raise InputError(check, allowed="both bpfo and bpfi, or none", remedy="Add the other.")
         if self.bpfo is None or self.bpfi is None:
             return
         count = self.bpfo + self.bpfi
@@ -321,7 +321,7 @@ def _fitting(
     kept = np.logical_and.reduce(list(passed.values()))
     if np.count_nonzero(kept) < 100:
         given = "the overrolling frequencies" if page.bpfo is not None else "shoulder and groove"
-        worst = min(passed, key=lambda what: np.count_nonzero(passed[what]))
+        worst = min(passed, key=lambda check: np.count_nonzero(passed[check]))
         raise InputError(
             f"no bearing of usual proportions fits these values: of {SAMPLES} tried, "
             f"{np.count_nonzero(kept)} did, and {np.count_nonzero(passed[worst])} passed the check "

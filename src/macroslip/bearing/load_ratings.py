@@ -89,10 +89,10 @@ def geometry_factor(gamma: float) -> float:
     """
     table = np.arange(1, len(_GEOMETRY_FACTORS) + 1) / 100.0
     if not table[0] <= gamma <= table[-1]:
-        what = f"the ratio of roller to pitch diameter, Dw cos(alpha)/Dpw, is {gamma:.4g}"
+        fault = f"the ratio of roller to pitch diameter, Dw cos(alpha)/Dpw, is {gamma:.4g}"
         remedy = "Check roller diameter, pitch radius and contact angle."
         raise InputError(
-            what, where="dynamic load rating by ISO 281", allowed="0.01 to 0.30", remedy=remedy
+            fault, where="dynamic load rating by ISO 281", allowed="0.01 to 0.30", remedy=remedy
         )
     return float(np.interp(gamma, table, _GEOMETRY_FACTORS))
 

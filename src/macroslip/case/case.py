@@ -497,7 +497,7 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
         end = last if part is None or part.end is None else part.end
         within = first - rounding <= start <= end <= latest and start <= last + rounding
         if not within or (name == "window" and min(end, last) - start <= rounding):
-            what = (
+            fault = (
                 f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s"
             )
-            yield InputError(what, where=name, allowed=f"{allowed} {first:g} s to {last:g} s")
+            yield InputError(fault, where=name, allowed=f"{allowed} {first:g} s to {last:g} s")

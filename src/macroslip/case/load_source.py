@@ -115,7 +115,7 @@ class LoadSource:
             for programs_words, words in _ADVICE.items():
                 remedy = remedy.replace(programs_words, words)
             raise InputError(
-                problem.what, where=problem.where, allowed=problem.allowed, remedy=remedy
+                problem.fault, where=problem.where, allowed=problem.allowed, remedy=remedy
             ) from None
 
     def _series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:

@@ -123,9 +123,9 @@ def _weights(
     except InputError:
         raise
     except (OSError, ValueError, KeyError) as error:
-        what = f"the probabilities cannot be read ({error})"
+        fault = f"the probabilities cannot be read ({error})"
         allowed = "a CSV table with the columns bin and probability"
-        raise InputError(what, where=str(probabilities), allowed=allowed) from None
+        raise InputError(fault, where=str(probabilities), allowed=allowed) from None
 
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:

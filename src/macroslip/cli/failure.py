@@ -74,14 +74,14 @@ def _code_and_message(error: BaseException, *, quiet: bool) -> tuple[int, str]:
         return BAD_INPUT, f"error: the computer has not enough memory for this. {MEMORY}"
     if isinstance(error, ValueError) and str(error).startswith(_OF_DASK):
         # xarray imports dask, which reads the user's settings whether it is used or not.
-        what = " ".join(str(error).split())
-        return BAD_INPUT, f"error: {what}. Correct this file of settings of dask, or remove it."
+        fault = " ".join(str(error).split())
+        return BAD_INPUT, f"error: {fault}. Correct this file of settings of dask, or remove it."
     if not isinstance(error, Exception):
         raise error
     if quiet:
-        what = " ".join(f"{type(error).__name__}: {error}".split())
+        fault = " ".join(f"{type(error).__name__}: {error}".split())
         where = "This is a fault of macroslip; without --quiet it shows where."
-        return INTERNAL_ERROR, f"internal error: {what}. {where}"
+        return INTERNAL_ERROR, f"internal error: {fault}. {where}"
     import traceback
 
     traceback.print_exception(error)

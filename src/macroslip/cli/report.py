@@ -93,9 +93,9 @@ def _of_results(results: Path, title: str | None) -> tuple[str, str]:
         page = results_page(found, title=title or _TITLE)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         # A file may have been changed in too many ways to check each.
-        what = f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})"
+        fault = f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})"
         allowed = "what macroslip run wrote, or a selection of it"
         remedy = "Run the case again; if nothing has changed the file since it was written, please report this."
-        raise InputError(what, where=str(results), allowed=allowed, remedy=remedy) from error
+        raise InputError(fault, where=str(results), allowed=allowed, remedy=remedy) from error
     failed, rollers = rollers_failed(found.values())
     return page, f"{failed} of {rollers} rollers" if failed else ""

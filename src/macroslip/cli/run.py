@@ -146,14 +146,14 @@ def _named(case: Path, loads: str, doubts: Sequence[str]) -> Iterator[None]:
     except InputError as problem:
         inner = f"loads, {problem.where}" if problem.where.startswith(loads) else problem.where
         raise InputError(
-            problem.what,
+            problem.fault,
             where=f"{case}, {inner}" if inner else str(case),
             allowed=problem.allowed,
             remedy=" ".join([problem.remedy, *(f"Doubtful: {doubt}" for doubt in doubts)]).strip(),
         ) from None
     except MemoryError:
-        what = "the computer has not enough memory for this case"
-        raise InputError(what, where=f"{case}, loads, rollers or traces", remedy=MEMORY) from None
+        fault = "the computer has not enough memory for this case"
+        raise InputError(fault, where=f"{case}, loads, rollers or traces", remedy=MEMORY) from None
 
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:

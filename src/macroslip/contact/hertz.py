@@ -129,10 +129,10 @@ def elliptical_contact(
 
     for name, value in (("rolling", rolling_curvature), ("lateral", lateral_curvature)):
         if not (math.isfinite(value) and value > 0.0):
-            what = f"the relative curvature in the {name} direction is {value:g} 1/m"
+            fault = f"the relative curvature in the {name} direction is {value:g} 1/m"
             allowed = "positive numbers (the concave radius must exceed the convex one)"
             remedy = "Check radii and osculation; osculation is roller contour radius over raceway radius, below 1"
-            raise InputError(what, where="Hertz contact", allowed=allowed, remedy=remedy)
+            raise InputError(fault, where="Hertz contact", allowed=allowed, remedy=remedy)
     larger = max(rolling_curvature, lateral_curvature)
     ratio = axis_ratio(min(rolling_curvature, lateral_curvature) / larger)
     long_axis = float(

@@ -200,7 +200,7 @@ class Laws:
         if name not in PRESETS:
             problem = unknown_name(name, list(PRESETS))
             raise InputError(
-                problem.what, where="laws.model", allowed=problem.allowed, remedy=problem.remedy
+                problem.fault, where="laws.model", allowed=problem.allowed, remedy=problem.remedy
             )
         return cls(**PRESETS[name])
 

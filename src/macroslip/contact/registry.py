@@ -70,9 +70,9 @@ class Law(NamedTuple):
                 strict=True,
             )
             at = ", ".join(f"{name} {value:.4g} {unit}" for (name, unit), value in known)
-            what = f"it gives {found[bad][0]:.4g} {_UNITS[self.kind]}"
+            fault = f"it gives {found[bad][0]:.4g} {_UNITS[self.kind]}"
             raise _wrong(
-                what,
+                fault,
                 f"{self.kind} law '{self.name}', {interface.name}, {at}",
                 "a finite number above zero",
             )
@@ -92,7 +92,7 @@ class Law(NamedTuple):
         interface: Interface,
         states: tuple,
         kinds: str,
-        what: str,
+        noun: str,
         part: str = "",
     ) -> np.ndarray:
         """Values of a function of the law at states, refused if of a wrong kind or shape."""
@@ -120,7 +120,7 @@ class Law(NamedTuple):
             raise _wrong(
                 f"for {size} states it gives {given}",
                 where,
-                f"an array of {size} {what}, one for each state",
+                f"an array of {size} {noun}, one for each state",
             )
         return found.reshape(arrays[0].shape)
 
@@ -202,10 +202,10 @@ class LawList:
         Raises InputError if there is none, with those that exist.
         """
         if name not in self._laws:
-            what = f"there is no {self.kind} law '{name}'"
+            fault = f"there is no {self.kind} law '{name}'"
             allowed = ", ".join([*self._reserved, *self.names()])
             remedy = "Choose one of these, or register your own first: macroslip.load_laws(path of its file)"
-            raise InputError(what, where=f"laws.{self.kind}", allowed=allowed, remedy=remedy)
+            raise InputError(fault, where=f"laws.{self.kind}", allowed=allowed, remedy=remedy)
         return self._laws[name]
 
 
@@ -381,6 +381,6 @@ def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, sp
         raise _wrong(f"it gives {ends}", where, "a force in proportion to slip where that is small")
 
 
-def _wrong(what: str, where: str, allowed: str) -> InputError:
+def _wrong(fault: str, where: str, allowed: str) -> InputError:
     remedy = "Mend the law; the page on laws of one's own has its contract."
-    return InputError(what, where=where, allowed=allowed, remedy=remedy)
+    return InputError(fault, where=where, allowed=allowed, remedy=remedy)

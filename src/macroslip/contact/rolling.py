@@ -265,9 +265,9 @@ def prepare_rolling(
         Whether the elastic inlet is heated by its shear.
     """
     if name not in REFERENCES:
-        what = f"there is no rolling law '{name}'"
+        fault = f"there is no rolling law '{name}'"
         raise InputError(
-            what, where="laws.rolling", allowed=", ".join(REFERENCES), remedy="Choose one of these"
+            fault, where="laws.rolling", allowed=", ".join(REFERENCES), remedy="Choose one of these"
         )
     if name == "none":
         return None

@@ -123,7 +123,7 @@ class Quantity(Form):
             try:
                 number, unit = parse_quantity(value, self.dimension)
             except InputError as problem:
-                raise InputError(problem.what, allowed=self.form, remedy=problem.remedy) from None
+                raise InputError(problem.fault, allowed=self.form, remedy=problem.remedy) from None
             si_value = self.dimension.to_si(float(number), unit)
             written = str(value)
         else:

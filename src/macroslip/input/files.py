@@ -69,9 +69,9 @@ class Place:
         """File, line and key: `case.yaml, line 7, loads.hub.force`."""
         return ", ".join(part for part in (self.source.where(*self.keys), self.key) if part)
 
-    def problem(self, what: str, allowed: str = "", remedy: str = "") -> InputError:
+    def problem(self, fault: str, allowed: str = "", remedy: str = "") -> InputError:
         """An error at this place."""
-        found = InputError(what, where=self.where, allowed=allowed, remedy=remedy)
+        found = InputError(fault, where=self.where, allowed=allowed, remedy=remedy)
         found.is_placed = bool(found.where)
         return found
 
@@ -82,15 +82,15 @@ class Place:
         # A reader that was given the value without its file can name the key only.
         if self.key and problem.where.startswith(f"{self.key}."):
             return self.inside(problem.where[len(self.key) + 1 :]).problem(
-                problem.what, problem.allowed, problem.remedy
+                problem.fault, problem.allowed, problem.remedy
             )
         inner = "" if problem.where == self.key else problem.where
-        what = f"{inner}: {problem.what}" if inner else problem.what
-        return self.problem(what, problem.allowed, problem.remedy)
+        fault = f"{inner}: {problem.fault}" if inner else problem.fault
+        return self.problem(fault, problem.allowed, problem.remedy)
 
 
 def read_text(
-    path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = ""
+    path: Path, fault: str, *, where: str = "", allowed: str = "", remedy: str = ""
 ) -> str:
     """Read a text file that a user has named.
 
@@ -115,7 +115,7 @@ def read_text(
     """
 
     def unreadable(reason: str) -> InputError:
-        return InputError(f"{what} ({reason})", where=where, allowed=allowed, remedy=remedy)
+        return InputError(f"{fault} ({reason})", where=where, allowed=allowed, remedy=remedy)
 
     try:
         if is_special(path):
@@ -183,8 +183,8 @@ def parse(
     if not isinstance(data, CommentedMap):
         # Not its content: the file may be another one than was meant, and nothing for others to
         # see.
-        what = f"the file holds {_KINDS.get(type(data), 'text or a number')}"
-        raise InputError(what, where=file, allowed="a mapping of keys to entries", remedy=remedy)
+        fault = f"the file holds {_KINDS.get(type(data), 'text or a number')}"
+        raise InputError(fault, where=file, allowed="a mapping of keys to entries", remedy=remedy)
     return _plain(data), Source(file, dict(_lines(data)))
 
 
@@ -194,13 +194,13 @@ def _check_size(text: str, file: str) -> None:
     open_nodes: list[tuple[str | None, int]] = []  # anchor, and nodes before it
     nodes = 0
 
-    def problem(what: str, allowed: str, remedy: str) -> InputError:
+    def problem(fault: str, allowed: str, remedy: str) -> InputError:
         where = f"{file}, line {event.start_mark.line + 1}"
-        return InputError(what, where=where, allowed=allowed, remedy=remedy)
+        return InputError(fault, where=where, allowed=allowed, remedy=remedy)
 
-    def too_large(what: str) -> InputError:
+    def too_large(fault: str) -> InputError:
         allowed = f"{MOST_NODES} keys and values in {MOST_LEVELS} levels"
-        return problem(f"the file has {what}", allowed, "Is it the file you meant?")
+        return problem(f"the file has {fault}", allowed, "Is it the file you meant?")
 
     for event in YAML(typ="rt", pure=True).parse(text):
         tag = str(getattr(event, "tag", None) or "")

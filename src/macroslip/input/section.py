@@ -236,8 +236,8 @@ def read_keys(
             except InputError as problem:
                 problems += parts_of(problem)
         elif member.is_required and key not in meant:
-            what = f"'{key}' is missing ({member.form.about})"
-            problems.append(place.problem(what, member.form.form, member.remedy))
+            fault = f"'{key}' is missing ({member.form.about})"
+            problems.append(place.problem(fault, member.form.form, member.remedy))
     return values, problems
 
 

@@ -163,17 +163,17 @@ def number_advice(text: str) -> str:
 
 
 def parse_quantity(
-    given: str | float, dimension: Dimension, what: str = "it", where: str = ""
+    quantity: str | float, dimension: Dimension, subject: str = "it", where: str = ""
 ) -> tuple[float, str]:
     """Number and unit of a quantity that is written as text.
 
     Parameters
     ----------
-    given : str or float
+    quantity : str or float
         Text of number and unit; spaces of any kind may stand around and in the unit.
     dimension : Dimension
         Its units.
-    what, where : str
+    subject, where : str
         Name and place of the quantity, for errors.
 
     Returns
@@ -193,12 +193,15 @@ def parse_quantity(
     ((75, 'mm'), (0.98, '1'))
     """
     pure = dimension is NUMBER
-    text = " ".join(str(given).split())
+    text = " ".join(str(quantity).split())
 
     def problem(why: str, remedy: str = "") -> InputError:
         allowed = "a number" if pure else f"a number with its unit, {dimension.choices}"
         return InputError(
-            f"{what} is {shown(given)}, which {why}", where=where, allowed=allowed, remedy=remedy
+            f"{subject} is {shown(quantity)}, which {why}",
+            where=where,
+            allowed=allowed,
+            remedy=remedy,
         )
 
     # The text after the number must not be more of it; a unit may begin with a digit, as 1/GPa

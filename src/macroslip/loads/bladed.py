@@ -207,9 +207,9 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
         if mean.size not in (0, variables):
             raise ValueError(f"MEAN has {mean.size} numbers for {variables} variables")
     except (KeyError, ValueError, IndexError) as error:
-        what = f"not readable as a header of Bladed ({error})"
+        fault = f"not readable as a header of Bladed ({error})"
         allowed = "the keys DIMENS, VARIAB, VARUNIT, FORM, FORMAT, AXISLAB, AXIMETH, MIN and STEP"
-        raise InputError(what, where=str(path), allowed=allowed, remedy=_AGAIN) from error
+        raise InputError(fault, where=str(path), allowed=allowed, remedy=_AGAIN) from error
     if len(names) != variables or len(units) != variables:
         raise InputError(
             f"the header announces {variables} variables, and names {len(names)} with "
@@ -218,8 +218,10 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
             remedy=_AGAIN,
         )
     if not 0 < variables * samples <= MOST_VALUES:
-        what = f"the header announces {variables} variables of {samples} samples"
-        raise InputError(what, where=str(path), allowed=f"1 to {MOST_VALUES} values", remedy=_AGAIN)
+        fault = f"the header announces {variables} variables of {samples} samples"
+        raise InputError(
+            fault, where=str(path), allowed=f"1 to {MOST_VALUES} values", remedy=_AGAIN
+        )
     return _Group(path, names, units, samples, first, step, number, form == "F", mean)
 
 
@@ -236,8 +238,8 @@ def _columns(group: _Group, names: Sequence[str]) -> NDArray[np.float64]:
             )
     data = group.header.with_suffix(group.header.suffix.replace("%", "$"))
     if not data.is_file():
-        what = f"there is no {data.name} beside the header"
-        raise InputError(what, where=str(group.header), remedy="Copy the data file too.")
+        fault = f"there is no {data.name} beside the header"
+        raise InputError(fault, where=str(group.header), remedy="Copy the data file too.")
     shape = (group.samples, len(group.names))
     number = group.number
     if number is not None and group.may_be_text:

@@ -420,11 +420,11 @@ def _announced_time(
     # Some programs announce the time from first to last sample, others one step more.
     near = 2.5 * duration / stamps.size + resolution + 1e-3
     if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
-        what = (
+        fault = (
             f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels "
             f"announces {duration:g} s"
         )
-        raise InputError(what, where=str(data), remedy=_AGAIN)
+        raise InputError(fault, where=str(data), remedy=_AGAIN)
     if not resolution:
         return stamps
     even = np.linspace(stamps[0], stamps[-1], stamps.size)
@@ -463,8 +463,8 @@ def _read_gtsdf(path: Path) -> _Output:
             remedy=_AGAIN,
         ) from error
     if values.shape != (time.size, len(channels)):
-        what = f"data of shape {values.shape} for {time.size} times and {len(channels)} channels"
-        raise InputError(what, where=str(path), remedy=_AGAIN)
+        fault = f"data of shape {values.shape} for {time.size} times and {len(channels)} channels"
+        raise InputError(fault, where=str(path), remedy=_AGAIN)
     return _Output(channels, Samples(values), time, str(path))
 
 

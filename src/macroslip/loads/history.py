@@ -498,9 +498,9 @@ def cut(
         )
     inside = np.flatnonzero((columns["time"] >= low - slack) & (columns["time"] <= high + slack))
     if inside.size < 2:
-        what = f"{window} holds {inside.size} sample(s)"
+        fault = f"{window} holds {inside.size} sample(s)"
         raise InputError(
-            what, where=source, allowed="at least 2 samples", remedy="Widen the window."
+            fault, where=source, allowed="at least 2 samples", remedy="Widen the window."
         )
     # A stamp that is not a number may lie inside: it is kept, so that validation refuses it.
     unknown = np.flatnonzero(~np.isfinite(columns["time"]))
@@ -553,8 +553,8 @@ def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
             raise TypeError(f"it holds {original.dtype}")
         array = np.array(original, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
-        what = f"{name} does not convert to an array of numbers ({error})"
-        raise InputError(what, where=source, allowed="real numbers") from error
+        fault = f"{name} does not convert to an array of numbers ({error})"
+        raise InputError(fault, where=source, allowed="real numbers") from error
     array.setflags(write=False)
     return array
 
@@ -563,9 +563,12 @@ def _check_time(time: NDArray, source: str) -> None:
     """InputError if times (n,) [s] do not increase, have a gap, or are no seconds."""
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
-        what = f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)"
+        fault = f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)"
         raise InputError(
-            what, where=source, allowed="finite numbers [s]", remedy="Remove or repair that sample."
+            fault,
+            where=source,
+            allowed="finite numbers [s]",
+            remedy="Remove or repair that sample.",
         )
     steps = np.diff(time)
     bad = np.flatnonzero(steps <= 0)

@@ -343,13 +343,13 @@ def _read_binary(path: Path) -> Channels:
     # Some versions of OpenFAST write more bytes than their header announces; the official reader
     # leaves them.
     if actual < expected:
-        what = f"the file is cut off: its header announces {expected} bytes, it has {actual}"
-        raise InputError(what, where=str(path), remedy=_AGAIN)
+        fault = f"the file is cut off: its header announces {expected} bytes, it has {actual}"
+        raise InputError(fault, where=str(path), remedy=_AGAIN)
     try:
         data, info, _ = load_binary_output(str(path))
     except Exception as error:  # the reader raises any error of its parsing
-        what = f"not readable as OpenFAST binary output ({error})"
-        raise InputError(what, where=str(path), remedy=_AGAIN) from error
+        fault = f"not readable as OpenFAST binary output ({error})"
+        raise InputError(fault, where=str(path), remedy=_AGAIN) from error
     return Channels(info["attribute_names"], info["attribute_units"], Samples(data), str(path))
 
 
@@ -429,18 +429,18 @@ def _head(lines: list[str], path: Path) -> int:
 
     OpenFAST writes six lines before it, the first one empty, which editors and archives lose.
     """
-    what = "there is no channel Time that begins a line of names above a line of units"
+    fault = "there is no channel Time that begins a line of names above a line of units"
     words = [line.split() for line in lines[:_LONGEST_HEAD]]
     for index, (names, units) in enumerate(pairwise(words)):
         if names[:1] and names[0].lower() == "time" and units[:1] and units[0].startswith("("):
             if len(units) == len(names) and index + 2 < len(lines):
                 return index
-            what = (
+            fault = (
                 f"{len(names)} channel names, {len(units)} units, {len(lines) - index - 2} lines "
                 "of data"
             )
     raise InputError(
-        f"not an OpenFAST text output: {what}",
+        f"not an OpenFAST text output: {fault}",
         where=str(path),
         allowed="some lines of description, a line of names, a line of units, then the data",
         remedy=_AGAIN,

@@ -43,9 +43,9 @@ def source_file(
     path = Path(path)
     check_regular(path, "Name a file with loads.")
     if not path.is_file():
-        what = "is a folder, not a file" if path.is_dir() else "no such file"
+        fault = "is a folder, not a file" if path.is_dir() else "no such file"
         raise InputError(
-            what, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}."
+            fault, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}."
         )
     extension = path.suffix.lower()
     # Bladed numbers its groups of results: run.%23 and run.$23.
@@ -113,8 +113,8 @@ def in_si(
         If the unit is none of the known ones.
     """
     if unit not in factors:
-        what = f"channel {channel} has the unit {unit or 'none'}"
-        raise InputError(what, where=where, allowed=", ".join(factors), remedy=remedy)
+        fault = f"channel {channel} has the unit {unit or 'none'}"
+        raise InputError(fault, where=where, allowed=", ".join(factors), remedy=remedy)
     return np.asarray(values, dtype=np.float64) * factors[unit]
 
 
@@ -231,8 +231,8 @@ def announced_binary(
     if size == full:
         return np.fromfile(path, number).reshape(shape)
     state = "cut off" if size < full else "damaged"
-    what = f"the file is {state}: {header} announces {full} bytes, it has {size}"
-    raise InputError(what, where=str(path), remedy=again)
+    fault = f"the file is {state}: {header} announces {full} bytes, it has {size}"
+    raise InputError(fault, where=str(path), remedy=again)
 
 
 def announced_text(path: Path, shape: tuple[int, int], header: str, again: str) -> Samples:
@@ -258,8 +258,8 @@ def announced_text(path: Path, shape: tuple[int, int], header: str, again: str) 
     """
     values, words = numbers(path.read_bytes().decode("ascii", "replace").split())
     if values.size != math.prod(shape):
-        what = f"the file holds {values.size} numbers, {header} announces {math.prod(shape)}"
-        raise InputError(what, where=str(path), remedy=again)
+        fault = f"the file holds {values.size} numbers, {header} announces {math.prod(shape)}"
+        raise InputError(fault, where=str(path), remedy=again)
     unreadable: dict[int, str] = {}
     for index, word in words.items():
         sample, channel = divmod(index, shape[1])

@@ -171,11 +171,11 @@ class Drivetrain:
                 remedy="Add what is missing.",
             )
         if self.mount == "three-point" and given:
-            what = f"the mount is three-point, which has no {' and no '.join(given)}"
-            raise InputError(what, remedy="Write mount: four-point, or remove what belongs to it.")
+            fault = f"the mount is three-point, which has no {' and no '.join(given)}"
+            raise InputError(fault, remedy="Write mount: four-point, or remove what belongs to it.")
         if self.mount == "four-point" and self.bearing_to_gearbox != _TO_GEARBOX:
-            what = "the mount is four-point, on which bearing_to_gearbox does not count"
-            raise InputError(what, remedy="Remove it, or write mount: three-point.")
+            fault = "the mount is four-point, on which bearing_to_gearbox does not count"
+            raise InputError(fault, remedy="Remove it, or write mount: three-point.")
         self._check_front()
 
     def _check_front(self) -> None:

@@ -193,7 +193,7 @@ class Lubricant(Record):
         except InputError as problem:
             where = source.file or problem.where
             raise InputError(
-                problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+                problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
             ) from None
         follows = {key: origin.value for key, origin in found.items()}
         super()._fill({**values, **follows}, {**provenance, **found}, source, frozenset(found))
@@ -288,10 +288,13 @@ class Lubricant(Record):
                 *parse_quantity(temperature, TEMPERATURE, "the inlet temperature", where)
             )
         if not is_finite_number(temperature) or not COLDEST <= temperature <= HOTTEST:
-            what = f"the inlet temperature is {shown(temperature)} K"
+            fault = f"the inlet temperature is {shown(temperature)} K"
             allowed = f"{COLDEST:g} K to {HOTTEST:g} K, -20 to 150 degC, where Walther's line holds"
             raise InputError(
-                what, where=where, allowed=allowed, remedy="Give kelvin, or text such as '50 degC'."
+                fault,
+                where=where,
+                allowed=allowed,
+                remedy="Give kelvin, or text such as '50 degC'.",
             )
         temperature = float(temperature)
         if temperature == self.inlet_temperature:
@@ -307,7 +310,7 @@ class Lubricant(Record):
             there = moved_inlet(here, temperature)
         except InputError as problem:
             raise InputError(
-                problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+                problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
             ) from None
         given = f"at {self.inlet_temperature:g} K"
         notes = {

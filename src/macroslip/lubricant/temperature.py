@@ -136,9 +136,9 @@ def walther_line_with_slope(
     [458.7, 46.1]
     """
     if not coefficient > 0.0:
-        what = f"the kinematic viscosity falls by {coefficient:g} of itself per kelvin"
+        fault = f"the kinematic viscosity falls by {coefficient:g} of itself per kelvin"
         remedy = "Check the temperature-viscosity coefficient; oils have 0.02 to 0.08 1/K."
-        raise InputError(what, allowed="a positive number", remedy=remedy)
+        raise InputError(fault, allowed="a positive number", remedy=remedy)
     ordinate = _ordinate(viscosity)
     number = viscosity / _MM2
     slope = coefficient * number * temperature / ((number + _SHIFT) * math.log(number + _SHIFT))
@@ -149,9 +149,11 @@ def _ordinate(viscosity: float) -> float:
     """log10 log10(nu + 0.7)."""
     shifted = viscosity / _MM2 + _SHIFT
     if not shifted > 1.0:
-        what = f"Walther's line has no viscosity of {viscosity / _MM2:g} mm2/s"
+        fault = f"Walther's line has no viscosity of {viscosity / _MM2:g} mm2/s"
         remedy = "Check the unit; lubricating oils have 2 to 5000 mm2/s."
-        raise InputError(what, allowed="above 0.3 mm2/s, and reliable above 2 mm2/s", remedy=remedy)
+        raise InputError(
+            fault, allowed="above 0.3 mm2/s, and reliable above 2 mm2/s", remedy=remedy
+        )
     return math.log10(math.log10(shifted))
 
 
@@ -200,14 +202,14 @@ def roelands_index(viscosity: float, pressure_viscosity: float) -> float:
     """
     constant = math.log(viscosity) + 9.67 if viscosity > 0.0 else -math.inf
     if not constant > 0.0:
-        what = f"Roelands' law has no viscosity of {viscosity:g} Pa s at ambient pressure"
+        fault = f"Roelands' law has no viscosity of {viscosity:g} Pa s at ambient pressure"
         allowed = (
             f"above {ROELANDS_LOWEST_VISCOSITY:.2g} Pa s, where ln(viscosity) + 9.67 is positive"
         )
         remedy = (
             "Check the unit; lubricating oils have 0.001 to 10 Pa s. Barus' law has no such limit"
         )
-        raise InputError(what, where="viscosity", allowed=allowed, remedy=remedy)
+        raise InputError(fault, where="viscosity", allowed=allowed, remedy=remedy)
     return pressure_viscosity * ROELANDS_PRESSURE / constant
 
 

@@ -91,10 +91,10 @@ def scaled(largest: float, units: str) -> tuple[float, str]:
     >>> scaled(2.13e7, "J/year"), scaled(3e-9, "m/year"), scaled(5.0, "W")
     ((1e-06, 'MJ/year'), (1000000.0, 'µm/year'), (1.0, 'W'))
     """
-    what, per, span = units.partition("/")
-    if what == "m" and largest < 1e-2:
+    amount, per, span = units.partition("/")
+    if amount == "m" and largest < 1e-2:
         return 1e6, f"µm{per}{span}"
-    if what in ("J", "W") and largest >= 1e4:
+    if amount in ("J", "W") and largest >= 1e4:
         return (1e-6, f"M{units}") if largest >= 1e6 else (1e-3, f"k{units}")
     return 1.0, units
 

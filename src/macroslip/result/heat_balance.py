@@ -140,8 +140,8 @@ def tabulated_power(
     at = np.asarray(temperatures, dtype=float)
     values = np.asarray(powers, dtype=float)
     if at.ndim != 1 or at.shape != values.shape or at.size < 2:
-        what = f"there are {at.size} temperatures and {values.size} powers"
-        raise InputError(what, allowed="as many of the one as of the other, two at least")
+        fault = f"there are {at.size} temperatures and {values.size} powers"
+        raise InputError(fault, allowed="as many of the one as of the other, two at least")
     if not (np.isfinite(at).all() and (np.diff(at) > 0.0).all()):
         raise InputError(
             "the temperatures of the table do not rise", allowed="rising, finite temperatures"
@@ -163,9 +163,9 @@ def bearing_friction_power(result: xr.Dataset) -> float:
     of n simulated rollers a row that represent all Z. Raises InputError if a roller failed.
     """
     if bool((result.status != 0).any()):
-        what = "a roller failed, so that the friction of the bearing is not known"
+        fault = "a roller failed, so that the friction of the bearing is not known"
         remedy = "Give a temperature, or remove what made the roller fail."
-        raise InputError(what, where=_BALANCE, remedy=remedy)
+        raise InputError(fault, where=_BALANCE, remedy=remedy)
     span = result.attrs["window_end"] - result.attrs["window_start"]
     energy = float(result.energy.sum() + result.rolling_energy.sum())
     share = result.attrs["rollers_per_row"] / result.sizes["roller"]

@@ -179,10 +179,10 @@ def _trace_times(case: Case, motion: Motion, edges: np.ndarray, window_end: floa
     end = window_end if case.traces.end is None else min(case.traces.end, window_end)
     samples = (end - start) / case.traces.step * (1.0 + 1e-12)
     if samples > _MOST_SAMPLES:
-        what = f"a step of {case.traces.step:g} s makes {samples:.3g} samples"
+        fault = f"a step of {case.traces.step:g} s makes {samples:.3g} samples"
         allowed = f"up to {_MOST_SAMPLES:,} samples for each roller"
         remedy = "Take a longer step, or traces of a shorter time."
-        raise InputError(what, where="traces", allowed=allowed, remedy=remedy)
+        raise InputError(fault, where="traces", allowed=allowed, remedy=remedy)
     count = int(np.floor(samples)) + 1
     times = start + case.traces.step * np.arange(max(count, 0))
     known = np.unique(np.concatenate([motion.time, edges, [window_end]]))

@@ -77,6 +77,6 @@ def _complete() -> Iterator[None]:
     except InputError:
         raise
     except (KeyError, TypeError, ValueError):
-        what = "the dataset does not say what it was computed with"
+        fault = "the dataset does not say what it was computed with"
         allowed = "a result of macroslip run or macroslip.simulate"
-        raise InputError(what, where="attribute input", allowed=allowed) from None
+        raise InputError(fault, where="attribute input", allowed=allowed) from None

@@ -56,11 +56,11 @@ def _normalised(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> li
     known = values["wind_speed"][np.isfinite(values["wind_speed"])]
     if known.size and np.quantile(known, 0.99) > _NORMALISED:
         return []
-    what = f"the wind speed '{columns['wind_speed'].column}' "
-    what += f"is {np.quantile(known, 0.99):.3g} m/s at most" if known.size else "has no numbers"
+    fault = f"the wind speed '{columns['wind_speed'].column}' "
+    fault += f"is {np.quantile(known, 0.99):.3g} m/s at most" if known.size else "has no numbers"
     return [
         InputError(
-            what,
+            fault,
             where="columns.wind_speed",
             allowed="wind speeds",
             remedy="Values that were scaled to a range of 1 tell no loads and no temperatures.",

@@ -101,8 +101,8 @@ def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
     Those that do not exist are passed over.
     """
     if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
-        what = "this is a file that the output is made from"
-        raise InputError(what, where=str(path), remedy="Choose another name; it would be lost.")
+        fault = "this is a file that the output is made from"
+        raise InputError(fault, where=str(path), remedy="Choose another name; it would be lost.")
 
 
 def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> None:
@@ -116,8 +116,8 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
     check_no_zero_byte(where)
     check_not_input(path, inputs)
     if path.name in STUDY_FILES and any((folder / name).exists() for name in (MANIFEST, DATABASE)):
-        what = f"{path.name} is a file of the study in this folder"
-        raise InputError(what, where=where, remedy="Choose another name; the study would be lost.")
+        fault = f"{path.name} is a file of the study in this folder"
+        raise InputError(fault, where=where, remedy="Choose another name; the study would be lost.")
     if path.is_dir():
         raise InputError(
             "this is a folder",
@@ -215,5 +215,5 @@ def reading(path: Path, remedy: str) -> Iterator[None]:
             isinstance(error, OSError) and error.errno is not None
         ):  # libraries use the class for damage too
             raise
-        what = f"it is damaged ({type(error).__name__}: {' '.join(str(error).split())})"
-        raise InputError(what, where=str(path), remedy=remedy) from error
+        fault = f"it is damaged ({type(error).__name__}: {' '.join(str(error).split())})"
+        raise InputError(fault, where=str(path), remedy=remedy) from error

@@ -35,11 +35,11 @@ class Aggregation:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.years) and self.years > 0.0):
-            what = f"the lifetime is {self.years!r} years"
-            raise InputError(what, allowed="a number above 0")
+            fault = f"the lifetime is {self.years!r} years"
+            raise InputError(fault, allowed="a number above 0")
         if self.weights is not None and self.field is None:
-            what = "the runs have weights, and no label sorts them into bins"
-            raise InputError(what, remedy="Give a label: field=, on the command line --field.")
+            fault = "the runs have weights, and no label sorts them into bins"
+            raise InputError(fault, remedy="Give a label: field=, on the command line --field.")
 
     def bins(self, study: xr.Dataset) -> Binning:
         """Runs by group and bin, as `macroslip.study.weights.binned`; one bin without weights."""

@@ -118,8 +118,8 @@ class Database:
         except OSError:
             same = False
         if not same:
-            what = "the database was removed or replaced while the study ran"
-            raise MacroslipError(f"{self._path}: {what}. {_GONE}")
+            fault = "the database was removed or replaced while the study ran"
+            raise MacroslipError(f"{self._path}: {fault}. {_GONE}")
 
     def close(self) -> None:
         """Close the file; without a log beside it, it can be read where nothing can be written."""

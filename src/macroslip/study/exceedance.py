@@ -38,9 +38,9 @@ def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """
     missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
     if missing:
-        what = f"the results hold no {' and no '.join(missing)}"
+        fault = f"the results hold no {' and no '.join(missing)}"
         remedy = "Add them to keep in the study file, and go on with --resume."
-        raise InputError(what, allowed="a study with results that keep them", remedy=remedy)
+        raise InputError(fault, allowed="a study with results that keep them", remedy=remedy)
     bins = aggregation.bins(study)
     counted = _counted(study, bins)
     weight = bins.probabilities(aggregation.weights)

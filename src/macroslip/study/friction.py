@@ -191,7 +191,7 @@ def _mean_loads(study: xr.Dataset, directory: Path) -> tuple[pd.DataFrame | None
     except InputError as problem:
         return None, (
             "The loads of the study cannot be read again, so that the formulas of handbooks are "
-            f"left out ({problem.what}).",
+            f"left out ({problem.fault}).",
         )
     return pd.DataFrame(table.groupby("wind_speed").mean().reset_index()), ()
 

@@ -88,7 +88,7 @@ def study_of_folder(folder: Path, study: Path) -> FolderStudy:
                 loads = loads_from_channels(channels, speed_needed=True)
                 mean = mean_wind_speed(channels)
         except (InputError, OSError, UnicodeEncodeError) as problem:
-            reason = problem.what if isinstance(problem, InputError) else str(problem)
+            reason = problem.fault if isinstance(problem, InputError) else str(problem)
             remarks.append(f"{safe_text(name)} is left out: {safe_text(reason)}")
             continue
         starts.append(float(loads["time"][0]))

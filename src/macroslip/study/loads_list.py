@@ -190,19 +190,19 @@ def load_list(
             )
     for load in loads:
         if any("\ud800" <= letter <= "\udfff" for letter in load.name):
-            what = f"the name of the file {safe_text(load.name)} is not UTF-8"
+            fault = f"the name of the file {safe_text(load.name)} is not UTF-8"
             raise InputError(
-                what, remedy="Rename it; results are kept by the names of their loads."
+                fault, remedy="Rename it; results are kept by the names of their loads."
             )
         for name, value in load.fields.items():
             if type(value) is int and abs(value) > _LARGEST:
-                what = f"the field {name} of {safe_text(load.name)} is {value}"
+                fault = f"the field {name} of {safe_text(load.name)} is {value}"
                 remedy = f"Read it as text: {{{name}}}."
-                raise InputError(what, allowed=f"whole numbers up to {_LARGEST}", remedy=remedy)
+                raise InputError(fault, allowed=f"whole numbers up to {_LARGEST}", remedy=remedy)
     units = units or {}
     if unknown := [name for name in units if name not in names]:
-        what = f"units names {', '.join(unknown)}"
-        raise InputError(what, allowed=f"fields: {', '.join(names) or 'there are none'}")
+        fault = f"units names {', '.join(unknown)}"
+        raise InputError(fault, allowed=f"fields: {', '.join(names) or 'there are none'}")
     return LoadList(
         source,
         loads,
@@ -234,8 +234,8 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
     remarks = []
     for pattern in patterns:
         if pattern.kinds.keys() != first.kinds.keys():
-            what = f"the patterns '{first.text}' and '{pattern.text}' have different fields"
-            raise InputError(what, allowed="the same fields in all of them")
+            fault = f"the patterns '{first.text}' and '{pattern.text}' have different fields"
+            raise InputError(fault, allowed="the same fields in all of them")
         found, unread = pattern.files(folder)
         if not found:
             remedy = f"Relative paths start at {folder.resolve()}."
@@ -259,9 +259,9 @@ def _from_table(path: Path, sheet: str = "") -> list[Load]:
     where = str(path)
     columns, rows = _rows_of_table(path, sheet)
     if "file" not in columns or not rows:
-        what = "the table has no rows" if "file" in columns else "the table has no column 'file'"
+        fault = "the table has no rows" if "file" in columns else "the table has no column 'file'"
         raise InputError(
-            what, where=where, allowed="a column 'file' with paths, and one column a field"
+            fault, where=where, allowed="a column 'file' with paths, and one column a field"
         )
     names = set()
     for number, row in enumerate(rows, start=1):
@@ -271,11 +271,11 @@ def _from_table(path: Path, sheet: str = "") -> list[Load]:
             remedy = "Fill it, or remove the column."
             raise InputError(f"row {number} has no {', '.join(empty)}", where=where, remedy=remedy)
         if odd := [name for name, value in row.items() if not isinstance(value, (str, int, float))]:
-            what = f"row {number} has {row[odd[0]]!r} in column {odd[0]}"
-            raise InputError(what, where=where, allowed="numbers, text, true and false")
+            fault = f"row {number} has {row[odd[0]]!r} in column {odd[0]}"
+            raise InputError(fault, where=where, allowed="numbers, text, true and false")
         if row["file"] in names:
-            what = f"the file {safe_text(row['file'])} is listed twice"
-            raise InputError(what, where=where, remedy="Keep one row of it.")
+            fault = f"the file {safe_text(row['file'])} is listed twice"
+            raise InputError(fault, where=where, remedy="Keep one row of it.")
         names.add(row["file"])
     return [Load(row.pop("file"), row) for row in rows]
 

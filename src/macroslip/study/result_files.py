@@ -114,9 +114,9 @@ def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:
     try:
         content = path.read_bytes()
     except OSError as error:
-        what = f"a stored result cannot be read ({error.strerror})"
-        raise InputError(what, where=str(path), remedy=_REMEDY) from None
+        fault = f"a stored result cannot be read ({error.strerror})"
+        raise InputError(fault, where=str(path), remedy=_REMEDY) from None
     if checksum(content) != expected:
-        what = "a stored result is damaged: its checksum has changed"
-        raise InputError(what, where=str(path), remedy=_REMEDY)
+        fault = "a stored result is damaged: its checksum has changed"
+        raise InputError(fault, where=str(path), remedy=_REMEDY)
     return from_bytes(content)

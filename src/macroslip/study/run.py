@@ -215,8 +215,8 @@ class Session:
             with contextlib.closing(Database(self.directory)) as self.database:
                 damaged = self.database.begin((run.name, run.labels) for run in study.runs())
                 if damaged:
-                    what = f"{damaged} rows of the database are damaged"
-                    self.note(f"{what}; their runs are computed again")
+                    fault = f"{damaged} rows of the database are damaged"
+                    self.note(f"{fault}; their runs are computed again")
                 self.note(f"{self.database.results()} results are there already")
                 yield
             how = "stopped at the first failure" if self.ended.stopped else "ended"
@@ -335,9 +335,9 @@ class Session:
         if "stop" in result:
             raise MacroslipError(f"{result['stop']} {_KEPT} Mend it, and go on with --resume.")
         if result.get("program", program()) != program():
-            what = "a worker runs another version of macroslip"
-            what += ", or has not registered the same laws of your own."
-            raise MacroslipError(f"{what} {_KEPT} Mend it, and go on with --resume.")
+            fault = "a worker runs another version of macroslip"
+            fault += ", or has not registered the same laws of your own."
+            raise MacroslipError(f"{fault} {_KEPT} Mend it, and go on with --resume.")
 
     def _is_recorded(self, result: dict[str, Any]) -> bool:
         """True if a result that a worker found is the result in the database."""
@@ -345,8 +345,8 @@ class Session:
         if known == result["detail"]:
             return True
         name = self._name(self._open[result["run"]])
-        what = "is damaged" if known else "was not recorded as done"
-        self.note(f"{name}: a stored result {what}; computed again")
+        state = "is damaged" if known else "was not recorded as done"
+        self.note(f"{name}: a stored result {state}; computed again")
         return False
 
     def _record(self, entries: list[tuple[Run, dict[str, Any]]]) -> int:

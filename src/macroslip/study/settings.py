@@ -143,7 +143,7 @@ class Setting:
         except InputError as problem:
             part = f"{problem.where.rpartition('.')[2]} " if problem.where else ""
             raise InputError(
-                part + problem.what, allowed=problem.allowed, remedy=problem.remedy
+                part + problem.fault, allowed=problem.allowed, remedy=problem.remedy
             ) from None
 
 
@@ -275,9 +275,9 @@ def read_loads(source: str, path: str, cut: Mapping[str, Any]) -> HubLoads | Bea
     try:
         for name in FOR_HUB_FILES:
             if name in cut and source != "file":
-                what = f"{name} is given in the base case, but these loads have their own"
+                fault = f"{name} is given in the base case, but these loads have their own"
                 remedy = f"Remove loads.{name}; it serves hub loads from files only."
-                raise InputError(what, where=path, remedy=remedy)
+                raise InputError(fault, where=path, remedy=remedy)
         if source == "bundled":
             return HubLoads.bundled(path).window(cut.get("start"), cut.get("end"))
         return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
@@ -321,10 +321,10 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
     """Check both ends as values of the parameter; a file's are checked with the file."""
     if interval is None:
         if key.partition(".")[0] not in RECORDS:
-            what = f"the range of {key} is to come from a file, "
-            what += "but it is no value of a bearing or lubricant"
+            fault = f"the range of {key} is to come from a file, "
+            fault += "but it is no value of a bearing or lubricant"
             raise InputError(
-                what,
+                fault,
                 allowed="keys such as bearing.roller_length",
                 remedy="Give low, high and unit.",
             )

@@ -132,7 +132,7 @@ class Study:
             "models": self.models,
             "combinations of parameters": self.variations,
         }
-        several = [f"{len(one)} {what}" for what, one in counts.items() if len(one) > 1]
+        several = [f"{len(entries)} {noun}" for noun, entries in counts.items() if len(entries) > 1]
         of = " of " if several else ""
         return f"<study {self.title!r}: {len(self)} runs{of}{', '.join(several)}>"
 
@@ -606,10 +606,10 @@ def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]
     for noun in open_nouns:
         known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
         if len(known) > 1:
-            what = f"the sample takes ranges from the {noun}'s file, "
-            what += f"and the study has {len(known)} of them"
+            fault = f"the sample takes ranges from the {noun}'s file, "
+            fault += f"and the study has {len(known)} of them"
             remedy = f"Make a study of each {noun}, or give low, high and unit."
-            raise InputError(what, where="variations.sample.ranges", remedy=remedy)
+            raise InputError(fault, where="variations.sample.ranges", remedy=remedy)
         found[noun] = known[0]
     return sample.with_ranges_of(found)
 

@@ -431,8 +431,10 @@ class Bins:
             ]
         )
         if shares.sum() > 1.0:
-            what = f"the events take {shares.sum() * YEAR / 3600.0:.6g} hours of a year"
-            raise InputError(what, where="weights.events", allowed=f"up to {YEAR / 3600.0:g} hours")
+            fault = f"the events take {shares.sum() * YEAR / 3600.0:.6g} hours of a year"
+            raise InputError(
+                fault, where="weights.events", allowed=f"up to {YEAR / 3600.0:g} hours"
+            )
         windy = self.events == ""
         wind = np.array(
             [year.wind.probability(float(one), self.width) for one in self.centres[windy]]

@@ -146,8 +146,8 @@ def _claimed(claim: Path, run: str) -> bool:
             return claim.read_text(encoding="utf-8") == run
         return False
     except OSError as error:
-        what = f"{claim}: nothing can be stored ({error.strerror or error})"
-        raise StoreError(what) from None
+        fault = f"{claim}: nothing can be stored ({error.strerror or error})"
+        raise StoreError(fault) from None
     return True
 
 
@@ -197,7 +197,7 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
     except InputError as problem:
         where = f"{loads.source}, {problem.where}"
         raise InputError(
-            problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy
+            problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
         ) from None
 
 

@@ -293,9 +293,9 @@ def look_for(scheduler: str) -> None:
             thread.submit(asyncio.run, knock()).result()
         except (OSError, ValueError, TypeError) as error:  # the last without what TLS needs
             why = str(error) or f"nothing is heard for {_ANSWER:g} s"
-            what = f"no scheduler answers at '{scheduler}' ({why})"
+            fault = f"no scheduler answers at '{scheduler}' ({why})"
             raise InputError(
-                what, remedy="Start one with `dask scheduler`, and look at its address."
+                fault, remedy="Start one with `dask scheduler`, and look at its address."
             ) from None
 
 
@@ -370,9 +370,9 @@ class Dask:
                             self._pool.submit(work_several, [task]): [task] for task in tasks
                         }
                 except Exception as error:
-                    what = f"a worker cannot work: {type(error).__name__}: {error}. "
-                    what += "Is macroslip installed there?"
-                    raise MacroslipError(what) from None
+                    fault = f"a worker cannot work: {type(error).__name__}: {error}. "
+                    fault += "Is macroslip installed there?"
+                    raise MacroslipError(fault) from None
                 else:
                     found += zip(
                         tasks, results, strict=False

@@ -47,9 +47,9 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     2.91 N m of drag
     """
     if "power" not in result or "time" not in result.power.dims or not result.sizes["time"]:
-        what = "the result has no traces"
+        fault = "the result has no traces"
         raise InputError(
-            what,
+            fault,
             where="friction torque",
             remedy="Give the case traces, such as traces: {step: 0.05 s}.",
         )
@@ -58,10 +58,10 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     models = given.models
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
-        what = f"{missing} rollers of each row are missing" if missing else "a row is missing"
+        fault = f"{missing} rollers of each row are missing" if missing else "a row is missing"
         allowed = "a result of all rollers of both rows"
         raise InputError(
-            what, where="friction torque", allowed=allowed, remedy="Simulate with rollers: all."
+            fault, where="friction torque", allowed=allowed, remedy="Simulate with rollers: all."
         )
     model = next(iter(models.values()))
     # Every roller has the same speed in pure rolling; a failed roller has NaN.

@@ -121,8 +121,8 @@ def _operation(
     given = {"radial_load": radial_load, "axial_load": axial_load, "shaft_speed": shaft_speed}
     for name, value in given.items():
         if not np.all(np.isfinite(np.asarray(value, dtype=float))):
-            what = f"{name} holds a number that is not finite"
-            raise InputError(what, where=_WHERE, allowed="finite numbers")
+            fault = f"{name} holds a number that is not finite"
+            raise InputError(fault, where=_WHERE, allowed="finite numbers")
     viscosity = lubricant.viscosity / lubricant.density * 1e6
     return _Operation(
         bore=bore * 1e3,
@@ -149,9 +149,9 @@ def _need(bearing: Bearing, *keys: str) -> list[Any]:
 
 def _constants(series: str, table: Mapping[str, tuple]) -> tuple:
     if series not in table:
-        what = f"there are no constants for series {series!r}"
+        fault = f"there are no constants for series {series!r}"
         remedy = "The series is the beginning of the bearing's designation: 240 for 240/600."
-        raise InputError(what, where=_WHERE, allowed=", ".join(table), remedy=remedy)
+        raise InputError(fault, where=_WHERE, allowed=", ".join(table), remedy=remedy)
     return table[series]
 
 
