@@ -45,7 +45,7 @@ def _labels(folder, study="study.yaml"):
     for path, text in made.texts.items():
         path.write_text(text, encoding="utf-8")
     found = read_study(folder.parent / study)
-    assert [Path(found.place(load)).is_file() for load in found.loads.loads]
+    assert [Path(found.path_of(load)).is_file() for load in found.loads.loads]
     return {Path(load.name).name: dict(load.fields) for load in found.loads.loads}, made.remarks
 
 
@@ -87,7 +87,7 @@ def test_the_study_holds_the_loads_of_the_files(tmp_path):
     (load,) = study.loads.loads
     assert remarks == [] and load.fields == {"wind_speed": 14.0}
     assert study.case["loads"] == {"start": "60 s"}
-    read = HubLoads.read(study.place(load), start=60.0)
+    read = HubLoads.read(study.path_of(load), start=60.0)
     assert np.array_equal(read.force, HubLoads.read(DATA / "sample14B.outb").force)
 
 

@@ -28,7 +28,7 @@ from macroslip.case.parts import (
 from macroslip.constants import TIME_ROUNDING
 from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Flag, Form, Given, Quantity, Text
+from macroslip.input.fields import Choice, Context, Flag, Form, Quantity, Text
 from macroslip.input.files import Place, Source
 from macroslip.input.messages import shown, together
 from macroslip.input.section import Made, OrWord, Variants, form_from, input_section
@@ -56,7 +56,7 @@ class RollerNumbers(Form):
 
     form = "all, or a list of whole numbers such as [0, 7]"
 
-    def read(self, value: Any, given: Given) -> str | tuple[int, ...]:
+    def read(self, value: Any, context: Context) -> str | tuple[int, ...]:
         """Check that each is a whole number; NumPy's are welcome."""
         if isinstance(value, str) and value == "all":
             return "all"
@@ -84,14 +84,14 @@ class InletTemperature(Quantity):
 
     words: tuple[str, ...] = (BALANCE,)
 
-    def read(self, value: Any, given: Given) -> float | str | None:
+    def read(self, value: Any, context: Context) -> float | str | None:
         """The word, or the temperature [K]."""
         if isinstance(value, str) and value == BALANCE:
             return BALANCE
-        if isinstance(value, str) and not given.in_file:
+        if isinstance(value, str) and not context.in_file:
             allowed = "a temperature [K], 'balance', or None for the lubricant's own"
             raise InputError(f"it is {shown(value)}", allowed=allowed)
-        return super().read(value, given)
+        return super().read(value, context)
 
 
 @input_section(

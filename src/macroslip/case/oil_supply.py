@@ -18,7 +18,7 @@ import numpy as np
 
 from macroslip.constants import FLOODED_GAP
 from macroslip.errors import InputError
-from macroslip.input.fields import Form, Given
+from macroslip.input.fields import Context, Form
 from macroslip.input.units import is_finite_number
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class OilSupply(Form):
         f"{_LEAST:g} to 1"
     )
 
-    def read(self, value: Any, given: Given) -> str | float:
+    def read(self, value: Any, context: Context) -> str | float:
         """The word, or the number."""
         if value in WORDS:
             return value

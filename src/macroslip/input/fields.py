@@ -44,8 +44,8 @@ _REMINDERS = {
 
 
 @dataclass(frozen=True)
-class Given:
-    """How a value is given."""
+class Context:
+    """Context in which a value is read: where it stands, and how it is written."""
 
     place: Place = field(default_factory=lambda: Place(Source()))
     #: Whether it is written as in a file; otherwise a quantity is a number in SI units.
@@ -58,14 +58,16 @@ class Given:
     #: written, by key.
     written: Mapping[str, tuple[str, str]] | None = None
 
-    def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Given:
+    def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Context:
         """The same of a value further in."""
-        return Given(self.place.inside(key), self.in_file, self.ranges, before or {}, self.written)
+        return Context(
+            self.place.inside(key), self.in_file, self.ranges, before or {}, self.written
+        )
 
 
-PYTHON = Given()
-IN_FILE = Given(in_file=True)
-FORM_ONLY = Given(in_file=True, ranges=False)
+PYTHON = Context()
+IN_FILE = Context(in_file=True)
+FORM_ONLY = Context(in_file=True, ranges=False)
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,7 @@ class Form:
     about: str
     form: ClassVar[str] = ""
 
-    def read(self, value: Any, given: Given) -> Any:
+    def read(self, value: Any, context: Context) -> Any:
         """The value as the program uses it."""
         raise NotImplementedError
 
@@ -112,10 +114,10 @@ class Quantity(Form):
             return self.range_text() if self.whole else "a number without unit"
         return " or ".join([*self.words, f"a number with its unit, {self.dimension.choices}"])
 
-    def read(self, value: Any, given: Given) -> float | None:
+    def read(self, value: Any, context: Context) -> float | None:
         """Read text with a unit, or a number, to SI, and check its range."""
         unit = self.dimension.si_unit
-        if given.in_file and self.dimension is not NUMBER:
+        if context.in_file and self.dimension is not NUMBER:
             if isinstance(value, str) and value in self.words:
                 return None
             if isinstance(value, bool) or not isinstance(value, str | int | float):
@@ -127,13 +129,13 @@ class Quantity(Form):
             si_value = self.dimension.to_si(float(number), unit)
             written = str(value)
         else:
-            si_value = self._number(value, given)
-            written, unit = (given.written or {}).get(given.place.key, (f"{si_value!r}", unit))
-        if given.ranges:
-            self._check_range(si_value, given, written, unit)
+            si_value = self._number(value, context)
+            written, unit = (context.written or {}).get(context.place.key, (f"{si_value!r}", unit))
+        if context.ranges:
+            self._check_range(si_value, context, written, unit)
         return si_value
 
-    def _number(self, value: Any, given: Given) -> float:
+    def _number(self, value: Any, context: Context) -> float:
         """A finite number as Python's own, so that NumPy's are welcome."""
         finite = is_finite_number(value)
         if finite and not self.whole:
@@ -143,22 +145,24 @@ class Quantity(Form):
         ):
             return int(value)
         remedy = ""
-        if given.in_file and isinstance(value, str):
+        if context.in_file and isinstance(value, str):
             remedy = number_advice(value) or "Write it without quotes and units."
         raise self.wrong(
-            value, remedy, self.form if self.whole or given.in_file else "a finite number"
+            value, remedy, self.form if self.whole or context.in_file else "a finite number"
         )
 
-    def _check_range(self, value: float, given: Given, written: str, unit: str) -> None:
+    def _check_range(self, value: float, context: Context, written: str, unit: str) -> None:
         known = self
         if callable(self.highest):
             try:
-                known = replace(self, highest=self.highest(given.before))
+                known = replace(self, highest=self.highest(context.before))
             except KeyError:  # a value that it depends on is wrong itself
                 return
         if not known.holds(value):
             check = "" if self.dimension is NUMBER else "; check value and unit"
-            reminder = "" if given.in_file or given.written else _REMINDERS.get(self.dimension, "")
+            reminder = (
+                "" if context.in_file or context.written else _REMINDERS.get(self.dimension, "")
+            )
             remedy = f"{self.remedy or f'It is the {self.about}{check}.'}{reminder}"
             raise InputError(f"it is {written}", allowed=known.range_text(unit), remedy=remedy)
 
@@ -232,11 +236,11 @@ class Vector(Form):
         zero = f"0 {self.dimension.si_unit}"
         return f"a list of three quantities, such as [{zero}, {zero}, {zero}]"
 
-    def read(self, value: Any, given: Given) -> list[float | None]:
+    def read(self, value: Any, context: Context) -> list[float | None]:
         """Read three texts to SI."""
         if not isinstance(value, list) or len(value) != 3:
             raise self.wrong(value, f"It is the {self.about}.")
-        return [Quantity("component", self.dimension).read(item, given) for item in value]
+        return [Quantity("component", self.dimension).read(item, context) for item in value]
 
     def json(self) -> dict[str, Any]:
         """A list of three texts."""
@@ -250,7 +254,7 @@ class Flag(Form):
 
     form: ClassVar[str] = "true or false"
 
-    def read(self, value: Any, given: Given) -> bool:
+    def read(self, value: Any, context: Context) -> bool:
         """Check the type; NumPy's truth values are welcome."""
         if type(value).__name__ not in ("bool", "bool_"):
             raise self.wrong(value)
@@ -273,7 +277,7 @@ class Text(Form):
         """Accepted values, in words."""
         return "text" if self.may_be_empty else "non-empty text"
 
-    def read(self, value: Any, given: Given) -> str:
+    def read(self, value: Any, context: Context) -> str:
         """Check the type."""
         if not isinstance(value, str) or not (value or self.may_be_empty):
             raise self.wrong(value)
@@ -309,7 +313,7 @@ class Texts(Form):
 
     form: ClassVar[str] = "text, or a list of different texts"
 
-    def read(self, value: Any, given: Given) -> list[str]:
+    def read(self, value: Any, context: Context) -> list[str]:
         """Check every text."""
         texts = value if isinstance(value, list) else [value]
         if (
@@ -343,7 +347,7 @@ class Choice(Form):
         """Accepted values, in words."""
         return ", ".join(self.names())
 
-    def read(self, value: Any, given: Given) -> str:
+    def read(self, value: Any, context: Context) -> str:
         """Check that the name exists."""
         names = self.names()
         if not isinstance(value, str) or value not in names:

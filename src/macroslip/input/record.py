@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar, Self, get_type_hints
 
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Form, Given, Quantity, Text
+from macroslip.input.fields import Choice, Context, Form, Quantity, Text
 from macroslip.input.files import Place, Source, parse, read_text, yaml_text
 from macroslip.input.messages import shown, together
 from macroslip.input.section import (
@@ -85,7 +85,7 @@ class _Number(Form):
     form = "a finite number, without its unit"
     whole: bool = False
 
-    def read(self, value: Any, given: Given) -> float:
+    def read(self, value: Any, context: Context) -> float:
         if not is_finite_number(value):
             raise self.wrong(value, "The unit goes into its own key.")
         return int(value) if hasattr(value, "__index__") else float(value)
@@ -98,13 +98,13 @@ class _Number(Form):
 class _Range(Form):
     form = "two numbers in the unit of the value, [lowest, highest], with the value between them"
 
-    def read(self, value: Any, given: Given) -> tuple[float, float]:
+    def read(self, value: Any, context: Context) -> tuple[float, float]:
         pair: Any = (
             value
             if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2
             else ()
         )
-        middle = given.before.get("value")
+        middle = context.before.get("value")
         good = pair and all(map(is_finite_number, pair))
         if not good or not (middle is None or pair[0] <= middle <= pair[1]):
             raise self.wrong(value, "Leave it out if nothing is known of the scatter.")
@@ -118,14 +118,14 @@ class _Range(Form):
 class _Unit(Choice):
     """The unit of an entry; without quotes the unit of a pure number would be a number."""
 
-    def read(self, value: Any, given: Given) -> str:
+    def read(self, value: Any, context: Context) -> str:
         if self.names() == ["1"] and value != "1":
             raise InputError(
                 f"{shown(value)} does not exist",
                 allowed='"1"',
                 remedy="Write it with its quotes.",
             )
-        return super().read(value, given)
+        return super().read(value, context)
 
 
 @functools.cache
@@ -154,9 +154,9 @@ class _Entry(Form):
 
     quantity: Quantity
 
-    def read(self, value: Any, given: Given) -> Provenance:
+    def read(self, value: Any, context: Context) -> Provenance:
         dimension = self.quantity.dimension
-        key = given.place.keys[-1]
+        key = context.place.keys[-1]
         if isinstance(value, str):
             return Provenance(*parse_quantity(value, dimension))
         if dimension is NUMBER and is_finite_number(value):
@@ -170,7 +170,7 @@ class _Entry(Form):
                 "note and range are optional",
                 remedy="Give the value with its unit.",
             )
-        return Provenance(**_entry(dimension).read(value, given))
+        return Provenance(**_entry(dimension).read(value, context))
 
     def json(self) -> dict[str, Any]:
         dimension = self.quantity.dimension
@@ -208,7 +208,7 @@ def read_entry(
         If the entry is no quantity of this dimension.
     """
     field = Field(_Entry("", Quantity("", dimension)), True, False)
-    origin = read_value(field, entry, Given(Place(source, (key,)), in_file=True))
+    origin = read_value(field, entry, Context(Place(source, (key,)), in_file=True))
     return dimension.to_si(origin.value, origin.unit), origin
 
 
@@ -251,7 +251,7 @@ class Record:
         # An entry may have several lines; what is wrong with its value is in the line of the value.
         lines = {keys[:1]: line for keys, line in source.lines.items() if keys[1:] == ("value",)}
         place = Place(Source(source.file, {**source.lines, **lines}))
-        found, problems = read_keys(fields, values, Given(place, written=written))
+        found, problems = read_keys(fields, values, Context(place, written=written))
         if problems:
             raise together(problems)
         found = {key: found.get(key, one.default) for key, one in fields.items()}
@@ -364,7 +364,7 @@ class Record:
             )
         # What is missing is told later: it may follow from what is there.
         optional = {key: one._replace(is_required=False) for key, one in fields.items()}
-        found, problems = read_keys(optional, entries, Given(Place(source), in_file=True))
+        found, problems = read_keys(optional, entries, Context(Place(source), in_file=True))
         for part in problems:
             part.is_placed = (
                 False  # in the record's own file; a case file that names it adds its own place

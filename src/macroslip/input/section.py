@@ -26,7 +26,7 @@ from typing import (
 )
 
 from macroslip.errors import InputError
-from macroslip.input.fields import IN_FILE, PYTHON, Choice, Form, Given
+from macroslip.input.fields import IN_FILE, PYTHON, Choice, Context, Form
 from macroslip.input.files import Place, Source
 from macroslip.input.messages import nearest, parts_of, together, unknown_key
 from macroslip.storage.files import check_no_zero_byte
@@ -94,7 +94,7 @@ def input_section(
         Decorator of the class.
     """
     keys = tuple(noun.split(".")) if noun else ()
-    given = dataclasses.replace(PYTHON, place=Place(Source(), keys))
+    context = dataclasses.replace(PYTHON, place=Place(Source(), keys))
 
     def decorate(kind: type[Kind]) -> type[Kind]:
         made: Any = dataclass(frozen=True, slots=True, kw_only=not positional)(kind)
@@ -106,7 +106,7 @@ def input_section(
         def initialise(self: Any, *first: Any, **values: Any) -> None:
             if len(first) > (len(fields) if positional else 0):
                 raise TypeError(f"{made.__name__} takes its values by name")
-            _fill(self, dict(zip(fields, first, strict=False)) | values, given)
+            _fill(self, dict(zip(fields, first, strict=False)) | values, context)
 
         made.__init__ = initialise
         return made
@@ -164,12 +164,12 @@ def grouped(fields: Fields, groups: Mapping[str, tuple[str, tuple[str, ...]]]) -
 
 
 def _fill(
-    made: Any, values: Mapping[str, Any], given: Given, other_keys: tuple[str, ...] = ()
+    made: Any, values: Mapping[str, Any], context: Context, other_keys: tuple[str, ...] = ()
 ) -> None:
     """Check the values of a section and give them to the object made of it."""
     declared = _SECTIONS[type(made)]
-    fields = declared.in_file if given.in_file else declared.fields
-    checked, problems = read_keys(fields, values, given, other_keys)
+    fields = declared.in_file if context.in_file else declared.fields
+    checked, problems = read_keys(fields, values, context, other_keys)
     if problems:
         raise together(problems)
     try:
@@ -184,13 +184,13 @@ def _fill(
             )
         declared.fill(made, **checked)
     except InputError as problem:
-        if not given.place.keys:  # a class without a place names the places itself
+        if not context.place.keys:  # a class without a place names the places itself
             raise
-        raise together(given.place.blamed(part) for part in parts_of(problem)) from None
+        raise together(context.place.blamed(part) for part in parts_of(problem)) from None
 
 
 def read_keys(
-    fields: Fields, data: Mapping[str, Any], given: Given, other_keys: tuple[str, ...] = ()
+    fields: Fields, data: Mapping[str, Any], context: Context, other_keys: tuple[str, ...] = ()
 ) -> tuple[dict[str, Any], list[InputError]]:
     """Read the values under the keys of a section as far as they are right.
 
@@ -200,7 +200,7 @@ def read_keys(
         Keys of the section.
     data : mapping
         Its content.
-    given : Given
+    context : Context
         Place of the section, and how its values are given.
     other_keys : tuple of str
         Keys that the section may have as well, for the message about an unknown one.
@@ -210,7 +210,7 @@ def read_keys(
     tuple
         Values by key, and everything that is wrong.
     """
-    place = given.place
+    place = context.place
     values: dict[str, Any] = {}
     problems: list[InputError] = []
     unknown = [key for key in data if key not in fields]
@@ -227,11 +227,11 @@ def read_keys(
     }
     for key, member in fields.items():
         if key in data:
-            if data[key] is None and member.is_optional and not given.in_file:
+            if data[key] is None and member.is_optional and not context.in_file:
                 values[key] = None
                 continue
             try:
-                values[key] = read_value(member, data[key], given.inside(key, before))
+                values[key] = read_value(member, data[key], context.inside(key, before))
                 before[key] = values[key]
             except InputError as problem:
                 problems += parts_of(problem)
@@ -241,12 +241,12 @@ def read_keys(
     return values, problems
 
 
-def read_value(member: Field, value: Any, given: Given) -> Any:
+def read_value(member: Field, value: Any, context: Context) -> Any:
     """Read the value of a key; all that is wrong inside is raised with its place."""
     try:
-        return member.form.read(value, given)
+        return member.form.read(value, context)
     except InputError as problem:
-        raise together(given.place.blamed(part) for part in parts_of(problem)) from None
+        raise together(context.place.blamed(part) for part in parts_of(problem)) from None
 
 
 def read_fields(
@@ -273,11 +273,11 @@ class Section(Form):
         keys = f"a section with the keys {', '.join(self.fields)}"
         return f"{self.word} or {keys}" if self.word else keys
 
-    def read(self, value: Any, given: Given) -> Any:
+    def read(self, value: Any, context: Context) -> Any:
         """Read every key and make the object, or a mapping; None for the word."""
         if self.word and (value is None or (isinstance(value, str) and value == self.word)):
             return None
-        if self.kind is not None and not given.in_file:
+        if self.kind is not None and not context.in_file:
             if not isinstance(value, self.kind):
                 raise self.wrong(value, allowed=self.kind.__name__)
             return value
@@ -286,9 +286,9 @@ class Section(Form):
         content = value or {}  # None: all its keys are commented out
         if self.kind is not None:
             made = object.__new__(self.kind)
-            _fill(made, content, given)
+            _fill(made, content, context)
             return made
-        values, problems = read_keys(self.fields, content, given)
+        values, problems = read_keys(self.fields, content, context)
         if problems:
             raise together(problems)
         return values
@@ -328,10 +328,10 @@ class Variants(Form):
         keys = fields_of(self.sections[self.default])
         return f"a section with the keys {', '.join([self.key, *keys])}"
 
-    def read(self, value: Any, given: Given) -> Any:
+    def read(self, value: Any, context: Context) -> Any:
         """Read the section of that name; in Python, an object of one of them."""
         kinds = dict.fromkeys(self.sections.values())
-        if not given.in_file:
+        if not context.in_file:
             if not isinstance(value, tuple(kinds)):
                 raise self.wrong(value, allowed=" or ".join(kind.__name__ for kind in kinds))
             return value
@@ -341,15 +341,15 @@ class Variants(Form):
         name = content.pop(self.key, self.default)
         problems: list[InputError] = []
         try:
-            Choice(self.about, lambda: list(self.sections)).read(name, given)
+            Choice(self.about, lambda: list(self.sections)).read(name, context)
         except InputError as problem:
-            problems.append(given.place.inside(self.key).blamed(problem))
+            problems.append(context.place.inside(self.key).blamed(problem))
             if len(kinds) > 1:
                 raise problems[0] from None
             name = self.default
         made = object.__new__(self.sections[name])
         try:
-            _fill(made, {**self.presets.get(name, {}), **content}, given, (self.key,))
+            _fill(made, {**self.presets.get(name, {}), **content}, context, (self.key,))
         except InputError as problem:
             problems += parts_of(problem)
         if problems:
@@ -384,10 +384,10 @@ class Made(Form):
         """Accepted content of a file, in words."""
         return self.written.form
 
-    def read(self, value: Any, given: Given) -> Any:
+    def read(self, value: Any, context: Context) -> Any:
         """Read a file by the form; in Python, check the class."""
-        if given.in_file:
-            return self.written.read(value, given)
+        if context.in_file:
+            return self.written.read(value, context)
         if not isinstance(value, self.kinds):
             allowed = " or ".join(kind.__name__ for kind in self.kinds)
             raise InputError(f"it is {type(value).__name__}", allowed=allowed)
@@ -411,30 +411,30 @@ class MappingOf(Form):
     each: Callable[[str, Any], Any] | None = None
     may_be_empty: bool = False
 
-    def read(self, value: Any, given: Given) -> dict[str, Any]:
+    def read(self, value: Any, context: Context) -> dict[str, Any]:
         """Read every value; all that is wrong is raised together."""
         names = isinstance(value, Mapping) and all(isinstance(name, str) and name for name in value)
         if not names or not (value or self.may_be_empty):
             raise self.wrong(value)
-        return dict(zip(value, read_all(value.items(), self._read_item, given), strict=True))
+        return dict(zip(value, read_all(value.items(), self._read_item, context), strict=True))
 
-    def _read_item(self, name: str, value: Any, given: Given) -> Any:
+    def _read_item(self, name: str, value: Any, context: Context) -> Any:
         check_no_zero_byte(name)
         # A call in Python may leave an optional value open.
         is_open = value is None and type(None) in _kinds(self.item)
         if self.item is not Any and not is_open:
-            value = form_from(self.item).read(value, given)
+            value = form_from(self.item).read(value, context)
         return self.each(name, value) if self.each else value
 
 
 def read_all(
-    items: Iterable[tuple[str, Any]], read: Callable[[str, Any, Given], Any], given: Given
+    items: Iterable[tuple[str, Any]], read: Callable[[str, Any, Context], Any], context: Context
 ) -> list[Any]:
     """Read values by their keys; all that is wrong is raised together, each with its place."""
     values = []
     problems: list[InputError] = []
     for key, item in items:
-        inner = given.inside(key)
+        inner = context.inside(key)
         try:
             values.append(read(key, item, inner))
         except InputError as problem:

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Form, Given, Positive, Quantity, Text, Texts
+from macroslip.input.fields import Choice, Context, Form, Positive, Quantity, Text, Texts
 from macroslip.input.files import Place, parse, read_text
 from macroslip.input.section import form_from, input_section
 from macroslip.input.units import (
@@ -80,19 +80,21 @@ class ColumnForm(Form):
         unit = f"unit, {self.dimension.choices}"
         return f"a section with the keys column, {unit}{', ratio' if self.has_ratio else ''}"
 
-    def read(self, value: Any, given: Given) -> MeasuredColumn:
+    def read(self, value: Any, context: Context) -> MeasuredColumn:
         """Read name, unit and, of a generator's speed, ratio."""
         if isinstance(value, MeasuredColumn):
             return value
         keys = ("column", "unit", "ratio") if self.has_ratio else ("column", "unit")
         if not isinstance(value, Mapping) or set(value) != set(keys):
             raise self.wrong(value)
-        column = Text("name of the column").read(value["column"], given)
+        column = Text("name of the column").read(value["column"], context)
         unit = Choice("unit of the column", lambda: tuple(self.dimension.units)).read(
-            value["unit"], given
+            value["unit"], context
         )
         ratio = value.get("ratio", 1.0)
-        ratio = Positive("speed of the generator over that of the rotor", NUMBER).read(ratio, given)
+        ratio = Positive("speed of the generator over that of the rotor", NUMBER).read(
+            ratio, context
+        )
         return MeasuredColumn(column, unit, self.dimension, float(ratio or 1.0))
 
 
@@ -102,7 +104,7 @@ class Label(Form):
 
     form = "text or a whole number"
 
-    def read(self, value: Any, given: Given) -> str:
+    def read(self, value: Any, context: Context) -> str:
         """The value as text."""
         if isinstance(value, bool) or not isinstance(value, str | int) or value == "":
             raise self.wrong(value)
@@ -115,12 +117,12 @@ class Labels(Form):
 
     form = "a list of texts or whole numbers"
 
-    def read(self, value: Any, given: Given) -> tuple[str, ...]:
+    def read(self, value: Any, context: Context) -> tuple[str, ...]:
         """Every value as text."""
         values = list(value) if isinstance(value, list | tuple) else [value]
         if not values:
             raise self.wrong(value)
-        return tuple(Label(self.about).read(item, given) for item in values)
+        return tuple(Label(self.about).read(item, context) for item in values)
 
 
 class Period(NamedTuple):
@@ -136,7 +138,7 @@ class PeriodForm(Form):
 
     form = "a list of two days, such as [2015-01-01, 2015-12-31]"
 
-    def read(self, value: Any, given: Given) -> Period:
+    def read(self, value: Any, context: Context) -> Period:
         """Read both days; the last one is not before the first."""
         if isinstance(value, Period):
             return value
@@ -162,11 +164,11 @@ class Range(Form):
     dimension: Dimension = NUMBER
     form = "a list of two quantities, the smaller one first"
 
-    def read(self, value: Any, given: Given) -> tuple[float, float]:
+    def read(self, value: Any, context: Context) -> tuple[float, float]:
         """Read both to SI."""
         if not isinstance(value, list | tuple) or len(value) != 2:
             raise self.wrong(value)
-        low, high = (Positive(self.about, self.dimension).read(item, given) for item in value)
+        low, high = (Positive(self.about, self.dimension).read(item, context) for item in value)
         if low is None or high is None or not low <= high:
             raise self.wrong(value)
         return low, high
@@ -178,7 +180,7 @@ class Zone(Form):
 
     form = "a time zone such as Europe/Paris, UTC or Etc/GMT-1"
 
-    def read(self, value: Any, given: Given) -> str:
+    def read(self, value: Any, context: Context) -> str:
         """Check that the zone exists."""
         try:
             ZoneInfo(value)
@@ -349,4 +351,4 @@ class ScadaDescription:
         path = Path(path)
         text = read_text(path, "the description cannot be read", where=str(path), remedy=_REMEDY)
         data, source = parse(text, str(path), _REMEDY)
-        return form_from(cls).read(data, Given(Place(source), in_file=True))
+        return form_from(cls).read(data, Context(Place(source), in_file=True))

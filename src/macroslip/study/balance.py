@@ -43,14 +43,18 @@ def study_at_balance(
     }
     known: dict[str, dict[float, float]] = {group: {} for group in cases}
     while True:
-        found = {group: next_temperature(known[group], cases[group]) for group in cases}
-        if all(settled for _, settled in found.values()):
-            temperatures = {group: round(at, _DIGITS) for group, (at, _) in found.items()}
+        next_temperatures = {group: next_temperature(known[group], cases[group]) for group in cases}
+        if all(settled for _, settled in next_temperatures.values()):
+            temperatures = {
+                group: round(at, _DIGITS) for group, (at, _) in next_temperatures.items()
+            }
             return replace(study, heat=None, weights=None, temperatures=temperatures)
         # A group that has settled keeps the nearest temperature that is there already.
         chosen = {
-            group: min(known[group], key=lambda place, at=at: abs(place - at)) if settled else at
-            for group, (at, settled) in found.items()
+            group: min(known[group], key=lambda computed, at=at: abs(computed - at))
+            if settled
+            else at
+            for group, (at, settled) in next_temperatures.items()
         }
         trial = replace(
             study,
@@ -67,7 +71,7 @@ def study_at_balance(
 
 
 def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> dict[str, float]:
-    found: dict[str, float] = {}
+    powers: dict[str, float] = {}
     for run, power in zip(
         study.runs(), open_study(directory).friction_power.values.tolist(), strict=True
     ):
@@ -76,5 +80,5 @@ def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> di
                 f"the friction power of the bearing under the loads {run.load.name} is not known, "
                 "because the run failed: give the base case a temperature in place of balance"
             )
-        found[run.group] = found.get(run.group, 0.0) + weights[run.load.name] * power
-    return found
+        powers[run.group] = powers.get(run.group, 0.0) + weights[run.load.name] * power
+    return powers

@@ -35,12 +35,12 @@ def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray
     """
     from scipy.stats import spearmanr
 
-    places = np.asarray(values, float)
-    found = np.asarray(results, float)
-    ranks, chance = np.full((2, places.shape[1]), np.nan)
-    if found.size >= 3 and np.ptp(found) > 0.0:
-        for p in np.flatnonzero(np.ptp(places, axis=0) > 0.0):
-            ranks[p], chance[p] = spearmanr(places[:, p], found)
+    points = np.asarray(values, float)
+    outcomes = np.asarray(results, float)
+    ranks, chance = np.full((2, points.shape[1]), np.nan)
+    if outcomes.size >= 3 and np.ptp(outcomes) > 0.0:
+        for p in np.flatnonzero(np.ptp(points, axis=0) > 0.0):
+            ranks[p], chance[p] = spearmanr(points[:, p], outcomes)
     return ranks, chance
 
 
@@ -57,11 +57,14 @@ def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.
     >>> effect.item(), round(error.item(), 3)
     (10.0, 1.414)
     """
-    places = np.asarray(values, float)
-    found = np.asarray(results, float)
-    effect, error = np.full((2, places.shape[1]), np.nan)
-    for p, one in enumerate(places.T):
-        halves = found[one > np.median(one)], found[one <= np.median(one)]
+    points = np.asarray(values, float)
+    outcomes = np.asarray(results, float)
+    effect, error = np.full((2, points.shape[1]), np.nan)
+    for p, coordinate in enumerate(points.T):
+        halves = (
+            outcomes[coordinate > np.median(coordinate)],
+            outcomes[coordinate <= np.median(coordinate)],
+        )
         if min(half.size for half in halves) >= 2:
             effect[p] = halves[0].mean() - halves[1].mean()
             error[p] = np.sqrt(sum(half.var(ddof=1) / half.size for half in halves))
@@ -95,12 +98,12 @@ def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.D
         raise InputError(
             "the study has no sample", allowed="studies with variations: {sample: ...}"
         )
-    found = year(study, replace(aggregation, by=()))
-    table, _ = designs(found)
+    annual = year(study, replace(aggregation, by=()))
+    table, _ = designs(annual)
     labels = [
         str(name)
-        for name, one in found.coords.items()
-        if one.dims == ("group",) and name not in names
+        for name, coordinate in annual.coords.items()
+        if coordinate.dims == ("group",) and name not in names
     ]
     table["_block"] = table.groupby(labels, dropna=False, sort=False).ngroup()
     units = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(

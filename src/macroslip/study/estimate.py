@@ -61,7 +61,7 @@ def estimate_study(study: Study) -> StudyEstimate:
             continue
         try:
             case, cut = study.case_of(run)
-            loads = read_loads(study.loads.source, study.place(run.load), cut)
+            loads = read_loads(study.loads.source, study.path_of(run.load), cut)
             case = replace(case, loads=loads)
             doubts = doubtful_loads(loads, case.bearing)
             problems += [f"{loads.source}: doubtful: {doubt}" for doubt in doubts]

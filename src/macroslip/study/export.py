@@ -28,15 +28,15 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
 
     Examples
     --------
-    >>> one = xr.Dataset({"energy": ("row", [1.0, 2.0], {"units": "J"})}, {"row": ["downwind", "upwind"]})
-    >>> list(as_table(one, ["energy"]).columns)
+    >>> dataset = xr.Dataset({"energy": ("row", [1.0, 2.0], {"units": "J"})}, {"row": ["downwind", "upwind"]})
+    >>> list(as_table(dataset, ["energy"]).columns)
     ['row', 'energy [J]']
     """
     part = dataset[list(names)]
-    part = part.assign({name: one.broadcast_like(part) for name, one in part.items()})
+    part = part.assign({name: variable.broadcast_like(part) for name, variable in part.items()})
     frame = part.reset_coords().to_dataframe().reset_index()
     frame = frame.loc[:, [name for name in (*part.coords, *names) if name in frame]]
-    units = {name: one.attrs.get("units", "1") for name, one in part.variables.items()}
+    units = {name: variable.attrs.get("units", "1") for name, variable in part.variables.items()}
     frame.columns = [
         name if units.get(name, "1") == "1" else f"{name} [{units[name]}]" for name in frame
     ]
@@ -51,49 +51,53 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
     results keep its variables, and, if the study counts cycles, `cycles`.
     """
     summary = study.drop_vars(
-        [name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}]
+        [
+            name
+            for name, variable in study.variables.items()
+            if not set(variable.dims) <= {"case", "row"}
+        ]
     )
-    by_row = [name for name, one in summary.data_vars.items() if "row" in one.dims]
-    found = {
+    by_row = [name for name, variable in summary.data_vars.items() if "row" in variable.dims]
+    frames = {
         "cases": as_table(
             summary, [*by_row, *(name for name in summary.data_vars if name not in by_row)]
         )
     }
     failed = summary.isel(case=np.flatnonzero(summary.outcome.values != str(Outcome.COMPLETED)))
-    found["failures"] = failed.drop_vars([*failed.data_vars, "row"]).to_dataframe().reset_index()
-    found["worst"] = as_table(worst(study), by_row)
+    frames["failures"] = failed.drop_vars([*failed.data_vars, "row"]).to_dataframe().reset_index()
+    frames["worst"] = as_table(worst(study), by_row)
     spread = percentiles(study, aggregation)
-    found["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
+    frames["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
     whole = year(study, aggregation)
     units = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
         LIVES, "h"
     )
     ranked = designs(whole)[0].dropna(axis="columns", how="all")
-    found["designs"] = ranked.rename(
+    frames["designs"] = ranked.rename(
         columns={name: f"{name} [{unit}]" for name, unit in units.items() if unit != "1"}
     )
     if sampled_parameters(study):
         drivers = effects(study, aggregation)
-        found["effects"] = as_table(
-            drivers, [name for name, one in drivers.items() if "parameter" in one.dims]
+        frames["effects"] = as_table(
+            drivers, [name for name, variable in drivers.items() if "parameter" in variable.dims]
         )
     if aggregation.weights is None:
-        return found
+        return frames
     by_bin = ["hours", "runs", "energy", "per_hour", *LARGEST, *SUMS]
-    found["year"] = as_table(whole, [name for name in by_bin if name in whole])
-    found["lives"] = as_table(whole, [*LIVES, *(f"damage_equivalent_load_{m}" for m in EXPONENTS)])
+    frames["year"] = as_table(whole, [name for name in by_bin if name in whole])
+    frames["lives"] = as_table(whole, [*LIVES, *(f"damage_equivalent_load_{m}" for m in EXPONENTS)])
     life = lifetime_energy(study, aggregation)
-    found["lifetime"] = as_table(life, ["lifetime_energy", "covered"])
-    found["bins"] = as_table(life, ["power", "bin_energy", "probability", "runs", "left_out"])
+    frames["lifetime"] = as_table(life, ["lifetime_energy", "covered"])
+    frames["bins"] = as_table(life, ["power", "bin_energy", "probability", "runs", "left_out"])
     if {"orbit_energy", "peak_power"} <= set(study.data_vars):
         curves = exceedance(study, aggregation)
-        found["exceedance"] = as_table(curves, ["energy_orbits", "power_orbits"])
+        frames["exceedance"] = as_table(curves, ["energy_orbits", "power_orbits"])
     if "load_cycles" in study:
-        found["cycles"] = as_table(load_spectrum(study, aggregation), ["cycles"])
-    return found
+        frames["cycles"] = as_table(load_spectrum(study, aggregation), ["cycles"])
+    return frames
 
 
-def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> list[Path]:
+def write_tables(frames: dict[str, pd.DataFrame], folder: Path, form: str) -> list[Path]:
     """Write tables to files of their names in the folder, as `csv` or `parquet`.
 
     Files of the same names are replaced.
@@ -109,7 +113,7 @@ def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> lis
         )
 
     written = []
-    for name, frame in found.items():
+    for name, frame in frames.items():
         path = folder / f"{name}.{form}"
         if form == "csv":
             content = frame.map(harmless).to_csv(index=False, lineterminator="\n").encode()

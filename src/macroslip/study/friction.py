@@ -174,7 +174,7 @@ def _entries(study: xr.Dataset, settings: dict) -> pd.DataFrame:
     by = ["supply", "wind_speed", "temperature"]
     # A mean with a failed run is not known.
     means = runs.groupby(by, sort=False)[["shaft_speed", "torque"]].agg(
-        lambda one: one.mean(skipna=False)
+        lambda column: column.mean(skipna=False)
     )
     return means.reset_index()
 
@@ -204,7 +204,7 @@ def _loads_of_histories(study: Study) -> Iterator[dict[str, float]]:
             continue
         read.add(run.load.name)
         case, cut = study.case_of(run)
-        history = read_loads(study.loads.source, study.place(run.load), cut)
+        history = read_loads(study.loads.source, study.path_of(run.load), cut)
         force = replace(case, loads=history).bearing_loads.force
         yield {
             "wind_speed": float(run.load.fields[WIND]),

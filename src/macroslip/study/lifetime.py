@@ -88,24 +88,24 @@ def percentiles(
         "power": power.assign_attrs(described("W", "energy dissipated by a roller per time"))
     } | {name: study[name].transpose("case", "row") for name in names}
     shape = len(bins.groups), bins.centres.size, study.sizes["row"]
-    cells = [np.repeat(one, shape[2]) for one in (bins.group, bins.bin)]
+    cells = [np.repeat(numbers, shape[2]) for numbers in (bins.group, bins.bin)]
     frame = xr.Dataset(
-        {name: ("run", one.values.ravel()) for name, one in wanted.items()}
+        {name: ("run", variable.values.ravel()) for name, variable in wanted.items()}
     ).to_dataframe()
-    found = frame.groupby([*cells, np.tile(np.arange(shape[2]), study.sizes["case"])]).quantile(
+    table = frame.groupby([*cells, np.tile(np.arange(shape[2]), study.sizes["case"])]).quantile(
         list(quantiles)
     )
     # A cell without runs has no line.
     every = [*map(range, shape), list(quantiles)]
     dims = ("group", "bin", "row", "quantile")
     array = (
-        found.rename_axis(index=dims)
+        table.rename_axis(index=dims)
         .to_xarray()
         .reindex(dict(zip(dims, every, strict=True)))
         .transpose(*dims)
     )
     data: dict[str, Any] = {
-        name: (dims, array[name].values, dict(one.attrs)) for name, one in wanted.items()
+        name: (dims, array[name].values, dict(variable.attrs)) for name, variable in wanted.items()
     }
     data["runs"] = (dims[:2], bins.means(power.values)[1], described("1", "runs of the quantiles"))
     coordinates = {
@@ -143,7 +143,11 @@ def worst(
     InputError
         If there is no such variable.
     """
-    names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
+    names = [
+        name
+        for name, candidate in study.data_vars.items()
+        if set(candidate.dims) == {"case", "row"}
+    ]
     if variable not in names:
         raise InputError(
             f"the summary has no variable '{variable}'", allowed=", ".join(map(str, names))
@@ -151,7 +155,11 @@ def worst(
     if count < 1:
         raise InputError(f"the count is {count}", allowed="a whole number above 0")
     summary = study.drop_vars(
-        [name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}]
+        [
+            name
+            for name, candidate in study.variables.items()
+            if not set(candidate.dims) <= {"case", "row"}
+        ]
     )
     values = study[variable].transpose("case", "row").values
     finite = np.flatnonzero(np.isfinite(values))
@@ -159,8 +167,10 @@ def worst(
         :count
     ]
     cases, rows = np.unravel_index(order, values.shape)
-    found = summary.isel(case=xr.DataArray(cases, dims="rank"), row=xr.DataArray(rows, dims="rank"))
-    return found.assign_coords(
+    selected = summary.isel(
+        case=xr.DataArray(cases, dims="rank"), row=xr.DataArray(rows, dims="rank")
+    )
+    return selected.assign_coords(
         rank=("rank", np.arange(1, order.size + 1), described("1", f"rank by {variable}"))
     )
 
@@ -192,21 +202,23 @@ def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
 
     def rates() -> Any:
         for case, group in enumerate(bins.group):
-            one = study.isel(case=case)
-            energy = even_energy(one).transpose(*dims).values
+            result = study.isel(case=case)
+            energy = even_energy(result).transpose(*dims).values
             if np.isfinite(energy).all():
-                density = one.surface_power_density.transpose(*_PLACES).values
+                density = result.surface_power_density.transpose(*_PLACES).values
                 largest[group] = np.maximum(largest[group], density)
-            yield energy / float(one.window_length)
+            yield energy / float(result.window_length)
 
-    found = years * YEAR * weighted(bins.means(rates())[0], bins.probabilities(aggregation.weights))
+    energies = (
+        years * YEAR * weighted(bins.means(rates())[0], bins.probabilities(aggregation.weights))
+    )
     inner = study.raceway.values.tolist().index("inner")
-    found[:, :, inner] = found[:, :, inner].mean(axis=2, keepdims=True)
+    energies[:, :, inner] = energies[:, :, inner].mean(axis=2, keepdims=True)
     largest[:, :, inner] = largest[:, :, inner].max(axis=2, keepdims=True)
     about = described("J", f"energy at each place of a raceway in {years:g} years")
     return xr.Dataset(
         {
-            "surface_energy": (("group", *dims), found, about),
+            "surface_energy": (("group", *dims), energies, about),
             "surface_power_density": (
                 ("group", *_PLACES),
                 largest,

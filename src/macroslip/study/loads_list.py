@@ -99,11 +99,11 @@ class Pattern:
 
     def fields_of(self, path: str) -> dict[str, Any] | None:
         """Values of the fields in a path with forward slashes; None if it does not fit."""
-        found = re.fullmatch(self._expression, path)
+        match = re.fullmatch(self._expression, path)
         return (
             None
-            if found is None
-            else {name: kind(found[name]) for name, kind in self.kinds.items()}
+            if match is None
+            else {name: kind(match[name]) for name, kind in self.kinds.items()}
         )
 
     def files(self, folder: Path) -> tuple[list[tuple[str, dict[str, Any]]], list[str]]:
@@ -128,13 +128,13 @@ class Pattern:
             start = start / names[0]
             names = names[1:]
         paths = sorted(
-            (base / one.relative_to(start)).as_posix()
-            for one in start.glob("/".join(names))
-            if one.is_file()
+            (base / path.relative_to(start)).as_posix()
+            for path in start.glob("/".join(names))
+            if path.is_file()
         )
         read = [(name, self.fields_of(name)) for name in paths]
-        return [(name, one) for name, one in read if one is not None], [
-            name for name, one in read if one is None
+        return [(name, fields) for name, fields in read if fields is not None], [
+            name for name, fields in read if fields is None
         ]
 
 
@@ -224,7 +224,7 @@ def _bundled(names: Sequence[str]) -> list[Load]:
             f"there is no bundled case '{safe_text(wrong[0])}'",
             allowed=f"{', '.join(sets)}, or {', '.join(known)}",
         )
-    chosen = list(dict.fromkeys(one for name in names for one in sets.get(name, [name])))
+    chosen = list(dict.fromkeys(case for name in names for case in sets.get(name, [name])))
     return [Load(name, labels) for name, labels in zip(chosen, bundled_labels(chosen), strict=True)]
 
 
@@ -236,8 +236,8 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
         if pattern.kinds.keys() != first.kinds.keys():
             fault = f"the patterns '{first.text}' and '{pattern.text}' have different fields"
             raise InputError(fault, allowed="the same fields in all of them")
-        found, unread = pattern.files(folder)
-        if not found:
+        files, unread = pattern.files(folder)
+        if not files:
             remedy = f"Relative paths start at {folder.resolve()}."
             if unread:
                 first_unread = safe_text(unread[0])
@@ -245,7 +245,7 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
                     f" The fields of {len(unread)} files could not be read, {first_unread} first."
                 )
             raise InputError(f"no file fits the pattern '{pattern.text}'", remedy=remedy)
-        loads |= {name: Load(name, fields) for name, fields in found}
+        loads |= {name: Load(name, fields) for name, fields in files}
         if unread:
             remarks.append(
                 f"{len(unread)} files fit the pattern '{pattern.text}' but for their fields "

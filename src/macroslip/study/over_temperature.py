@@ -105,10 +105,10 @@ class RunsOverTemperature:
         variable = self.study[name].transpose("case", ...).values.astype(float)
         known = np.moveaxis(variable[self.runs], 1, 0)
         held = np.clip(at, self.temperatures[0], self.temperatures[-1])
-        found = interpolated(
+        of_series = interpolated(
             self.temperatures, known, held, by_factors=name.startswith(_BY_FACTORS)
         )
-        return np.moveaxis(found, 0, 1)
+        return np.moveaxis(of_series, 0, 1)
 
     def mean(self, shares: TemperatureShares, field: str, width: float) -> xr.Dataset:
         """One case for each series: the mean over the time at each temperature.
@@ -138,7 +138,10 @@ class RunsOverTemperature:
             dims = ("case", "row") if values.ndim == 3 else ("case",)
             data[name] = (dims, _mean(str(name), values, share), dict(variable.attrs))
         outcome = self.study["outcome"].values.astype(str)[self.runs]
-        worst = [next((one for one in row if one != "completed"), "completed") for row in outcome]
+        worst = [
+            next((status for status in row if status != "completed"), "completed")
+            for row in outcome
+        ]
         kept = first.drop_vars([LABEL, *first.data_vars])
         kept = kept.drop_vars([n for n in kept.coords if not set(kept[n].dims) <= {"case", "row"}])
         coordinates = {

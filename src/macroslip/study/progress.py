@@ -51,10 +51,10 @@ def duration(seconds: float) -> str:
     >>> duration(0.4), duration(75), duration(7260), duration(200_000)
     ('1 s', '1 min 15 s', '2 h 1 min', '2 d 7 h')
     """
-    rest = max(1, round(seconds))
+    remainder = max(1, round(seconds))
     parts = []
     for name, size in (("d", 86400), ("h", 3600), ("min", 60), ("s", 1)):
-        count, rest = divmod(rest, size)
+        count, remainder = divmod(remainder, size)
         if count or parts:
             parts.append(f"{count} {name}")
     return " ".join(part for part in parts[:2] if not part.startswith("0 "))

@@ -145,31 +145,36 @@ def _of_results(
         return {}, {}, {}
     layouts = [json.loads(text) for text in texts]
     # The last result of each kind shows what variables there are.
-    last = {one["variables"]: np.flatnonzero(kinds == kind)[-1] for kind, one in enumerate(layouts)}
+    last = {
+        layout["variables"]: np.flatnonzero(kinds == kind)[-1]
+        for kind, layout in enumerate(layouts)
+    }
     examples = [read_result(directory, keys[number], checksums[number]) for number in last.values()]
-    numbers = [tuple(one.get("rollers", range(one["sizes"]["roller"]))) for one in layouts]
+    numbers = [tuple(layout.get("rollers", range(layout["sizes"]["roller"]))) for layout in layouts]
     rollers = tuple(sorted(set().union(*numbers)))
     sizes = {
-        name: max(one["sizes"].get(name, 0) for one in layouts)
-        for name in set().union(*(o["sizes"] for o in layouts))
+        name: max(layout["sizes"].get(name, 0) for layout in layouts)
+        for name in set().union(*(layout["sizes"] for layout in layouts))
     }
     sizes["roller"] = len(rollers)
     shared = _Shared(uuid.uuid4().hex, directory, keys, checksums, numbers, kinds, rollers, sizes)
     variables = {}
     coordinates = {}
-    for name, one in {
-        name: one for example in examples for name, one in example.variables.items()
+    for name, variable in {
+        name: variable for example in examples for name, variable in example.variables.items()
     }.items():
-        if (name,) == one.dims and name not in _RAGGED:  # the same in all results
+        if (name,) == variable.dims and name not in _RAGGED:  # the same in all results
             if name != "roller":
-                coordinates[name] = (name, one.values, one.attrs)
+                coordinates[name] = (name, variable.values, variable.attrs)
             continue
-        if name == "orbit" or one.dtype.kind not in "iufb":
+        if name == "orbit" or variable.dtype.kind not in "iufb":
             continue
-        lazy = indexing.LazilyIndexedArray(_Stacked(shared, str(name), one.dims))
-        dims = ("case", *(_RAGGED.get(str(dim), str(dim)) for dim in one.dims))
+        lazy = indexing.LazilyIndexedArray(_Stacked(shared, str(name), variable.dims))
+        dims = ("case", *(_RAGGED.get(str(dim), str(dim)) for dim in variable.dims))
         is_coordinate = any(name in example.coords for example in examples)
-        (coordinates if is_coordinate else variables)[name] = xr.Variable(dims, lazy, one.attrs)
+        (coordinates if is_coordinate else variables)[name] = xr.Variable(
+            dims, lazy, variable.attrs
+        )
     example = examples[0]
     coordinates["roller"] = ("roller", np.array(rollers), example.roller.attrs)
     coordinates["orbit"] = ("orbit", np.arange(sizes["orbit"]), example.orbit.attrs)
@@ -237,10 +242,10 @@ class _Stacked(BackendArray):
 
 
 def _cut(whole: np.ndarray, inner: tuple[Any, ...]) -> np.ndarray:
-    for axis, one in reversed(
+    for axis, index in reversed(
         list(enumerate(inner))
     ):  # from the last, as a number takes its axis away
-        whole = whole[(slice(None),) * axis + (one,)]
+        whole = whole[(slice(None),) * axis + (index,)]
     return whole
 
 

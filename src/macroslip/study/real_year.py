@@ -139,7 +139,9 @@ def real_year(
     notes += designs(years["real"])[1]
     bins = aggregation.bins(collapsed["real"])
     of_bins = bins.probabilities(aggregation.weights)[np.isfinite(bins.centres)]
-    given_wind = np.array([measured.of_wind(one, bins.width)[:-1] for one in joint.wind.tolist()])
+    given_wind = np.array(
+        [measured.of_wind(speed, bins.width)[:-1] for speed in joint.wind.tolist()]
+    )
     rates = _rates(runs, joint.oil_temperatures, bins, years["real"])
     names = design_names(years["real"])
     return RealYear(
@@ -180,7 +182,7 @@ def _centres(study: xr.Dataset, weighting: Weighting) -> np.ndarray:
 
 def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> pd.DataFrame:
     """Numbers of the years side by side."""
-    columns = {name: designs(one)[0] for name, one in years.items()}
+    columns = {name: designs(annual)[0] for name, annual in years.items()}
     names = design_names(years["real"])
     factors = {
         yearly.name: criterion.factor for criterion in CRITERIA for yearly in criterion.yearly
@@ -191,7 +193,7 @@ def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> 
             if quantity not in columns["real"]:
                 continue
             line = {"design": names[group], "quantity": quantity, "unit": column.unit}
-            line |= {name: float(one.loc[group, quantity]) for name, one in columns.items()}
+            line |= {name: float(frame.loc[group, quantity]) for name, frame in columns.items()}
             line["seeds [%]"] = 100.0 * seeds[quantity][group] if quantity in seeds else np.nan
             line["factor"] = factors.get(quantity, np.nan)
             lines.append(line)
@@ -209,7 +211,7 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
     share = bins.probabilities(aggregation.weights)[None, :, None]
     powers = {"energy": study.energy_mean / study.window_length}
     powers |= {name: study[of_run] for name, of_run in _RATES.items() if of_run in study}
-    found: dict[str, np.ndarray] = {}
+    errors: dict[str, np.ndarray] = {}
     for name, rate in powers.items():
         values = rate.transpose("case", "row").values
         mean, runs, _ = bins.means(values)
@@ -222,8 +224,8 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
             relative = np.sqrt(variance.sum(axis=1)) / total
         worse = total.argmax(axis=1)
         chosen = relative[np.arange(worse.size), worse]
-        found[name] = np.where(several.any(axis=(1, 2)), chosen, np.nan)
-    return found
+        errors[name] = np.where(several.any(axis=(1, 2)), chosen, np.nan)
+    return errors
 
 
 def _bins(

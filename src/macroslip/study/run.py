@@ -303,7 +303,7 @@ class Session:
             "setup": self._setup,
             "session": self._id,
             "run": run.name,
-            "load": self.study.place(run.load),
+            "load": self.study.path_of(run.load),
             "bearing": run.bearing,
             "lubricant": run.lubricant,
             "settings": [[setting.key, setting.value, setting.unit] for setting in run.settings],

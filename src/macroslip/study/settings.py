@@ -92,9 +92,9 @@ class Setting:
 
         Raises InputError otherwise.
         """
-        head, *rest = self.key.split(".")
-        if head in RECORDS and rest:
-            self._check_entry(RECORDS[head], ".".join(rest))
+        head, *parts = self.key.split(".")
+        if head in RECORDS and parts:
+            self._check_entry(RECORDS[head], ".".join(parts))
             return self
         if head in _ELSEWHERE:
             remedy = f"It has its own key in a study: {_ELSEWHERE[head]}."
@@ -132,7 +132,7 @@ class Setting:
         key = _TOGETHER.get(self.key, _field_key(key))
         known = dimensions(record)
         if key not in known:
-            raise unknown_key(self.key, (f"{record.noun}.{one}" for one in known))
+            raise unknown_key(self.key, (f"{record.noun}.{name}" for name in known))
         if not is_finite_number(self.value):
             raise InputError(
                 f"it is {shown(self.value)}",
@@ -186,15 +186,17 @@ def replaced(record: Record, settings: Sequence[Setting]) -> Record:
     (0.0002, 'U')
     """
     head = f"{record.noun}."
-    own = [one for one in settings if one.key.startswith(head)]
+    own = [setting for setting in settings if setting.key.startswith(head)]
     entries = {
-        _field_key(one.key.removeprefix(head)): one.entry for one in own if one.key not in _TOGETHER
+        _field_key(setting.key.removeprefix(head)): setting.entry
+        for setting in own
+        if setting.key not in _TOGETHER
     }
     result = record.with_entries(entries) if entries else record
-    for one in own:
-        if one.key == "lubricant.at":
+    for setting in own:
+        if setting.key == "lubricant.at":
             temperature, _ = read_entry(
-                "at", one.entry, dimensions(type(record))[_TOGETHER[one.key]], Source()
+                "at", setting.entry, dimensions(type(record))[_TOGETHER[setting.key]], Source()
             )
             result = result.at(temperature)
     return result
@@ -206,11 +208,11 @@ def _settable() -> dict[str, list[Field]]:
 
     Several where sections exclude each other.
     """
-    found: dict[str, list[Field]] = {}
+    fields: dict[str, list[Field]] = {}
     for key, field in keys_of(Case):
         if form_of(field) or word_of(field):
-            found.setdefault(key, []).append(field)
-    return found
+            fields.setdefault(key, []).append(field)
+    return fields
 
 
 def template(
@@ -251,8 +253,8 @@ def template(
     """
     cut: dict[str, Any] = {}
 
-    def unread(given: LoadSource) -> BearingLoads:
-        cut.update(given.cut)
+    def unread(load_source: LoadSource) -> BearingLoads:
+        cut.update(load_source.cut)
         return _ANY_LOADS
 
     names = {noun: record.name for noun, record in records.items()}
@@ -331,7 +333,7 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
         noun, _, name = key.partition(".")
         known = dimensions(RECORDS[noun])
         if _field_key(name) not in known:
-            raise unknown_key(key, (f"{noun}.{one}" for one in known))
+            raise unknown_key(key, (f"{noun}.{entry}" for entry in known))
         return None
     for end in (interval.low, interval.high):
         Setting(key, end, interval.unit).checked()
@@ -371,7 +373,7 @@ class Sample:
 
         Raises InputError if a value has no range there, or is a count.
         """
-        found = dict(self.ranges)
+        ranges = dict(self.ranges)
         for key in (key for key, interval in self.ranges.items() if interval is None):
             noun, _, name = _field_key(key.replace(".", "/", 1)).partition("/")
             entry = records[noun].provenance.get(name)
@@ -388,12 +390,12 @@ class Sample:
                     where=where,
                     remedy=remedy,
                 )
-            found[key] = Range(
+            ranges[key] = Range(
                 low=entry.range[0],
                 high=entry.range[1],
                 unit="" if entry.unit == "1" else entry.unit,
             )
-        return Sample(method=self.method, count=self.count, seed=self.seed, ranges=found)
+        return Sample(method=self.method, count=self.count, seed=self.seed, ranges=ranges)
 
     def points(self) -> list[list[Setting]]:
         """The points, each as the settings of all parameters.

@@ -55,7 +55,7 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
     try:
         content = path.read_bytes()
         manifest = json.loads(content)
-        found = manifest["format"]
+        version = manifest["format"]
     except (FileNotFoundError, NotADirectoryError):
         remedy = "Name a folder that macroslip study has written."
         raise InputError(
@@ -65,15 +65,15 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
         raise InputError(
             f"the manifest cannot be read ({error})", where=str(path), remedy=REMEDY
         ) from None
-    if found != FORMAT:
-        raise other_version(directory, found)
+    if version != FORMAT:
+        raise other_version(directory, version)
     return manifest, checksum(content)
 
 
-def other_version(directory: Path, found: Any) -> InputError:
+def other_version(directory: Path, version: Any) -> InputError:
     """The problem of a study of another version."""
     return InputError(
-        f"another version of macroslip wrote this study (format {found!r})",
+        f"another version of macroslip wrote this study (format {version!r})",
         where=str(directory),
         allowed=f"format {FORMAT}",
         remedy="Read it with that version, or compute the study again in a new folder.",
@@ -125,10 +125,10 @@ def check_folder(directory: Path, *, resume: bool) -> None:
 
 def remove_unfinished(directory: Path) -> int:
     """Remove files that a process had not finished when it ended; gives their number."""
-    found = itertools.chain(
+    unfinished = itertools.chain(
         directory.glob(f".*{UNFINISHED}"), (directory / CASES).glob(f"*/.*{UNFINISHED}")
     )
-    return sum(path.unlink(missing_ok=True) is None for path in list(found))
+    return sum(path.unlink(missing_ok=True) is None for path in list(unfinished))
 
 
 @contextmanager

@@ -164,8 +164,8 @@ class Study:
         for load, bearing, lubricant, model, settings in itertools.product(*self._choices(loads)):
             run = Run(load, bearing, lubricant, model, [*self.models[model], *settings])
             if self.temperatures:
-                found = Setting(TEMPERATURE, self.temperatures[run.group], "K")
-                run = replace(run, settings=[*run.settings, found])
+                temperature = Setting(TEMPERATURE, self.temperatures[run.group], "K")
+                run = replace(run, settings=[*run.settings, temperature])
             yield run
 
     def case_of(self, run: Run | None = None) -> tuple[Case, dict[str, float]]:
@@ -174,10 +174,12 @@ class Study:
         Of an event all rollers are computed: what lasts a short time falls on the few places where
         rollers then are.
         """
-        known = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
+        choices = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
         records = {
-            noun: one[getattr(run, noun)] if run else next(iter(one.values()))
-            for noun, one in known.items()
+            noun: records_by_name[getattr(run, noun)]
+            if run
+            else next(iter(records_by_name.values()))
+            for noun, records_by_name in choices.items()
         }
         case, cut = template(
             self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder
@@ -188,7 +190,7 @@ class Study:
             case = at_balance(case, self.temperatures[run.group])
         return case, cut
 
-    def place(self, load: Load) -> str:
+    def path_of(self, load: Load) -> str:
         """Path of a load history, or its name if it is bundled."""
         return load_path(self.loads, load, self.folder)
 
@@ -213,7 +215,7 @@ class BaseCase(Form):
 
     form = f"the keys of a case file, of loads only {', '.join(CUT_KEYS)}"
 
-    def read(self, value: Any, given: Any) -> dict[str, Any]:
+    def read(self, value: Any, context: Any) -> dict[str, Any]:
         """Check that the loads are left to the study.
 
         None: every key of the section is commented out.
@@ -225,7 +227,7 @@ class BaseCase(Form):
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         remedy = "The study's own section loads names where the loads come from."
         problems = [
-            given.place.inside("loads", str(key)).problem(
+            context.place.inside("loads", str(key)).problem(
                 f"the key '{key}' cannot stand here", ", ".join(CUT_KEYS), remedy
             )
             for key in loads
@@ -242,7 +244,7 @@ class Settings(Form):
 
     form = "a section such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
-    def read(self, value: Any, given: Any) -> list[Setting]:
+    def read(self, value: Any, context: Any) -> list[Setting]:
         """Check every key and value; nothing is the base case itself."""
         if value is None or value == {}:
             return []
@@ -250,7 +252,7 @@ class Settings(Form):
         def written(key: str, text: Any) -> Setting:
             return Setting.written(key, text).checked()
 
-        return list(MappingOf(self.about, self.form, Any, written).read(value, given).values())
+        return list(MappingOf(self.about, self.form, Any, written).read(value, context).values())
 
 
 @dataclass(frozen=True)
@@ -259,13 +261,13 @@ class SettingsList(Form):
 
     form = f"a list of sections, each {Settings.form[2:]}"
 
-    def read(self, value: Any, given: Any) -> list[list[Setting]]:
+    def read(self, value: Any, context: Any) -> list[list[Setting]]:
         """Check every item; a key has one unit throughout, so that its values fit in one column."""
         if not isinstance(value, list) or not value:
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         numbered = ((str(number), item) for number, item in enumerate(value))
         items = read_all(
-            numbered, lambda _, item, inner: Settings(self.about).read(item, inner), given
+            numbered, lambda _, item, inner: Settings(self.about).read(item, inner), context
         )
         units: dict[str, str] = {}
         for setting in itertools.chain(*items):
@@ -283,7 +285,7 @@ class Values(Form):
 
     form = "a list of values"
 
-    def read(self, value: Any, given: Any) -> list[Any]:
+    def read(self, value: Any, context: Any) -> list[Any]:
         """Check that there are some, and none twice."""
         if not isinstance(value, list) or not value:
             remedy = "For quantities, without their unit."
@@ -299,9 +301,9 @@ class Variables(Texts):
 
     form = f"a list of variables of a result: {', '.join(VARIABLES)}"
 
-    def read(self, value: Any, given: Any) -> list[str]:
+    def read(self, value: Any, context: Any) -> list[str]:
         """Check every name."""
-        names = super().read(value, given)
+        names = super().read(value, context)
         wrong = [name for name in names if name not in VARIABLES]
         if wrong:
             raise InputError(
@@ -513,7 +515,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         bearings=records.get("bearing", own["bearing"]),
         lubricants=records.get("lubricant", own["lubricant"]),
         models=models,
-        variations=[list(itertools.chain(*one)) for one in combinations],
+        variations=[list(itertools.chain(*combination)) for combination in combinations],
         parameters=parameters,
         cycles=values.get("cycles", False),
         keep=values.get("keep"),
@@ -535,7 +537,7 @@ def _check_temperatures(weights: Weighting, variations: Variations) -> None:
     if weights.temperatures is None:
         return
     settings: list[Setting] = (variations.grid or {}).get(LABEL, [])  # pyright: ignore[reportAssignmentType]
-    at = [float(kelvin(np.array(one.value), one.unit)) for one in settings]
+    at = [float(kelvin(np.array(setting.value), setting.unit)) for setting in settings]
     check_varied(len(at))
     check_span(weights.temperatures, np.sort(at))
 
@@ -595,14 +597,14 @@ def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]
     """The sample, with the ranges of the study's bearing and lubricant where it takes them."""
     open_nouns = {
         key.partition(".")[0]
-        for key, one in (sample.ranges if sample else {}).items()
-        if one is None
+        for key, interval in (sample.ranges if sample else {}).items()
+        if interval is None
     }
     if sample is None or not open_nouns:
         return sample
     if base is None:  # faults of the case come first
         return None
-    found = {}
+    owners = {}
     for noun in open_nouns:
         known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
         if len(known) > 1:
@@ -610,8 +612,8 @@ def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]
             fault += f"and the study has {len(known)} of them"
             remedy = f"Make a study of each {noun}, or give low, high and unit."
             raise InputError(fault, where="variations.sample.ranges", remedy=remedy)
-        found[noun] = known[0]
-    return sample.with_ranges_of(found)
+        owners[noun] = known[0]
+    return sample.with_ranges_of(owners)
 
 
 def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Record]:
@@ -631,21 +633,23 @@ def _parameters(
     )  # lists of settings, which the reader has made of the axes
     places: dict[str, dict[str, str]] = {
         "grid": {key: settings[0].unit for key, settings in axes.items()},
-        "list": {one.key: one.unit for one in itertools.chain(*(variations.list or []))},
-        "sample": {
-            key: one.unit
-            for key, one in (sample.ranges if sample else {}).items()
-            if one is not None
+        "list": {
+            setting.key: setting.unit for setting in itertools.chain(*(variations.list or []))
         },
-        "models": {one.key: one.unit for one in itertools.chain(*models.values())},
+        "sample": {
+            key: interval.unit
+            for key, interval in (sample.ranges if sample else {}).items()
+            if interval is not None
+        },
+        "models": {setting.key: setting.unit for setting in itertools.chain(*models.values())},
     }
-    found: dict[str, str] = {}
+    units_by_key: dict[str, str] = {}
     for name, units in places.items():
         for key, unit in units.items():
-            if key in found:
+            if key in units_by_key:
                 raise InputError(
                     f"{key} is varied in {name} and in another place",
                     allowed="one place for each key",
                 )
-            found[key] = unit
-    return found
+            units_by_key[key] = unit
+    return units_by_key

@@ -108,8 +108,8 @@ NUMBERS = {
 
 def rows_with_numbers(runs: pd.DataFrame) -> tuple[str, ...]:
     """Names of the rows of rollers that a table of runs has numbers of; both without any run."""
-    found = tuple(row for row in AXIAL_SIGNS if np.isfinite(runs[f"failed_rollers_{row}"]).any())
-    return found or ROWS
+    rows = tuple(row for row in AXIAL_SIGNS if np.isfinite(runs[f"failed_rollers_{row}"]).any())
+    return rows or ROWS
 
 
 #: Components whose cycles are counted.
@@ -136,16 +136,19 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     of_orbit = orbit_energy.sum("interface", skipna=False)
     peaks = of_orbits.peak_power.max("interface", skipna=False)
     mean_orbit = orbit_energy.mean(samples, skipna=False)
-    found = {
+    values_of_rows = {
         "energy_mean": total.mean(rollers, skipna=False),
         "energy_min": total.min(rollers, skipna=False),
         "energy_max": total.max(rollers, skipna=False),
         **{
-            f"energy_{one}": energy.sel(interface=one).mean(rollers, skipna=False)
-            for one in _INTERFACES
+            f"energy_{interface}": energy.sel(interface=interface).mean(rollers, skipna=False)
+            for interface in _INTERFACES
         },
         "orbit_energy_mean": of_orbit.mean(samples, skipna=False),
-        **{f"orbit_energy_{one}": mean_orbit.sel(interface=one) for one in _INTERFACES},
+        **{
+            f"orbit_energy_{interface}": mean_orbit.sel(interface=interface)
+            for interface in _INTERFACES
+        },
         "orbit_energy_max": of_orbit.max(samples, skipna=False),
         "peak_power_mean": peaks.mean(samples, skipna=False),
         "peak_power_std": peaks.std(samples, skipna=False),
@@ -161,7 +164,7 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     unknown = dict.fromkeys(NUMBERS, math.nan)
     by_row = {
         f"{name}_{row}": float(values.sel(row=row))
-        for name, values in found.items()
+        for name, values in values_of_rows.items()
         for row in result.row.values.tolist()
     }
     return (
@@ -185,9 +188,9 @@ def damage_values(result: xr.Dataset) -> dict[str, xr.DataArray]:
     """Numbers of damage of each row, of the criteria; NaN without details of the contacts."""
     unknown = xr.DataArray(np.full(result.sizes["row"], np.nan), {"row": result.row}, "row")
     if "surface_work" not in result:
-        return {one.run_name: unknown for one in YEARLY}
+        return {yearly.run_name: unknown for yearly in YEARLY}
     criteria = damage(result)
-    values = {one.run_name: one.of_run(criteria, result) for one in YEARLY}
+    values = {yearly.run_name: yearly.of_run(criteria, result) for yearly in YEARLY}
     return {name: unknown if value is None else value for name, value in values.items()}
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.errors import InputError
-from macroslip.input.fields import Form, Given, Quantity
+from macroslip.input.fields import Context, Form, Quantity
 from macroslip.input.units import TEMPERATURE
 from macroslip.scada.bins import JointShares
 
@@ -107,7 +107,7 @@ class ByWind(Form):
 
     form = "a section such as {4: 27 degC, 6: 29 degC}, a wind speed for each bin"
 
-    def read(self, value: Any, given: Given) -> dict[float, float]:
+    def read(self, value: Any, context: Context) -> dict[float, float]:
         """Read every temperature to SI."""
         if not isinstance(value, Mapping) or not value:
             raise self.wrong(value)
@@ -115,7 +115,7 @@ class ByWind(Form):
         if not np.isfinite(speeds).all():
             raise self.wrong(list(value))
         quantity = Quantity(self.about, TEMPERATURE, ZERO_CELSIUS - 60.0, ZERO_CELSIUS + 150.0)
-        oils = [float(quantity.read(at, given) or 0.0) for at in value.values()]
+        oils = [float(quantity.read(at, context) or 0.0) for at in value.values()]
         return dict(zip(speeds, oils, strict=True))
 
 
@@ -133,7 +133,7 @@ class MeasuredYear(Form):
 
     form = "a file, such as scada.yaml, that macroslip scada init writes"
 
-    def read(self, value: Any, given: Given) -> str | JointShares:
+    def read(self, value: Any, context: Context) -> str | JointShares:
         """A path, or the shares that were made of the means."""
         if isinstance(value, JointShares) or (isinstance(value, str) and value):
             return value

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from macroslip.constants import YEAR
 from macroslip.errors import InputError
-from macroslip.input.fields import IN_FILE, Form, Given, Quantity, Text
+from macroslip.input.fields import IN_FILE, Context, Form, Quantity, Text
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import NUMBER
 from macroslip.result.variables import described
@@ -86,10 +86,10 @@ class BinProbabilities:
 
     def probability(self, centre: float, width: float) -> float:
         """Probability of the bin of this centre; InputError if none is given."""
-        for given, probability in self.probabilities.items():
-            if abs(given - centre) < 1e-6 * width:
+        for listed, probability in self.probabilities.items():
+            if abs(listed - centre) < 1e-6 * width:
                 return probability
-        known = ", ".join(f"{given:g}" for given in self.probabilities)
+        known = ", ".join(f"{listed:g}" for listed in self.probabilities)
         raise InputError(
             f"no probability is given for the bin at {centre:g}",
             allowed=known,
@@ -130,12 +130,12 @@ class Rate:
         >>> Rate.written("300 per year"), Rate.written("0.5 h per year")
         (Rate(number=300.0, in_hours=False), Rate(number=0.5, in_hours=True))
         """
-        found = re.fullmatch(r"\s*(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(h)?\s+per\s+year\s*", str(text))
-        if not found:
+        match = re.fullmatch(r"\s*(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(h)?\s+per\s+year\s*", str(text))
+        if not match:
             raise InputError(
                 f"it is {text!r:.100}", allowed="such as '300 per year' or '400 h per year'"
             )
-        return cls(float(found[1]), bool(found[2]))
+        return cls(float(match[1]), bool(match[2]))
 
     def share(self, length: float) -> float:
         """Share of all time, of an event whose record is so long [s]."""
@@ -164,13 +164,13 @@ class _WeibullOrClass(Form):
 
     form = f"a section with the keys scale and shape, or {', '.join(IEC_CLASSES)}"
 
-    def read(self, value: Any, given: Given) -> Weibull:
+    def read(self, value: Any, context: Context) -> Weibull:
         """The distribution."""
         if isinstance(value, str) and value in IEC_CLASSES:
             return IEC_CLASSES[value]
         if not isinstance(value, Mapping):
             raise self.wrong(value)
-        return form_from(Weibull).read(value, given)
+        return form_from(Weibull).read(value, context)
 
     def json(self) -> dict[str, Any]:
         """A class, or an object."""
@@ -293,7 +293,7 @@ class Weighting:
         Examples
         --------
         >>> loads = [Load(name, {"wind_speed": speed}) for name, speed in (("a", 8.0), ("b", 8.0), ("c", 12.0))]
-        >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
+        >>> [round(weight, 3) for weight in Weighting(scale=9.5, shape=2.0).of(loads)]
         [0.308, 0.308, 0.384]
         """
         bins = self._bins(loads, {})
@@ -394,9 +394,9 @@ class Bins:
             bin_numbers(np.asarray(values, dtype=float)[calm], width), return_inverse=True
         )
         names = list(dict.fromkeys(named[~calm].tolist()))
-        place = np.empty(named.size, dtype=int)
-        place[calm] = inside
-        place[~calm] = [numbers.size + names.index(one) for one in named[~calm]]
+        positions = np.empty(named.size, dtype=int)
+        positions[calm] = inside
+        positions[~calm] = [numbers.size + names.index(event) for event in named[~calm]]
         return cls(
             centres=np.concatenate([numbers * width, np.full(len(names), np.nan)]),
             width=width,
@@ -405,7 +405,7 @@ class Bins:
             lengths=np.nan_to_num(
                 [0.0] * numbers.size + [lengths[name] for name in names], nan=1.0
             ),
-            bin=place,
+            bin=positions,
         )
 
     def probabilities(self, weights: Weights) -> np.ndarray:
@@ -426,8 +426,8 @@ class Bins:
         rates = [year.events.get(name) for name in self.events]
         shares = np.array(
             [
-                one.share(length) if one else 0.0
-                for one, length in zip(rates, self.lengths, strict=True)
+                rate.share(length) if rate else 0.0
+                for rate, length in zip(rates, self.lengths, strict=True)
             ]
         )
         if shares.sum() > 1.0:
@@ -437,7 +437,7 @@ class Bins:
             )
         windy = self.events == ""
         wind = np.array(
-            [year.wind.probability(float(one), self.width) for one in self.centres[windy]]
+            [year.wind.probability(float(centre), self.width) for centre in self.centres[windy]]
         )
         # What the wind speeds share has to be a probability that sums in floating-point numbers can
         # still tell from 0.
@@ -469,19 +469,27 @@ class Binning(Bins):
 
     def coordinates(self, study: xr.Dataset, *, bins: bool = True) -> dict[str, Any]:
         """Coordinates of a dataset over `group` and `bin`."""
-        found: dict[str, Any] = {}
+        coordinates: dict[str, Any] = {}
         for name, column in self.groups.items():
             kind = None if column.dtype.kind in "biuf" else object
-            found[str(name)] = ("group", column.to_numpy(dtype=kind), dict(study[str(name)].attrs))
+            coordinates[str(name)] = (
+                "group",
+                column.to_numpy(dtype=kind),
+                dict(study[str(name)].attrs),
+            )
         if bins and self.field is None:
-            found["bin"] = ("bin", self.centres, described("1", "all cases alike"))
+            coordinates["bin"] = ("bin", self.centres, described("1", "all cases alike"))
         elif bins:
             units = study[self.field].attrs["units"]
             about = f"centre of the bin of {self.field}, {self.width:g} {units} wide"
-            found["bin"] = ("bin", self.centres, described(units, about))
+            coordinates["bin"] = ("bin", self.centres, described(units, about))
         if bins and any(self.events):
-            found["event"] = ("bin", self.events, described("1", "event in place of a wind speed"))
-        return found
+            coordinates["event"] = (
+                "bin",
+                self.events,
+                described("1", "event in place of a wind speed"),
+            )
+        return coordinates
 
     def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Mean of the values of each run in each cell, over runs without NaN.
@@ -549,7 +557,7 @@ def binned(
         for name in study.coords
         if study[name].dims == ("case",) and name not in _NO_LABELS
     ]
-    for name, option in (*([(field, "field")] if field else []), *((one, "by") for one in by)):
+    for name, option in (*([(field, "field")] if field else []), *((extra, "by") for extra in by)):
         if name not in labels:
             raise InputError(
                 f"the study has no label '{name}'",
@@ -567,7 +575,9 @@ def binned(
     labels_of_runs = pd.DataFrame({name: study[name].values for name in separate})
     count = study.sizes["case"]
     events = (
-        [str(one) for one in study["event"].values] if field and "event" in labels else [""] * count
+        [str(event) for event in study["event"].values]
+        if field and "event" in labels
+        else [""] * count
     )
     lengths = study["window_length"].to_series().groupby(events).mean() if any(events) else {}
     if field is None:
@@ -595,13 +605,13 @@ def is_parameter(study: xr.Dataset, label: str) -> bool:
 
     Fields of loads have no dot.
     """
-    varied = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
+    variations = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
     keys = (
-        varied.get("grid") or {},
-        (varied.get("sample") or {}).get("ranges") or {},
-        *(varied.get("list") or []),
+        variations.get("grid") or {},
+        (variations.get("sample") or {}).get("ranges") or {},
+        *(variations.get("list") or []),
     )
-    return "." in label or any(label in one for one in keys)
+    return "." in label or any(label in section for section in keys)
 
 
 CHOICES = ("bearing", "lubricant", "model")

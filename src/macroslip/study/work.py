@@ -60,9 +60,9 @@ def case_key(case: Case, options: Mapping[str, Any]) -> str:
     >>> len(key), key == case_key(Case(loads=loads, drag=False), {})
     (64, False)
     """
-    given = case.as_dict()
-    loads = {name: value for name, value in given["loads"].items() if name != "source"}
-    content = {"case": given | {"loads": loads}, "program": program(), "options": options}
+    inputs = case.as_dict()
+    loads = {name: value for name, value in inputs["loads"].items() if name != "source"}
+    content = {"case": inputs | {"loads": loads}, "program": program(), "options": options}
     return hashlib.sha256(
         json.dumps(content, sort_keys=True, ensure_ascii=False).encode()
     ).hexdigest()
@@ -158,22 +158,22 @@ def work_several(
 
     After one that cannot be stored, whose `stop` has the reason, no other is begun.
     """
-    found: list[dict[str, Any]] = []
+    results: list[dict[str, Any]] = []
     for task in tasks:
         try:
-            found.append(work(task, progress))
+            results.append(work(task, progress))
         except StoreError as error:
-            return [*found, {"run": task["run"], "stop": str(error)}]
-    return found
+            return [*results, {"run": task["run"], "stop": str(error)}]
+    return results
 
 
 @functools.lru_cache(maxsize=2)
 def _setup(directory: str, expected: str) -> dict[str, Any]:
     try:
-        manifest, found = read_manifest(Path(directory))
+        manifest, actual = read_manifest(Path(directory))
     except InputError as error:
         raise StoreError(f"a worker does not find the study: {error}") from None
-    if found != expected:
+    if actual != expected:
         raise StoreError(
             f"{directory}: the manifest is not that of this study; another one was begun there."
         )
@@ -186,7 +186,7 @@ def _setup(directory: str, expected: str) -> dict[str, Any]:
 
 
 def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
-    settings = [Setting(*one) for one in task["settings"]]
+    settings = [Setting(*entry) for entry in task["settings"]]
     records = {noun: setup["records"][noun][task[noun]] for noun in RECORDS}
     case, cut = template(setup["case"], settings, records, keep=setup["keep"])
     loads = _loads(task["session"], setup["source"], task["load"], tuple(sorted(cut.items())))
@@ -234,7 +234,11 @@ def _computed(
 
 
 def _failed_rollers(result: xr.Dataset) -> str:
-    failed = [one for one in result.status.stack(one=("row", "roller")) if one != Status.COMPLETED]
+    failed = [
+        status
+        for status in result.status.stack(roller_of_row=("row", "roller"))
+        if status != Status.COMPLETED
+    ]
     if not failed:
         return ""
     first = failed[0]

@@ -153,13 +153,13 @@ class Processes:
 
     def wait(self) -> Done:
         """Wait until something is done; another process takes the place of one that has died."""
-        found: Done = []
-        while self._under_way and not found:
+        finished: Done = []
+        while self._under_way and not finished:
             done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
             for future in done:
                 seat, task = self._under_way.pop(future)
                 try:
-                    found.append((task, future.result()[0]))
+                    finished.append((task, future.result()[0]))
                     self._idle.append(seat)
                 except BrokenProcessPool:
                     self._idle.append(self._another(seat))
@@ -167,8 +167,8 @@ class Processes:
                     if self._deaths[task["run"]] < _DEATHS:
                         self.submit([task])
                     else:
-                        found.append((task, _killed(task)))
-        return found
+                        finished.append((task, _killed(task)))
+        return finished
 
     def _another(self, seat: _Seat) -> _Seat:
         # Without a main guard a process ends by itself as it starts; whoever kills one leaves a
@@ -353,8 +353,8 @@ class Dask:
         """
         from distributed import KilledWorker
 
-        found: Done = []
-        while self._under_way and not found:
+        finished: Done = []
+        while self._under_way and not finished:
             done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
             for future in done:
                 tasks = self._under_way.pop(future)
@@ -364,7 +364,7 @@ class Dask:
                     raise MacroslipError(_GONE) from None
                 except KilledWorker:
                     if len(tasks) == 1:
-                        found.append((tasks[0], _killed(tasks[0])))
+                        finished.append((tasks[0], _killed(tasks[0])))
                     else:  # one of them is the cause
                         self._under_way |= {
                             self._pool.submit(work_several, [task]): [task] for task in tasks
@@ -374,10 +374,10 @@ class Dask:
                     fault += "Is macroslip installed there?"
                     raise MacroslipError(fault) from None
                 else:
-                    found += zip(
+                    finished += zip(
                         tasks, results, strict=False
                     )  # fewer only where the study has to stop
-        return found
+        return finished
 
     def _look(self) -> int:
         """Number of threads of all workers, looked up from time to time.

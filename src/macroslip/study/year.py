@@ -36,19 +36,19 @@ _PEAK = "largest frictional power of any run"
 #: Rates of criteria that a year sums up, and numbers of which the largest counts: by name the
 #: number of a run, unit of the year's, and meaning.
 SUMS = {
-    one.name: (one.run_name, one.year_unit, one.year_meaning)
-    for one in YEARLY
-    if one.drawn != "largest"
+    yearly.name: (yearly.run_name, yearly.year_unit, yearly.year_meaning)
+    for yearly in YEARLY
+    if yearly.drawn != "largest"
 }
 LARGEST = {"peak": ("peak_power_max", "W", _PEAK)} | {
-    one.name: (one.run_name, one.year_unit, one.year_meaning)
-    for one in YEARLY
-    if one.drawn == "largest"
+    yearly.name: (yearly.run_name, yearly.year_unit, yearly.year_meaning)
+    for yearly in YEARLY
+    if yearly.drawn == "largest"
 }
 #: Columns of `designs`.
 DESIGN_COLUMNS = {
     "energy": Column("sum", "J/year", "energy of a mean roller, both rows"),
-    **{one.name: Column(one.drawn, one.unit, one.meaning) for one in YEARLY},
+    **{yearly.name: Column(yearly.drawn, yearly.unit, yearly.meaning) for yearly in YEARLY},
     "peak": Column("largest", "W", "largest power"),
 }
 
@@ -168,33 +168,39 @@ def _lives(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any
     return data
 
 
-def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
+def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     """The designs of `year` side by side, the least energy first, and what is not known.
 
     The table has a line a group, with its number as index: its labels, the columns of
     `DESIGN_COLUMNS` and the lives [h]. Energy and entries are of both rows, the others of the worse
     one. NaN where something is not known; a criterion that no run has is left out.
     """
-    labels = {str(name): one.values for name, one in found.coords.items() if one.dims == ("group",)}
-    table = pd.DataFrame(labels, index=range(found.sizes["group"]))
-    told = []
+    labels = {
+        str(name): coordinate.values
+        for name, coordinate in annual.coords.items()
+        if coordinate.dims == ("group",)
+    }
+    table = pd.DataFrame(labels, index=range(annual.sizes["group"]))
+    notes = []
     missing = []
-    seconds = float(found.covered) * YEAR
-    mean_over = {one.name: seconds * one.mean_over for one in YEARLY if one.mean_over is not None}
+    seconds = float(annual.covered) * YEAR
+    mean_over = {
+        yearly.name: seconds * yearly.mean_over for yearly in YEARLY if yearly.mean_over is not None
+    }
     for name, (drawn, _, about) in DESIGN_COLUMNS.items():
-        known = found[name].where(found.hours > 0.0) if name in found else None
+        known = annual[name].where(annual.hours > 0.0) if name in annual else None
         if known is None or not bool(known.notnull().any()):
             missing.append(about)
             continue
         if drawn == "largest":
             table[name] = known.reduce(np.fmax.reduce, ("bin", "row")).values
             continue
-        values = found[name]
+        values = annual[name]
         if name == "entries":  # they are counted by orbits
-            unknown = values.isnull().all("row").all("group") & (found.hours > 0.0)
+            unknown = values.isnull().all("row").all("group") & (annual.hours > 0.0)
             if bool(unknown.any()):
-                hours = float(found.hours.where(unknown).sum())
-                told.append(
+                hours = float(annual.hours.where(unknown).sum())
+                notes.append(
                     f"Entries leave out {hours:.3g} h a year in which no orbit is complete."
                 )
                 values = values.where(~unknown, 0.0)
@@ -202,19 +208,19 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
         rows = whole.sum("row", skipna=False) if drawn == "sum" else whole.max("row", skipna=False)
         table[name] = rows.values / mean_over.get(name, 1.0)
     for name in LIVES:
-        if name in found and bool(found[name].notnull().any()):
-            table[name] = found[name].values
+        if name in annual and bool(annual[name].notnull().any()):
+            table[name] = annual[name].values
     if missing:
-        told.append(
+        notes.append(
             "Not known, because the results did not keep what it takes or the model has none: "
             f"{', '.join(missing)}."
         )
-    if left_out := int(found.left_out.sum()):
-        told.append(f"{left_out} runs without a result are left out.")
-    return table.sort_values("energy", kind="stable") if "energy" in table else table, told
+    if left_out := int(annual.left_out.sum()):
+        notes.append(f"{left_out} runs without a result are left out.")
+    return table.sort_values("energy", kind="stable") if "energy" in table else table, notes
 
 
-def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str]:
+def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str]:
     """Names of groups by the labels in which they differ.
 
     All labels but choices are named with the last part of their key and their unit.
@@ -226,22 +232,22 @@ def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str
     ['tilt 4 deg', 'tilt 5 deg']
     """
     parts = []
-    for name, one in found.coords.items():
-        units = one.attrs.get("units", "1")
+    for name, label in dataset.coords.items():
+        units = label.attrs.get("units", "1")
         unit = "" if units in ("", "1") else f" {units}"
-        values = one.values.ravel().tolist()
+        values = label.values.ravel().tolist()
         texts = [
             f"{value:.{digits}g}" if isinstance(value, float) else str(value) for value in values
         ]
         if name in ("bearing", "lubricant"):
             texts = file_names(texts)
-        if one.dims == ("group",) and len(set(texts)) > 1:
+        if label.dims == ("group",) and len(set(texts)) > 1:
             # A parameter that only other models set has no value.
             head = "" if name in CHOICES else f"{str(name).rpartition('.')[2].replace('_', ' ')} "
             parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
     return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [
         ""
-    ] * found.sizes["group"]
+    ] * dataset.sizes["group"]
 
 
 def file_names(paths: list[str]) -> list[str]:
@@ -256,7 +262,7 @@ def file_names(paths: list[str]) -> list[str]:
     return short if len(set(short)) == len(set(paths)) else paths
 
 
-def coverage(found: xr.Dataset) -> str:
+def coverage(annual: xr.Dataset) -> str:
     """What share of a year the cases of `year` cover, as a sentence.
 
     Examples
@@ -264,15 +270,15 @@ def coverage(found: xr.Dataset) -> str:
     >>> coverage(xr.Dataset({"hours": ("bin", [4000.0, 66.0, 0.0])}, {"event": ("bin", ["", "start-8", "idle-6"])}))
     'The cases cover 46 % of a year: 4000 h of wind speeds and 66 h of events, whose supervisor is assumed; idle-6 counts nothing.'
     """
-    hours = found.hours.values
-    if not found.attrs.get("weighted", 1):
+    hours = annual.hours.values
+    if not annual.attrs.get("weighted", 1):
         return (
             "The study has no weights: all its cases count alike, as if a year consisted of them."
         )
     covered = f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year"
-    if "event" not in found.coords:
+    if "event" not in annual.coords:
         return f"{covered}, {hours.sum():.0f} h of wind speeds."
-    event = found.event.values.astype(str)
+    event = annual.event.values.astype(str)
     idle = [name for name, own in zip(event, hours, strict=True) if name and own == 0.0]
     nothing = f"; {', '.join(idle)} count{'s' if len(idle) == 1 else ''} nothing" if idle else ""
     assumed = ", whose supervisor is assumed" if set(event) & set(EVENTS) else ""
