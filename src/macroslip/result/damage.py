@@ -167,7 +167,7 @@ def _few_rollers(evaluation: Evaluation) -> list[str]:
     outer_passes = evaluation.result.surface_passes.sel(raceway="outer")
     if simulated == every:
         return []
-    if evaluation.run_input.settings["loads"].get("event"):
+    if evaluation.run_input.is_event:
         reason = "in an event"
     elif bool((outer_passes == 0.0).any()):
         reason = "and these did not pass the whole raceway"

@@ -38,10 +38,10 @@ def position(result: xr.Dataset) -> xr.DataArray:
             "the result has no traces",
             remedy="Give the case traces, such as traces: {step: 0.05 s}.",
         )
-    loads = run_input(result).settings["loads"]
-    if abs(float(result.time[0]) - float(loads["start"])) > 1e-9:
+    start = run_input(result).start
+    if abs(float(result.time[0]) - start) > 1e-9:
         raise InputError(
-            f"the traces begin at {float(result.time[0]):g} s, after the loads' {loads['start']:g} s, "
+            f"the traces begin at {float(result.time[0]):g} s, after the loads' {start:g} s, "
             "and where the "
             "rollers are then is not in the result",
             remedy="Leave traces.start away.",

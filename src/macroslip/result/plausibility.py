@@ -6,7 +6,6 @@ case may be right.
 
 from __future__ import annotations
 
-import json
 import math
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ import numpy as np
 
 from macroslip.constants import RPM
 from macroslip.loads import BearingLoads, HubLoads, RollerLoads
+from macroslip.result.run_input import stored_settings
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -169,7 +169,7 @@ def _doubtful_rating(result: xr.Dataset) -> list[str]:
                 f"the film's formula is outside its range for {100.0 * outside:.3g} % of the "
                 "loaded time at a raceway: film thickness and traction are extrapolated there."
             )
-    bearing = json.loads(result.attrs.get("input", "{}")).get("bearing", {})
+    bearing = stored_settings(result).get("bearing", {})
     if "basic_life" in result and bearing.get("dynamic_load_rating", {}).get("tag") == "D":
         doubts.append(
             "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of "

@@ -1,7 +1,8 @@
-"""The input of a result, from its attributes."""
+"""The input that a result was computed with: bearing, loads and rollers, made once for a result."""
 
 from __future__ import annotations
 
+import functools
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,57 +18,95 @@ from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import RollerModel, roller_model
 
+#: Inputs that are kept in memory: those of the results of a page or a comparison.
+_KEPT = 16
+
 
 class RunInput:
-    """The input of a result: its bearing, its rollers, and `settings`, its attribute `input`."""
+    """The input of a result.
 
-    def __init__(self, settings: dict[str, Any], rows: list[str]):
-        self.settings = settings
-        self.bearing = Bearing.from_dict(settings["bearing"])
+    Parameters
+    ----------
+    settings : dict
+        A case as `Case.as_dict` gives it, with the key `oil_gap` where inlets lack oil.
+    rows : tuple of str
+        Names of the rows of the result.
+
+    Attributes
+    ----------
+    bearing : Bearing
+
+    Raises
+    ------
+    InputError
+        Also from the properties, if the case is not complete.
+    """
+
+    def __init__(self, settings: dict[str, Any], rows: tuple[str, ...]):
+        self._settings = settings
         self._rows = rows
+        with _complete():
+            self.bearing = Bearing.from_dict(settings["bearing"])
+
+    @property
+    def start(self) -> float:
+        """Time at which the loads begin [s]."""
+        with _complete():
+            return float(self._settings["loads"]["start"])
+
+    @property
+    def is_event(self) -> bool:
+        """True if the loads are an event, which stands for itself however short it is."""
+        with _complete():
+            return bool(self._settings["loads"].get("event"))
 
     @cached_property
     def models(self) -> dict[str, RollerModel]:
         """The rollers by row."""
+        settings = self._settings
         with _complete():
-            lubricant = Lubricant.from_dict(self.settings["lubricant"])
-            if self.settings.get("temperature") is not None:
-                lubricant = lubricant.at(self.settings["temperature"])
-            if self.settings.get("oil_gap") is not None:
-                lubricant = lubricant.supplied(self.settings["oil_gap"])
-            laws = Laws(
-                **{
-                    name: choice
-                    for name, choice in self.settings["laws"].items()
-                    if name != "model"
-                }
-            )
-            forces = {name: self.settings["forces"][name] for name in ("gravity", "drag")}
-            tilt = self.settings["drivetrain"]["tilt"]
+            lubricant = Lubricant.from_dict(settings["lubricant"])
+            if settings.get("temperature") is not None:
+                lubricant = lubricant.at(settings["temperature"])
+            if settings.get("oil_gap") is not None:
+                lubricant = lubricant.supplied(settings["oil_gap"])
+            choices = {name: value for name, value in settings["laws"].items() if name != "model"}
+            options = {
+                "tilt": settings["drivetrain"]["tilt"],
+                "gravity": settings["forces"]["gravity"],
+                "drag": settings["forces"]["drag"],
+                "laws": Laws(**choices),
+            }
             return {
-                row: roller_model(
-                    self.bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, laws=laws, **forces
-                )
+                row: roller_model(self.bearing, lubricant, AXIAL_SIGNS[row], **options)
                 for row in self._rows
             }
 
 
 def run_input(result: xr.Dataset) -> RunInput:
-    """Bearing, rollers and settings a result was computed with, from its attribute `input`.
+    """The input of a result of `simulate`, or of one that was read from a file.
+
+    It follows from the attribute `input`, and is made once: parts of a result, which have the same
+    attribute, share it.
 
     Raises InputError if the dataset has no input.
     """
     with _complete():
-        return RunInput(json.loads(result.attrs["input"]), result.row.values.tolist())
+        return _run_input(result.attrs["input"], tuple(result.row.values.tolist()))
+
+
+@functools.lru_cache(maxsize=_KEPT)
+def _run_input(text: str, rows: tuple[str, ...]) -> RunInput:
+    return RunInput(json.loads(text), rows)
 
 
 def stored_settings(result: xr.Dataset) -> dict[str, Any]:
     """The case of a result as its attribute `input` holds it; empty where there is none."""
     try:
-        found = json.loads(result.attrs["input"])
+        settings = json.loads(result.attrs["input"])
     except (KeyError, TypeError, ValueError):
         return {}
-    return found if isinstance(found, dict) else {}
+    return settings if isinstance(settings, dict) else {}
 
 
 @contextmanager

@@ -53,9 +53,9 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
             where="friction torque",
             remedy="Give the case traces, such as traces: {step: 0.05 s}.",
         )
-    given = run_input(result)
-    bearing = given.bearing
-    models = given.models
+    of_result = run_input(result)
+    bearing = of_result.bearing
+    models = of_result.models
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
         fault = f"{missing} rollers of each row are missing" if missing else "a row is missing"

@@ -25,7 +25,7 @@ class Evaluation:
     result : xarray.Dataset
         With details of the contacts.
     run_input : RunInput
-        What it was computed with.
+        Input of the result.
     thresholds : mapping
         Thresholds of one's own by the name of the criterion.
     wear_coefficients : sequence of float
@@ -67,8 +67,7 @@ class Evaluation:
     @property
     def tells_of_year(self) -> bool:
         """True if a year may consist of the window: it has an orbit, or is an event."""
-        is_event = bool(self.run_input.settings["loads"].get("event"))
-        return self.result.sizes["orbit"] > 0 or is_event
+        return self.result.sizes["orbit"] > 0 or self.run_input.is_event
 
     def reference(self, criterion: Criterion) -> float:
         """What a criterion is compared with [unit], one's own threshold or its reference."""
