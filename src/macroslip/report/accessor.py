@@ -64,17 +64,17 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
         )
     for file in files:
         check_regular(file, REMEDY)
-    found = {}
+    datasets = {}
     for file in files:
         try:
             # Units of seconds are units, not times of day.
-            found[file.stem] = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
+            datasets[file.stem] = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
         except (OSError, ValueError, KeyError) as error:
             raise InputError(
                 f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY
             ) from None
-        check_result(found[file.stem], str(file))
-    return found
+        check_result(datasets[file.stem], str(file))
+    return datasets
 
 
 @xr.register_dataset_accessor("macroslip")
@@ -97,27 +97,29 @@ class Macroslip:
         import pandas as pd
 
         result = self._result
-        found = {}
+        columns = {}
         unknown = xr.DataArray(float("nan"))
         for numbers in row_numbers(result):
-            one = result.sel(row=numbers["name"])
-            by_interface = one.energy.mean("roller", skipna=False)
-            found[numbers["name"]] = {
+            of_row = result.sel(row=numbers["name"])
+            by_interface = of_row.energy.mean("roller", skipna=False)
+            columns[numbers["name"]] = {
                 "mean energy per roller [J]": numbers["energy"],
                 "largest energy of a roller [J]": numbers["most"],
                 "energy at the inner raceway [J]": by_interface.sel(interface="inner").item(),
                 "energy at the outer raceway [J]": by_interface.sel(interface="outer").item(),
                 "energy at the cage [J]": by_interface.sel(interface="cage").item(),
                 "rolling energy per roller [J]": float(
-                    one.rolling_energy.sum("interface").mean("roller", skipna=False)
+                    of_row.rolling_energy.sum("interface").mean("roller", skipna=False)
                 ),
                 "highest peak power [W]": numbers["peak"],
                 "lowest spin / pure rolling [1]": numbers["spin"],
-                "largest flash temperature [K]": one.get("flash_temperature", unknown).max().item(),
-                "least film ratio [1]": one.get("min_film_ratio", unknown).min().item(),
+                "largest flash temperature [K]": of_row.get("flash_temperature", unknown)
+                .max()
+                .item(),
+                "least film ratio [1]": of_row.get("min_film_ratio", unknown).min().item(),
                 "failed rollers [1]": numbers["failed"],
             }
-        table = pd.DataFrame(found, dtype=float)
+        table = pd.DataFrame(columns, dtype=float)
         table.attrs = {
             name: result.attrs[name] for name in ("title", "model", "oil") if name in result.attrs
         }
@@ -133,12 +135,12 @@ class Macroslip:
     def _rows(self) -> list[list[str]]:
         return [
             [
-                one["name"],
-                number(one["energy"]),
-                number(one["spin"], 3),
-                f"{one['failed']} of {one['rollers']}",
+                numbers["name"],
+                number(numbers["energy"]),
+                number(numbers["spin"], 3),
+                f"{numbers['failed']} of {numbers['rollers']}",
             ]
-            for one in row_numbers(self._result)
+            for numbers in row_numbers(self._result)
         ]
 
     def __repr__(self) -> str:

@@ -63,26 +63,26 @@ def _outside(bearing: Bearing) -> float:
 
 
 def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
-    station = np.linspace(-half, half, 401)
+    along = np.linspace(-half, half, 401)
     sphere = _MILLI * bearing.outer_raceway_radius
-    raceway = np.sqrt(sphere**2 - station**2)
+    raceway = np.sqrt(sphere**2 - along**2)
     if bearing.outside_diameter is not None:
-        axes.fill_between(station, raceway, _outside(bearing), fc=STEEL, ec="black", lw=1.0)
+        axes.fill_between(along, raceway, _outside(bearing), fc=STEEL, ec="black", lw=1.0)
     if bearing.bore_diameter is not None:
         bore = 0.5 * _MILLI * bearing.bore_diameter
-        inner = _inner_raceway(bearing, np.abs(station))
-        axes.fill_between(station, bore, inner, fc=STEEL, ec="black", lw=1.0)
+        inner = _inner_raceway(bearing, np.abs(along))
+        axes.fill_between(along, bore, inner, fc=STEEL, ec="black", lw=1.0)
     turn = np.radians(np.linspace(-40, 40, 200))
     axes.plot(sphere * np.sin(turn), sphere * np.cos(turn), color=SPHERE, lw=0.8, ls=":")
 
 
-def _inner_raceway(bearing: Bearing, station: NDArray[np.float64]) -> NDArray[np.float64]:
+def _inner_raceway(bearing: Bearing, distance: NDArray[np.float64]) -> NDArray[np.float64]:
     """Distance of the inner raceway from the axis [mm] at distances from the mid-plane [mm]."""
     contour = _MILLI * geometry.inner_raceway_contour_radius(bearing)
     reach = contour - 0.5 * _MILLI * bearing.roller_diameter
     along = _MILLI * bearing.row_offset + reach * math.sin(bearing.contact_angle)
     across = _MILLI * bearing.pitch_radius + reach * math.cos(bearing.contact_angle)
-    return across - np.sqrt(np.maximum(contour**2 - (station - along) ** 2, 0.0))
+    return across - np.sqrt(np.maximum(contour**2 - (distance - along) ** 2, 0.0))
 
 
 def _roller(bearing: Bearing, side: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -94,8 +94,8 @@ def _roller(bearing: Bearing, side: int) -> tuple[NDArray[np.float64], NDArray[n
     along = np.concatenate([along, along[::-1]])
     radius = np.concatenate([radius, -radius[::-1]])
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    station = bearing.row_offset + along * cosine + radius * sine
-    return side * _MILLI * station, _MILLI * (bearing.pitch_radius - along * sine + radius * cosine)
+    axial = bearing.row_offset + along * cosine + radius * sine
+    return side * _MILLI * axial, _MILLI * (bearing.pitch_radius - along * sine + radius * cosine)
 
 
 class _Section(NamedTuple):

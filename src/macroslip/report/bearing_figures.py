@@ -66,11 +66,11 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
     """
     from matplotlib.ticker import MaxNLocator
 
-    one = 1e3 * energy.sel(row=row)
-    width = 360.0 / one.sizes["angle"]
-    theta = np.radians(np.append(one.angle.values, one.angle.values[0] + 360.0))
-    for interface in one.interface.values.tolist():
-        values = one.sel(interface=interface).values
+    of_row = 1e3 * energy.sel(row=row)
+    width = 360.0 / of_row.sizes["angle"]
+    theta = np.radians(np.append(of_row.angle.values, of_row.angle.values[0] + 360.0))
+    for interface in of_row.interface.values.tolist():
+        values = of_row.sel(interface=interface).values
         total = width * values.sum()
         orbit = f"{three_digits(1e-3 * total)} J" if total >= 1e3 else f"{three_digits(total)} mJ"
         label = f"{interface}: {orbit} per orbit"
@@ -99,16 +99,16 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     Takes `film_thickness` [m] and `film_parameter` [1] over (row, interface, quantile, angle). The
     right axis shows the film parameter Λ, film thickness over composite roughness.
     """
-    one = 1e6 * orbit.film_thickness.sel(row=row)
-    angle = one.angle.values
-    for interface in one.interface.values.tolist():
-        low, middle, high = one.sel(interface=interface).transpose("quantile", "angle").values
+    thickness = 1e6 * orbit.film_thickness.sel(row=row)
+    angle = thickness.angle.values
+    for interface in thickness.interface.values.tolist():
+        low, middle, high = thickness.sel(interface=interface).transpose("quantile", "angle").values
         style = INTERFACE[interface]
         axes.fill_between(angle, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
         axes.plot(angle, middle, label=interface, linewidth=1.6, **style)
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(_QUARTERS)
-    if not (one > 0.0).any():
+    if not (thickness > 0.0).any():
         return finish(axes, _ANGLE, "film thickness [µm]", f"{row} row, never touched")
     log_ticks(axes)
     # Rollers without load have no film but play.
@@ -128,9 +128,9 @@ def plot_load_zone(axes: Axes, load: xr.DataArray, row: str) -> Axes:
 
     Takes the array of `macroslip.result.orbit.load_zone` [N].
     """
-    one = 1e-3 * load.sel(row=row)
-    extent = (float(one.time[0]), float(one.time[-1]), 0.0, 360.0)
-    _heat_map(axes, one.values.T, extent, "roller load [kN]", least=1e-3)
+    of_row = 1e-3 * load.sel(row=row)
+    extent = (float(of_row.time[0]), float(of_row.time[-1]), 0.0, 360.0)
+    _heat_map(axes, of_row.values.T, extent, "roller load [kN]", least=1e-3)
     axes.set_yticks(_QUARTERS)
     finish(axes, "time [s]", "angle from the bottom [°]", f"{row} row")
     axes.spines[["top", "right"]].set_visible(True)
@@ -152,21 +152,23 @@ def plot_bearing(axes: Axes, still: xr.Dataset, bearing: Bearing) -> Axes:
     reach = 1.4 * outer
     rollers = []
     for k, row in enumerate(still.row.values.tolist()):
-        one = still.sel(row=row)
+        of_row = still.sel(row=row)
         centre = 2.0 * k * reach
         for ring in (outer, geometry.inner_contact_radius(bearing)):
             axes.add_patch(Circle((centre, 0.0), ring, fill=False, edgecolor=GREY, linewidth=1.2))
-        place = np.array([-np.sin(np.radians(one.angle)), -np.cos(np.radians(one.angle))])
-        ends = np.multiply.outer([1.06 * outer, 1.06 * outer], np.ones(place.shape[1]))
-        ends[1] += 0.3 * outer * one.roller_load.values / most
+        directions = np.array(
+            [-np.sin(np.radians(of_row.angle)), -np.cos(np.radians(of_row.angle))]
+        )
+        ends = np.multiply.outer([1.06 * outer, 1.06 * outer], np.ones(directions.shape[1]))
+        ends[1] += 0.3 * outer * of_row.roller_load.values / most
         axes.plot(
-            centre + ends * place[0],
-            ends * place[1],
+            centre + ends * directions[0],
+            ends * directions[1],
             color=GREY,
             linewidth=3.0,
             solid_capstyle="butt",
         )
-        rollers += [Circle((centre + pitch * x, pitch * y), radius) for x, y in place.T]
+        rollers += [Circle((centre + pitch * x, pitch * y), radius) for x, y in directions.T]
         axes.text(centre, 0.0, row, ha="center", va="center", fontsize=LABEL)
     shown = PatchCollection(rollers, cmap="cividis", edgecolor=BLACK, linewidth=0.6)
     shown.set_array(100.0 * still.slip.transpose("row", "roller").values.ravel())
@@ -215,14 +217,14 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
     and largest.
     """
     for x, width, row, style in _row_bars(share):
-        one = 1e2 * share.sel(row=row)
+        of_row = 1e2 * share.sel(row=row)
         # An interface that never carries load has no share.
-        known = one.notnull().any("roller").values
-        one = one.isel(interface=known)
+        known = of_row.notnull().any("roller").values
+        of_row = of_row.isel(interface=known)
         x = x[known]
-        mean = one.mean("roller").values
-        low = one.min("roller").values
-        high = one.max("roller").values
+        mean = of_row.mean("roller").values
+        low = of_row.min("roller").values
+        high = of_row.max("roller").values
         axes.bar(x, mean, width, **style)
         axes.errorbar(
             x, mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3
@@ -305,17 +307,17 @@ def plot_spin_over_time(axes: Axes, result: xr.Dataset, row: str, roller: int) -
             "the result has no traces",
             remedy="Give the case traces, such as traces: {step: 0.05 s}.",
         )
-    one = result.sel(row=row, roller=roller)
-    time = one.time.values
+    of_roller = result.sel(row=row, roller=roller)
+    time = of_roller.time.values
     axes.plot(
         time,
-        abs(one.spin_pure.values),
+        abs(of_roller.spin_pure.values),
         color=BLACK,
         linestyle="--",
         linewidth=1.2,
         label="pure rolling",
     )
-    axes.plot(time, abs(one.spin.values), color=BLUE, linewidth=1.6, label="roller")
+    axes.plot(time, abs(of_roller.spin.values), color=BLUE, linewidth=1.6, label="roller")
     axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False, fontsize=SMALL)
     return finish(axes, "time [s]", "spin speed |ω| [rad/s]", f"roller {roller} of the {row} row")
@@ -350,9 +352,9 @@ def plot_map(
     # Angles count from +X0, which is a quarter of a turn past the bottom; the bottom is in the
     # middle of the map.
     order = np.argsort((np.degrees(values.angle.values) + 270.0) % 360.0)
-    place = 1e3 * values.station.values
-    half = 0.5 * (place[1] - place[0])
-    extent = (-180.0, 180.0, place[0] - half, place[-1] + half)
+    along = 1e3 * values.station.values
+    half = 0.5 * (along[1] - along[0])
+    extent = (-180.0, 180.0, along[0] - half, along[-1] + half)
     shown = values.transpose("station", "angle").values[:, order]
     _heat_map(axes, shown, extent, units, least=1e-30, difference=difference)
     axes.set_xticks([-180, -90, 0, 90, 180])
@@ -410,12 +412,12 @@ def plot_along_roller(axes: Axes, density: xr.DataArray, row: str) -> Axes:
     Takes the array of `macroslip.result.surface_maps.roller_energy_density` [J/m²].
     """
     density = 1e-6 * density.sel(row=row)
-    place = 1e3 * density.station.values
-    axes.plot(place, density.sum(_SPLIT).values, color=BLACK, label="all", linewidth=1.8)
+    along = 1e3 * density.station.values
+    axes.plot(along, density.sum(_SPLIT).values, color=BLACK, label="all", linewidth=1.8)
     for name, (part, style) in _PARTS.items():
-        one = density.sel(part)
-        values = one.sum([dim for dim in _SPLIT if dim in one.dims]).values
-        axes.plot(place, values, label=name, linewidth=1.5, **style)
+        part_density = density.sel(part)
+        values = part_density.sum([dim for dim in _SPLIT if dim in part_density.dims]).values
+        axes.plot(along, values, label=name, linewidth=1.5, **style)
     axes.set_ylim(bottom=0.0)
     return finish(axes, "place along the roller [mm]", "energy per area [J/mm²]", f"{row} row")
 
@@ -435,11 +437,11 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
 
     Takes a result of a whole bearing.
     """
-    place = result.position.values
+    angle = result.position.values
     values = np.maximum(result.largest_force_by_position.sel(row=row).values, 1e-1)
     # A full turn later, not back across the picture.
     axes.plot(
-        np.append(place, place[0] + 2.0 * np.pi),
+        np.append(angle, angle[0] + 2.0 * np.pi),
         np.append(values, values[0]),
         drawstyle="steps-mid",
     )
@@ -608,8 +610,8 @@ def _row_bars(
 def _values_above(
     axes: Axes, x: np.ndarray, y: np.ndarray, labels: Sequence[str], points: float
 ) -> None:
-    for place, value, label in zip(x, y, labels, strict=True):
-        at = (place, max(value, 0.0))
+    for position, value, label in zip(x, y, labels, strict=True):
+        at = (position, max(value, 0.0))
         axes.annotate(
             label, at, xytext=(0, points), textcoords="offset points", ha="center", fontsize=SMALL
         )
@@ -651,12 +653,15 @@ def plot_skew_over_orbit(axes: Axes, result: xr.Dataset) -> Axes:
     power = axes.twinx()
     for row in result.row.values.tolist():
         colour = ROW[row]["color"]
-        one = result.sel(row=row)
+        of_row = result.sel(row=row)
         axes.plot(
-            angle[order], 1e3 * one.skew_by_position.values[order], color=colour, label=f"{row} row"
+            angle[order],
+            1e3 * of_row.skew_by_position.values[order],
+            color=colour,
+            label=f"{row} row",
         )
         power.plot(
-            angle[order], one.skew_power_by_position.values[order], color=colour, linestyle="--"
+            angle[order], of_row.skew_power_by_position.values[order], color=colour, linestyle="--"
         )
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     axes.set_xlim(0.0, 360.0)

@@ -298,7 +298,7 @@ def compare_designs(
     labels = _labels_of_designs(study, by, varied)
     parts = _parts(study, labels)
     years = {name: year(part, aggregation) for name, part in parts.items()}
-    numbers = {name: _year_numbers(found) for name, found in years.items()}
+    numbers = {name: _year_numbers(annual) for name, annual in years.items()}
     first, *others = parts
     total = numbers[first][ENERGY, "J/year"]
     bins = aggregation.bins(parts[first])
@@ -391,23 +391,23 @@ def _design_notes(
             f"{'; '.join(same)} differ in nothing but their names: "
             "they were computed from the same input."
         )
-    unknown = itertools.chain(*(designs(found)[1] for found in years.values()))
+    unknown = itertools.chain(*(designs(annual)[1] for annual in years.values()))
     return [*notes, *dict.fromkeys(unknown)]
 
 
-def _year_numbers(found: xr.Dataset) -> dict[tuple[str, str], float]:
+def _year_numbers(annual: xr.Dataset) -> dict[tuple[str, str], float]:
     """Numbers of a year of one design by quantity and unit."""
-    table, _ = designs(found)
+    table, _ = designs(annual)
     numbers = {(ENERGY, "J/year"): np.nan}
     for name, (_, units, about) in DESIGN_COLUMNS.items():
         if name in table:
             numbers[about, units] = float(table[name].iloc[0])
-    for row in found.row.values.tolist():
-        energy = found.total.isel(group=0).sel(row=row)
+    for row in annual.row.values.tolist():
+        energy = annual.total.isel(group=0).sel(row=row)
         numbers[f"energy of a mean roller, {row}", "J/year"] = float(energy)
     for name in LIVES:
-        if name in found:
-            numbers[name.replace("_", " "), "h"] = float(found[name][0])
+        if name in annual:
+            numbers[name.replace("_", " "), "h"] = float(annual[name][0])
     return numbers
 
 

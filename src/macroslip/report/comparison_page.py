@@ -38,31 +38,34 @@ _MOST_NAMED = 4
 
 
 def comparison_page(
-    found: pd.DataFrame, results: Mapping[str, xr.Dataset] | None = None, *, title: str = ""
+    comparison: pd.DataFrame, results: Mapping[str, xr.Dataset] | None = None, *, title: str = ""
 ) -> str:
     """A page on what `macroslip.compare` gives, with curves of the results by name."""
     results = results or {}
     text = words(_TEMPLATE)
-    numbers, criteria, inputs = comparison_tables(found)
+    numbers, criteria, inputs = comparison_tables(comparison)
     bodies = {"side": text.shown(numbers)}
     if criteria.rows:
-        bodies["damage"] = text.criteria(criteria, _criteria_pictures(found))
+        bodies["damage"] = text.criteria(criteria, _criteria_pictures(comparison))
     if inputs.rows:
         bodies["inputs"] = text.shown(inputs)
     maps, have_differences = _maps(results)
     if maps:
         bodies["maps"] = text.maps(maps, have_differences)
     return render(
-        title or f"Comparison of {', '.join(found['design'].unique()[:_MOST_NAMED])}",
-        f"{found.attrs['about']}.",
-        Opening(text.answer(ranking_sentences(found), found.attrs["notes"]), _exceedances(results)),
+        title or f"Comparison of {', '.join(comparison['design'].unique()[:_MOST_NAMED])}",
+        f"{comparison.attrs['about']}.",
+        Opening(
+            text.answer(ranking_sentences(comparison), comparison.attrs["notes"]),
+            _exceedances(results),
+        ),
         sections(_TEMPLATE, bodies),
     )
 
 
-def _criteria_pictures(found: pd.DataFrame) -> list[Picture]:
+def _criteria_pictures(comparison: pd.DataFrame) -> list[Picture]:
     """Criteria of damage of every result, value over reference."""
-    by_name = found.attrs["criteria"]
+    by_name = comparison.attrs["criteria"]
     count = len({line["title"] for lines in by_name.values() for line in lines})
     about = "Criteria of damage of every result: value over reference with what it is known to"
     height = 0.9 + count * (0.25 + 0.1 * len(by_name))
@@ -88,7 +91,10 @@ def _exceedances(results: Mapping[str, xr.Dataset]) -> list[Picture]:
         picture(
             _plot_exceeded,
             f"Share of orbits beyond a value: {label}, every result on one scale",
-            {name: np.sort(one.values.ravel())[::-1] for name, one in of_results.items()},
+            {
+                name: np.sort(of_orbits.values.ravel())[::-1]
+                for name, of_orbits in of_results.items()
+            },
             label,
             **OPENING,
         )
@@ -123,7 +129,7 @@ def _maps(results: Mapping[str, xr.Dataset]) -> tuple[list[Picture], bool]:
                 # Angles of different maps may differ in the last bit.
                 differences[raceway, f"{name} − {first}"] = maps[raceway] - start.values
     drawn = _drawn_maps(values) | _drawn_maps(differences, difference=True)
-    pictures = [drawn[place] for raceway in rates[first] for place in drawn if place[0] == raceway]
+    pictures = [drawn[key] for raceway in rates[first] for key in drawn if key[0] == raceway]
     return pictures, bool(differences)
 
 
@@ -150,15 +156,17 @@ def _plot_exceeded(axes: Axes, curves: Mapping[str, np.ndarray], label: str) -> 
     return finish(axes, label, "orbits above it [%]")
 
 
-def comparison_tables(found: pd.DataFrame) -> list[Table]:
+def comparison_tables(comparison: pd.DataFrame) -> list[Table]:
     """Headline numbers side by side, criteria of damage alike, and inputs that differ."""
-    names = list(dict.fromkeys(found["design"]))
-    rows = [_line(quantity, designs) for quantity, designs in found.groupby("quantity", sort=False)]
-    has_ranges = bool(np.isfinite(found["low [%]"]).any())
+    names = list(dict.fromkeys(comparison["design"]))
+    rows = [
+        _line(quantity, designs) for quantity, designs in comparison.groupby("quantity", sort=False)
+    ]
+    has_ranges = bool(np.isfinite(comparison["low [%]"]).any())
     headings = ["", names[0]]
     for name in names[1:]:
         headings += [name, "difference [%]"]
-    inputs = found.attrs["inputs"]
+    inputs = comparison.attrs["inputs"]
     shown = [
         (key, *(_short(values[name]) for name in names))
         for key, values in itertools.islice(inputs.items(), _MOST_INPUTS)
@@ -166,7 +174,7 @@ def comparison_tables(found: pd.DataFrame) -> list[Table]:
     more = f"; the first {_MOST_INPUTS} of {len(inputs)}" if len(inputs) > _MOST_INPUTS else ""
     return [
         Table(headings, rows, _RANGE if has_ranges else "Headline numbers"),
-        _criteria_table(found.attrs.get("criteria", {})),
+        _criteria_table(comparison.attrs.get("criteria", {})),
         Table(("input", *names), shown, f"Inputs that differ{more}"),
     ]
 

@@ -72,15 +72,15 @@ def environment() -> Environment:
     """Templates of this package, every text in them escaped."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    found = Environment(
+    templates = Environment(
         loader=PackageLoader("macroslip.report"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    found.filters |= {"three": three_digits, "number": number, "as_json": _as_json}
-    return found
+    templates.filters |= {"three": three_digits, "number": number, "as_json": _as_json}
+    return templates
 
 
 def words(template: str) -> Any:
@@ -111,7 +111,7 @@ def sections(
     ]
 
 
-def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]) -> str:
+def render(title: str, subtitle: str, opening: Opening, parts: Iterable[Section]) -> str:
     """One HTML page with style, script, pictures and data inside it, every text escaped.
 
     Parameters
@@ -120,7 +120,7 @@ def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]
         Heading, and what stands below it.
     opening : Opening
         Always shown, under the name "answer".
-    found : iterable of Section
+    parts : iterable of Section
         Folded until links, a search in the page or printing open them.
 
     Notes
@@ -131,7 +131,7 @@ def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]
     script = "".join(
         (files / name).read_text(encoding="utf-8") for name in ("bearing_view.js", "folds.js")
     )
-    shown = [one for one in found if one.body.strip()]
+    shown = [part for part in parts if part.body.strip()]
     return (
         environment()
         .get_template("page.html")
@@ -141,7 +141,7 @@ def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]
             opening=opening,
             groups=[
                 (group, list(some))
-                for group, some in itertools.groupby(shown, lambda one: one.group)
+                for group, some in itertools.groupby(shown, lambda part: part.group)
             ],
             style=(files / "report.css").read_text(encoding="utf-8"),
             script=script,

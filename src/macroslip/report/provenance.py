@@ -23,8 +23,8 @@ _DOI = re.compile(r"doi:\s*(10\.\S+?)[.;,)]?(?=\s|$)")
 
 def provenance_section(datasets: Mapping[str, xr.Dataset]) -> Section:
     """The section on the origin of every number of a page, of results or studies by name."""
-    given = {name: stored_settings(one) for name, one in datasets.items()}
-    sources = sorted({one.attrs.get("source", "not given") for one in datasets.values()})
+    settings = {name: stored_settings(dataset) for name, dataset in datasets.items()}
+    sources = sorted({dataset.attrs.get("source", "not given") for dataset in datasets.values()})
     program = [("computed by", ", ".join(sources))]
     program += [
         (f"this page: {key}", str(value)) for key, value in machine().items() if value is not None
@@ -42,8 +42,8 @@ def provenance_section(datasets: Mapping[str, xr.Dataset]) -> Section:
         ),
     ]
     for part in ("bearing", "lubricant", ""):
-        tables += _input_tables(given, part)
-    if (loads := _loads(given)).rows:
+        tables += _input_tables(settings, part)
+    if (loads := _loads(settings)).rows:
         tables.append(loads)
     notes = sorted(set(_lines(datasets, "film_range_notes")))
     supply = sorted(set(_lines(datasets, "oil_supply_note")))
@@ -54,32 +54,36 @@ def provenance_section(datasets: Mapping[str, xr.Dataset]) -> Section:
 
 
 def _lines(datasets: Mapping[str, xr.Dataset], attribute: str) -> list[str]:
-    return [line for one in datasets.values() for line in one.attrs.get(attribute, "").splitlines()]
+    return [
+        line
+        for dataset in datasets.values()
+        for line in dataset.attrs.get(attribute, "").splitlines()
+    ]
 
 
-def _input_tables(given: Mapping[str, Mapping[str, Any]], part: str) -> list[Table]:
+def _input_tables(settings_by_name: Mapping[str, Mapping[str, Any]], part: str) -> list[Table]:
     """A table of each different bearing, lubricant or rest of the input, and whose it is."""
-    found: dict[str, list[str]] = {}
-    for name, settings in given.items():
-        rest = {
-            key: one
-            for key, one in settings.items()
+    names_by_content: dict[str, list[str]] = {}
+    for name, settings in settings_by_name.items():
+        further = {
+            key: entry
+            for key, entry in settings.items()
             if key not in ("bearing", "lubricant", "loads")
         }
-        value = settings.get(part) if part else rest
+        value = settings.get(part) if part else further
         if isinstance(value, dict) and value:
-            found.setdefault(json.dumps(value, ensure_ascii=False), []).append(name)
+            names_by_content.setdefault(json.dumps(value, ensure_ascii=False), []).append(name)
     tables = []
-    for text, names in found.items():
+    for text, names in names_by_content.items():
         title = (part.capitalize() or "Further input") + (
-            f" ({', '.join(names)})" if len(found) > 1 else ""
+            f" ({', '.join(names)})" if len(names_by_content) > 1 else ""
         )
         value = json.loads(text)
         if part:
             tables.append(
                 Table(
                     ("quantity", "value", "from", "note"),
-                    [_entry(*one) for one in value.items()],
+                    [_entry(*entry) for entry in value.items()],
                     title,
                 )
             )
@@ -87,7 +91,7 @@ def _input_tables(given: Mapping[str, Mapping[str, Any]], part: str) -> list[Tab
             tables.append(
                 Table(
                     ("input", "value (SI units)"),
-                    [(key, _text(one)) for key, one in value.items()],
+                    [(key, _text(entry)) for key, entry in value.items()],
                     title,
                 )
             )
@@ -102,13 +106,13 @@ def _entry(key: str, entry: Any) -> tuple[str, str, str, str]:
     return key, value, TAGS.get(tag, tag), str(entry.get("note", ""))
 
 
-def _loads(given: Mapping[str, Mapping[str, Any]]) -> Table:
+def _loads(settings_by_name: Mapping[str, Mapping[str, Any]]) -> Table:
     rows = []
-    for name, settings in given.items():
+    for name, settings in settings_by_name.items():
         loads = settings.get("loads", [])
-        for one in loads if isinstance(loads, list) else [loads]:
+        for history in loads if isinstance(loads, list) else [loads]:
             *values, checksum = (
-                str(one.get(key, "")) for key in ("source", "samples", "start", "end", "sha256")
+                str(history.get(key, "")) for key in ("source", "samples", "start", "end", "sha256")
             )
             rows.append((name, *values, checksum[:16]))
     return Table(
@@ -120,7 +124,7 @@ def _loads(given: Mapping[str, Mapping[str, Any]]) -> Table:
 
 def _text(value: Any) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{key} {_text(one)}" for key, one in value.items())
+        return ", ".join(f"{key} {_text(entry)}" for key, entry in value.items())
     return "none" if value is None else with_unit(value, "1")
 
 

@@ -25,16 +25,16 @@ _TEMPLATE = "real_year.html"
 _SHARED = {"share": "time", "energy [J]": "energy", "wear [m]": "wear"}
 
 
-def verdict(found: RealYear) -> list[str]:
+def verdict(real_year: RealYear) -> list[str]:
     """What a reader has to know first, in sentences.
 
     How much the mean temperature decides, and how much the place of the sensor.
     """
-    first = found.table[found.table["design"] == found.table["design"].iloc[0]]
+    first = real_year.table[real_year.table["design"] == real_year.table["design"].iloc[0]]
     of = first.set_index("quantity")
     temperatures = (
-        f"The oil is at {found.mean_production:.1f} °C in the mean while the rotor turns, "
-        f"{found.mean_standing:.1f} °C while it stands."
+        f"The oil is at {real_year.mean_production:.1f} °C in the mean while the rotor turns, "
+        f"{real_year.mean_standing:.1f} °C while it stands."
     )
     energy = of.loc["energy"]
     told = [f"{temperatures} Energy is {energy['real_over_fixed']:.2f} of that at 35 °C."]
@@ -56,27 +56,27 @@ def verdict(found: RealYear) -> list[str]:
     return told
 
 
-def real_year_page(found: RealYear) -> str:
+def real_year_page(real_year: RealYear) -> str:
     """A page on what `macroslip.real_year` gives: HTML in one piece."""
     text = words(_TEMPLATE)
-    designs = list(dict.fromkeys(found.table["design"]))
+    designs = list(dict.fromkeys(real_year.table["design"]))
     first = designs[0]
-    of_first = found.bins[found.bins["design"] == first]
+    of_first = real_year.bins[real_year.bins["design"] == first]
     bodies = {
-        "numbers": text.numbers(_table(found.table)),
+        "numbers": text.numbers(_table(real_year.table)),
         "where": text.where(_maps(of_first), _coarse(of_first)),
         "how": text.how(),
     }
-    table = found.table[found.table["design"] == first]
+    table = real_year.table[real_year.table["design"] == first]
     opening = Opening(
-        text.answer(verdict(found), found.notes),
+        text.answer(verdict(real_year), real_year.notes),
         [
             picture(plot_over_fixed, "A year over one at 35 °C", table, legend="below"),
             *_maps(of_first)[2:],
         ],
     )
     of_designs = f"; {len(designs)} designs, pictures of {first}" if len(designs) > 1 else ""
-    subtitle = f"{found.source}{of_designs}."
+    subtitle = f"{real_year.source}{of_designs}."
     return render("A real year", subtitle, opening, sections(_TEMPLATE, bodies))
 
 

@@ -80,19 +80,21 @@ def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
     peak = result.get("window_peak_power", result.get("peak_power"))
     if peak is None or not bool(peak.notnull().any()):
         return None
-    place = peak.where(peak == peak.max(), drop=True).isel(row=0, interface=0)
+    at_peak = peak.where(peak == peak.max(), drop=True).isel(row=0, interface=0)
     return {
         "power": float(peak.max()),
-        "row": place.row.item(),
-        "interface": place.interface.item(),
+        "row": at_peak.row.item(),
+        "interface": at_peak.interface.item(),
     }
 
 
 def estimated_values(result: xr.Dataset) -> tuple[int, int]:
     """How many values of bearing and lubricant are engineering estimates, and of how many."""
-    given = stored_settings(result)
+    settings = stored_settings(result)
     entries = [
-        one for part in ("bearing", "lubricant") for one in dict(given.get(part) or {}).values()
+        value
+        for part in ("bearing", "lubricant")
+        for value in dict(settings.get(part) or {}).values()
     ]
     tags = [entry.get("tag") for entry in entries if isinstance(entry, dict)]
     return tags.count("E"), len(tags)
@@ -100,8 +102,10 @@ def estimated_values(result: xr.Dataset) -> tuple[int, int]:
 
 def rollers_failed(results: Iterable[xr.Dataset]) -> tuple[int, int]:
     """How many rollers of some datasets failed, and how many there are."""
-    statuses = [one.status for one in results]
-    return sum(int((one != 0).sum()) for one in statuses), sum(int(one.size) for one in statuses)
+    statuses = [result.status for result in results]
+    return sum(int((status != 0).sum()) for status in statuses), sum(
+        int(status.size) for status in statuses
+    )
 
 
 def failures(name: str, result: xr.Dataset) -> list[dict[str, Any]]:
@@ -113,13 +117,13 @@ def failures(name: str, result: xr.Dataset) -> list[dict[str, Any]]:
     return [
         {
             "name": name,
-            "row": one.row.item(),
-            "roller": one.roller.item(),
-            "time": float(one.end_time),
-            "slip": float(one.end_slip),
-            "how": Status(int(one.status)).sentence,
+            "row": end.row.item(),
+            "roller": end.roller.item(),
+            "time": float(end.end_time),
+            "slip": float(end.end_slip),
+            "how": Status(int(end.status)).sentence,
         }
-        for one in ends
+        for end in ends
     ]
 
 
@@ -151,15 +155,21 @@ def is_whole(result: xr.Dataset) -> bool:
 def counterpart(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> str | None:
     """Name of the result on imposed orbits of the same case."""
 
-    def rest(one: xr.Dataset) -> dict[str, Any]:
-        return {key: value for key, value in stored_settings(one).items() if key not in _OWN_KEYS}
+    def common_settings(dataset: xr.Dataset) -> dict[str, Any]:
+        return {
+            key: value for key, value in stored_settings(dataset).items() if key not in _OWN_KEYS
+        }
 
-    others = {name: one for name, one in results.items() if one is not result and not is_whole(one)}
+    others = {
+        name: dataset
+        for name, dataset in results.items()
+        if dataset is not result and not is_whole(dataset)
+    }
     return next(
         (
             name
-            for name, one in others.items()
-            if "input" in one.attrs and rest(one) == rest(result)
+            for name, dataset in others.items()
+            if "input" in dataset.attrs and common_settings(dataset) == common_settings(result)
         ),
         None,
     )
@@ -186,7 +196,7 @@ def comparison_table(result: xr.Dataset, imposed: xr.Dataset) -> Table:
     ratio = now / before.where(before > 0.0)
     rows = []
     for row, interface in itertools.product(now.row.values, now.interface.values):
-        energies = [float(one.sel(row=row, interface=interface)) for one in (before, now)]
+        energies = [float(side.sel(row=row, interface=interface)) for side in (before, now)]
         cells = [f"{energy:.4g}" for energy in energies]
         rows.append((row, interface, *cells, number(ratio.sel(row=row, interface=interface))))
     return Table(("row", "interface", "imposed orbit [J]", "whole bearing [J]", "ratio"), rows)
@@ -220,26 +230,32 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
     """The rating of a result: the bearing as a whole, its raceways, damage-equivalent loads."""
     whole = [(str(result[name].attrs["long_name"]), rating_text(result[name])) for name in _RATING]
     for along, words in (("hertz", "as in a Hertz contact"), ("uniform", "even along the roller")):
-        one = result.sel(load_along_roller=along)
+        under_load = result.sel(load_along_roller=along)
         whole.append(
-            (f"reference life, ISO/TS 16281, load {words}", rating_text(one.reference_life))
+            (f"reference life, ISO/TS 16281, load {words}", rating_text(under_load.reference_life))
         )
         whole.append(
-            (f"modified reference life, load {words}", rating_text(one.modified_reference_life))
+            (
+                f"modified reference life, load {words}",
+                rating_text(under_load.modified_reference_life),
+            )
         )
     raceways = []
     for row in result.row.values.tolist():
         for raceway in ("inner", "outer"):
-            one = result.sel(row=row, raceway=raceway, load_along_roller="hertz")
+            at_raceway = result.sel(row=row, raceway=raceway, load_along_roller="hertz")
             values = (
-                1e-3 * one.largest_roller_load,
-                1e-9 * one.largest_pressure,
-                one.film_ratio,
-                one.film_ratio_low,
+                1e-3 * at_raceway.largest_roller_load,
+                1e-9 * at_raceway.largest_pressure,
+                at_raceway.film_ratio,
+                at_raceway.film_ratio_low,
             )
             cells = [
                 rating_text(value)
-                for value in (*(one.drop_attrs() for one in values), one.raceway_reference_life)
+                for value in (
+                    *(drawn.drop_attrs() for drawn in values),
+                    at_raceway.raceway_reference_life,
+                )
             ]
             raceways.append((f"{row}, {raceway}", *cells))
     headings = (
@@ -255,14 +271,14 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
         (
             load,
             *(
-                rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one))
-                for one in exponents
+                rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=exponent))
+                for exponent in exponents
             ),
         )
         for load in result["load"].values.tolist()
     ]
     loads = Table(
-        ("load", *(f"exponent {one:g}" for one in exponents)),
+        ("load", *(f"exponent {exponent:g}" for exponent in exponents)),
         ranges,
         "Damage-equivalent load, range at 1 Hz",
     )
@@ -296,17 +312,17 @@ def rating_text(value: xr.DataArray) -> str:
     >>> rating_text(xr.DataArray(1.5e5, attrs={"units": "N"}))
     '150 kN'
     """
-    found = float(value)
+    amount = float(value)
     units = value.attrs.get("units", "")
-    if not np.isfinite(found):
-        return "unlimited" if found > 0.0 else "–"
+    if not np.isfinite(amount):
+        return "unlimited" if amount > 0.0 else "–"
     if units == "N":
-        return f"{1e-3 * found:.4g} kN"
+        return f"{1e-3 * amount:.4g} kN"
     if units == "Pa":
-        return f"{1e-9 * found:.3g} GPa"
+        return f"{1e-9 * amount:.3g} GPa"
     if units == "h":
-        return years(found)
-    return f"{100.0 * found:.3g} %" if str(value.name).startswith("share") else f"{found:.3g}"
+        return years(amount)
+    return f"{100.0 * amount:.3g} %" if str(value.name).startswith("share") else f"{amount:.3g}"
 
 
 def usual_units(value: float, unit: str) -> str:
@@ -324,10 +340,10 @@ def usual_units(value: float, unit: str) -> str:
     scale, name = {"W/m2": (1e-6, " W/mm²"), "J/m2": (1e-6, " J/mm²"), "1": (1.0, "")}.get(
         unit, (1.0, f" {unit}")
     )
-    found = value * scale
-    if name == " J/mm²" and found >= 1e3:
-        found, name = (1e-6 * found, " MJ/mm²") if found >= 1e6 else (1e-3 * found, " kJ/mm²")
-    return f"{float(f'{found:.2g}'):g}{name}"
+    scaled = value * scale
+    if name == " J/mm²" and scaled >= 1e3:
+        scaled, name = (1e-6 * scaled, " MJ/mm²") if scaled >= 1e6 else (1e-3 * scaled, " kJ/mm²")
+    return f"{float(f'{scaled:.2g}'):g}{name}"
 
 
 def criteria_table(lines: Sequence[Mapping[str, Any]]) -> Table:

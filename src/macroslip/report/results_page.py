@@ -72,25 +72,27 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
         _check(name, dataset)
     shown = {name: _shown(result) for name, result in itertools.islice(results.items(), DETAILED)}
     is_alone = len(results) == 1
-    found = sections(_TEMPLATE, {"numbers": _numbers(results, is_alone), "bearing": _motion(shown)})
-    for place, (name, one) in enumerate(shown.items()):
-        found += sections(
+    parts = sections(_TEMPLATE, {"numbers": _numbers(results, is_alone), "bearing": _motion(shown)})
+    for number, (name, details) in enumerate(shown.items()):
+        parts += sections(
             _TEMPLATE,
-            _roller_bodies(one) | _surface_bodies(one.result) | _further_bodies(one, results),
-            suffix=f"-{place}" if place else "",
+            _roller_bodies(details)
+            | _surface_bodies(details.result)
+            | _further_bodies(details, results),
+            suffix=f"-{number}" if number else "",
             group="" if is_alone else name,
         )
-    found.append(provenance_section(results))
+    parts.append(provenance_section(results))
     if is_alone:
         (only,) = shown.values()
-        return render(title, _subtitle(only.result), result_opening(only), found)
+        return render(title, _subtitle(only.result), result_opening(only), parts)
     names = ", ".join(list(results)[:_NAMED]) + (" …" if len(results) > _NAMED else "")
-    return render(title, f"{len(results)} results: {names}.", results_opening(results), found)
+    return render(title, f"{len(results)} results: {names}.", results_opening(results), parts)
 
 
 def _check(name: str, dataset: xr.Dataset) -> None:
-    missing = [one for one in ("energy", "status") if one not in dataset]
-    missing += [one for one in ("row", "roller", "interface") if one not in dataset.dims]
+    missing = [variable for variable in ("energy", "status") if variable not in dataset]
+    missing += [dim for dim in ("row", "roller", "interface") if dim not in dataset.dims]
     if missing:
         raise InputError(
             f"the dataset has no {', no '.join(missing)}",
@@ -181,13 +183,13 @@ def _bars(plot: Callable[..., object], about: str, values: xr.DataArray) -> list
 
 def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
     """The opening for several results."""
-    by_result = {name: numbers.row_numbers(one) for name, one in results.items()}
+    by_result = {name: numbers.row_numbers(result) for name, result in results.items()}
     rows = [row["name"] for row in next(iter(by_result.values()))]
     extremes: dict[str, dict[str, Any]] = {}
     pictures = []
     for key, label, is_least in _EXTREMES:
-        by_row = [{row["name"]: row[key] for row in found} for found in by_result.values()]
-        values = np.array([[found.get(row) for row in rows] for found in by_row], dtype=float)
+        by_row = [{row["name"]: row[key] for row in lines} for lines in by_result.values()]
+        values = np.array([[known.get(row) for row in rows] for known in by_row], dtype=float)
         if np.isfinite(values).any():
             extreme = np.nanargmin(values) if is_least else np.nanargmax(values)
             which, row = np.unravel_index(extreme, values.shape)
@@ -209,7 +211,9 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
             )
     failed = numbers.rollers_failed(results.values())
     sentences = words(_TEMPLATE).comparison(len(results), *failed, extremes)
-    doubts = [f"{name}: {line}" for name, one in results.items() for line in doubtful_result(one)]
+    doubts = [
+        f"{name}: {line}" for name, result in results.items() for line in doubtful_result(result)
+    ]
     return Opening(sentences + words("parts.html").doubts(doubts), pictures)
 
 
@@ -239,11 +243,11 @@ def _numbers(results: Mapping[str, xr.Dataset], is_alone: bool) -> Markup:
 
 def _motion(shown: Mapping[str, ShownResult]) -> Markup | str:
     """The moving bearing of the first results with traces; empty if none has them."""
-    moving = {name: one for name, one in shown.items() if one.profile}
+    moving = {name: details for name, details in shown.items() if details.profile}
     moving = dict(itertools.islice(moving.items(), MOVING))
     if not moving:
         return ""
-    scenes = {name: one.profile["scene"] for name, one in moving.items() if one.profile}
+    scenes = {name: details.profile["scene"] for name, details in moving.items() if details.profile}
     drawn = {
         name: scene_data(scene, run_input(moving[name].result).bearing)
         for name, scene in scenes.items()
@@ -381,14 +385,14 @@ def _damage(shown: ShownResult) -> Markup:
 
 def map_pictures(energy: xr.DataArray, density: xr.DataArray) -> list[Any]:
     """Maps of energy [J/m²] and power [W/m²] per area, each followed by their maxima."""
-    found: list[Any] = []
+    pictures: list[Any] = []
     for values, units in ((energy, "J/mm²"), (density, "W/mm²")):
         panels = {
-            f"Map of the {title}, {units}": (one, units, title)
-            for title, one in draw.raceways(values).items()
+            f"Map of the {title}, {units}": (of_raceway, units, title)
+            for title, of_raceway in draw.raceways(values).items()
         }
-        found += [compared(draw.plot_map, panels), numbers.by_raceway(1e-6 * values)]
-    return found
+        pictures += [compared(draw.plot_map, panels), numbers.by_raceway(1e-6 * values)]
+    return pictures
 
 
 def whole_body(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> Markup:

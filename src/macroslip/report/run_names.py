@@ -56,10 +56,10 @@ def _inlet_temperatures(study: xr.Dataset) -> list[str]:
     return list(dict.fromkeys(f"{float(end):.3g}" for end in (warm.min(), warm.max())))
 
 
-def situation(found: xr.Dataset, number: int) -> str:
+def situation(annual: xr.Dataset, number: int) -> str:
     """Name of a bin: its wind speed, or its event."""
-    event = str(found.event.values[number]) if "event" in found.coords else ""
-    return event or f"{float(found.bin[number]):g} {found.bin.attrs['units']}"
+    event = str(annual.event.values[number]) if "event" in annual.coords else ""
+    return event or f"{float(annual.bin[number]):g} {annual.bin.attrs['units']}"
 
 
 def case_names(study: xr.Dataset) -> list[str]:

@@ -77,10 +77,10 @@ def result_sheets(
 
 def _by_dimensions(result: xr.Dataset) -> dict[tuple[Hashable, ...], list[str]]:
     """Names of the variables of a result by their dimensions."""
-    found: dict[tuple[Hashable, ...], list[str]] = {}
+    names: dict[tuple[Hashable, ...], list[str]] = {}
     for name, variable in result.data_vars.items():
-        found.setdefault(variable.dims, []).append(str(name))
-    return found
+        names.setdefault(variable.dims, []).append(str(name))
+    return names
 
 
 def _scalars(result: xr.Dataset) -> pd.DataFrame:
@@ -96,7 +96,9 @@ def damage_sheets(
     """Criteria of damage with what they are made from, by names of sheets; last the input."""
     sheets = {"criteria": pd.DataFrame(list(lines))}
     # Coordinates without dimension are references, which the criteria have.
-    rates = criteria.drop_vars([name for name, one in criteria.coords.items() if not one.dims])
+    rates = criteria.drop_vars(
+        [name for name, coordinate in criteria.coords.items() if not coordinate.dims]
+    )
     for dims, names in _by_dimensions(rates).items():
         if dims and "criterion" not in dims and not _LARGE & set(dims):
             sheets[" ".join(map(str, dims))] = as_table(rates, names)
@@ -105,13 +107,13 @@ def damage_sheets(
 
 
 def comparison_sheets(
-    found: pd.DataFrame, datasets: Mapping[str, xr.Dataset]
+    comparison: pd.DataFrame, datasets: Mapping[str, xr.Dataset]
 ) -> dict[str, pd.DataFrame]:
     """A comparison: designs with their numbers, differences, inputs that differ, notes.
 
     Parameters
     ----------
-    found : pandas.DataFrame
+    comparison : pandas.DataFrame
         From `macroslip.compare`.
     datasets : mapping
         The results by name, or the study, for the last sheet.
@@ -121,21 +123,21 @@ def comparison_sheets(
     dict
         Tables by the names of their sheets.
     """
-    headed = found.assign(heading=found["quantity"] + " [" + found["units"] + "]")
+    headed = comparison.assign(heading=comparison["quantity"] + " [" + comparison["units"] + "]")
     designs = headed.pivot(index="design", columns="heading", values="value")
-    designs = designs.loc[found["design"].unique(), headed["heading"].unique()].reset_index()
-    differences = found.drop(columns=["units", "value"]).dropna(subset="difference [%]")
+    designs = designs.loc[comparison["design"].unique(), headed["heading"].unique()].reset_index()
+    differences = comparison.drop(columns=["units", "value"]).dropna(subset="difference [%]")
     inputs = pd.DataFrame(
-        [{"input": key} | dict(values) for key, values in found.attrs["inputs"].items()]
+        [{"input": key} | dict(values) for key, values in comparison.attrs["inputs"].items()]
     )
-    notes = [found.attrs["about"], found.attrs["ranking"], *found.attrs["notes"]]
+    notes = [comparison.attrs["about"], comparison.attrs["ranking"], *comparison.attrs["notes"]]
     sheets = {
         "designs": designs,
         "differences": differences,
         "criteria": pd.DataFrame(
             [
                 {"design": name} | line
-                for name, lines in found.attrs.get("criteria", {}).items()
+                for name, lines in comparison.attrs.get("criteria", {}).items()
                 for line in lines
             ]
         ),

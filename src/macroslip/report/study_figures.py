@@ -59,8 +59,8 @@ def plot_lifetime(axes: Axes, life: xr.Dataset, shown: Sequence[int]) -> Axes:
     Takes the dataset of `macroslip.study.lifetime.lifetime_energy` and some of its groups.
     """
     life = life.isel(bin=np.isfinite(life.bin.values))
-    for one, style in _curves(life.bin_energy, shown):
-        axes.plot(one.bin.values, 1e-6 * one.values, **style)
+    for curve, style in _curves(life.bin_energy, shown):
+        axes.plot(curve.bin.values, 1e-6 * curve.values, **style)
     axes.set_ylim(bottom=0.0)
     return finish(axes, "wind speed [m/s]", "lifetime energy [MJ]", _rows(life.bin_energy, shown))
 
@@ -78,9 +78,9 @@ def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[i
     shown : sequence of int
         Groups of `curves` that are drawn.
     """
-    for one, style in _curves(curves[name], shown):
-        one = one[one.values > 0.0]
-        axes.plot(one.threshold.values, one.values, **style | {"marker": ""})
+    for curve, style in _curves(curves[name], shown):
+        curve = curve[curve.values > 0.0]
+        axes.plot(curve.threshold.values, curve.values, **style | {"marker": ""})
     axes.set_yscale("log")
     drawn = curves.threshold.values[
         (curves[name].isel(group=list(shown)) > 0.0).any(["group", "row"]).values
@@ -90,16 +90,20 @@ def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[i
     return finish(axes, EXCEEDED[name], "orbits a year above", _rows(curves[name], shown))
 
 
-def plot_effects(axes: Axes, found: xr.Dataset, quantity: str) -> Axes:
+def plot_effects(axes: Axes, effects: xr.Dataset, quantity: str) -> Axes:
     """Main effects of sampled parameters on a quantity with twice their standard error.
 
     Takes the dataset of `macroslip.study.effects.effects`.
     """
-    one = found.sel(quantity=quantity)
-    one = one.isel(parameter=np.argsort(np.abs(np.nan_to_num(one.main_effect.values)))[-10:])
-    names = [str(name).replace(".", "\n").replace("_", " ") for name in one.parameter.values]
-    effect = 100.0 * one.main_effect.values
-    error = 200.0 * one.main_effect_error.values
+    of_quantity = effects.sel(quantity=quantity)
+    of_quantity = of_quantity.isel(
+        parameter=np.argsort(np.abs(np.nan_to_num(of_quantity.main_effect.values)))[-10:]
+    )
+    names = [
+        str(name).replace(".", "\n").replace("_", " ") for name in of_quantity.parameter.values
+    ]
+    effect = 100.0 * of_quantity.main_effect.values
+    error = 200.0 * of_quantity.main_effect_error.values
     axes.barh(
         names,
         effect,

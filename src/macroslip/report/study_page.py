@@ -126,7 +126,7 @@ def study_page(
     bodies = {
         "designs": text.designs(_designs(table, names, _MOST_LINES), ranking, notes),
         "year": text.year(weighted.note, _year(weighted.year, names))
-        if weighted.given.weights
+        if weighted.aggregation.weights
         else "",
         "effects": effects_body,
         "lifetime": lifetime,
@@ -160,19 +160,19 @@ class _Weighted:
     """The runs of a study, how much each counts, and the year that follows."""
 
     study: xr.Dataset  #: Points of a sample are no designs: they are pooled
-    given: Aggregation  #: Without weights where there are none, or they cannot be used
+    aggregation: Aggregation  #: Without weights where there are none, or they cannot be used
     year: xr.Dataset  #: From `macroslip.study.year.year`
     note: str  #: What share of a year the cases cover, or why the weights cannot be used
 
     @property
-    def aggregation(self) -> Aggregation:
-        """The one given, with `CLASS_ONE` where it has no weights."""
-        return replace(self.given, weights=self.given.weights or CLASS_ONE)
+    def weighted_aggregation(self) -> Aggregation:
+        """The aggregation, with the weights `CLASS_ONE` where it has none."""
+        return replace(self.aggregation, weights=self.aggregation.weights or CLASS_ONE)
 
     @property
     def wind(self) -> Weibull | bool | None:
         """Distribution of the wind speed; None for `CLASS_ONE`, False for a list."""
-        weights = self.given.weights
+        weights = self.aggregation.weights
         wind = weights.wind if isinstance(weights, Year) else weights
         return wind if wind is None or isinstance(wind, Weibull) else False
 
@@ -181,21 +181,21 @@ def _weighted(
     study: xr.Dataset, weights: Weibull | BinProbabilities | None, years: float
 ) -> _Weighted:
     pooled = study.drop_vars(sampled_parameters(study))
-    given = aggregation_in_use(study, weights, years)
+    aggregation = aggregation_in_use(study, weights, years)
     try:
-        of_year = year(pooled, given)
+        of_year = year(pooled, aggregation)
     except InputError as problem:
         note = f"The weights cannot be used: {problem}"
-        given = replace(given, weights=None)
-        return _Weighted(pooled, given, year(pooled, given), note)
-    return _Weighted(pooled, given, of_year, coverage(of_year))
+        aggregation = replace(aggregation, weights=None)
+        return _Weighted(pooled, aggregation, year(pooled, aggregation), note)
+    return _Weighted(pooled, aggregation, of_year, coverage(of_year))
 
 
 def _lifetime(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
     """The section on lifetime energy, and its picture; groups in their order."""
     text = words(_TEMPLATE)
     try:
-        life = lifetime_energy(weighted.study, weighted.aggregation)
+        life = lifetime_energy(weighted.study, weighted.weighted_aggregation)
     except InputError as problem:
         return text.no_lifetime(str(problem)), []
     pictures = []
@@ -204,14 +204,16 @@ def _lifetime(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[P
         pictures = [picture(plot_lifetime, about, life, shown, **OPENING)]
     energies = _table(as_table(life, ["lifetime_energy"]), "Lifetime energy")
     covered = 100.0 * float(life.covered)
-    return text.lifetime(weighted.given.years, weighted.wind, covered, energies, pictures), pictures
+    return text.lifetime(
+        weighted.aggregation.years, weighted.wind, covered, energies, pictures
+    ), pictures
 
 
 def _exceedance(weighted: _Weighted, order: Sequence[int]) -> tuple[Markup, list[Picture]]:
     """Section and pictures of orbits a year above an energy and a power."""
     text = words(_TEMPLATE)
     try:
-        curves = exceedance(weighted.study, weighted.aggregation)
+        curves = exceedance(weighted.study, weighted.weighted_aggregation)
     except InputError as problem:
         return text.no_exceedance(str(problem)), []
     shown = drawable(curves.power_orbits, order)
@@ -243,7 +245,7 @@ def _without_folders(study: str) -> str:
 
     def bare(value: Any) -> Any:
         if isinstance(value, list):
-            return [bare(one) for one in value]
+            return [bare(item) for item in value]
         return without_folders(value) if isinstance(value, str) else value
 
     content = json.loads(study)
@@ -297,49 +299,53 @@ def _effects(
     text = words(_TEMPLATE)
     if not sampled_parameters(study):
         return "", "", []
-    found = effects(study, weighted.given)
-    if not found.sizes["quantity"]:
+    drivers = effects(study, weighted.aggregation)
+    if not drivers.sizes["quantity"]:
         return "", text.no_effects(), []
     table = Table(
-        ("", "5, 50 and 95 %", *map(str, found.parameter.values)),
-        [_effect_line(found.sel(quantity=name)) for name in found.quantity.values],
-        f"{int(found.points)} points",
+        ("", "5, 50 and 95 %", *map(str, drivers.parameter.values)),
+        [_effect_line(drivers.sel(quantity=name)) for name in drivers.quantity.values],
+        f"{int(drivers.points)} points",
     )
     pictures = [
         picture(
             plot_effects,
             f"Main effects on the {DESIGN_COLUMNS[name].meaning}",
-            found,
+            drivers,
             name,
             **OPENING,
         )
         for name in ("energy", "wear")
-        if name in found.quantity
+        if name in drivers.quantity
     ]
-    return _driver(found), text.effects(table, pictures), pictures
+    return _driver(drivers), text.effects(table, pictures), pictures
 
 
-def _effect_line(found: xr.Dataset) -> tuple[str, ...]:
+def _effect_line(effect_of_quantity: xr.Dataset) -> tuple[str, ...]:
     """A quantity with its range and the effect of every parameter."""
-    name = found.quantity.item()
-    other = (1.0, f"{name.replace('_', ' ')} [{found.units.item()}]")
+    name = effect_of_quantity.quantity.item()
+    other = (1.0, f"{name.replace('_', ' ')} [{effect_of_quantity.units.item()}]")
     scale, heading = _SHOWN.get(name, other)
     cells = []
-    for parameter in found.parameter.values:
-        one = found.sel(parameter=parameter)
-        effect = 100.0 * one.main_effect.item()
-        error = 100.0 * one.main_effect_error.item()
-        rank = one.rank_correlation.item()
+    for parameter in effect_of_quantity.parameter.values:
+        of_parameter = effect_of_quantity.sel(parameter=parameter)
+        effect = 100.0 * of_parameter.main_effect.item()
+        error = 100.0 * of_parameter.main_effect_error.item()
+        rank = of_parameter.rank_correlation.item()
         known = np.isfinite(rank)
         cells.append(f"{effect:+.3g} ± {error:.2g} % (ρ {rank:.2f})" if known else "–")
-    return (heading, " … ".join(number(scale * end, 3) for end in found["range"].values), *cells)
+    return (
+        heading,
+        " … ".join(number(scale * end, 3) for end in effect_of_quantity["range"].values),
+        *cells,
+    )
 
 
-def _driver(found: xr.Dataset) -> Markup | str:
+def _driver(drivers: xr.Dataset) -> Markup | str:
     """The parameter that moves the energy most, in a sentence; empty where none is known to."""
-    if "energy" not in found.quantity:
+    if "energy" not in drivers.quantity:
         return ""
-    energy = found.sel(quantity="energy").dropna("parameter", subset=["rank_correlation"])
+    energy = drivers.sel(quantity="energy").dropna("parameter", subset=["rank_correlation"])
     if not energy.sizes["parameter"]:
         return ""
     strongest = abs(energy.rank_correlation).argmax("parameter")
@@ -357,12 +363,12 @@ _SUMS = {
 }
 
 
-def _year(found: xr.Dataset, names: list[str]) -> Table:
+def _year(annual: xr.Dataset, names: list[str]) -> Table:
     """Hours, energies and sums of every design and situation of a year."""
-    sums = {name: told for name, told in _SUMS.items() if name in found}
+    sums = {name: shown for name, shown in _SUMS.items() if name in annual}
     rows = []
-    for group, bin_number in np.ndindex(found.sizes["group"], found.sizes["bin"]):
-        here = found.isel(group=group, bin=bin_number)
+    for group, bin_number in np.ndindex(annual.sizes["group"], annual.sizes["bin"]):
+        here = annual.isel(group=group, bin=bin_number)
         share = 100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
         values = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
         for name, (_, factor) in sums.items():
@@ -373,8 +379,8 @@ def _year(found: xr.Dataset, names: list[str]) -> Table:
             )
             values.append(factor * both)
         cells = (number(float(value)) for value in values)
-        rows.append((names[group], situation(found, bin_number), *cells))
-    sides = found.row.values.tolist()
+        rows.append((names[group], situation(annual, bin_number), *cells))
+    sides = annual.row.values.tolist()
     headings = (
         "design",
         "situation",
@@ -392,7 +398,7 @@ def _year(found: xr.Dataset, names: list[str]) -> Table:
 def _extremes(study: xr.Dataset) -> list[dict[str, Any]]:
     """The run and row with the most extreme value of each quantity of `_EXTREMES` that is known."""
     names = run_names(study)
-    found = []
+    extremes = []
     for quantity in _EXTREMES:
         values = study[quantity]
         if bool(values.notnull().any()):
@@ -400,7 +406,7 @@ def _extremes(study: xr.Dataset) -> list[dict[str, Any]]:
             indices = (sign * values).argmax(["case", "row"])
             extreme = values.isel(indices)
             run = names[int(indices["case"])]
-            found.append(
+            extremes.append(
                 {
                     "quantity": quantity,
                     "value": float(extreme),
@@ -408,7 +414,7 @@ def _extremes(study: xr.Dataset) -> list[dict[str, Any]]:
                     "run": run,
                 }
             )
-    return found
+    return extremes
 
 
 def _extreme_pictures(
@@ -447,13 +453,13 @@ def _surface(weighted: _Weighted) -> Markup | str:
         return ""
     text = words(_TEMPLATE)
     try:
-        maps = weighted_maps(weighted.study, weighted.aggregation).isel(group=0)
+        maps = weighted_maps(weighted.study, weighted.weighted_aggregation).isel(group=0)
     except InputError as problem:
         return text.no_maps(str(problem))
     labels = ", ".join(
         str(maps[name].item()) for name in ("bearing", "lubricant", "model") if name in maps.coords
     )
-    of = f"in {weighted.given.years:g} years, of the simulated rollers, {labels}"
+    of = f"in {weighted.aggregation.years:g} years, of the simulated rollers, {labels}"
     return text.turned() + words("result.html").surface(
         *map_pictures(energy_density(maps), maps.surface_power_density), of
     )
@@ -462,9 +468,9 @@ def _surface(weighted: _Weighted) -> Markup | str:
 def _worst(study: xr.Dataset) -> list[Table]:
     tables = []
     for name in _WORST:
-        found = as_table(worst(study, name, count=_WORST_COUNT), [name])
-        found = found.drop(columns=[one for one in INTERNAL if one in found])
-        tables.append(_table(found, f"By {study[name].attrs['long_name']}"))
+        table = as_table(worst(study, name, count=_WORST_COUNT), [name])
+        table = table.drop(columns=[column for column in INTERNAL if column in table])
+        tables.append(_table(table, f"By {study[name].attrs['long_name']}"))
     return tables
 
 
@@ -472,7 +478,7 @@ def _failures(study: xr.Dataset) -> Table | None:
     failed = study.isel(case=np.flatnonzero(study.outcome.values != str(Outcome.COMPLETED)))
     if not failed.sizes["case"]:
         return None
-    labels = [name for name, one in failed.coords.items() if one.dims == ("case",)]
+    labels = [name for name, label in failed.coords.items() if label.dims == ("case",)]
     frame = failed[labels].reset_coords().to_dataframe().reset_index()
     columns = [name for name in frame if name not in INTERNAL]
     return _table(

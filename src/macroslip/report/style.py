@@ -267,17 +267,17 @@ def compared(
 
 
 def _share_scales(panels: Sequence[Axes]) -> None:
-    images = [one.images[0] for one in panels if one.images]
+    images = [panel.images[0] for panel in panels if panel.images]
     if len(panels) < 2:
         return
     if images:
-        low, high = zip(*(one.get_clim() for one in images), strict=True)
-        for one in images:
-            one.set_clim(min(low), max(high))
+        low, high = zip(*(image.get_clim() for image in images), strict=True)
+        for image in images:
+            image.set_clim(min(low), max(high))
         return
-    low, high = zip(*(one.get_ylim() for one in panels), strict=True)
-    for one in panels:
-        one.set_ylim(min(low), max(high))
+    low, high = zip(*(panel.get_ylim() for panel in panels), strict=True)
+    for panel in panels:
+        panel.set_ylim(min(low), max(high))
 
 
 def _svg(figure: Figure, axes: Axes, legend: str) -> str:
