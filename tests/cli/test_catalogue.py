@@ -5,6 +5,7 @@ import json
 import pytest
 
 from macroslip import Bearing, Lubricant, Turbine
+from macroslip.bearing.tapered import TaperedBearing
 
 KINDS = [("bearing", Bearing), ("lubricant", Lubricant), ("turbine", Turbine)]
 
@@ -146,6 +147,7 @@ def test_a_bearing_from_its_makers_page(folder, macroslip):
             ["--bpfo", "13.2", "--bpfi", "16.2"],
             "together 29.4. Allowed: a sum that is the whole number of rollers",
         ),
+        (["--y", "1.4"], "--y does not count with --kind spherical"),
         (["--c", "0 kN"], "dynamic_load_rating is 0.0. Allowed: a finite number above 0"),
     ],
 )
@@ -153,6 +155,38 @@ def test_a_page_that_contradicts_itself(folder, macroslip, options, reported):
     done = macroslip("bearing", "estimate", *PAGE, *options, "-o", "mine.yaml")
     assert (done.code, done.out) == (2, "") and reported in done.err
     assert not list(folder.iterdir())
+
+
+TAPERED = ["--kind", "tapered", "--c0", "16000 kN", "--y", "0.77", "--cu", "1060 kN"]
+
+
+def test_a_tapered_bearing_from_its_makers_page(folder, macroslip):
+    done = macroslip("bearing", "estimate", *TAPERED, "--c", "8090 kN", "-o", "mine.yaml")
+    assert (done.code, done.err) == (0, "")
+    assert "not the maker's drawing" in done.out and "on no maker's page" in done.out
+    bearing = TaperedBearing.read("mine.yaml")
+    assert bearing.provenance["dynamic_load_rating"].tag == "V"
+    assert bearing.provenance["rib_contact_height"].tag == "E"
+
+
+@pytest.mark.parametrize(
+    ("options", "reported"),
+    [
+        (["--e", "0.3"], "e and Y mean two different contact angles, 11.31 and 30.30 deg"),
+        (["--rows", "1"], "the distance of the two rows is missing"),
+        (["--shoulder", "800 mm"], "--shoulder does not count with --kind tapered"),
+    ],
+)
+def test_a_page_of_a_tapered_bearing_that_contradicts_itself(folder, macroslip, options, reported):
+    done = macroslip("bearing", "estimate", *TAPERED, *options, "-o", "mine.yaml")
+    assert (done.code, done.out) == (2, "") and reported in done.err
+    assert not list(folder.iterdir())
+
+
+def test_a_spherical_bearing_needs_its_whole_page(folder, macroslip):
+    done = macroslip("bearing", "estimate", "--c0", "1 kN", "-o", "mine.yaml")
+    assert done.code == 2
+    assert "--bore and --outside and --width and --e are missing" in done.err
 
 
 def test_a_bearing_file_to_start_from(folder, macroslip):

@@ -29,17 +29,15 @@ from numpy.typing import NDArray
 
 from macroslip.bearing.bearing import Bearing
 from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit
+from macroslip.bearing.sampled import (
+    E_ROUNDING,
+    SAMPLES,
+    Accepted,
+    entry,
+    short_number,
+    within,
+)
 from macroslip.errors import InputError
-
-SAMPLES = 20_000
-
-
-class Accepted(NamedTuple):
-    """Lowest and highest value of a proportion in bearings of this kind."""
-
-    low: float
-    high: float
-
 
 STATIC_RATING = Accepted(0.93, 1.07)
 """Static load rating of the formula over the page's: makers differ by up to 15 % for one size."""
@@ -60,15 +58,10 @@ SLENDERNESS = Accepted(0.9, 2.2)
 OSCULATION = Accepted(0.97, 0.99)
 CLEARANCE = Accepted(0.5 / 3000, 1.5 / 3000)
 """Diametral operating clearance over bore: 0.2 mm at 600 mm, of 0.31 to 0.48 mm before mounting."""
-E_ROUNDING = 0.005
-"""Half of the last printed digit of e."""
 FREQUENCY_ROUNDING = 0.005
 """Half of the last digit of overrolling frequencies per turn."""
 
 ROWS = 2
-PERCENTILES = (10.0, 90.0)
-"""Ends of the ranges that are given: four out of five samples lie between them."""
-
 _NOTE = "estimate: median of what fits the maker's page, not the maker's drawing"
 _ON_SPHERE = "from sphere, roller diameter and contact angle"
 _OSCULATION = ("1", 3, "E", "usual for spherical roller bearings")
@@ -81,7 +74,6 @@ _WRITTEN = {
     "outer_raceway_radius": ("mm", 1, "E", _NOTE),
     "diametral_clearance": ("mm", 3, "E", "operating; in proportion to the bore"),
 }
-_SCALES = {"mm": 1e3, "deg": 180.0 / math.pi, "1": 1.0}
 #: Steel, cage and surfaces are taken from this bearing.
 _STEEL_OF = "skf-240-600-bc"
 _STEEL = (
@@ -303,13 +295,13 @@ def _fitting(
     )
     passed = {
         "a sphere inside the outer ring": drawn["outer_raceway_radius"] < 0.49 * page.outside,
-        "roller length over diameter": _within(length / diameter, SLENDERNESS),
+        "roller length over diameter": within(length / diameter, SLENDERNESS),
         # Rounding the number of rollers shifts their spacing by up to half a roller.
-        "spacing of the rollers": _within(
+        "spacing of the rollers": within(
             spacing, SPACING, 0.5 / drawn["rollers_per_row"].clip(3.0)
         ),
-        "inner ring under the rollers": _within(2.0 * wall, INNER_WALL, 0.005),
-        "clearance between roller ends and faces": _within(clearance, END_CLEARANCE),
+        "inner ring under the rollers": within(2.0 * wall, INNER_WALL, 0.005),
+        "clearance between roller ends and faces": within(clearance, END_CLEARANCE),
         "rows apart": drawn["row_offset"] - along - across > 0.0,
         "raceways beside the groove": drawn["row_offset"] - along + across
         > 0.5 * (page.groove or 0.0),
@@ -333,59 +325,34 @@ def _fitting(
     return {key: values[kept] for key, values in drawn.items()}
 
 
-def _within(
-    values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0
-) -> NDArray[np.bool_]:
-    return (values >= accepted.low - margin) & (values <= accepted.high + margin)
-
-
 def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: str) -> Bearing:
     """The bearing of the medians.
 
     Centres of the rollers lie on the sphere of the medians, as in every sample.
     """
     entries = {
-        key: _entry(np.median(drawn[key]), drawn[key], *how)
+        key: entry(np.median(drawn[key]), drawn[key], *how)
         for key, how in _WRITTEN.items()
         if key in drawn
     }
     for side in ("inner", "outer"):
-        entries[f"osculation_{side}"] = _entry(
+        entries[f"osculation_{side}"] = entry(
             np.median(drawn["osculation"]), drawn["osculation"], *_OSCULATION
         )
     alpha = math.radians(entries["contact_angle"]["value"])
     centre = 1e-3 * (
         entries["outer_raceway_radius"]["value"] - 0.5 * entries["roller_diameter"]["value"]
     )
-    entries["pitch_radius"] = _entry(
+    entries["pitch_radius"] = entry(
         centre * math.cos(alpha), drawn["pitch_radius"], "mm", 1, "E", _ON_SPHERE
     )
-    entries["row_offset"] = _entry(
+    entries["row_offset"] = entry(
         centre * math.sin(alpha), drawn["row_offset"], "mm", 1, "E", _ON_SPHERE
     )
     entries |= _published(page) | _ratings(page, entries)
     known = Bearing.read(_STEEL_OF).as_dict()
     same = {key: known[key] for key in _STEEL}
     return Bearing.from_dict({"name": name, "title": title} | entries | same)
-
-
-def _entry(value: float, samples: NDArray, unit: str, digits: int, tag: str, note: str) -> dict:
-    """An entry of a bearing file: the value as it is written, with the range of the samples."""
-
-    def written(number: float) -> float:
-        rounded = round(float(number) * _SCALES[unit], digits)
-        return int(rounded) if digits == 0 else rounded
-
-    low, high = (written(limit) for limit in np.percentile(samples, PERCENTILES))
-    middle = written(value)
-    return {"value": middle, "unit": unit, "tag": tag, "note": note,
-            "range": [min(low, middle), max(high, middle)]}  # fmt: skip
-
-
-def _short(number: float) -> float:
-    """The number without the rounding errors of its conversion, whole where it is whole."""
-    rounded = float(f"{number:.9g}")
-    return int(rounded) if rounded.is_integer() else rounded
 
 
 def _published(page: MakersPage) -> dict[str, dict]:
@@ -404,7 +371,7 @@ def _published(page: MakersPage) -> dict[str, dict]:
     }
     scales = {"mm": 1e3, "kN": 1e-3}
     return {
-        key: {"value": _short(value * scales.get(unit, 1.0)), "unit": unit, "tag": "V",
+        key: {"value": short_number(value * scales.get(unit, 1.0)), "unit": unit, "tag": "V",
               "note": f"maker's page, {symbol}"}
         for key, (value, unit, symbol) in found.items()
         if value is not None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, overload
 
@@ -18,6 +19,7 @@ from macroslip.storage.files import check_new_file, new_file
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.bearing.estimate import EstimatedBearing
+    from macroslip.bearing.tapered.estimate import EstimatedTaperedBearing
     from macroslip.input.record import Record
     from macroslip.input.units import Dimension
     from macroslip.turbine import Turbine
@@ -201,13 +203,33 @@ def _option(help: str) -> Any:
     return typer.Option(help=help)
 
 
+class Kind(StrEnum):
+    """Kinds of bearings whose inside is estimated."""
+
+    SPHERICAL = "spherical"
+    TAPERED = "tapered"
+
+
+#: Options that each kind of bearing needs, and those of the other kind, which it does not have.
+_NEEDED = {
+    Kind.SPHERICAL: ("--bore", "--outside", "--width", "--c0", "--e"),
+    Kind.TAPERED: ("--c0",),
+}
+_OF_OTHERS = {
+    Kind.SPHERICAL: ("--rows", "--arrangement", "--y", "--a", "--distance"),
+    Kind.TAPERED: ("--shoulder", "--groove", "--y1", "--y2", "--y0", "--bpfo", "--bpfi"),
+}
+
+
 def _estimate_bearing(
-    bore: Annotated[str, _option("Bore diameter d, with its unit: '630 mm'.")],
-    outside: Annotated[str, _option("Outside diameter D: '920 mm'.")],
-    width: Annotated[str, _option("Width B: '290 mm'.")],
-    c0: Annotated[str, _option("Static load rating C0: '17600 kN'.")],
-    e: Annotated[float, _option("Axial factor e: 0.30.")],
+    context: typer.Context,
     output: Annotated[Path, typer.Option("--output", "-o", help="The bearing file to write.")],
+    kind: Annotated[Kind, _option("Kind of the bearing.")] = Kind.SPHERICAL,
+    bore: Annotated[str | None, _option("Bore diameter d, with its unit: '630 mm'.")] = None,
+    outside: Annotated[str | None, _option("Outside diameter D: '920 mm'.")] = None,
+    width: Annotated[str | None, _option("Width B, of a tapered bearing T or B: '290 mm'.")] = None,
+    c0: Annotated[str | None, _option("Static load rating C0: '17600 kN'.")] = None,
+    e: Annotated[float | None, _option("Axial factor e: 0.30.")] = None,
     shoulder: Annotated[
         str | None, _option("Shoulder diameter of the outer ring D1: '828 mm'.")
     ] = None,
@@ -224,6 +246,23 @@ def _estimate_bearing(
     bpfi: Annotated[
         float | None, _option("Overrolling frequency of the inner ring, per turn of the shaft.")
     ] = None,
+    rows: Annotated[
+        int | None, typer.Option(min=1, max=2, help="Tapered: rows of the page's bearing, 1 or 2.")
+    ] = None,
+    arrangement: Annotated[str | None, _option("Tapered: O or X.")] = None,
+    y: Annotated[
+        float | None, _option("Tapered: axial factor Y of a single, Y1 of a double row.")
+    ] = None,
+    a: Annotated[
+        str | None,
+        _option(
+            "Tapered: load centre from the back face of the inner ring; double row: distance of "
+            "both load centres."
+        ),
+    ] = None,
+    distance: Annotated[
+        str | None, _option("Tapered: distance of two single rows' rollers on one shaft.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 1,
     force: Force = False,
     as_json: AsJson = False,
@@ -234,33 +273,80 @@ def _estimate_bearing(
     median of every inner dimension and the range in which four out of five samples lie. It is an
     estimate, not the maker's drawing.
     """
-    from macroslip.bearing.estimate import MakersPage, estimate_bearing
     from macroslip.input.units import FORCE, LENGTH, MASS
 
     check_new_file(output, force=force)
-    given: dict[str, Any] = {
+    _check_options(kind, context.params)
+    page: dict[str, Any] = {
         "bore": si("--bore", bore, LENGTH),
         "outside": si("--outside", outside, LENGTH),
         "width": si("--width", width, LENGTH),
         "static_load_rating": si("--c0", c0, FORCE),
-        "shoulder": si("--shoulder", shoulder, LENGTH),
-        "groove": si("--groove", groove, LENGTH),
         "dynamic_load_rating": si("--c", c, FORCE),
         "fatigue_load_limit": si("--cu", cu, FORCE),
         "mass": si("--mass", mass, MASS),
-    }
-    factors = {
         "axial_factor_e": e,
-        "axial_factor_y1": y1,
-        "axial_factor_y2": y2,
-        "axial_factor_y0": y0,
     }
-    page = MakersPage(**given, **factors, bpfo=bpfo, bpfi=bpfi)
-    size = " x ".join(f"{1e3 * one:g}" for one in (page.bore, page.outside, page.width))
-    found = estimate_bearing(
-        page, output.stem, f"Estimated from its maker's page, {size} mm", seed=seed
-    )
-    _write(output, found.bearing, force)
+    if kind is Kind.TAPERED:
+        page |= {
+            "rows": rows or (1 if distance else 2),
+            "arrangement": arrangement or "O",
+            "axial_factor_y": y,
+            "load_centre": si("--a", a, LENGTH),
+            "distance": si("--distance", distance, LENGTH),
+        }
+    else:
+        page |= {
+            "shoulder": si("--shoulder", shoulder, LENGTH),
+            "groove": si("--groove", groove, LENGTH),
+            "axial_factor_y1": y1,
+            "axial_factor_y2": y2,
+            "axial_factor_y0": y0,
+            "bpfo": bpfo,
+            "bpfi": bpfi,
+        }
+    estimated = _estimate(kind, page, output.stem, seed)
+    _write(output, estimated.bearing, force)
+    _tell_estimate(estimated, output, as_json)
+
+
+def _check_options(kind: Kind, options: dict[str, Any]) -> None:
+    """InputError for options that a kind of bearing needs or does not have."""
+    missing = [name for name in _NEEDED[kind] if options[name[2:]] is None]
+    if missing:
+        raise InputError(
+            f"{' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
+            allowed=f"with --kind {kind}: {', '.join(_NEEDED[kind])}",
+            remedy="Take what is missing from the maker's page.",
+        )
+    foreign = [name for name in _OF_OTHERS[kind] if options[name[2:]] is not None]
+    if foreign:
+        raise InputError(
+            f"{' and '.join(foreign)} {'does' if len(foreign) == 1 else 'do'} not count with --kind "
+            f"{kind}",
+            remedy="Remove what does not count, or choose the other --kind.",
+        )
+
+
+def _estimate(
+    kind: Kind, page: dict[str, Any], name: str, seed: int
+) -> EstimatedBearing | EstimatedTaperedBearing:
+    """The estimate of a kind of bearing from the numbers of its page."""
+    from macroslip.bearing.estimate import MakersPage, estimate_bearing
+    from macroslip.bearing.tapered.estimate import TaperedPage, estimate_tapered_bearing
+
+    sizes = [page[key] for key in ("bore", "outside", "width") if page[key] is not None]
+    size = f", {' x '.join(f'{1e3 * length:g}' for length in sizes)} mm" if sizes else ""
+    title = f"Estimated from its maker's page{size}"
+    if kind is Kind.TAPERED:
+        return estimate_tapered_bearing(TaperedPage(**page), name, title, seed=seed)
+    return estimate_bearing(MakersPage(**page), name, title, seed=seed)
+
+
+def _tell_estimate(
+    found: EstimatedBearing | EstimatedTaperedBearing, output: Path, as_json: bool
+) -> None:
+    """Print medians and ranges of an estimate, and how it compares with what is known."""
     numbers = _numbers(found)
     if as_json:
         print_json(numbers | {"written": str(output)})
@@ -277,7 +363,12 @@ def _estimate_bearing(
     print_table(title, [("key", False), ("median", True), ("10 to 90 %", False)], rows)
     typer.echo()
     ratio = numbers["C by ISO 281 / published [1]"]
-    if ratio is not None:
+    if found.bearing.kind == "tapered":
+        typer.echo(
+            "C is no check of a tapered bearing: makers publish up to 40 % more than ISO 281. Rib and "
+            "preload are on no maker's page, and they decide friction and slip."
+        )
+    elif ratio is not None:
         typer.echo(
             f"C by ISO 281 from these dimensions is {ratio:.3f} of the published one; "
             "within one family of bearings that scatters by 1 to 2 %."
@@ -292,9 +383,8 @@ def _estimate_bearing(
     typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")
 
 
-def _numbers(found: EstimatedBearing) -> dict[str, Any]:
+def _numbers(found: EstimatedBearing | EstimatedTaperedBearing) -> dict[str, Any]:
     """Every estimated value with its range, and C by ISO 281 over the published one, if known."""
-    from macroslip import Bearing
     from macroslip.bearing.load_ratings import dynamic_load_rating
 
     bearing = found.bearing
@@ -302,18 +392,17 @@ def _numbers(found: EstimatedBearing) -> dict[str, Any]:
     published = bearing.dynamic_load_rating
     if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
         roller = (bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length)
-        ratio = (
-            dynamic_load_rating(2, *roller, bearing.contact_angle, 2 * bearing.pitch_radius)
-            / published
-        )
-    known = [Bearing.read(name) for name in Bearing.catalogue()]
+        angle = bearing.outer_angle if bearing.kind == "tapered" else bearing.contact_angle
+        pitch = 2 * bearing.pitch_radius
+        ratio = dynamic_load_rating(2, *roller, angle, pitch, kind=bearing.kind) / published
+    known = [type(bearing).read(name) for name in type(bearing).catalogue()]
     size = ("bore_diameter", "outside_diameter", "width")
     values = {
         key: {"median": origin.value, "unit": origin.unit, "10 to 90 %": [*origin.range]}
         for key, origin in bearing.provenance.items()
         if origin.range is not None
     }
-    count = int(found.samples["contact_angle"].size)
+    count = int(found.samples["rollers_per_row"].size)
     return {
         "name": bearing.name,
         "bearings that fit the page": count,
@@ -322,7 +411,7 @@ def _numbers(found: EstimatedBearing) -> dict[str, Any]:
         "in the catalogue": [
             one.name
             for one in known
-            if all(getattr(one, key) == getattr(bearing, key) for key in size)
+            if all(getattr(one, key) == getattr(bearing, key) is not None for key in size)
         ],
     }
 

@@ -134,8 +134,14 @@ def test_a_warmer_inner_ring_takes_up_play_by_the_growth_to_the_apex():
         ({"row_offset": 0.02}, "overlap"),
         ({"roller_length": 0.4}, "times roller_diameter"),
         ({"rib_contact_height": 0.06}, "above the middle"),
+        ({"inner_angle": math.radians(27.0)}, "share no apex.*asks for 0.454284 rad"),
     ],
 )
 def test_what_cannot_be_built_is_refused_with_the_key(change, words):
     with pytest.raises(InputError, match=words):
         MAIN.replace(**change)
+
+
+def test_the_angle_of_the_inner_raceway_may_be_written_where_it_shares_the_apex():
+    inner = tapered_geometry(MAIN).inner_angle
+    assert MAIN.replace(inner_angle=inner).inner_angle == inner

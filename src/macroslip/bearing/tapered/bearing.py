@@ -23,6 +23,8 @@ _ARRANGEMENT = Choice(
     lambda: ARRANGEMENTS,
 )
 _Optional = float | None
+#: Difference up to which angles of two drawings share an apex [rad].
+_ANGLE_ROUNDING = math.radians(0.02)
 
 
 class TaperedBearing(Record):
@@ -88,6 +90,15 @@ class TaperedBearing(Record):
             math.radians(45),
         ),
     ]
+    inner_angle: Annotated[
+        _Optional,
+        Quantity(
+            "half-angle of the inner ring's raceway (cone angle), which follows from the apex",
+            ANGLE,
+            0.0,
+            math.radians(45),
+        ),
+    ] = None
     pitch_radius: Annotated[
         float, Positive("distance of the rollers' middles from the bearing axis", LENGTH, 5)
     ]
@@ -146,10 +157,31 @@ class TaperedBearing(Record):
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         faults = [*no_roller(self, source), *overlapping(self, source)]
         if not faults:
-            faults = list(_rows_beside_each_other(self, source))
+            faults = [*_no_common_apex(self, source), *_rows_beside_each_other(self, source)]
         yield from faults
         if not faults:
             yield from _rib_beside_the_end(self, source)
+
+
+def _no_common_apex(bearing: TaperedBearing, source: Source) -> Iterator[InputError]:
+    """Yield an angle of the inner raceway whose lines of contact do not meet those of the outer one."""
+    if bearing.inner_angle is None:
+        return
+    beta, apex = geometry.cone(
+        bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle
+    )
+    expected = bearing.outer_angle - 2.0 * beta
+    if abs(bearing.inner_angle - expected) > _ANGLE_ROUNDING:
+        yield InputError(
+            f"outer and inner raceway share no apex with the rollers: inner_angle is "
+            f"{bearing.written('inner_angle')}, and the apex of the outer raceway, "
+            f"{bearing.written('roller_length', apex)} from the rollers' middles, asks for "
+            f"{bearing.written('inner_angle', expected)}",
+            where=source.where("inner_angle", "value"),
+            allowed="outer_angle less twice the rollers' half-angle β, tan β = (roller_diameter/"
+            f"(2 pitch_radius)) sin(outer_angle − β), within {math.degrees(_ANGLE_ROUNDING):g} deg",
+            remedy="Check the angles, roller_diameter and pitch_radius, or leave inner_angle out.",
+        )
 
 
 def _rows_beside_each_other(bearing: TaperedBearing, source: Source) -> Iterator[InputError]:
