@@ -16,8 +16,10 @@ def safe_text(text: object, but: str = "") -> str:
     'run\\x1b[2J\\n7.outb'
     """
     return "".join(
-        one if one.isprintable() or one in but else one.encode("unicode_escape").decode()
-        for one in str(text)
+        letter
+        if letter.isprintable() or letter in but
+        else letter.encode("unicode_escape").decode()
+        for letter in str(text)
     )
 
 

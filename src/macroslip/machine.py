@@ -46,7 +46,7 @@ def safe_path(entries: Iterable[str]) -> list[str]:
         except OSError:  # one of the two does not exist
             return False
 
-    return [one for one in entries if not is_here(one)]
+    return [path for path in entries if not is_here(path)]
 
 
 def process_environment() -> dict[str, str]:
@@ -54,8 +54,8 @@ def process_environment() -> dict[str, str]:
 
     It finds the modules of this one, none in the current folder.
     """
-    given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    modules = dict.fromkeys(safe_path([*given, *sys.path]))
+    entries = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    modules = dict.fromkeys(safe_path([*entries, *sys.path]))
     return os.environ | {"PYTHONSAFEPATH": "1", "PYTHONPATH": os.pathsep.join(modules)}
 
 

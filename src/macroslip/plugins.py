@@ -94,8 +94,8 @@ writes. Check its path, which starts at the current folder.
     except BaseException:
         sys.modules.pop(name, None)
         for kind, names in zip(kinds, added(), strict=True):
-            for one in names:
-                kind.remove(one)
+            for registered in names:
+                kind.remove(registered)
         raise
     _loaded[name] = added()
     return _loaded[name]

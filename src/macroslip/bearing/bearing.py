@@ -360,10 +360,10 @@ def _sizes(bearing: Bearing, source: Source) -> Iterator[InputError]:
         volume = math.pi / 4.0 * (outside**2 - bore**2) * width
         expected["mass"] = bearing.density * volume
     for key, value in expected.items():
-        given = getattr(bearing, key)
+        size = getattr(bearing, key)
         lowest = value / _SIZE_FACTOR
         highest = value * _SIZE_FACTOR
-        if given is not None and not lowest <= given <= highest:
+        if size is not None and not lowest <= size <= highest:
             yield InputError(
                 f"{key} is {bearing.written(key)}, and rings and rollers of this size have "
                 f"{bearing.written(key, value)}",

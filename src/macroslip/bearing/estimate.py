@@ -312,7 +312,9 @@ def _fitting(
         passed["inner ring under the rollers"] = wall > 0.0
     kept = np.logical_and.reduce(list(passed.values()))
     if np.count_nonzero(kept) < 100:
-        given = "the overrolling frequencies" if page.bpfo is not None else "shoulder and groove"
+        values_checked = (
+            "the overrolling frequencies" if page.bpfo is not None else "shoulder and groove"
+        )
         worst = min(passed, key=lambda check: np.count_nonzero(passed[check]))
         raise InputError(
             f"no bearing of usual proportions fits these values: of {SAMPLES} tried, "
@@ -320,7 +322,7 @@ def _fitting(
             f"of the {worst}",
             allowed="the published values of one double-row spherical roller bearing",
             remedy="Check the values and their units, static load rating and e above all; try "
-            f"without {given}.",
+            f"without {values_checked}.",
         )
     return {key: values[kept] for key, values in drawn.items()}
 
@@ -356,7 +358,7 @@ def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: st
 
 
 def _published(page: MakersPage) -> dict[str, dict]:
-    found = {
+    published = {
         "bore_diameter": (page.bore, "mm", "d"),
         "outside_diameter": (page.outside, "mm", "D"),
         "width": (page.width, "mm", "B"),
@@ -373,7 +375,7 @@ def _published(page: MakersPage) -> dict[str, dict]:
     return {
         key: {"value": short_number(value * scales.get(unit, 1.0)), "unit": unit, "tag": "V",
               "note": f"maker's page, {symbol}"}
-        for key, (value, unit, symbol) in found.items()
+        for key, (value, unit, symbol) in published.items()
         if value is not None
     }  # fmt: skip
 
@@ -388,11 +390,11 @@ def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
     length = 1e-3 * entries["roller_length"]["value"]
     pitch = 2e-3 * entries["pitch_radius"]["value"]
     count = entries["rollers_per_row"]["value"]
-    found = {}
+    ratings = {}
     if page.dynamic_load_rating is None:
         rating = dynamic_load_rating(ROWS, count, diameter, length, alpha, pitch)
         note = "ISO 281 from the estimated inside; makers publish up to a third more"
-        found["dynamic_load_rating"] = {
+        ratings["dynamic_load_rating"] = {
             "value": round(rating / 1e3),
             "unit": "kN",
             "tag": "D",
@@ -400,7 +402,7 @@ def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
         }
     if page.fatigue_load_limit is None:
         limit = fatigue_load_limit(page.static_load_rating, pitch)
-        found["fatigue_load_limit"] = {
+        ratings["fatigue_load_limit"] = {
             "value": round(limit / 1e3),
             "unit": "kN",
             "tag": "D",
@@ -410,5 +412,10 @@ def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
         if getattr(page, f"axial_factor_{name}") is None:
             value = round(factor / math.tan(alpha), 2)
             note = f"{factor} cot(contact angle)"
-            found[f"axial_factor_{name}"] = {"value": value, "unit": "1", "tag": "D", "note": note}
-    return found
+            ratings[f"axial_factor_{name}"] = {
+                "value": value,
+                "unit": "1",
+                "tag": "D",
+                "note": note,
+            }
+    return ratings

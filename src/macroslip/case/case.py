@@ -62,7 +62,7 @@ class RollerNumbers(Form):
             return "all"
         numbers = () if isinstance(value, str) or not isinstance(value, Iterable) else tuple(value)
         if not numbers or not all(
-            isinstance(one, Integral) and not isinstance(one, bool) for one in numbers
+            isinstance(item, Integral) and not isinstance(item, bool) for item in numbers
         ):
             raise self.wrong(value)
         return tuple(int(number) for number in numbers)
@@ -286,8 +286,8 @@ class Case:
         Keys that have no effect are left out. Of the load series there are its source, extent and a
         hash of all its numbers.
         """
-        values = {one.name: _plain(getattr(self, one.name)) for one in fields(self)}
-        values["loads"] = _told(self.loads)
+        values = {member.name: _plain(getattr(self, member.name)) for member in fields(self)}
+        values["loads"] = _about_loads(self.loads)
         values["oil_supply"] = self.inlet_supply
         values["laws"] = {"model": self.laws.name} | values["laws"]
         values["integrator"] = {"method": type(self.integrator).__name__} | values["integrator"]
@@ -338,21 +338,21 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (Bearing, Lubricant)):
         return value.as_dict()
     if isinstance(value, Heat):
-        return {key: one for key, one in asdict(value).items() if one is not None}
+        return {key: entry for key, entry in asdict(value).items() if entry is not None}
     if isinstance(value, Drivetrain) and value.windio is None:
-        return {key: one for key, one in asdict(value).items() if key != "windio"}
+        return {key: entry for key, entry in asdict(value).items() if key != "windio"}
     if is_dataclass(value) and not isinstance(value, type):
         return asdict(value)
     return list(value) if isinstance(value, tuple) else value
 
 
-def _told(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]:
+def _about_loads(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]:
     """Kind, source and extent of a load series, and a hash of all its numbers."""
     digest = hashlib.sha256()
     for name in ("time", "shaft_speed", "force", "moment", "angle", "load"):
         if hasattr(loads, name):
             digest.update(getattr(loads, name).tobytes())
-    found = {
+    about = {
         "kind": type(loads).__name__,
         "source": without_folders(loads.source),
         "samples": int(loads.time.size),
@@ -360,7 +360,7 @@ def _told(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]:
         "end": float(loads.time[-1]),
         "sha256": digest.hexdigest(),
     }
-    return found | ({"event": True} if loads.event else {})
+    return about | ({"event": True} if loads.event else {})
 
 
 def _temperature(case: Case) -> Iterator[InputError]:
@@ -387,14 +387,14 @@ def _dynamics(case: Case) -> Iterator[InputError]:
     """Yield values that the chosen dynamics cannot use."""
     default = Cage()
     skews = case.laws.skew != "none"
-    given = [name for name in SKEW_KEYS if getattr(case.cage, name) != getattr(default, name)]
-    if given and not skews:
+    skew_keys = [name for name in SKEW_KEYS if getattr(case.cage, name) != getattr(default, name)]
+    if skew_keys and not skews:
         yield InputError(
-            f"{' and '.join(given)} tell how the cage holds rollers that skew, and here they are "
+            f"{' and '.join(skew_keys)} tell how the cage holds rollers that skew, and here they are "
             "held straight",
             where="cage",
             allowed="with laws: {skew: quasi-static}",
-            remedy=f"Set laws.skew: quasi-static, or remove {' and '.join(given)}.",
+            remedy=f"Set laws.skew: quasi-static, or remove {' and '.join(skew_keys)}.",
         )
     if case.dynamics == IMPOSED_ORBIT:
         used = (*SKEW_KEYS, "gap") if skews else SKEW_KEYS

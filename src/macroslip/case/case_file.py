@@ -183,9 +183,9 @@ def build_case(
         try:
             case = Case(**parts)
         except InputError as failure:
-            found = ((part, part.where.split(".")) for part in parts_of(failure))
+            located = ((part, part.where.split(".")) for part in parts_of(failure))
             problems += [
-                place.inside(*keys).blamed(part) for part, keys in found if keys[0] not in wrong
+                place.inside(*keys).blamed(part) for part, keys in located if keys[0] not in wrong
             ]
     if problems or case is None:
         raise together(problems)

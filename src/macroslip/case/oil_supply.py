@@ -60,7 +60,7 @@ class OilSupply(Form):
         }
 
 
-def inlet_supply(given: str | float | None, oil: Lubricant, laws: Laws) -> str | float:
+def inlet_supply(supply: str | float | None, oil: Lubricant, laws: Laws) -> str | float:
     """The supply that counts: what a case gives.
 
     Otherwise SKF's replenishment where a mechanism depends on it.
@@ -68,19 +68,21 @@ def inlet_supply(given: str | float | None, oil: Lubricant, laws: Laws) -> str |
     A lubricant file from before version 0.2 gives a film factor, `starvation`, which is read as the
     supply.
     """
-    if given is not None:
-        return given
+    if supply is not None:
+        return supply
     if not laws.asks_for_oil:
         return FLOODED
     return SKF if oil.starvation is None else max(oil.starvation, _LEAST)
 
 
-def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, laws: Laws) -> None:
+def check_supply(
+    supply_given: str | float | None, bearing: Bearing, oil: Lubricant, laws: Laws
+) -> None:
     """Refuse an oil supply that no law uses, or that the bearing lacks diameters for.
 
     Parameters
     ----------
-    given : str, float or None
+    supply_given : str, float or None
         Supply that a case gives: `flooded`, `skf`, or film over flooded film [-]; None where it
         gives none.
     bearing : Bearing
@@ -93,7 +95,7 @@ def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, la
         If the laws have neither a starved film nor rolling resistance, or if SKF's replenishment is
         asked for and the bearing has no bore or outside diameter.
     """
-    supply = inlet_supply(given, oil, laws)
+    supply = inlet_supply(supply_given, oil, laws)
     if supply not in (FLOODED, 1.0) and not laws.asks_for_oil:
         raise InputError(
             f"oil_supply is {supply!r}, and laws: {laws.name} have neither a starved film nor "
@@ -224,9 +226,9 @@ def supply_note(case: Case) -> str:
         notes.append(f"oil_supply {case.inlet_supply}{source}: {known}")
     old = {key: getattr(oil, key) for key in ("starvation", "inlet_film", "fullness")}
     old |= {"cage.film_fullness": case.cage.film_fullness}
-    if given := [key for key, value in old.items() if value is not None]:
+    if former_keys := [key for key, value in old.items() if value is not None]:
         notes.append(
-            f"{', '.join(given)}: keys of before version 0.2, of which starvation alone is read; "
+            f"{', '.join(former_keys)}: keys of before version 0.2, of which starvation alone is read; "
             "give oil_supply"
         )
     return "\n".join(notes)

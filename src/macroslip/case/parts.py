@@ -158,12 +158,12 @@ class Heat:
     ] = None
 
     def __post_init__(self) -> None:
-        given = [
-            one
-            for one in (self.inner_mass, self.outer_mass, self.ring_conductance)
-            if one is not None
+        values_given = [
+            value
+            for value in (self.inner_mass, self.outer_mass, self.ring_conductance)
+            if value is not None
         ]
-        if len(given) not in (0, 3):
+        if len(values_given) not in (0, 3):
             raise InputError(
                 "rings with temperatures of their own need inner_mass, outer_mass and "
                 "ring_conductance",

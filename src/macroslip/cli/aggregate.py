@@ -76,24 +76,24 @@ def aggregate(
         width=stored.width if width is None else width,
         by=by or (),
     )
-    found = tables(study, aggregation)
-    for name in found:
+    frames = tables(study, aggregation)
+    for name in frames:
         check_not_input(output / f"{name}.{form}", [probabilities] if probabilities else [])
-    written = write_tables(found, output, form)
+    written = write_tables(frames, output, form)
     if xlsx is not None:
         from macroslip.report.sheets import ORIGIN, origin_sheet
 
         origin = origin_sheet({"study": study}, choices={"aggregation": aggregation})
-        write_workbook(xlsx, found | {ORIGIN: origin}, force=force)
+        write_workbook(xlsx, frames | {ORIGIN: origin}, force=force)
         written.append(xlsx)
     if as_json:
-        lifetime = found["lifetime"].to_dict("records") if "lifetime" in found else None
+        lifetime = frames["lifetime"].to_dict("records") if "lifetime" in frames else None
         print_json({"lifetime": lifetime, "written": [str(path) for path in written]})
         return
     if quiet:
         return
-    if "lifetime" in found:
-        _lifetime(found["lifetime"], years)
+    if "lifetime" in frames:
+        _lifetime(frames["lifetime"], years)
         typer.echo(coverage(year(study, aggregation)))
     for path in written:
         typer.echo(f"written: {path}")
@@ -116,9 +116,11 @@ def _weights(
 
     check_regular(probabilities, "Name a CSV table.")
     try:
-        given = pd.read_csv(probabilities)
+        of_bins = pd.read_csv(probabilities)
         return BinProbabilities(
-            dict(zip(given["bin"].astype(float), given["probability"].astype(float), strict=True))
+            dict(
+                zip(of_bins["bin"].astype(float), of_bins["probability"].astype(float), strict=True)
+            )
         )
     except InputError:
         raise

@@ -344,26 +344,26 @@ def _estimate(
 
 
 def _tell_estimate(
-    found: EstimatedBearing | EstimatedTaperedBearing, output: Path, as_json: bool
+    estimate: EstimatedBearing | EstimatedTaperedBearing, output: Path, as_json: bool
 ) -> None:
     """Print medians and ranges of an estimate, and how it compares with what is known."""
-    numbers = _numbers(found)
+    numbers = _numbers(estimate)
     if as_json:
         print_json(numbers | {"written": str(output)})
         return
     rows = []
-    for key, one in numbers["values"].items():
-        unit = "" if one["unit"] == "1" else f" {one['unit']}"
-        low, high = one["10 to 90 %"]
-        rows.append([key, f"{one['median']:g}{unit}", f"{low:g} to {high:g}{unit}"])
+    for key, entry in numbers["values"].items():
+        unit = "" if entry["unit"] == "1" else f" {entry['unit']}"
+        low, high = entry["10 to 90 %"]
+        rows.append([key, f"{entry['median']:g}{unit}", f"{low:g} to {high:g}{unit}"])
     title = (
-        f"{found.bearing.name}: median and range of four out of five of "
+        f"{estimate.bearing.name}: median and range of four out of five of "
         f"{numbers['bearings that fit the page']} bearings that fit the page"
     )
     print_table(title, [("key", False), ("median", True), ("10 to 90 %", False)], rows)
     typer.echo()
     ratio = numbers["C by ISO 281 / published [1]"]
-    if found.bearing.kind == "tapered":
+    if estimate.bearing.kind == "tapered":
         typer.echo(
             "C is no check of a tapered bearing: makers publish up to 40 % more than ISO 281. Rib and "
             "preload are on no maker's page, and they decide friction and slip."
@@ -383,11 +383,11 @@ def _tell_estimate(
     typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")
 
 
-def _numbers(found: EstimatedBearing | EstimatedTaperedBearing) -> dict[str, Any]:
+def _numbers(estimate: EstimatedBearing | EstimatedTaperedBearing) -> dict[str, Any]:
     """Every estimated value with its range, and C by ISO 281 over the published one, if known."""
     from macroslip.bearing.load_ratings import dynamic_load_rating
 
-    bearing = found.bearing
+    bearing = estimate.bearing
     ratio = None
     published = bearing.dynamic_load_rating
     if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
@@ -402,16 +402,16 @@ def _numbers(found: EstimatedBearing | EstimatedTaperedBearing) -> dict[str, Any
         for key, origin in bearing.provenance.items()
         if origin.range is not None
     }
-    count = int(found.samples["rollers_per_row"].size)
+    count = int(estimate.samples["rollers_per_row"].size)
     return {
         "name": bearing.name,
         "bearings that fit the page": count,
         "values": values,
         "C by ISO 281 / published [1]": ratio,
         "in the catalogue": [
-            one.name
-            for one in known
-            if all(getattr(one, key) == getattr(bearing, key) is not None for key in size)
+            known_bearing.name
+            for known_bearing in known
+            if all(getattr(known_bearing, key) == getattr(bearing, key) is not None for key in size)
         ],
     }
 

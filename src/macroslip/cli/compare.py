@@ -45,16 +45,16 @@ def compare(
 
     first = results[0]
     output = output or (first if first.is_dir() else first.parent) / PAGE
-    inputs = [one for one in results if one.is_file()]
+    inputs = [path for path in results if path.is_file()]
     check_new_file(output, force=force, inputs=inputs)
     check_workbook(xlsx, force=force, inputs=inputs)
-    found = compared(*results, by=by)
+    comparison = compared(*results, by=by)
     curves = (
         {}
         if is_study(first)
-        else dict(zip(found["design"].unique(), map(open_result, results), strict=True))
+        else dict(zip(comparison["design"].unique(), map(open_result, results), strict=True))
     )
-    page = comparison_page(found, curves, title=title)
+    page = comparison_page(comparison, curves, title=title)
     with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8")
     if xlsx is not None:
@@ -62,25 +62,25 @@ def compare(
         from macroslip.study.reader import open_study
 
         datasets = curves or {"study": open_study(first)}
-        write_workbook(xlsx, comparison_sheets(found, datasets), force=force)
+        write_workbook(xlsx, comparison_sheets(comparison, datasets), force=force)
     if as_json:
-        numbers = found.astype(object).where(found.notna(), None).to_dict("records")
-        print_json({"numbers": numbers, **found.attrs, "written": str(output)})
+        numbers = comparison.astype(object).where(comparison.notna(), None).to_dict("records")
+        print_json({"numbers": numbers, **comparison.attrs, "written": str(output)})
         return
     if quiet:
         return
-    typer.echo(f"{found.attrs['about']}.")
-    for note in found.attrs["notes"]:
+    typer.echo(f"{comparison.attrs['about']}.")
+    for note in comparison.attrs["notes"]:
         typer.echo(f"note: {note}")
-    for one in comparison_tables(found):
-        if one.rows:
+    for table in comparison_tables(comparison):
+        if table.rows:
             print_table(
-                one.caption,
-                [(name, k > 0) for k, name in enumerate(one.headings)],
-                [list(row) for row in one.rows],
+                table.caption,
+                [(name, k > 0) for k, name in enumerate(table.headings)],
+                [list(row) for row in table.rows],
             )
             typer.echo()
-    typer.echo(found.attrs["ranking"])
+    typer.echo(comparison.attrs["ranking"])
     typer.echo(f"written: {output}")
     if xlsx is not None:
         typer.echo(f"written: {xlsx}")

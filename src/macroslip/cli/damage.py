@@ -52,42 +52,44 @@ def damage(
     check_workbook(xlsx, force=force, inputs=[result])
     own = dict(map(_threshold, threshold or ()))
     dataset = open_result(result)
-    found = computed(
+    criteria = computed(
         dataset,
         wear_coefficients=k or None,
         hardness=si("--hardness", hardness, PRESSURE),
         thresholds=own,
     )
-    lines, missing = criterion_lines(found)
+    lines, missing = criterion_lines(criteria)
     if xlsx is not None:
         from macroslip.report.sheets import damage_sheets
 
-        write_workbook(xlsx, damage_sheets(found, lines, dataset), force=force)
+        write_workbook(xlsx, damage_sheets(criteria, lines, dataset), force=force)
     if as_json:
-        named = {name: found.attrs[name] for name in ("title", "model", "oil")}
-        print_json(named | {"criteria": lines, "wear": _wear(found), "not kept": missing})
+        named = {name: criteria.attrs[name] for name in ("title", "model", "oil")}
+        print_json(named | {"criteria": lines, "wear": _wear(criteria), "not kept": missing})
         return
-    print_criteria(lines, missing, title=found.attrs["title"])
-    if "wear_time" in found:
-        years = (found.wear_time / YEAR).values
+    print_criteria(lines, missing, title=criteria.attrs["title"])
+    if "wear_time" in criteria:
+        years = (criteria.wear_time / YEAR).values
         rows = [
             [
                 row,
-                place,
+                surface,
                 *(
-                    " to ".join(f"{one:.2g}" for one in {line[-1]: 0, line[0]: 0})
+                    " to ".join(
+                        f"{years_to_depth:.2g}" for years_to_depth in {line[-1]: 0, line[0]: 0}
+                    )
                     for line in years[i, j]
                 ),
             ]
-            for i, row in enumerate(found.row.values.tolist())
-            for j, place in enumerate(found.place.values.tolist())
+            for i, row in enumerate(criteria.row.values.tolist())
+            for j, surface in enumerate(criteria.place.values.tolist())
         ]
-        coefficients = ", ".join(f"{k:.2g}" for k in found.wear_coefficient.values[::-1])
+        coefficients = ", ".join(f"{k:.2g}" for k in criteria.wear_coefficient.values[::-1])
         title = f"years of wear at k = {coefficients} m²/N"
         headings = [
             ("row", False),
             ("place", False),
-            *((f"{1e6 * one:g} µm", True) for one in found.depth.values),
+            *((f"{1e6 * worn:g} µm", True) for worn in criteria.depth.values),
         ]
         print_table(title, headings, rows)
     if xlsx is not None:
@@ -107,29 +109,29 @@ def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: st
             shown.rows,
         )
         typer.echo(f"how sure: {how_sure(lines)}")
-    for one in missing:
-        typer.echo(one)
+    for sentence in missing:
+        typer.echo(sentence)
 
 
-def _wear(found: xr.Dataset) -> list[dict[str, Any]]:
+def _wear(criteria: xr.Dataset) -> list[dict[str, Any]]:
     """Years to each depth by row and place, over the coefficients of wear."""
-    if "wear_time" not in found:
+    if "wear_time" not in criteria:
         return []
     from macroslip.constants import YEAR
 
     return [
         {
             "row": row,
-            "place": place,
+            "place": surface,
             "depth [m]": depth,
-            "wear coefficients [m2/N]": found.wear_coefficient.values.tolist(),
+            "wear coefficients [m2/N]": criteria.wear_coefficient.values.tolist(),
             "years": (
-                found.wear_time.sel(row=row, place=place, depth=depth).values / YEAR
+                criteria.wear_time.sel(row=row, place=surface, depth=depth).values / YEAR
             ).tolist(),
         }
-        for row in found.row.values.tolist()
-        for place in found.place.values.tolist()
-        for depth in found.depth.values.tolist()
+        for row in criteria.row.values.tolist()
+        for surface in criteria.place.values.tolist()
+        for depth in criteria.depth.values.tolist()
     ]  # fmt: skip
 
 
@@ -140,9 +142,9 @@ def _threshold(text: str) -> tuple[str, Threshold]:
     from macroslip.result.criteria import CRITERIA
     from macroslip.result.criteria.criterion import Threshold
 
-    name, _, rest = text.partition("=")
-    value, _, source = rest.partition(",")
-    units = {one.name: one.unit for one in CRITERIA}
+    name, _, setting = text.partition("=")
+    value, _, source = setting.partition(",")
+    units = {criterion.name: criterion.unit for criterion in CRITERIA}
     if name.strip() not in units or not source.strip():
         allowed = f"'NAME=VALUE UNIT, SOURCE' with a name of {', '.join(units)}"
         raise InputError(

@@ -49,7 +49,7 @@ def doctor(
     folder = cache_folder()
     sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()] if folder else []
     lacking = {command: missing_packages(need) for command, need in COMMANDS.items()}
-    found = {
+    report = {
         "version": macroslip.__version__,
         "machine": {name: value for name, value in machine().items() if name in _OF_THE_MACHINE},
         "caches": {
@@ -68,25 +68,28 @@ def doctor(
         ],
     }
     if as_json:
-        print_json(found)
+        print_json(report)
         return
-    rows = [[name, str(found["machine"][name])] for name in _OF_THE_MACHINE]
+    rows = [[name, str(report["machine"][name])] for name in _OF_THE_MACHINE]
     stored = f"{folder}, {sum(sizes) / 1e6:.3g} MB in {len(sizes)} files"
     rows.append(
         ["caches", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"]
     )
-    print_table(f"macroslip {found['version']}", [("", False), ("", False)], rows)
+    print_table(f"macroslip {report['version']}", [("", False), ("", False)], rows)
     typer.echo()
-    rows = [[one["package"], one["installed"] or "-", one["wanted"]] for one in found["packages"]]
+    rows = [
+        [package["package"], package["installed"] or "-", package["wanted"]]
+        for package in report["packages"]
+    ]
     print_table("packages", [("package", False), ("installed", False), ("wanted", False)], rows)
     typer.echo()
     rows = [
         [
-            one["command"],
-            f"lacks {', '.join(one['missing'])}" if one["missing"] else "ready",
-            one["remedy"],
+            command["command"],
+            f"lacks {', '.join(command['missing'])}" if command["missing"] else "ready",
+            command["remedy"],
         ]
-        for one in found["commands"]
+        for command in report["commands"]
     ]
     print_table("commands that need more", [("command", False), ("", False), ("", False)], rows)
 
@@ -99,8 +102,8 @@ def _warm(case: Path | None, quiet: bool) -> None:
     cases = [read_case(case, bearing=name) for name in bearings_in(case)] if case else []
     with command_progress(quiet=quiet):
         compile_all()
-        for one in cases:
-            make_tables(one)
+        for case_read in cases:
+            make_tables(case_read)
 
 
 def _packages() -> Iterator[dict[str, Any]]:

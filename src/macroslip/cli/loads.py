@@ -128,12 +128,12 @@ def inspect(
                 name: value for name, value in source.cut.items() if name not in ("start", "end")
             }
             options = whole | options
-    found, loads, bearing = _read(file, options, drivetrain, bearings[1:])
+    description, loads, bearing = _read(file, options, drivetrain, bearings[1:])
     doubts = doubtful_loads(loads, base.bearing if base else None)
     if as_json:
-        print_json(found | {"doubtful": doubts})
+        print_json(description | {"doubtful": doubts})
     else:
-        _print(found)
+        _print(description)
         for sentence in doubts:
             to_stderr(f"doubtful: {sentence}")
     if output is not None:
@@ -167,19 +167,19 @@ def _read(
         return _described(bearing, "load on the main bearing"), bearing, bearing
     hub = HubLoads.read(file, **options)
     bearing = main_bearing_load(hub, drivetrain)
-    found = _described(hub, "hub loads in non-rotating shaft axes")
-    found["reading"] = list(hub.reading)
+    description = _described(hub, "hub loads in non-rotating shaft axes")
+    description["reading"] = list(hub.reading)
     units = {"tilt": "deg", "shaft_mass": "kg"}
     plain = asdict(drivetrain) | {"tilt": math.degrees(drivetrain.tilt)}
-    found["drivetrain"] = {"default": drivetrain == Drivetrain()} | {
+    description["drivetrain"] = {"default": drivetrain == Drivetrain()} | {
         name if name in _NO_UNIT else f"{name} [{units.get(name, 'm')}]": value
         for name, value in plain.items()
     }
-    found["main bearing"] = _statistics(_forces(bearing))
+    description["main bearing"] = _statistics(_forces(bearing))
     for name in others:
         load = main_bearing_load(hub, replace(drivetrain, bearing=name))
-        found[f"{name} main bearing"] = _statistics(_forces(load))
-    return found, hub, bearing
+        description[f"{name} main bearing"] = _statistics(_forces(load))
+    return description, hub, bearing
 
 
 def _holds_bearing_loads(file: Path, sheet: str) -> bool:
@@ -236,16 +236,16 @@ def _statistics(quantities: dict[str, NDArray]) -> dict[str, dict[str, float]]:
     }
 
 
-def _print(found: dict[str, Any]) -> None:
-    step = found["step [s]"]
+def _print(description: dict[str, Any]) -> None:
+    step = description["step [s]"]
     uneven = step["max"] - step["min"] > 1e-3 * step["median"]
     spread = f" (median; {step['min']:.6g} s to {step['max']:.6g} s)" if uneven else ""
-    start, end = found["time [s]"]
+    start, end = description["time [s]"]
     lines = {
-        "source": found["source"],
-        "kind": found["kind"],
-        "taken": "\n          ".join(found.get("reading", ())),
-        "samples": f"{found['samples']}",
+        "source": description["source"],
+        "kind": description["kind"],
+        "taken": "\n          ".join(description.get("reading", ())),
+        "samples": f"{description['samples']}",
         "time": f"{start:.6g} s to {end:.6g} s",
         "step": f"{step['median']:.6g} s{spread}",
     }
@@ -253,15 +253,16 @@ def _print(found: dict[str, Any]) -> None:
         if text:
             typer.echo(f"{name:<10}{text}")
     typer.echo()
-    _table("statistics over the samples", found["statistics"])
-    if "main bearing" in found:
+    _table("statistics over the samples", description["statistics"])
+    if "main bearing" in description:
         typer.echo()
         _table(
-            f"load on the main bearing, with {_words(found['drivetrain'])}", found["main bearing"]
+            f"load on the main bearing, with {_words(description['drivetrain'])}",
+            description["main bearing"],
         )
-    for name in (key for key in found if key.endswith(" main bearing")):
+    for name in (key for key in description if key.endswith(" main bearing")):
         typer.echo()
-        _table(f"load on the {name}", found[name])
+        _table(f"load on the {name}", description[name])
 
 
 def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
@@ -274,20 +275,18 @@ def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
     )
 
 
-def _words(given: dict[str, Any]) -> str:
+def _words(drivetrain: dict[str, Any]) -> str:
     shaft = "no shaft mass"
-    if mass := given["shaft_mass [kg]"]:
-        shaft = f"a shaft of {mass:g} kg {given['shaft_mass_station [m]']:g} m behind the hub"
-    start = f"{'the default' if given['default'] else 'your'} drivetrain ({given['hub_to_bearing [m]']:g} m from hub to "
-    if given["mount"] == "four-point":
-        rear = f"{given['front_to_rear [m]']:g} m from front to rear bearing, {given['locating']} locating"
-        if given["front"] == "moment-carrying":
-            share = given["front_moment_share"] or 0.0
+    if mass := drivetrain["shaft_mass [kg]"]:
+        shaft = f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub"
+    start = f"{'the default' if drivetrain['default'] else 'your'} drivetrain ({drivetrain['hub_to_bearing [m]']:g} m from hub to "
+    if drivetrain["mount"] == "four-point":
+        rear = f"{drivetrain['front_to_rear [m]']:g} m from front to rear bearing, {drivetrain['locating']} locating"
+        if drivetrain["front"] == "moment-carrying":
+            share = drivetrain["front_moment_share"] or 0.0
             rear += f", a moment-carrying front that takes {share:g} of the moment"
-        return f"{start}front bearing, {rear}, {shaft}): the {given['bearing']} bearing"
-    return (
-        f"{start}bearing, {given['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
-    )
+        return f"{start}front bearing, {rear}, {shaft}): the {drivetrain['bearing']} bearing"
+    return f"{start}bearing, {drivetrain['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
 
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:

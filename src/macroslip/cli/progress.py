@@ -77,12 +77,12 @@ def _bar(console: Console) -> Iterator[Callable[[str, int, int], None]]:
 def _lines() -> Iterator[Callable[[str, int, int], None]]:
     """A line for every stage that takes long, once."""
     began: dict[str, float] = {}
-    told: set[str] = set()
+    announced: set[str] = set()
 
     def report(label: str, done: int, total: int) -> None:
         now = time.monotonic()
-        if done > 0 and label not in told and now - began.setdefault(label, now) >= LINE_AFTER:
-            told.add(label)
+        if done > 0 and label not in announced and now - began.setdefault(label, now) >= LINE_AFTER:
+            announced.add(label)
             to_stderr(f"{label}: {done} of {total} done")
 
     yield report

@@ -88,14 +88,14 @@ def _of_results(results: Path, title: str | None) -> tuple[str, str]:
     from macroslip.report.result_numbers import rollers_failed
     from macroslip.report.results_page import results_page
 
-    found = read_results(results)
+    datasets = read_results(results)
     try:
-        page = results_page(found, title=title or _TITLE)
+        page = results_page(datasets, title=title or _TITLE)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         # A file may have been changed in too many ways to check each.
         fault = f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})"
         allowed = "what macroslip run wrote, or a selection of it"
         remedy = "Run the case again; if nothing has changed the file since it was written, please report this."
         raise InputError(fault, where=str(results), allowed=allowed, remedy=remedy) from error
-    failed, rollers = rollers_failed(found.values())
+    failed, rollers = rollers_failed(datasets.values())
     return page, f"{failed} of {rollers} rollers" if failed else ""

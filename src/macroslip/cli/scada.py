@@ -53,10 +53,10 @@ def init(
 
     output = output or file.with_name("scada.yaml")
     check_new_file(output, force=force, inputs=[file])
-    text, told = draft(file, output.parent, sheet)
+    text, notes = draft(file, output.parent, sheet)
     with new_file(output, force=force) as temporary:
         temporary.write_text(text, encoding="utf-8")
-    for line in told:
+    for line in notes:
         typer.echo(line)
     typer.echo(f"written:    {output}")
     typer.echo(f"look at it: macroslip scada inspect {output}")
@@ -84,13 +84,13 @@ def inspect(
     counts = rows_by_month(read.counts)
     shares = histogram(read)
     if as_json:
-        found = {
+        report = {
             "about": told_rows(read),
             "notes": notes,
             "counts": read.counts.astype({"filter": str}).to_dict("records"),
             "histogram": shares.to_dict("records"),
         }
-        print_json(found if beside is None else found | {"speeds": beside.to_dict("records")})
+        print_json(report if beside is None else report | {"speeds": beside.to_dict("records")})
         return
     typer.echo(told_rows(read))
     for note in notes:
@@ -164,11 +164,11 @@ def year(
     for name in (*_TABLES, PAGE):
         check_new_file(output / name, force=force, inputs=[description])
     wind = None if weibull is None else Weibull(scale=weibull[0], shape=weibull[1])
-    found = real_year(description, study, wind=wind, allow_short=allow_short)
+    real = real_year(description, study, wind=wind, allow_short=allow_short)
     contents = {
-        "bins.csv": found.bins.to_csv(index=False, lineterminator="\n"),
-        "year.csv": found.table.to_csv(index=False, lineterminator="\n"),
-        PAGE: real_year_page(found),
+        "bins.csv": real.bins.to_csv(index=False, lineterminator="\n"),
+        "year.csv": real.table.to_csv(index=False, lineterminator="\n"),
+        PAGE: real_year_page(real),
     }
     for name, text in contents.items():
         with new_file(output / name, force=force) as temporary:
@@ -176,22 +176,22 @@ def year(
     if as_json:
         written = [str(output / name) for name in contents]
         print_json(
-            {"year": found.table.to_dict("records"), "notes": list(found.notes), "written": written}
+            {"year": real.table.to_dict("records"), "notes": list(real.notes), "written": written}
         )
         return
     if quiet:
         return
-    _print_year(found)
+    _print_year(real)
     for name in contents:
         typer.echo(f"written: {output / name}")
 
 
-def _print_year(found: RealYear) -> None:
+def _print_year(real: RealYear) -> None:
     from macroslip.report.real_year_page import verdict
 
-    for sentence in verdict(found):
+    for sentence in verdict(real):
         typer.echo(sentence)
-    for note in found.notes:
+    for note in real.notes:
         typer.echo(f"note: {note}")
     typer.echo()
     names = ["real", "at_mean", "fixed", "real_over_fixed", "oil_cooler", "oil_warmer", "seeds [%]"]
@@ -200,11 +200,11 @@ def _print_year(found: RealYear) -> None:
             f"{line['design']} {line['quantity']} [{line['unit']}]".strip(),
             *(number(line[name]) for name in names),
         ]
-        for line in found.table.to_dict("records")
+        for line in real.table.to_dict("records")
     ]
     headings = ["real", "at the mean", "at 35 degC", "real/35 degC", "oil −5 K", "oil +5 K"]
     print_table(
-        f"a year: {found.source}",
+        f"a year: {real.source}",
         [("", False), *((name, True) for name in [*headings, "seeds [%]"])],
         lines,
     )

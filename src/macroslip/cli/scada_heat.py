@@ -41,30 +41,30 @@ def heat(
     from macroslip.study.heat import heat_fit
 
     described = ScadaDescription.read(description)
-    found = heat_fit(description, study)
-    written = write_tables({"fit": found.fit, "index": found.index}, output, "csv")
+    fitted = heat_fit(description, study)
+    written = write_tables({"fit": fitted.fit, "index": fitted.index}, output, "csv")
     page = output / "page.html"
-    write_durably(page, heat_page(found, described, str(study)).encode())
+    write_durably(page, heat_page(fitted, described, str(study)).encode())
     written.append(page)
-    sentences = heat_sentences(found, described)
+    sentences = heat_sentences(fitted, described)
     if as_json:
-        numbers = found.fit.astype(object).where(found.fit.notna(), None).to_dict("records")
+        numbers = fitted.fit.astype(object).where(fitted.fit.notna(), None).to_dict("records")
         print_json(
             {
-                "fit": numbers, "answer": sentences, "marks": list(found.marks),
-                "notes": list(found.notes), "written": [str(path) for path in written],
+                "fit": numbers, "answer": sentences, "marks": list(fitted.marks),
+                "notes": list(fitted.notes), "written": [str(path) for path in written],
             }
         )  # fmt: skip
         return
     if quiet:
         return
-    for sentence in (*sentences, *(f"doubtful: {mark}" for mark in found.marks)):
+    for sentence in (*sentences, *(f"doubtful: {mark}" for mark in fitted.marks)):
         typer.echo(sentence)
-    for note in found.notes:
+    for note in fitted.notes:
         typer.echo(f"note: {note}")
     rows = [
         [model_name(fit), f"{fit.residual:.4f}"]
-        for fit in sorted(found.fits, key=lambda fit: fit.residual)
+        for fit in sorted(fitted.fits, key=lambda fit: fit.residual)
     ]
     headings = [("model", False), ("root mean square of the residual [K/h]", True)]
     print_table("What each model leaves of dT/dt", headings, rows)

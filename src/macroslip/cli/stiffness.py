@@ -52,18 +52,18 @@ def stiffness(
                 allowed=" or ".join(_FORMATS),
             )
         check_new_file(output, force=force, inputs=cases)
-    found = ring_stiffness(_cases(cases, loads or []))
+    rings = ring_stiffness(_cases(cases, loads or []))
     if output is not None:
         if output.suffix.lower() == ".csv":
-            text = stiffness_table(found).to_csv(index=False, lineterminator="\n")
+            text = stiffness_table(rings).to_csv(index=False, lineterminator="\n")
         else:
-            text = json.dumps(stiffness_data(found), indent=2, ensure_ascii=False)
+            text = json.dumps(stiffness_data(rings), indent=2, ensure_ascii=False)
         with new_file(output, force=force) as temporary:
             temporary.write_text(text, encoding="utf-8")
     if as_json:
-        print_json(stiffness_data(found))
+        print_json(stiffness_data(rings))
     elif not quiet:
-        _print(found)
+        _print(rings)
         if output is not None:
             typer.echo(f"written: {output}")
 
@@ -91,12 +91,12 @@ def _cases(paths: list[Path], names: list[str]) -> dict[str, Case]:
     return cases
 
 
-def _print(found: xr.Dataset) -> None:
+def _print(rings: xr.Dataset) -> None:
     headings = ("F_X0", "F_Y0", "F_Z0", "k_XX", "k_YY", "k_ZZ", "k_XY", "k_XZ", "k_YZ")
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
     rows = []
-    for point in range(found.sizes["point"]):
-        here = found.isel(point=point)
+    for point in range(rings.sizes["point"]):
+        here = rings.isel(point=point)
         forces = [number(float(value) / 1e3) for value in here.force.values]
         entries = [number(float(here.stiffness.values[pair]) / 1e6) for pair in pairs]
         held = "" if here.held else "not held"

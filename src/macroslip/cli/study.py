@@ -138,7 +138,7 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
     from macroslip.study.estimate import estimate_study
     from macroslip.study.progress import duration
 
-    found = estimate_study(checked)
+    estimate = estimate_study(checked)
     parts = [
         (len(checked.loads.loads), "load histories"), (len(checked.bearings), "bearings"),
         (len(checked.lubricants), "lubricants"), (len(checked.models), "models"),
@@ -146,31 +146,31 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
     ]  # fmt: skip
     processors = min(usable_processors(), (workers or 1) * (threads or usable_processors()))
     if as_json:
-        known = bool(found.looked_at)
+        known = bool(estimate.looked_at)
         print_json(
             {name: count for count, name in parts}
             | {
-                "runs": found.runs, "looked at": found.looked_at, "processors": processors,
-                "seconds on one processor": found.seconds if known else None,
-                "bytes": found.bytes if known else None, "problems": list(found.problems),
+                "runs": estimate.runs, "looked at": estimate.looked_at, "processors": processors,
+                "seconds on one processor": estimate.seconds if known else None,
+                "bytes": estimate.bytes if known else None, "problems": list(estimate.problems),
             }
         )  # fmt: skip
         return
-    rows = [[name, str(count)] for count, name in parts] + [["runs", str(found.runs)]]
-    if found.looked_at:
+    rows = [[name, str(count)] for count, name in parts] + [["runs", str(estimate.runs)]]
+    if estimate.looked_at:
         rows += [
-            ["length of a load history, mean", f"{found.simulated_seconds:.6g} s"],
-            ["time on one processor", duration(found.seconds)],
-            [f"time here, on {processors} processors", duration(found.seconds / processors)],
-            ["disk", decimal(round(found.bytes))],
+            ["length of a load history, mean", f"{estimate.simulated_seconds:.6g} s"],
+            ["time on one processor", duration(estimate.seconds)],
+            [f"time here, on {processors} processors", duration(estimate.seconds / processors)],
+            ["disk", decimal(round(estimate.bytes))],
         ]
     print_table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
     typer.echo(
-        f"Time and disk are estimated from {found.looked_at} runs of the study, begun here and now."
-        if found.looked_at
+        f"Time and disk are estimated from {estimate.looked_at} runs of the study, begun here and now."
+        if estimate.looked_at
         else "Time and disk cannot be estimated."
     )
-    for problem in found.problems:
+    for problem in estimate.problems:
         to_stderr(f"note: {safe_text(problem)}")
 
 
@@ -217,7 +217,7 @@ def _summary(ended: Ended, output: Path, as_json: bool) -> None:
             {
                 "runs": counts.total, "computed": counts.computed, "unchanged": counts.unchanged,
                 "failed": counts.failed, "left": left, "seconds": counts.seconds, "folder": str(output),
-                "failures": [dict(zip(("labels", "outcome", "reason"), one, strict=True)) for one in ended.failures],
+                "failures": [dict(zip(("labels", "outcome", "reason"), failure, strict=True)) for failure in ended.failures],
             }
         )  # fmt: skip
         return

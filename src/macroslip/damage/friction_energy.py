@@ -76,12 +76,12 @@ class ThrustTest:
         its inner end:
 
         >>> test = ThrustTest()
-        >>> place, power = test.power()
+        >>> offset, power = test.power()
         >>> float(round(1e-6 * power.max(), 2)), round(1e-6 * test.force * test.speed / (8 * math.pi * test.pitch_radius), 2)
         (5.61, 4.84)
         """
         width = self.roller_length / slices
-        place = np.asarray(
+        offset = np.asarray(
             (np.arange(slices) + 0.5) * width - 0.5 * self.roller_length, dtype=np.float64
         )
         mean = self.force / (self.rollers * self.roller_length)
@@ -90,14 +90,14 @@ class ThrustTest:
             gap = (
                 0.00035
                 * self.roller_diameter
-                * -np.log1p(-((2.0 * place / self.roller_length) ** 2))
+                * -np.log1p(-((2.0 * offset / self.roller_length) ** 2))
             )
             approach = 1e-3 * (1e-3 * mean / 35948.0) ** 0.9
             load = slice_loads(gap, self.force / self.rollers, 10.0 / 9.0 * mean / approach, width)
-        radius = self.pitch_radius + place
+        radius = self.pitch_radius + offset
         passing = 0.5 * self.speed * radius
-        work = pass_work(load, 0.5 * self.speed * place, passing)
-        return place, friction_power(work, self.rollers * 0.5 * self.speed / (2.0 * math.pi))
+        work = pass_work(load, 0.5 * self.speed * offset, passing)
+        return offset, friction_power(work, self.rollers * 0.5 * self.speed / (2.0 * math.pi))
 
     def range(self) -> tuple[float, float]:
         """Largest e_a on the washers [W/m²], with the logarithmic profile and with even load.

@@ -54,7 +54,7 @@ class NumberFormat:
             if mark and mark not in marks:
                 raise InputError(
                     f"{key} is {shown(mark)}",
-                    allowed=" or ".join(f'"{one}"' for one in marks),
+                    allowed=" or ".join(f'"{character}"' for character in marks),
                 )
         if self.thousands and self.thousands == self.decimal:
             raise InputError(
@@ -237,8 +237,8 @@ def _first(column: pa.ChunkedArray, pattern: str, *, matches: bool = True) -> st
 
     whole = pattern if pattern.endswith(".*") else f"^(?:{pattern})$"
     hits = pc.match_substring_regex(column, whole)
-    found = column.filter(hits if matches else pc.invert(hits))
-    return found[0].as_py() if len(found) else None
+    matching = column.filter(hits if matches else pc.invert(hits))
+    return matching[0].as_py() if len(matching) else None
 
 
 def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:

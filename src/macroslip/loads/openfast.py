@@ -165,8 +165,8 @@ def gauge_distance(channels: Channels) -> float | None:
     change = np.concatenate([gauge_y - hub_y, gauge_z - hub_z])
     squares = across @ across
     distance = float(change @ across / squares) if squares > 0.0 else math.nan
-    rest = change - distance * across
-    return distance if rest @ rest < _SAME_CHANGE * (change @ change) else None
+    residual = change - distance * across
+    return distance if residual @ residual < _SAME_CHANGE * (change @ change) else None
 
 
 def is_load_channel(name: str) -> bool:

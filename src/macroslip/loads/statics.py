@@ -33,11 +33,11 @@ _FOUR_POINT_KEYS = ("front_to_rear", "locating", "bearing")
 _FRONT_KEYS = ("front", "front_moment_share")
 
 
-def _end_of_shaft(given: Mapping[str, Any]) -> float:
+def _end_of_shaft(drivetrain: Mapping[str, Any]) -> float:
     """Farthest station of the shaft's mass: gearbox support, or 10 m behind the rear bearing."""
-    if given.get("mount") == "four-point":
-        return given["hub_to_bearing"] + (given.get("front_to_rear") or 0.0) + 10.0
-    return given["hub_to_bearing"] + given["bearing_to_gearbox"]
+    if drivetrain.get("mount") == "four-point":
+        return drivetrain["hub_to_bearing"] + (drivetrain.get("front_to_rear") or 0.0) + 10.0
+    return drivetrain["hub_to_bearing"] + drivetrain["bearing_to_gearbox"]
 
 
 @input_section("drivetrain", "supports and mass of the shaft")
@@ -161,7 +161,7 @@ class Drivetrain:
     def __post_init__(self) -> None:
         """InputError for keys that are missing or do not count."""
         required = [key for key in _FOUR_POINT_KEYS if getattr(self, key) is not None]
-        given = required + [key for key in _FRONT_KEYS if getattr(self, key) is not None]
+        excluded = required + [key for key in _FRONT_KEYS if getattr(self, key) is not None]
         missing = [key for key in _FOUR_POINT_KEYS if key not in required]
         if self.mount == "four-point" and missing:
             are = "is" if len(missing) == 1 else "are"
@@ -170,8 +170,8 @@ class Drivetrain:
                 allowed="front_to_rear: a length; locating and bearing: front or rear",
                 remedy="Add what is missing.",
             )
-        if self.mount == "three-point" and given:
-            fault = f"the mount is three-point, which has no {' and no '.join(given)}"
+        if self.mount == "three-point" and excluded:
+            fault = f"the mount is three-point, which has no {' and no '.join(excluded)}"
             raise InputError(fault, remedy="Write mount: four-point, or remove what belongs to it.")
         if self.mount == "four-point" and self.bearing_to_gearbox != _TO_GEARBOX:
             fault = "the mount is four-point, on which bearing_to_gearbox does not count"

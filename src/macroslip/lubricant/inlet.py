@@ -82,13 +82,14 @@ def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
     )
 
 
-def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
+def derive(values: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
     """Values at the inlet that follow from the figures of a data sheet, in SI.
 
-    Of density, viscosity, temperature_viscosity and pressure_viscosity those that are not `given`
-    [SI] and that follow from others, whose ranges in `origins` are handed on in proportion.
+    These are density, viscosity, temperature_viscosity and pressure_viscosity, as far as `values`
+    [SI] lacks them and they follow from others, whose ranges in `origins` are handed on in
+    proportion.
     """
-    found: dict[str, Provenance] = {}
+    derived: dict[str, Provenance] = {}
 
     def follows(key: str, value: float, unit: str, note: str, source: str) -> None:
         """Enter a derived value.
@@ -106,30 +107,30 @@ def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dic
         source : str
             Key of the figure whose range is handed on in proportion; "" for none.
         """
-        found[key] = Provenance(value, unit, "D", note, scaled_range(origins.get(source), value))
+        derived[key] = Provenance(value, unit, "D", note, scaled_range(origins.get(source), value))
 
-    temperature = given.get("inlet_temperature")
+    temperature = values.get("inlet_temperature")
     if temperature is None:
-        return found
-    density = given.get("density")
-    if density is None and "density_15" in given:
-        density = density_at(given["density_15"], T15, temperature)
+        return derived
+    density = values.get("density")
+    if density is None and "density_15" in values:
+        density = density_at(values["density_15"], T15, temperature)
         follows("density", density, "kg/m3", "from density_15, less 0.65 kg/(m3 K)", "density_15")
-    viscosity = given.get("viscosity")
+    viscosity = values.get("viscosity")
     line = None
     if (
         density is not None
-        and {"kinematic_viscosity_40", "kinematic_viscosity_100"} <= given.keys()
+        and {"kinematic_viscosity_40", "kinematic_viscosity_100"} <= values.keys()
     ):
         line = walther_line_through(
-            T40, given["kinematic_viscosity_40"], T100, given["kinematic_viscosity_100"]
+            T40, values["kinematic_viscosity_40"], T100, values["kinematic_viscosity_100"]
         )
         eta, beta = viscosities(line, temperature, density)
         if viscosity is None:
             viscosity = eta
             note = "Walther line through the viscosities at 40 and 100 degC, times density"
             follows("viscosity", eta, "Pa s", note, "kinematic_viscosity_40")
-        if "temperature_viscosity" not in given:
+        if "temperature_viscosity" not in values:
             follows(
                 "temperature_viscosity",
                 beta,
@@ -137,24 +138,24 @@ def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dic
                 "slope of the Walther line at the inlet temperature",
                 "",
             )
-    if viscosity is None or "pressure_viscosity" in given:
-        return found
-    index = given.get("roelands_index")
+    if viscosity is None or "pressure_viscosity" in values:
+        return derived
+    index = values.get("roelands_index")
     if index is not None:
         alpha = pressure_viscosity_at(index, viscosity)
         follows("pressure_viscosity", alpha, "1/Pa", "from Roelands' index", "roelands_index")
     elif (
         line is not None
         and density is not None
-        and {"reference_pressure_viscosity", "reference_temperature"} <= given.keys()
+        and {"reference_pressure_viscosity", "reference_temperature"} <= values.keys()
     ):
-        reference = given["reference_temperature"]
+        reference = values["reference_temperature"]
         eta, _ = viscosities(line, reference, density_at(density, temperature, reference))
-        index = roelands_index(eta, given["reference_pressure_viscosity"])
+        index = roelands_index(eta, values["reference_pressure_viscosity"])
         note = "from that at the reference temperature, with Roelands' index constant"
         alpha = pressure_viscosity_at(index, viscosity)
         follows("pressure_viscosity", alpha, "1/Pa", note, "reference_pressure_viscosity")
-    return found
+    return derived
 
 
 def scaled_range(origin: Provenance | None, value: float) -> tuple[float, float] | None:

@@ -189,14 +189,16 @@ class Lubricant(Record):
             if is_finite_number(value) and value > 0
         }
         try:
-            found = derive(usable, provenance)
+            following = derive(usable, provenance)
         except InputError as problem:
             where = source.file or problem.where
             raise InputError(
                 problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
             ) from None
-        follows = {key: origin.value for key, origin in found.items()}
-        super()._fill({**values, **follows}, {**provenance, **found}, source, frozenset(found))
+        follows = {key: origin.value for key, origin in following.items()}
+        super()._fill(
+            {**values, **follows}, {**provenance, **following}, source, frozenset(following)
+        )
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         for key in _SOURCES.keys() - self._derived:
@@ -312,16 +314,16 @@ class Lubricant(Record):
             raise InputError(
                 problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
             ) from None
-        given = f"at {self.inlet_temperature:g} K"
+        before = f"at {self.inlet_temperature:g} K"
         notes = {
-            "density": f"0.65 kg/(m3 K) from {self.density:g} {given}",
-            "viscosity": f"Walther line from {self.viscosity:g} Pa s {given}",
+            "density": f"0.65 kg/(m3 K) from {self.density:g} {before}",
+            "viscosity": f"Walther line from {self.viscosity:g} Pa s {before}",
             "temperature_viscosity": "slope of the Walther line",
-            "pressure_viscosity": f"Roelands' index constant, from {self.pressure_viscosity:g} 1/Pa {given}",
+            "pressure_viscosity": f"Roelands' index constant, from {self.pressure_viscosity:g} 1/Pa {before}",
         }
         values = there._asdict()
         if self.eyring_stress is not None:
-            notes["eyring_stress"] = f"2 gamma/alpha, from {self.eyring_stress:g} Pa {given}"
+            notes["eyring_stress"] = f"2 gamma/alpha, from {self.eyring_stress:g} Pa {before}"
             values["eyring_stress"] = (
                 self.eyring_stress * self.pressure_viscosity / there.pressure_viscosity
             )

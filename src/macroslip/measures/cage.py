@@ -59,16 +59,16 @@ class CageMeasures:
             push = steps["cage_load"][..., k]
             weight = steps["weight"][..., k]
             turn = whole["turn"][:, k][:, self._bearing.places["cage"]]
-            place = ((turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * SECTORS).astype(
-                int
-            ) % SECTORS
+            sector = (
+                (turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * SECTORS
+            ).astype(int) % SECTORS
             for side, here in enumerate((push < 0.0, push > 0.0)):
                 size = np.where(here, np.abs(push), 0.0)
                 self.impulse[:, side] += (weight * size).sum(axis=0)
                 self.time[:, side] += (weight * here).sum(axis=0)
                 self.largest[:, side] = np.maximum(self.largest[:, side], size.max(axis=0))
             rollers = np.broadcast_to(np.arange(push.shape[1]), push.shape)
-            np.maximum.at(self.largest_by_place, (rollers, place), np.abs(push))
+            np.maximum.at(self.largest_by_place, (rollers, sector), np.abs(push))
 
     def _add_slip(self, part: Part, counted: np.ndarray) -> None:
         whole = part.bearing[counted]
@@ -79,7 +79,10 @@ class CageMeasures:
         for c in range(self._bearing.cages):
             slip = whole["cages"][turns, c, 0] / nominal
             self.slip[c] += np.array(
-                [one @ span[turns] for one in (np.ones_like(slip), slip, slip * slip)]
+                [
+                    power_of_slip @ span[turns]
+                    for power_of_slip in (np.ones_like(slip), slip, slip * slip)
+                ]
             )
 
     def _trace(self, part: Part) -> None:

@@ -133,9 +133,9 @@ def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry
                     slip = math.hypot(sample.lines[i, 1], sample.lines[i, 4])
                     raise_extremes(entry_extreme, sample.orbit, i, densest, slip / mean, film_ratio)
                 for sector in range(math.floor(min(start, end)), math.floor(max(start, end)) + 1):
-                    place = maps.surface_density[i, int(sector % SECTORS)]
+                    of_sector = maps.surface_density[i, int(sector % SECTORS)]
                     for k in range(STATIONS):
-                        place[k] = max(place[k], after.density[k])
+                        of_sector[k] = max(of_sector[k], after.density[k])
                 late = sample.mean_time[i] if before.total > 0.0 else 1.0
                 late_rough = sample.mean_time[i] if before.rough_total > 0.0 else 1.0
             spent = (

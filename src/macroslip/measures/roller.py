@@ -144,37 +144,37 @@ class RollerMeasures:
 
         They are NaN from where an integration ended early.
         """
-        found = np.full(self.row.wanted.trace_time.size, np.nan, END)
+        states = np.full(self.row.wanted.trace_time.size, np.nan, END)
         model = self.row.model
         known = np.concatenate([np.zeros(0, END), *self._traced])
-        found[: known.size] = known
+        states[: known.size] = known
         return {
-            "spin": (found["outer_speed"] - found["outer_slip"]) / model.radius,
-            "spin_pure": found["pure_speed"] / model.radius,
-            "slip": 0.5 * (found["inner_slip"] + found["outer_slip"]),
-            "raceway_slip": np.stack([found["inner_slip"], found["outer_slip"]], axis=-1),
-            "roller_load": found["elastic_load"],
-            "cage_force": found["cage_load"],
-            "traction": found["force"],
-            "power": found["power"],
-            "rolling_power": found["rolling"],
-            "film_thickness": _films(found, model.laws),
+            "spin": (states["outer_speed"] - states["outer_slip"]) / model.radius,
+            "spin_pure": states["pure_speed"] / model.radius,
+            "slip": 0.5 * (states["inner_slip"] + states["outer_slip"]),
+            "raceway_slip": np.stack([states["inner_slip"], states["outer_slip"]], axis=-1),
+            "roller_load": states["elastic_load"],
+            "cage_force": states["cage_load"],
+            "traction": states["force"],
+            "power": states["power"],
+            "rolling_power": states["rolling"],
+            "film_thickness": _films(states, model.laws),
             **(
-                self.skew.traces(found)
+                self.skew.traces(states)
                 if self.skew
-                else {"skew_moment": _skew_moments(found, model.laws)}
+                else {"skew_moment": _skew_moments(states, model.laws)}
             ),
         }
 
 
 def _films(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
     """Film thickness by interface [m]; NaN without load."""
-    found = np.full((at.size, len(INTERFACES)), np.nan)
+    thickness = np.full((at.size, len(INTERFACES)), np.nan)
     for i, (law, load, speed) in enumerate(loaded_contacts(at, laws)):
         loaded = load > 0.0  # not where it is NaN
         if loaded.any():
-            found[loaded, i] = law.film_thickness(load[loaded], speed[loaded])
-    return found
+            thickness[loaded, i] = law.film_thickness(load[loaded], speed[loaded])
+    return thickness
 
 
 def _skew_moments(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
@@ -183,14 +183,14 @@ def _skew_moments(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
     They follow from their power, which is −u2 s times them. A traction that drives the spin up acts
     along +x at the inner raceway, along −x at the outer one.
     """
-    found = np.zeros((at.size, 2))
+    moments = np.zeros((at.size, 2))
     for i, (name, sign) in enumerate((("inner", 1.0), ("outer", -1.0))):
         shape = getattr(laws, name).shape
         if shape.microslip and shape.spin_ratio != 0.0:
             with np.errstate(invalid="ignore", divide="ignore"):
-                found[:, i] = (
+                moments[:, i] = (
                     -sign * at["skew_power"][:, i] / (at[f"{name}_speed"] * shape.spin_ratio)
                 )
         else:
-            found[np.isnan(at["inner_load"]), i] = np.nan
-    return found
+            moments[np.isnan(at["inner_load"]), i] = np.nan
+    return moments

@@ -44,9 +44,9 @@ def _power_of_ends(roller, stop, push, speed):
     rough = 0.0
     if stop > 0.0:
         for load, sign in ((stop + abs(push), 1.0), (stop, 1.0), (abs(push), -1.0)):
-            found = cage_forces(body, tables, load, speed, log_speed(speed))
-            power -= sign * found.friction * speed
-            rough += sign * found.asperity_power
+            at_spar = cage_forces(body, tables, load, speed, log_speed(speed))
+            power -= sign * at_spar.friction * speed
+            rough += sign * at_spar.asperity_power
     return power, rough
 
 
@@ -69,28 +69,31 @@ def _add(skewing, roller, steps, j, places, window, totals):
             outer = 0.0
             ends = 0.0
             if load > 0.0:
-                found = turned(table, guide, load, step.outer_speed[k], step.cage_load[k])
-                inner = found.inner_power
-                outer = found.outer_power
+                turned_roller = turned(table, guide, load, step.outer_speed[k], step.cage_load[k])
+                inner = turned_roller.inner_power
+                outer = turned_roller.outer_power
                 ends, rough = _power_of_ends(
-                    roller, abs(found.held) / guide.arm, step.cage_load[k], step.cage_speed[k]
+                    roller,
+                    abs(turned_roller.held) / guide.arm,
+                    step.cage_load[k],
+                    step.cage_speed[k],
                 )
                 step.power[k, 0] += inner
                 step.power[k, 1] += outer
                 step.power[k, 2] += ends
-                step.rough[k, 0] += found.inner_rough
-                step.rough[k, 1] += found.outer_rough
+                step.rough[k, 0] += turned_roller.inner_rough
+                step.rough[k, 1] += turned_roller.outer_rough
                 step.rough[k, 2] += rough
                 if counted:
                     sums[0] += weight * inner
                     sums[1] += weight * outer
-                    sums[2] = max(sums[2], found.left)
+                    sums[2] = max(sums[2], turned_roller.left)
                     sums[3] += weight * ends
-                    place = by_place[places[n, k]]
-                    place[0] += weight
-                    place[1] += weight * found.skew
-                    place[2] += weight * found.axial
-                    place[3] += weight * (inner + outer)
+                    of_sector = by_place[places[n, k]]
+                    of_sector[0] += weight
+                    of_sector[1] += weight * turned_roller.skew
+                    of_sector[2] += weight * turned_roller.axial
+                    of_sector[3] += weight * (inner + outer)
             # Rows between the stages of a step come before it and have its start.
             if k == step.stages - 1 and not (step.weight[0] == 0.0 and step.end > step.start):
                 before[0] = inner
@@ -99,7 +102,7 @@ def _add(skewing, roller, steps, j, places, window, totals):
 
 
 @jit
-def _follow(table, guide, loads, speeds, pushes, found):
+def _follow(table, guide, loads, speeds, pushes, states):
     """Write states of a skewed roller.
 
     They are ψ, θ, axial force, moments of both raceways, force of a spar at the stop, δ and the
@@ -108,16 +111,16 @@ def _follow(table, guide, loads, speeds, pushes, found):
     for n in range(loads.size):
         if loads[n] > 0.0:
             at = turned(table, guide, loads[n], speeds[n], pushes[n])
-            found[n, 0] = at.skew
-            found[n, 1] = at.tilt
-            found[n, 2] = at.axial
-            found[n, 3] = at.inner_moment
-            found[n, 4] = at.outer_moment
-            found[n, 5] = abs(at.held) / guide.arm
-            found[n, 6] = at.shift
-            found[n, 7] = at.slip
+            states[n, 0] = at.skew
+            states[n, 1] = at.tilt
+            states[n, 2] = at.axial
+            states[n, 3] = at.inner_moment
+            states[n, 4] = at.outer_moment
+            states[n, 5] = abs(at.held) / guide.arm
+            states[n, 6] = at.shift
+            states[n, 7] = at.slip
         elif not math.isnan(loads[n]):
-            found[n, 2:] = 0.0
+            states[n, 2:] = 0.0
 
 
 class SkewMeasures:
@@ -158,14 +161,14 @@ class SkewMeasures:
     def turn(self, samples: np.ndarray) -> None:
         """Let sampled contacts slide as those of the skewed roller, where the rings press it."""
         at = samples["at"]
-        found = self._states(at)
+        states = self._states(at)
         pressed = at["elastic_load"] > 0.0
-        skew, tilt, shift, more = found[pressed][:, [0, 1, 6, 7]].T
-        for i, (name, one) in enumerate(zip(RACEWAYS, self._skewing.pair, strict=True)):
+        skew, tilt, shift, more = states[pressed][:, [0, 1, 6, 7]].T
+        for i, (name, raceway) in enumerate(zip(RACEWAYS, self._skewing.pair, strict=True)):
             speed = at[f"{name}_speed"][pressed]
             slip = at[f"{name}_slip"][pressed]
-            middle = one.middle(tilt, shift)
-            lines = slip_lines(one, speed, slip + more, skew, middle, tilt)
+            middle = raceway.middle(tilt, shift)
+            lines = slip_lines(raceway, speed, slip + more, skew, middle, tilt)
             samples["lines"][pressed, i] = np.stack([middle, *lines[:6]], axis=-1)
 
     @property
@@ -188,17 +191,17 @@ class SkewMeasures:
 
         Skew and tilt are NaN where the rings do not press the roller.
         """
-        found = self._states(raw)
+        states = self._states(raw)
         names = ("skew_angle", "tilt", "axial_force")
-        return dict(zip(names, found.T, strict=False)) | {
-            "skew_moment": found[:, 3:5],
-            "stop_force": found[:, 5],
+        return dict(zip(names, states.T, strict=False)) | {
+            "skew_moment": states[:, 3:5],
+            "stop_force": states[:, 5],
         }
 
     def _states(self, raw: np.ndarray) -> np.ndarray:
         columns = (
             np.ascontiguousarray(raw[name]) for name in ("elastic_load", "outer_speed", "cage_load")
         )
-        found = np.full((raw.size, 8), np.nan)
-        _follow(self._skewing.table, self._skewing.guide, *columns, found)
-        return found
+        states = np.full((raw.size, 8), np.nan)
+        _follow(self._skewing.table, self._skewing.guide, *columns, states)
+        return states

@@ -73,28 +73,28 @@ END = np.dtype(
 
 
 @jit_inline
-def write_end(step, found):
+def write_end(step, end):
     """Write the state at the end of a step to a record of `END`.
 
     The time that counts with it is not written.
     """
     last = step.stages - 1
-    found.pure_speed = step.pure_speed
-    found.inner_slip = step.inner_slip[last]
-    found.outer_slip = step.outer_slip[last]
-    found.inner_speed = step.inner_speed[last]
-    found.outer_speed = step.outer_speed[last]
-    found.cage_speed = step.cage_speed[last]
-    found.cage_load = step.cage_load[last]
-    found.inner_load = step.inner_load[last]
-    found.outer_load = step.outer_load[last]
-    found.elastic_load = step.elastic_load[last]
+    end.pure_speed = step.pure_speed
+    end.inner_slip = step.inner_slip[last]
+    end.outer_slip = step.outer_slip[last]
+    end.inner_speed = step.inner_speed[last]
+    end.outer_speed = step.outer_speed[last]
+    end.cage_speed = step.cage_speed[last]
+    end.cage_load = step.cage_load[last]
+    end.inner_load = step.inner_load[last]
+    end.outer_load = step.outer_load[last]
+    end.elastic_load = step.elastic_load[last]
     for i in range(3):
-        found.force[i] = step.force[last, i]
-        found.power[i] = step.power[last, i]
-        found.rolling[i] = step.rolling[last, i]
-    found.skew_power[0] = step.skew_power[last, 0]
-    found.skew_power[1] = step.skew_power[last, 1]
+        end.force[i] = step.force[last, i]
+        end.power[i] = step.power[last, i]
+        end.rolling[i] = step.rolling[last, i]
+    end.skew_power[0] = step.skew_power[last, 0]
+    end.skew_power[1] = step.skew_power[last, 1]
 
 
 class Batch:
@@ -133,12 +133,12 @@ def loaded_contacts(
 
     Loads are not negative, and speeds are from `LOWEST_SPEED` on.
     """
-    found = [
+    contacts = [
         (getattr(laws, name), at[f"{name}_load"], at[f"{name}_speed"] - 0.5 * at[f"{name}_slip"])
         for name in RACEWAYS
     ]
-    found.append((laws.cage, np.abs(at["cage_load"]), 0.5 * at["cage_speed"]))
-    return [(law, load, np.maximum(np.abs(speed), LOWEST_SPEED)) for law, load, speed in found]
+    contacts.append((laws.cage, np.abs(at["cage_load"]), 0.5 * at["cage_speed"]))
+    return [(law, load, np.maximum(np.abs(speed), LOWEST_SPEED)) for law, load, speed in contacts]
 
 
 class Totals(NamedTuple):
@@ -162,7 +162,7 @@ class Totals(NamedTuple):
     #: The last two times [s] and powers [W], newest last, for the parabola through three; shape (2,
     #: 4)
     samples: np.ndarray
-    place: np.ndarray  #: Orbit and stretch of the last step; -2 before the first
+    latest: np.ndarray  #: Orbit and stretch of the last step; -2 before the first
 
 
 def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
@@ -250,14 +250,14 @@ def _follow(samples, peak, time, powers):
 def _book_peaks(step, totals, orbit):
     """Follow the powers over a step."""
     samples = totals.samples
-    if step.stretch != totals.place[1]:
+    if step.stretch != totals.latest[1]:
         for row in range(2):
             samples[row, 0] = step.start
             for interface in range(3):
                 samples[row, interface + 1] = step.power_before[interface]
     # Outside all complete orbits `orbit` is -1, the last line.
     peak = totals.peak_power[orbit]
-    if orbit != totals.place[0]:
+    if orbit != totals.latest[0]:
         # The power before the step may be the peak of an orbit that has just begun.
         for interface in range(3):
             peak[interface] = max(peak[interface], step.power_before[interface])
@@ -292,7 +292,7 @@ def book(steps, j, totals, states):
         state.span = 0.0
         if step.start < edges[0]:
             continue
-        orbit = orbit_at(edges, 0.5 * (step.start + step.end), totals.place[0])
+        orbit = orbit_at(edges, 0.5 * (step.start + step.end), totals.latest[0])
         span = 0.0
         films = 0.0
         for k in range(step.stages):
@@ -318,8 +318,8 @@ def book(steps, j, totals, states):
         if step.weight[0] > 0.0:
             state.span = span
         _book_peaks(step, totals, orbit)
-        totals.place[0] = orbit
-        totals.place[1] = step.stretch
+        totals.latest[0] = orbit
+        totals.latest[1] = step.stretch
         last = step.stages - 1
         pure = step.pure_speed
         if step.weight[last] > 0.0 and pure != 0.0 and abs(pure) >= totals.spin_ratio[1]:

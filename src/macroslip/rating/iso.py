@@ -342,7 +342,7 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     rollers, samples = load.shape
     count = LAMINAE // 2
     lamina = 0.5 * roller_length / count
-    found = np.zeros((2, samples))
+    damage = np.zeros((2, samples))
     sums = np.empty(count)
     # The outer ring's exponent is 9/2 for every roller; the inner one's 4, and the sum to the power
     # 9/8.
@@ -358,8 +358,8 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
             scale = carried * count * REDUCTION / (rating * (1.5 * end - 0.5 * end * end * end))
             before = 0.0
             for i in range(count):
-                place = min((i + 1) * lamina / reach, 1.0)
-                reached = 1.5 * place - 0.5 * place * place * place
+                end_of_lamina = min((i + 1) * lamina / reach, 1.0)
+                reached = 1.5 * end_of_lamina - 0.5 * end_of_lamina * end_of_lamina * end_of_lamina
                 ratio = scale * (reached - before)
                 fourth = ratio * ratio * ratio * ratio
                 sums[i] += fourth * math.sqrt(ratio) if stationary else fourth
@@ -369,9 +369,9 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
             even += fourth * math.sqrt(ratio) if stationary else fourth
         power = 1.0 if stationary else 4.5 / 4.0
         for i in range(count):
-            found[0, k] += (sums[i] / rollers) ** power / count
-        found[1, k] = (even / rollers) ** power
-    return found
+            damage[0, k] += (sums[i] / rollers) ** power / count
+        damage[1, k] = (even / rollers) ** power
+    return damage
 
 
 def reference_life(

@@ -57,14 +57,14 @@ def roller_load_history(
     model = roller_model(bearing, lubricant, 1, tilt=0.0)
     ring = ring_geometry(bearing, model)
     motion, _ = ring_motion(loads, bearing, ring, highest_load(bearing, lubricant, Laws.physical()))
-    found = elastic_loads(loads, ring, motion)
-    given = isinstance(loads, RollerLoads)
-    known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row) if given else loads
+    roller_load = elastic_loads(loads, ring, motion)
+    by_roller = isinstance(loads, RollerLoads)
+    known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row) if by_roller else loads
     force = np.column_stack(
         [np.interp(motion.time, known.time, component) for component in known.force.T]
     )
     finer = BearingLoads(motion.time, motion.shaft_speed, force, loads.source)
-    return finer, np.moveaxis(found, 0, -1).reshape(bearing.rows, bearing.rollers_per_row, -1)
+    return finer, np.moveaxis(roller_load, 0, -1).reshape(bearing.rows, bearing.rollers_per_row, -1)
 
 
 def rate(
@@ -312,7 +312,10 @@ def _contacts(history: _History) -> dict[str, tuple]:
     load = history.roller_load
     largest = load.max(axis=(1, 2))
     pressure = np.array(
-        [[raceway.hertz.pressure * np.cbrt(one) for raceway in raceways] for one in largest]
+        [
+            [raceway.hertz.pressure * np.cbrt(roller_load) for raceway in raceways]
+            for roller_load in largest
+        ]
     )
     inner = geometry.inner_contact_radius(bearing)
     outer = geometry.outer_contact_radius(bearing)
@@ -347,7 +350,7 @@ def _contacts(history: _History) -> dict[str, tuple]:
 
 def _class_edges(history: _History) -> NDArray[np.float64]:
     reach = [history.radial, history.axial, history.equivalent.dynamic]
-    low, high = min(one.min() for one in reach), max(one.max() for one in reach)
+    low, high = min(load.min() for load in reach), max(load.max() for load in reach)
     return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
 
 
@@ -360,7 +363,8 @@ def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple
     turns = [load_duration(load, history.revolutions, edges) for load in by_name.values()]
     total = history.duration.sum()
     ranges = [
-        [damage_equivalent_load(load, total, one) for one in exponents] for load in by_name.values()
+        [damage_equivalent_load(load, total, exponent) for exponent in exponents]
+        for load in by_name.values()
     ]
     about = "range of the damage-equivalent load at 1 Hz"
     return {

@@ -37,9 +37,9 @@ def load_duration(
     >>> load_duration(loads, np.array([1.0, 3.0]), edges).tolist()
     [0.25, 0.75]
     """
-    found = np.histogram(load, edges, weights=weight)[0]
+    durations = np.histogram(load, edges, weights=weight)[0]
     with np.errstate(invalid="ignore"):
-        return found / weight.sum()
+        return durations / weight.sum()
 
 
 def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:

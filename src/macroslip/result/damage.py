@@ -136,9 +136,14 @@ def _check_thresholds(own: Mapping[str, Threshold]) -> None:
             )
 
 
-def _coefficients(given: Sequence[float] | None, hardness: float | None) -> list[float]:
+def _coefficients(
+    coefficients_given: Sequence[float] | None, hardness: float | None
+) -> list[float]:
     """Coefficients of wear k [m²/N], rising, of those that were given and the hardness [Pa]."""
-    coefficients = [float(value) for value in (wear.COEFFICIENTS if given is None else given)]
+    coefficients = [
+        float(value)
+        for value in (wear.COEFFICIENTS if coefficients_given is None else coefficients_given)
+    ]
     are_positive = all(math.isfinite(value) and value > 0.0 for value in coefficients)
     are_rising = coefficients == sorted(set(coefficients)) and coefficients
     hardness_is_valid = hardness is None or (math.isfinite(hardness) and hardness > 0.0)
@@ -151,7 +156,7 @@ def _coefficients(given: Sequence[float] | None, hardness: float | None) -> list
         )
     if hardness is None:
         return coefficients
-    if given is None:
+    if coefficients_given is None:
         raise InputError(
             "a hardness is given without wear coefficients",
             where="wear",
@@ -214,7 +219,7 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
         return source if own is None else f"your threshold: {own.source}"
 
     coefficients = evaluation.wear_coefficients
-    compared = [compared_with(one.name, one.compared_with) for one in CRITERIA]
+    compared = [compared_with(criterion.name, criterion.compared_with) for criterion in CRITERIA]
     low = LEAST_POWER
     high = LARGEST_POWER
     rig = smearing.RIG_SLIDE_ROLL_RATIO

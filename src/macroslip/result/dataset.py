@@ -142,7 +142,7 @@ def whole_dataset(
         As of `to_dataset`.
     """
     case = ready.case
-    table = _by_row(case, {job: Measured(one, outcome) for job, one in measures.items()})
+    table = _by_row(case, {job: Measured(roller, outcome) for job, roller in measures.items()})
     values = _values(ready, wanted, table) | cage_values(case, outcome, cages)
     coordinates = _coordinates(ready) | {
         "cage": ["both"] if bearing.cages == 1 else list(row_names(case.bearing)),
@@ -169,8 +169,8 @@ def _dataset(
     data = with_attributes(values)
     # Meanings of the numbers, in the form of the CF conventions.
     data["status"][-1].update(
-        flag_values=np.array([int(one) for one in Status], dtype=np.int8),
-        flag_meanings=" ".join(one.name.lower() for one in Status),
+        flag_values=np.array([int(status) for status in Status], dtype=np.int8),
+        flag_meanings=" ".join(status.name.lower() for status in Status),
     )
     return xr.Dataset(data, coordinates, attributes)
 
@@ -199,12 +199,12 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
     if wanted.details:
         values |= _contact_details(table)
     if case.laws.skew != "none":
-        skews = [[one.measures.skew for one in line] for line in table]
+        skews = [[roller.measures.skew for roller in line] for line in table]
         values |= skew.values(case, skews, _failed(table), ready.end - float(ready.edges[0]))
     if case.traces is not None:
         # Up to where an integration ended its traces are kept: they show why.
         values |= _traces(table)
-    return {name: one for name, one in values.items() if VARIABLES[name].when not in left_out}
+    return {name: array for name, array in values.items() if VARIABLES[name].when not in left_out}
 
 
 def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
@@ -226,15 +226,16 @@ def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
 
 
 def _traces(table: Table) -> dict[str, np.ndarray]:
-    traces = [[one.measures.traces() for one in line] for line in table]
+    traces = [[roller.measures.traces() for roller in line] for line in table]
     return {
-        name: np.array([[one[name] for one in line] for line in traces]) for name in traces[0][0]
+        name: np.array([[traces_of_roller[name] for traces_of_roller in line] for line in traces])
+        for name in traces[0][0]
     }
 
 
 def _peaks_by_position(table: Table) -> np.ndarray:
     """Largest power of all rollers over row, interface and place on the orbit [W]."""
-    sectors = np.array([[one.measures.sector_power for one in line] for line in table])
+    sectors = np.array([[roller.measures.sector_power for roller in line] for line in table])
     sectors[_failed(table)] = np.nan
     return np.swapaxes(sectors.max(axis=1), 1, 2)
 
@@ -275,13 +276,16 @@ def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict
 
 
 def _failed(table: Table) -> np.ndarray:
-    return np.array([[one.outcome.status != Status.COMPLETED for one in line] for line in table])
+    return np.array(
+        [[roller.outcome.status != Status.COMPLETED for roller in line] for line in table]
+    )
 
 
 def _gathered(table: Table, name: str, of: str = "totals") -> np.ndarray:
     """One array of the totals or details over (row, roller, ...); NaN for rollers that failed."""
     values = np.array(
-        [[getattr(getattr(one.measures, of), name) for one in line] for line in table], dtype=float
+        [[getattr(getattr(roller.measures, of), name) for roller in line] for line in table],
+        dtype=float,
     )
     values[_failed(table)] = np.nan
     return values
@@ -289,12 +293,12 @@ def _gathered(table: Table, name: str, of: str = "totals") -> np.ndarray:
 
 def _window_values(table: Table) -> dict[str, Any]:
     def outcome(name: str) -> np.ndarray:
-        return np.array([[getattr(one.outcome, name) for one in line] for line in table])
+        return np.array([[getattr(roller.outcome, name) for roller in line] for line in table])
 
     peaks = _gathered(table, "peak_power")
-    times = np.array([[one.measures.law_times for one in line] for line in table])
-    loads = np.array([[one.measures.totals.film_load for one in line] for line in table])
-    ratio = np.array([[spin_ratio(one.measures.totals) for one in line] for line in table])
+    times = np.array([[roller.measures.law_times for roller in line] for line in table])
+    loads = np.array([[roller.measures.totals.film_load for roller in line] for line in table])
+    ratio = np.array([[spin_ratio(roller.measures.totals) for roller in line] for line in table])
     failed = _failed(table)
     for values in (ratio, times, loads):
         values[failed] = np.nan
@@ -313,7 +317,7 @@ def _window_values(table: Table) -> dict[str, Any]:
         **{name: outcome(field) for name, field in _COUNTS.items()},
         "unbalanced_force": outcome("unbalanced"),
         "end_time": outcome("time"),
-        "end_slip": np.array([[one.measures.end_slip for one in line] for line in table]),
+        "end_slip": np.array([[roller.measures.end_slip for roller in line] for line in table]),
     }
 
 
@@ -334,7 +338,7 @@ def _contact_details(table: Table) -> dict[str, np.ndarray]:
         **dict(zip(ENTRY_EXTREMES, np.moveaxis(entry, -1, 0), strict=True)),
         "quadrature_error": error,
         **surface_maps.values(
-            [[one.measures.details for one in line] for line in table], _failed(table)
+            [[roller.measures.details for roller in line] for line in table], _failed(table)
         ),
     }
 

@@ -199,7 +199,7 @@ def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, b
     warmest = _warmest_trial(case, temperatures[-1])
     if len(known) == 1:
         return min(heat.ambient + _FIRST_RISE, warmest), False
-    powers = [known[one] for one in temperatures]
+    powers = [known[temperature] for temperature in temperatures]
     try:
         balance = balance_temperature(
             tabulated_power(temperatures, powers), heat.to_oil, heat.ambient
@@ -220,7 +220,7 @@ def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, b
             remedy="Give the bearing more clearance, or check heat.ring_conductance and "
             "clearance_state.",
         ) from problem
-    if min(abs(balance - one) for one in temperatures) <= _SETTLED:
+    if min(abs(balance - temperature) for temperature in temperatures) <= _SETTLED:
         return balance, True
     if len(known) >= _MOST_TRIALS:
         raise InputError(
@@ -311,8 +311,13 @@ def reference_temperature(case: Case) -> float:
     """
     heat = case.heat
     assert heat is not None, "the case has no balance"
-    given = heat.clearance_temperature
-    return max(case.lubricant.inlet_temperature if given is None else given, heat.ambient)
+    clearance_temperature = heat.clearance_temperature
+    return max(
+        case.lubricant.inlet_temperature
+        if clearance_temperature is None
+        else clearance_temperature,
+        heat.ambient,
+    )
 
 
 def operating_rings(case: Case) -> dict[str, float]:

@@ -169,17 +169,17 @@ def over_orbit(
     xarray.DataArray
         Over (row, interface, quantile, angle); NaN where a sector holds no value.
     """
-    found = np.full(
+    quantile_values = np.full(
         (values.sizes["row"], values.sizes["interface"], len(quantiles), sectors), np.nan
     )
-    for r, sector in enumerate(_sectors(angle, sectors).reshape(len(found), -1)):
+    for r, sector in enumerate(_sectors(angle, sectors).reshape(len(quantile_values), -1)):
         order = np.argsort(sector, kind="stable")
         ends = np.searchsorted(sector[order], np.arange(sectors + 1))
-        for i, k in np.ndindex(found.shape[1], sectors):
+        for i, k in np.ndindex(quantile_values.shape[1], sectors):
             here = values.values[r, ..., i].ravel()[order[ends[k] : ends[k + 1]]]
             here = here[np.isfinite(here)]
             if here.size:
-                found[r, i, :, k] = np.quantile(here, quantiles)
+                quantile_values[r, i, :, k] = np.quantile(here, quantiles)
     labels = {
         "row": values.row,
         "interface": values.interface,
@@ -187,7 +187,11 @@ def over_orbit(
         "angle": _middles(sectors),
     }
     return xr.DataArray(
-        found, labels, ("row", "interface", "quantile", "angle"), values.name, values.attrs
+        quantile_values,
+        labels,
+        ("row", "interface", "quantile", "angle"),
+        values.name,
+        values.attrs,
     )
 
 
@@ -233,9 +237,9 @@ def still(result: xr.Dataset) -> xr.Dataset:
     """
     angle = position(result)
     power = in_window(result).power.sum("interface").max(("row", "roller"))
-    one = result.sel(time=power.time[int(power.argmax("time"))])
-    values = {"angle": angle.sel(time=one.time), "slip": 1.0 - one.spin / one.spin_pure}
-    return xr.Dataset(values | {"roller_load": one.roller_load})
+    moment = result.sel(time=power.time[int(power.argmax("time"))])
+    values = {"angle": angle.sel(time=moment.time), "slip": 1.0 - moment.spin / moment.spin_pure}
+    return xr.Dataset(values | {"roller_load": moment.roller_load})
 
 
 def scene(
@@ -266,10 +270,10 @@ def scene(
     values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}
     if "pocket_offset" in thin:
         values |= {name: thin[name] for name in ("cage_force", "pocket_offset")}
-    found = xr.Dataset(
-        {name: one.transpose(*_ORDER).astype(np.float32) for name, one in values.items()}
+    played = xr.Dataset(
+        {name: variable.transpose(*_ORDER).astype(np.float32) for name, variable in values.items()}
     )
-    found.power.attrs = {
+    played.power.attrs = {
         "units": "W",
         "long_name": "frictional power, all interfaces, at the instant",
     }
@@ -278,12 +282,12 @@ def scene(
             thin.cage_lag.transpose("cage", "time").values / run_input(result).bearing.pitch_radius
         )
         leads = np.broadcast_to(lead.astype(np.float32), (result.sizes["row"], lead.shape[1]))
-        found["cage_lead"] = (
+        played["cage_lead"] = (
             ("row", "time"),
             leads,
             {"units": "degree", "long_name": "cage ahead of pure rolling"},
         )
-    found["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
+    played["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
     moved = turned[every][part]
     about = {"units": "degree", "long_name": "angle travelled since the start"}
-    return found.assign(travelled=("time", moved - moved[0], about))
+    return played.assign(travelled=("time", moved - moved[0], about))

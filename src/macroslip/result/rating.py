@@ -24,9 +24,9 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     InputError as
     `macroslip.rating.roller_load_history`.
     """
-    loads, found = roller_load_history(case.bearing, case.oil, case.ring_loads)
+    loads, roller_load = roller_load_history(case.bearing, case.oil, case.ring_loads)
     here = np.flatnonzero((loads.time >= start) & (loads.time <= end))[::_EVERY]
-    return loads.time[here], np.moveaxis(found[..., here], -1, 0)
+    return loads.time[here], np.moveaxis(roller_load[..., here], -1, 0)
 
 
 def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset:

@@ -124,8 +124,8 @@ def _imposed_orbits(
             for row, number in left:
                 problem = problems[row]
                 if own_motions:
-                    place = names.index(row) * case.bearing.rollers_per_row + number
-                    problem = replace(problem, motion=own_motions[place])
+                    index = names.index(row) * case.bearing.rollers_per_row + number
+                    problem = replace(problem, motion=own_motions[index])
                 start_angle = float(angles[row][number])
                 future = pool.submit(_roller, problem, rows[row], start_angle, stop)
                 futures[future] = (row, number)
@@ -136,7 +136,11 @@ def _imposed_orbits(
                 stop.set()
                 pool.shutdown(cancel_futures=True)
                 raise
-            left = [job for job, one in results.items() if one.outcome.status == OUTSIDE_TABLES]
+            left = [
+                job
+                for job, measured in results.items()
+                if measured.outcome.status == OUTSIDE_TABLES
+            ]
             if not left or enlargement == _ENLARGED:
                 break
             ready = replace(ready, box=larger(ready.box))
@@ -220,11 +224,11 @@ def _whole_bearing(
             except BaseException:
                 stop.set()
                 raise
-            found = future.result()
-            if found[0].status != OUTSIDE_TABLES:
+            computed = future.result()
+            if computed[0].status != OUTSIDE_TABLES:
                 break
             ready = replace(ready, box=larger(ready.box))
-    return whole_dataset(ready, wanted, bearing, *found)
+    return whole_dataset(ready, wanted, bearing, *computed)
 
 
 def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
@@ -247,8 +251,8 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     chosen = [(row, number) for row in names for number in case.roller_numbers]
     places = [names.index(row) * count + number for row, number in chosen]
     measures = [
-        RollerMeasures(rows[row], float(bearing.places["angle"][place]))
-        for (row, _), place in zip(chosen, places, strict=True)
+        RollerMeasures(rows[row], float(bearing.places["angle"][index]))
+        for (row, _), index in zip(chosen, places, strict=True)
     ]
     start = float(motion.time[0])
     times = ready.trace_time
@@ -264,8 +268,8 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
         if stop.is_set():
             raise _InterruptedError
         cages.add(part)
-        for place, one in zip(places, measures, strict=True):
-            one.add(part.steps, place)
+        for index, measure in zip(places, measures, strict=True):
+            measure.add(part.steps, index)
         memory = part.memory
         outcome = Outcome(
             int(part.status),
@@ -276,6 +280,6 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
             float(memory["time"]),
             0.0,
         )
-    for one in measures:
-        one.finish()
+    for measure in measures:
+        measure.finish()
     return outcome, dict(zip(chosen, measures, strict=True)), cages, report

@@ -94,7 +94,7 @@ def values(
     """
 
     def of_rollers(name: str) -> np.ndarray:
-        gathered = np.array([[getattr(one, name) for one in row] for row in table])
+        gathered = np.array([[getattr(roller, name) for roller in row] for row in table])
         gathered[failed] = np.nan
         return gathered
 

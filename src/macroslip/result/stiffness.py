@@ -190,12 +190,12 @@ def _about(ring: RingGeometry, force: NDArray[np.float64], name: str) -> dict[st
     }
 
 
-def stiffness_table(found: xr.Dataset) -> pd.DataFrame:
+def stiffness_table(stiffness: xr.Dataset) -> pd.DataFrame:
     """A line a point, with units in the headings.
 
     Parameters
     ----------
-    found : xarray.Dataset
+    stiffness : xarray.Dataset
         From `ring_stiffness`.
 
     Returns
@@ -205,29 +205,29 @@ def stiffness_table(found: xr.Dataset) -> pd.DataFrame:
         variation and held.
     """
     columns: dict[str, Any] = {
-        "case": found.case.values,
-        "point": found.kind.values,
-        "loads": found.loads.values,
-        "bearing": found.bearing.values,
+        "case": stiffness.case.values,
+        "point": stiffness.kind.values,
+        "loads": stiffness.loads.values,
+        "bearing": stiffness.bearing.values,
     }
-    for axis in found.axis.values.tolist():
-        columns[f"F_{axis} [N]"] = found.force.sel(axis=axis).values
-    for axis in found.axis.values.tolist():
-        columns[f"d_{axis} [m]"] = found.displacement.sel(axis=axis).values
+    for axis in stiffness.axis.values.tolist():
+        columns[f"F_{axis} [N]"] = stiffness.force.sel(axis=axis).values
+    for axis in stiffness.axis.values.tolist():
+        columns[f"d_{axis} [m]"] = stiffness.displacement.sel(axis=axis).values
     for load, line in zip(LOADS, UNITS, strict=True):
         for motion, unit in zip(MOTIONS, line, strict=True):
-            entry = found.stiffness.sel(load=load, motion=motion)
+            entry = stiffness.stiffness.sel(load=load, motion=motion)
             columns[f"k {load} {motion} [{unit}]"] = entry.values
-    columns["variation over a pitch [1]"] = found.variation.values
-    columns["held [1]"] = found.held.values
+    columns["variation over a pitch [1]"] = stiffness.variation.values
+    columns["held [1]"] = stiffness.held.values
     return pd.DataFrame(columns)
 
 
-def stiffness_data(found: xr.Dataset) -> dict[str, Any]:
+def stiffness_data(stiffness: xr.Dataset) -> dict[str, Any]:
     """The same as plain data for JSON, with the matrices as lists of rows."""
     points = []
-    for number in range(found.sizes["point"]):
-        point = found.isel(point=number)
+    for number in range(stiffness.sizes["point"]):
+        point = stiffness.isel(point=number)
         points.append(
             {
                 "case": point.case.item(),
@@ -242,7 +242,7 @@ def stiffness_data(found: xr.Dataset) -> dict[str, Any]:
             }
         )
     return {
-        "computed by": found.attrs["source"],
+        "computed by": stiffness.attrs["source"],
         "frame": "bearing frame at the bearing's centre: Z0 along the shaft, downwind; Y0 up, in "
         "the plane of the tilt; X0 = Y0 x Z0",
         "rows": list(LOADS),

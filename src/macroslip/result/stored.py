@@ -72,10 +72,10 @@ def _kinds(result: xr.Dataset) -> str:
         if name not in result:
             continue
         expected = variable.dims
-        found = tuple(dim for dim in result[name].dims if dim != "case")
+        dims = tuple(dim for dim in result[name].dims if dim != "case")
         # A selection, of one row for example, has lost that dimension everywhere.
-        if found != tuple(dim for dim in expected if dim in result.dims):
-            return f"{name} is over ({', '.join(map(str, found))}), not ({', '.join(expected)})"
+        if dims != tuple(dim for dim in expected if dim in result.dims):
+            return f"{name} is over ({', '.join(map(str, dims))}), not ({', '.join(expected)})"
         if result[name].dtype.kind not in "fiu":
             return f"{name} holds no numbers"
     for name in ("window_start", "window_end"):
@@ -89,11 +89,9 @@ def _kinds(result: xr.Dataset) -> str:
 
 def _labels(result: xr.Dataset) -> str:
     for name, known in (("row", tuple(AXIAL_SIGNS)), ("interface", INTERFACES)):
-        found = result[name].values.tolist()
-        if not found or len(set(found)) != len(found) or not set(found) <= set(known):
-            return (
-                f"{name} is {', '.join(map(str, found))[:80] or 'empty'}, not of {', '.join(known)}"
-            )
+        labels = result[name].values.tolist()
+        if not labels or len(set(labels)) != len(labels) or not set(labels) <= set(known):
+            return f"{name} is {', '.join(map(str, labels))[:80] or 'empty'}, not of {', '.join(known)}"
     for name in ("roller", "time"):
         if name in result.dims:
             values = result[name].values
@@ -109,7 +107,7 @@ def _labels(result: xr.Dataset) -> str:
 
 def _values(result: xr.Dataset) -> str:
     status = result.status.values
-    if not np.isin(status, [int(one) for one in Status]).all():
+    if not np.isin(status, [int(member) for member in Status]).all():
         return "status holds numbers without a meaning"
     energy = result.energy.where(result.status == Status.COMPLETED, 0.0).values
     if not (np.isfinite(energy) & (energy >= 0.0)).all():

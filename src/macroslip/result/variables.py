@@ -611,4 +611,6 @@ def with_attributes(values: dict[str, Any]) -> dict[str, Any]:
     unknown = set(values) - set(VARIABLES)
     if unknown:
         raise KeyError(f"the table of variables has no {', '.join(sorted(unknown))}")
-    return {name: one.of(values[name]) for name, one in VARIABLES.items() if name in values}
+    return {
+        name: variable.of(values[name]) for name, variable in VARIABLES.items() if name in values
+    }

@@ -90,7 +90,13 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         "units": "N m",
         "long_name": "torque of the contacts on the ring, positive along the orbit",
     }
-    total = sum(one.sum(("row", "interface"), skipna=False) for one in (contacts, rolling)) + drag
+    total = (
+        sum(
+            torque_by_row.sum(("row", "interface"), skipna=False)
+            for torque_by_row in (contacts, rolling)
+        )
+        + drag
+    )
 
     def over_time(values: object, units: str, long_name: str) -> tuple:
         return "time", np.asarray(values), {"units": units, "long_name": long_name}
@@ -127,7 +133,7 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
     if "orbit_speed_deviation" in result:
         orbit = orbit + result.orbit_speed_deviation
     roller = (result.spin * model.radius).transpose("row", "roller", "time")
-    found = []
+    torques = []
     # At a positive speed the ring turns back at the inner raceway, forth at the outer raceway.
     for name, arm, turning in (
         ("inner", -geometry.inner_contact_radius(bearing), shaft),
@@ -140,6 +146,6 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
         with np.errstate(invalid="ignore", divide="ignore"):
             sliding = (at_ring.power + at_ring.traction * roller) / ring
             force = -sliding - at_ring.rolling_power / (roller + ring)
-        found.append(arm * force.sum(("row", "roller"), skipna=False))
-    torque = xr.concat(found, dim="raceway").drop_vars("start_angle", errors="ignore")
+        torques.append(arm * force.sum(("row", "roller"), skipna=False))
+    torque = xr.concat(torques, dim="raceway").drop_vars("start_angle", errors="ignore")
     return torque.assign_coords(raceway=["inner", "outer"]).transpose("raceway", "time")

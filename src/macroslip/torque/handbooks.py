@@ -118,8 +118,8 @@ def _operation(
     shaft_speed: ArrayLike,
 ) -> _Operation:
     bore, outside, width = _need(bearing, "bore_diameter", "outside_diameter", "width")
-    given = {"radial_load": radial_load, "axial_load": axial_load, "shaft_speed": shaft_speed}
-    for name, value in given.items():
+    values = {"radial_load": radial_load, "axial_load": axial_load, "shaft_speed": shaft_speed}
+    for name, value in values.items():
         if not np.all(np.isfinite(np.asarray(value, dtype=float))):
             fault = f"{name} holds a number that is not finite"
             raise InputError(fault, where=_WHERE, allowed="finite numbers")
@@ -499,26 +499,30 @@ def torque_histories(
     >>> [f"{name}: {history.torque[0]:.0f} N m" for name, history in found.items()]
     ['SKF, sliding: 83 N m', 'SKF, all: 353 N m', 'Palmgren, all: 298 N m']
     """
-    found = {
-        f"model {name}": TorqueHistory(one.time.values, one.torque.values)
-        for name, one in computed.items()
+    simulated = {
+        f"model {name}": TorqueHistory(history.time.values, history.torque.values)
+        for name, history in computed.items()
     }
-    start = max((float(one.time[0]) for one in computed.values()), default=float(loads.time[0]))
-    end = min((float(one.time[-1]) for one in computed.values()), default=float(loads.time[-1]))
+    start = max(
+        (float(history.time[0]) for history in computed.values()), default=float(loads.time[0])
+    )
+    end = min(
+        (float(history.time[-1]) for history in computed.values()), default=float(loads.time[-1])
+    )
     here = (loads.time >= start) & (loads.time <= end)
     force = loads.force[here]
     time = loads.time[here]
-    given = (
+    operation = (
         bearing,
         lubricant,
         np.hypot(force[:, 0], force[:, 1]),
         force[:, 2],
         loads.shaft_speed[here],
     )
-    skf = skf_torque(*given)
+    skf = skf_torque(*operation)
     by_handbook = {
         "SKF, sliding": skf.sliding,
         "SKF, all": skf.total,
-        "Palmgren, all": palmgren_torque(*given).total,
+        "Palmgren, all": palmgren_torque(*operation).total,
     }
-    return found | {name: TorqueHistory(time, torque) for name, torque in by_handbook.items()}
+    return simulated | {name: TorqueHistory(time, torque) for name, torque in by_handbook.items()}

@@ -121,8 +121,8 @@ class Turbine(Record):
         """Supports and weight of the shaft."""
         words: dict[str, Any] = {key: getattr(self, field) for key, field in _WORDS.items()}
         lengths = {key: getattr(self, key) for key in _LENGTHS}
-        given = {key: value for key, value in lengths.items() if value is not None}
-        return Drivetrain(**{key: word for key, word in words.items() if word}, **given)
+        known_lengths = {key: value for key, value in lengths.items() if value is not None}
+        return Drivetrain(**{key: word for key, word in words.items() if word}, **known_lengths)
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         try:
@@ -133,7 +133,7 @@ class Turbine(Record):
     def case_text(self) -> str:
         """Text of a case file of this turbine, with the origin of every value above it."""
         texts = {key: getattr(self, key) for key in _TEXTS}
-        lines = [one for line in _CASE.format(**texts).splitlines() for one in _wrapped(line)]
+        lines = [part for line in _CASE.format(**texts).splitlines() for part in _wrapped(line)]
         for key, field in _WORDS.items():
             if word := getattr(self, field):
                 lines.append(f"  {key}: {word}")

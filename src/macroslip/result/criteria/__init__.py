@@ -9,8 +9,11 @@ from macroslip.result.criteria.criterion import Criterion, Yearly
 
 
 def _declared() -> list[Criterion]:
-    modules = (import_module(f"{__name__}.{one.name}") for one in pkgutil.iter_modules(__path__))
-    return [one for module in modules for one in getattr(module, "CRITERIA", ())]
+    modules = (
+        import_module(f"{__name__}.{module_of_criteria.name}")
+        for module_of_criteria in pkgutil.iter_modules(__path__)
+    )
+    return [criterion for module in modules for criterion in getattr(module, "CRITERIA", ())]
 
 
 #: All criteria in their order.
