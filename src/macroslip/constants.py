@@ -17,6 +17,10 @@ YEAR = 365.25 * 86400.0
 #: The same [h].
 HOURS_A_YEAR = YEAR / HOUR
 
+#: Kelvin by which temperatures of a record may lie outside those of a study's runs; values of the
+#: nearest run hold there.
+MOST_BEYOND = 5.0
+
 #: Sectors into which maps divide the orbit of a roller and the circumference of a raceway, of 5°
 #: each.
 SECTORS = 72

@@ -29,6 +29,8 @@ from macroslip.input.units import (
     Dimension,
 )
 
+#: Columns of a record by the names of its quantities, each of shape (rows,), in SI units.
+Quantities = Mapping[str, np.ndarray]
 _REMEDY = "Write one with: macroslip scada init FILE"
 #: Word for a record without a column of time.
 CONSECUTIVE = "consecutive"

@@ -5,12 +5,12 @@ missing, range, stuck, contradiction, status; and jumps, which drop nothing but 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
 from macroslip.constants import ZERO_CELSIUS
-from macroslip.scada.description import ScadaDescription
+from macroslip.scada.description import Quantities, ScadaDescription
 
 #: Filters in their order.
 FILTERS = ("missing", "range", "stuck", "contradiction", "status")
@@ -37,8 +37,6 @@ _JUMPS = {"bearing_temperature": 1.2, "ambient_temperature": 3.0}
 _TEN_MINUTES = 600.0
 #: What temperatures in tenths of a degree may differ by from their values in kelvin [K].
 _ROUNDING = 1e-6
-
-Quantities = Mapping[str, np.ndarray]
 
 
 def filtered(

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
 from macroslip.bearing import Bearing
-from macroslip.constants import ZERO_CELSIUS
+from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
 
@@ -33,8 +33,6 @@ LEAST_WINDS = 2
 LEAST_TEMPERATURES = 3
 #: Share of the speed of a case down to which the torque goes with a power of the speed.
 SLOWEST = 0.1
-#: Kelvin by which data may lie beyond the table; the torque at its end is held there.
-MOST_BEYOND = 5.0
 _REMEDY = (
     "Vary lubricant.at in the study over the temperatures of the bearing, with weights left out."
 )

@@ -9,7 +9,7 @@ import numpy as np
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.input.messages import together
-from macroslip.scada.description import MeasuredColumn, ScadaDescription
+from macroslip.scada.description import MeasuredColumn, Quantities, ScadaDescription
 
 #: Medians of temperatures beyond which a column is in another unit [K].
 _MEDIANS = {
@@ -23,8 +23,6 @@ _SAME = 0.9
 _COARSE = 0.45
 #: Quantile of the wind speed below which values are no wind speeds but shares of something [m/s].
 _NORMALISED = 1.5
-
-Quantities = Mapping[str, np.ndarray]
 
 
 def check_quantities(values: Quantities, described: ScadaDescription) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import PchipInterpolator
 
-from macroslip.constants import ZERO_CELSIUS
+from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.study.temperature_shares import TemperatureShares
 from macroslip.study.weights import bin_numbers, stored_weighting
@@ -26,8 +26,6 @@ from macroslip.study.weights import bin_numbers, stored_weighting
 LABEL = "lubricant.at"
 #: Fewest temperatures of a series.
 FEWEST = 4
-#: How far beyond the runs a temperature may lie; it is held at the nearest one [K].
-HELD = 5.0
 #: Share of the time that may lie further outside, as single rows of a sensor do.
 _SHARE_OUTSIDE = 1e-3
 #: Labels that are the same, or of no use, in all runs of a series.
@@ -267,7 +265,7 @@ def weighted_study(study: xr.Dataset) -> xr.Dataset:
 def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]:
     """Check that runs at temperatures [K] span those of the weights, and tell what is held.
 
-    Temperatures of a measured year may lie up to `HELD` outside, where the nearest run holds, and
+    Temperatures of a measured year may lie up to `MOST_BEYOND` outside, where the nearest run holds, and
     one thousandth of the time anywhere; given temperatures may not.
 
     Raises InputError otherwise.
@@ -275,7 +273,7 @@ def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]
     low = temperatures[0]
     high = temperatures[-1]
     lasting = shares.lasting
-    margin = HELD if shares.is_measured else 1e-6
+    margin = MOST_BEYOND if shares.is_measured else 1e-6
     outside = (shares.temperatures < low - margin) | (shares.temperatures > high + margin)
     most = _SHARE_OUTSIDE if shares.is_measured else 0.0
     if lasting[outside].sum() > most:
@@ -284,7 +282,7 @@ def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]
             f"the oil is at {_celsius(used.min())} to {_celsius(used.max())} degC, and the runs "
             f"are at {_celsius(low)} to {_celsius(high)} degC",
             where="weights",
-            allowed=f"runs that span it{f', or up to {HELD:g} K less' if shares.is_measured else ''}",
+            allowed=f"runs that span it{f', or up to {MOST_BEYOND:g} K less' if shares.is_measured else ''}",
             remedy=_REMEDY,
         )
     held = lasting[(shares.temperatures < low) | (shares.temperatures > high)].sum()
