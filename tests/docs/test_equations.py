@@ -11,6 +11,8 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/model.md").read_text(encoding="utf-8")
 #: Folders whose functions compute the paper's equations.
 FOLDERS = ("bearing", "mechanics", "ring", "roller", "imposed", "whole", "measures")
+#: Equations that no function of the package computes are derived here.
+DERIVATION = "tests.whole.test_equations"
 #: `(18)-(20)` is a range; equations of other sources are named with their author.
 NUMBERS = re.compile(r"\((\d{1,2})\)(?:-\((\d{1,2})\))?")
 
@@ -35,17 +37,31 @@ def on_the_page() -> set[tuple[int, str]]:
     return pairs
 
 
+def functions_of(path: Path) -> dict[str, str]:
+    """Functions of a file, without tests, with the first paragraphs of their docstrings."""
+    nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    return {
+        node.name: (ast.get_docstring(node) or "").split("\n\n")[0]
+        for node in nodes
+        if isinstance(node, ast.FunctionDef) and not node.name.startswith("test_")
+    }
+
+
 def in_docstrings() -> set[tuple[int, str]]:
     """Number and function wherever the first paragraph of a function's docstring cites equations."""
-    pairs = set()
-    for folder in FOLDERS:
-        for path in sorted((ROOT / "src/macroslip" / folder).glob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.FunctionDef):
-                    summary = (ast.get_docstring(node) or "").split("\n\n")[0]
-                    name = f"{folder}.{path.stem}.{node.name}"
-                    pairs |= {(number, name) for number in numbers_in(summary)}
-    return pairs
+    package = ROOT / "src/macroslip"
+    files = {
+        f"{folder}.{path.stem}": path
+        for folder in FOLDERS
+        for path in sorted((package / folder).glob("*.py"))
+    }
+    files[DERIVATION] = ROOT / f"{DERIVATION.replace('.', '/')}.py"
+    return {
+        (number, f"{module}.{function}")
+        for module, path in files.items()
+        for function, summary in functions_of(path).items()
+        for number in numbers_in(summary)
+    }
 
 
 def test_every_number_on_the_page_is_in_the_docstring_of_its_function_and_the_other_way_round():
@@ -54,9 +70,17 @@ def test_every_number_on_the_page_is_in_the_docstring_of_its_function_and_the_ot
     assert page == docstrings
 
 
+def test_every_equation_of_the_paper_is_on_the_page():
+    section = PAGE.split("## The paper's equations")[1].split("\n## ")[0]
+    assert numbers_in(section) == set(range(2, 35))
+
+
 @pytest.mark.parametrize("name", sorted(set(re.findall(r"`((?:\w+\.)+\w+)`", PAGE))))
 def test_every_name_on_the_page_exists(name):
     if name.endswith((".py", ".md")) or name.startswith("laws."):
+        return
+    if name.startswith(f"{DERIVATION}."):
+        assert name.rpartition(".")[2] in functions_of(ROOT / f"{DERIVATION.replace('.', '/')}.py")
         return
     module, _, member = f"macroslip.{name}".rpartition(".")
     try:

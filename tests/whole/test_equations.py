@@ -16,7 +16,7 @@ F_i, F_o, F_c, N, G, couple = sp.symbols("F_i F_o F_c N G C")
 
 
 def angular_momentum_rate():
-    """dL/dt of the roller about its centre, in the primed axes, L̇ + Ω × L."""
+    """dL/dt = L̇ + Ω × L of the roller about its centre (2)-(6), in axes turned by α (14)."""
     frame = sp.Matrix([0, orbit * sp.sin(alpha), orbit * sp.cos(alpha)])
     momentum = sp.Matrix([0, inertia_y * orbit * sp.sin(alpha), inertia_z * spin])
     return momentum.diff(t) + frame.cross(momentum)
