@@ -65,7 +65,7 @@ def test_the_wind_in_common_does_not_widen_the_range():
     half = found["high [%]"][1] - found["difference [%]"][1]
     assert 0.0 < half < 2.5
     assert (
-        "From result 1 to result 2 it changes by 10 %"
+        "From result 1 to result 2 the energy changes by +10 %"
         in compare(result(1.0), result(1.1, osculation=0.98)).attrs["ranking"]
     )
 

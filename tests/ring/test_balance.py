@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import quad
 from scipy.optimize import fsolve, linprog
 
 from macroslip.contact.interface import truncation_load
@@ -118,6 +119,20 @@ def test_rigid_limit_is_a_linear_programme():
     expected = np.zeros(2 * COUNT)
     expected[[0, COUNT, 2 * COUNT - 1]] = bottom, bottom / 2, bottom / 2
     assert loads == pytest.approx(expected, abs=1e-5)
+
+
+@pytest.mark.parametrize("play", [0.0, PLAY, 4 * PLAY])
+def test_a_row_is_loaded_all_round_from_the_ratio_of_sjoevalls_integrals(play):
+    """J_a/J_r of point contacts at a load zone of the whole circumference is 5/3; rollers are 28 places of it."""
+
+    def integral(weight):
+        return quad(lambda psi: (0.5 + 0.5 * math.cos(psi)) ** 1.5 * weight(psi), 0.0, math.pi)[0]
+
+    limit = math.tan(ALPHA) * integral(lambda _: 1.0) / integral(math.cos)
+    assert limit == pytest.approx(5.0 / 3.0 * math.tan(ALPHA), rel=1e-9, abs=0.0)
+    for ratio, is_loaded_all_round in ((0.95 * limit, False), (1.05 * limit, True)):
+        _, loads = solve([0.0, -3e5, 3e5 * ratio], play=play)
+        assert bool((loads[:COUNT] > 0.0).all()) is is_loaded_all_round
 
 
 @given(directions, magnitudes, directions, st.floats(-6.0, -2.0))

@@ -145,6 +145,15 @@ def test_designs_of_a_year_by_hand():
     assert design_names(found) == ["a", "b"]
 
 
+def test_a_value_that_one_model_sets_is_said_by_its_name():
+    drag = ("group", ["nan", "False"])
+    both = {"model": ("group", ["base", "no drag"]), "forces.drag": drag}
+    assert design_names(xr.Dataset(coords=both)) == ["base", "no drag"]
+    # Values that part runs of one model are told.
+    both["model"] = ("group", ["base", "base"])
+    assert design_names(xr.Dataset(coords=both)) == ["", "drag False"]
+
+
 def test_designs_that_differ_in_their_names_only_are_told():
     same = of_year().assign_coords(key=("case", ["1", "2"] * 2))
     notes = compare(same, by="lubricant").attrs["notes"]

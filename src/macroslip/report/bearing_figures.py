@@ -137,10 +137,13 @@ def plot_load_zone(axes: Axes, load: xr.DataArray, row: str) -> Axes:
     return axes
 
 
-def plot_bearing(axes: Axes, still: xr.Dataset, bearing: Bearing) -> Axes:
+def plot_bearing(
+    axes: Axes, still: xr.Dataset, bearing: Bearing, longest: float | None = None
+) -> Axes:
     """Both rows to scale, looking downwind: rollers coloured by slip, with spokes for their loads.
 
-    Takes the dataset of `macroslip.result.orbit.still`.
+    Takes the dataset of `macroslip.result.orbit.still`. The longest spoke stands for the load
+    `longest` [N], by default the largest one of the moment; pictures of several moments share one.
     """
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Circle
@@ -148,7 +151,7 @@ def plot_bearing(axes: Axes, still: xr.Dataset, bearing: Bearing) -> Axes:
     radius = geometry.roller_radius(bearing)
     pitch = bearing.pitch_radius
     outer = geometry.outer_contact_radius(bearing)
-    most = max(float(still.roller_load.max()), 1.0)
+    most = max(float(still.roller_load.max()), 1.0) if longest is None else longest
     reach = 1.4 * outer
     rollers = []
     for k, row in enumerate(still.row.values.tolist()):

@@ -53,7 +53,7 @@ def comparison_page(
     if maps:
         bodies["maps"] = text.maps(maps, have_differences)
     return render(
-        title or f"Comparison of {', '.join(comparison['design'].unique()[:_MOST_NAMED])}",
+        title or f"Comparison of {_listed(comparison['design'].unique()[:_MOST_NAMED].tolist())}",
         f"{comparison.attrs['about']}.",
         Opening(
             text.answer(ranking_sentences(comparison), comparison.attrs["notes"]),
@@ -63,14 +63,18 @@ def comparison_page(
     )
 
 
+def _listed(names: list[str]) -> str:
+    """Names as a list in a sentence."""
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+
+
 def _criteria_pictures(comparison: pd.DataFrame) -> list[Picture]:
     """Criteria of damage of every result, value over reference."""
     by_name = comparison.attrs["criteria"]
     count = len({line["title"] for lines in by_name.values() for line in lines})
     about = "Criteria of damage of every result: value over reference with what it is known to"
     height = 0.9 + count * (0.25 + 0.1 * len(by_name))
-    options = {"width": 6.4, "height": height, "legend": "above"}
-    return [picture(draw.plot_criteria_side_by_side, about, by_name, **options)]
+    return [picture(draw.plot_criteria_side_by_side, about, by_name, height=height, legend="above")]
 
 
 def _exceedances(results: Mapping[str, xr.Dataset]) -> list[Picture]:

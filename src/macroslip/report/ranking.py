@@ -101,8 +101,8 @@ def _differences(first: str, others: pd.DataFrame) -> list[str]:
             )
         else:
             sentences.append(
-                f"From {first} to {other.design} it changes by {other.change:.3g} % "
-                f"({other.low:.3g} to {other.high:.3g} %)."
+                f"From {first} to {other.design} the energy changes by {other.change:+.3g} % "
+                f"({other.low:+.3g} to {other.high:+.3g} %)."
             )
     if within_scatter:
         sentences.append(

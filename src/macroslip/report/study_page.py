@@ -57,6 +57,8 @@ CLASS_ONE = IEC_CLASSES["IEC I"]
 #: Variables of the summary whose largest values are shown, and how many of them.
 _WORST = ("energy_mean", "orbit_energy_max", "peak_power_max")
 _WORST_COUNT = 5
+#: Labels of runs that a table leaves out where all runs have the same.
+_COMMON = ("bearing", "lubricant", "model", "turbulence")
 #: Lines of a table, of the opening's, and runs that a figure can name.
 _MOST_LINES = 40
 _MOST_DESIGNS = 8
@@ -124,7 +126,7 @@ def study_page(
     lifetime, lifetime_pictures = _lifetime(weighted, order)
     exceeding, exceedance_pictures = _exceedance(weighted, order)
     bodies = {
-        "designs": text.designs(_designs(table, names, _MOST_LINES), ranking, notes),
+        "designs": text.designs(_designs(table, names, _MOST_LINES), notes),
         "year": text.year(weighted.note, _year(weighted.year, names))
         if weighted.aggregation.weights
         else "",
@@ -469,9 +471,14 @@ def _worst(study: xr.Dataset) -> list[Table]:
     tables = []
     for name in _WORST:
         table = as_table(worst(study, name, count=_WORST_COUNT), [name])
-        table = table.drop(columns=[column for column in INTERNAL if column in table])
+        alike = [label for label in _COMMON if label in study and _has_one_value(study[label])]
+        table = table.drop(columns=[column for column in (*INTERNAL, *alike) if column in table])
         tables.append(_table(table, f"By {study[name].attrs['long_name']}"))
     return tables
+
+
+def _has_one_value(label: xr.DataArray) -> bool:
+    return len(set(label.values.ravel().tolist())) == 1
 
 
 def _failures(study: xr.Dataset) -> Table | None:

@@ -242,12 +242,23 @@ def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[s
         if name in ("bearing", "lubricant"):
             texts = file_names(texts)
         if label.dims == ("group",) and len(set(texts)) > 1:
-            # A parameter that only other models set has no value.
+            # A parameter that only other models set has no value; a model that alone sets it to
+            # one value says it by its name.
+            if "nan" in texts and _follows_model(dataset, texts):
+                continue
             head = "" if name in CHOICES else f"{str(name).rpartition('.')[2].replace('_', ' ')} "
             parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
     return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [
         ""
     ] * dataset.sizes["group"]
+
+
+def _follows_model(dataset: xr.Dataset | xr.DataArray, texts: list[str]) -> bool:
+    """Whether every model of the groups has one text only."""
+    models = dataset.coords["model"].values.ravel().tolist() if "model" in dataset.coords else []
+    if len(models) != len(texts):
+        return False
+    return len(set(zip(models, texts, strict=True))) == len(set(models))
 
 
 def file_names(paths: list[str]) -> list[str]:

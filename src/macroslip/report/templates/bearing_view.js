@@ -36,10 +36,11 @@
   /** Three digits, never an exponent that a reader has to work out for an everyday size. */
   function shown(value) {
     const size = Math.abs(value);
+    const sign = value < 0 ? "−" : "";
     if (size === 0) return "0";
-    if (size >= 100) return value.toFixed(0);
-    if (size >= 0.001) return String(Number(value.toPrecision(3)));
-    return value.toExponential(1);
+    if (size >= 100) return sign + size.toFixed(0);
+    if (size >= 0.001) return sign + String(Number(size.toPrecision(3)));
+    return sign + size.toExponential(1);
   }
 
   function start(host) {

@@ -37,9 +37,9 @@ _NO_WEAR = (
     "or film-ratio, and a boundary_friction above 0 of the lubricant."
 )
 _LIGHT = (
-    "The load lay outside the range of the law of asperities for {rows} of the loaded time of "
-    "raceways; there their share, "
-    "and so wear, is no more than the film ratio gives."
+    "The load lay outside the range for which the law of asperities was fitted for {rows} of the "
+    "loaded time; there the part that asperities carry, and with it wear, is limited to what the "
+    "film ratio gives."
 )
 
 
