@@ -1,22 +1,18 @@
-"""How full inlets are where a case does not say it, what files of before version 0.2 say, and what cannot be."""
+"""How full inlets are where a case does not say it, and what cannot be."""
 
 import math
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from macroslip import Bearing, BearingLoads, Cage, Case, Laws, Lubricant
+from macroslip import Bearing, BearingLoads, Case, Laws, Lubricant
 from macroslip.case.oil_supply import oil_gap, supply_note
 from macroslip.constants import FLOODED_GAP
 from macroslip.contact.laws import prepare
 from macroslip.contact.registry import FILM_LAWS
 from macroslip.errors import InputError
-from macroslip.result.plausibility import doubtful_result
 
 PAPER, PHYSICAL = Laws.paper(), Laws.physical()
-OLD = Lubricant.read("vg460-pao").replace(starvation=0.7, fullness=0.3, inlet_film=30.0)
-ADVICE = "keys of before version 0.2, of which starvation alone is read; give oil_supply"
 
 
 def case(laws=PHYSICAL, **other):
@@ -54,36 +50,6 @@ def test_other_laws_are_flooded():
     )
 
 
-def test_starvation_of_an_old_file_is_the_supply_where_none_is_given():
-    old, new = case(lubricant=OLD), case(oil_supply=0.7)
-    assert old.inlet_supply == 0.7 and old.oil.oil_gap == new.oil.oil_gap
-    known = supply_note(new).removeprefix("oil_supply 0.7")
-    assert supply_note(old).splitlines() == [
-        f"oil_supply 0.7, read from the lubricant's starvation 0.7{known}", f"starvation, inlet_film, fullness: {ADVICE}"
-    ]  # fmt: skip
-    # The others have no effect.
-    assert (
-        case(lubricant=OLD.replace(fullness=None, inlet_film=None)).oil.oil_gap == new.oil.oil_gap
-    )
-    assert case(lubricant=OLD.replace(starvation=None)).inlet_supply == "skf"
-    assert (
-        case(lubricant=OLD.replace(starvation=0.1)).oil.oil_gap == case(oil_supply=0.3).oil.oil_gap
-    )
-    assert case(lubricant=OLD, oil_supply="skf").oil.oil_gap == case().oil.oil_gap
-
-
-@pytest.mark.parametrize("laws", [PAPER, PHYSICAL], ids=["paper", "physical"])
-def test_old_keys_are_spoken_of_beside_a_result(laws):
-    cage = Cage(film_fullness=0.1)
-    for one, keys in (
-        (case(laws, lubricant=OLD), "starvation, inlet_film, fullness"),
-        (case(laws, dynamics="whole-bearing", cage=cage), "cage.film_fullness"),
-    ):
-        result = xr.Dataset(attrs={"oil_supply_note": supply_note(one)})
-        assert doubtful_result(result) == [f"{keys}: {ADVICE}."]
-    assert doubtful_result(xr.Dataset(attrs={"oil_supply_note": supply_note(case(laws))})) == []
-
-
 def test_rest_does_not_change_the_oil():
     """Means are over the angle turned: with the speed falling from W to 0, of W 2/3, and of a force that falls with it 2/3."""
     times = np.linspace(0.0, 10.0, 1001)
@@ -117,4 +83,4 @@ def test_supplies_that_cannot_be_are_refused():
     with pytest.raises(InputError, match="oil_supply: .*mine has no bore_diameter"):
         case(bearing=bearing)
     assert case(PAPER, bearing=bearing).inlet_supply == "flooded"
-    assert case(bearing=bearing, lubricant=OLD).inlet_supply == 0.7
+    assert case(bearing=bearing, oil_supply=0.7).inlet_supply == 0.7

@@ -39,8 +39,7 @@ def test_the_template_shows_every_key_with_a_comment_above(folder, macroslip):
     macroslip("init")
     lines = (folder / "case.yaml").read_text().splitlines()
 
-    # That of earlier versions is read without effect.
-    for key in {name.rpartition(".")[2] for name, _ in keys_of(Case)} - {"film_fullness"}:
+    for key in {name.rpartition(".")[2] for name, _ in keys_of(Case)}:
         places = [n for n, line in enumerate(lines) if line.lstrip(" #").startswith(f"{key}:")]
         assert places, f"{key} is not in the template"
         explained = (

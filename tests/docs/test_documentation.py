@@ -69,8 +69,7 @@ def test_case_file_page_names_every_key_of_a_case():
         r"`([^`\n]+)`", (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8")
     )
     sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
-    # The cage's film fullness is a key of earlier versions, read without effect.
-    names = [key for key, _ in keys_of(Case) if key not in sections | {"cage.film_fullness"}]
+    names = [key for key, _ in keys_of(Case) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
     names = [key.removeprefix("loads.hub.").removeprefix("loads.main_bearing.") for key in names]
     assert [name for name in names if name not in quoted] == []

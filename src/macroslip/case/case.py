@@ -215,7 +215,7 @@ class Case:
     def __post_init__(self) -> None:
         problems = [
             *_temperature(self),
-            *_raised(check_supply, self.oil_supply, self.bearing, self.lubricant, self.laws),
+            *_raised(check_supply, self.oil_supply, self.bearing, self.laws),
             *_dynamics(self),
             *_kind_of_bearing(self),
             *_times_and_rollers(self),
@@ -251,7 +251,7 @@ class Case:
         That is "skf" with laws that have a starved film or rolling resistance, and "flooded" with
         others.
         """
-        return inlet_supply(self.oil_supply, self.lubricant, self.laws)
+        return inlet_supply(self.oil_supply, self.laws)
 
     @property
     def ring_loads(self) -> BearingLoads | RollerLoads:

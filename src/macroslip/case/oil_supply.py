@@ -60,24 +60,17 @@ class OilSupply(Form):
         }
 
 
-def inlet_supply(supply: str | float | None, oil: Lubricant, laws: Laws) -> str | float:
+def inlet_supply(supply: str | float | None, laws: Laws) -> str | float:
     """The supply that counts: what a case gives.
 
     Otherwise SKF's replenishment where a mechanism depends on it.
-
-    A lubricant file from before version 0.2 gives a film factor, `starvation`, which is read as the
-    supply.
     """
     if supply is not None:
         return supply
-    if not laws.asks_for_oil:
-        return FLOODED
-    return SKF if oil.starvation is None else max(oil.starvation, _LEAST)
+    return SKF if laws.asks_for_oil else FLOODED
 
 
-def check_supply(
-    supply_given: str | float | None, bearing: Bearing, oil: Lubricant, laws: Laws
-) -> None:
+def check_supply(supply_given: str | float | None, bearing: Bearing, laws: Laws) -> None:
     """Refuse an oil supply that no law uses, or that the bearing lacks diameters for.
 
     Parameters
@@ -86,7 +79,6 @@ def check_supply(
         Supply that a case gives: `flooded`, `skf`, or film over flooded film [-]; None where it
         gives none.
     bearing : Bearing
-    oil : Lubricant
     laws : Laws
 
     Raises
@@ -95,7 +87,7 @@ def check_supply(
         If the laws have neither a starved film nor rolling resistance, or if SKF's replenishment is
         asked for and the bearing has no bore or outside diameter.
     """
-    supply = inlet_supply(supply_given, oil, laws)
+    supply = inlet_supply(supply_given, laws)
     if supply not in (FLOODED, 1.0) and not laws.asks_for_oil:
         raise InputError(
             f"oil_supply is {supply!r}, and laws: {laws.name} have neither a starved film nor "
@@ -208,27 +200,10 @@ def _inner_raceway(
 
 
 def supply_note(case: Case) -> str:
-    """A line on the state of the inlets, and one on keys of earlier versions, for a result.
-
-    The text is empty without either.
-    """
-    oil = case.oil
-    notes = []
-    if case.laws.asks_for_oil:
-        full = oil.oil_gap >= FLOODED_GAP
-        known = (
-            "flooded inlets"
-            if full
-            else f"inlets are full from a gap of {1e6 * oil.oil_gap:.3g} um on"
-        )
-        translated = case.oil_supply is None and oil.starvation is not None
-        source = f", read from the lubricant's starvation {oil.starvation:g}" if translated else ""
-        notes.append(f"oil_supply {case.inlet_supply}{source}: {known}")
-    old = {key: getattr(oil, key) for key in ("starvation", "inlet_film", "fullness")}
-    old |= {"cage.film_fullness": case.cage.film_fullness}
-    if former_keys := [key for key, value in old.items() if value is not None]:
-        notes.append(
-            f"{', '.join(former_keys)}: keys of before version 0.2, of which starvation alone is read; "
-            "give oil_supply"
-        )
-    return "\n".join(notes)
+    """State of the inlets in a line, for a result; empty if no law asks for oil."""
+    if not case.laws.asks_for_oil:
+        return ""
+    gap = case.oil.oil_gap
+    if gap >= FLOODED_GAP:
+        return f"oil_supply {case.inlet_supply}: flooded inlets"
+    return f"oil_supply {case.inlet_supply}: inlets are full from a gap of {1e6 * gap:.3g} um on"

@@ -153,24 +153,6 @@ class Lubricant(Record):
     boundary_friction: Annotated[
         _Optional, Quantity("friction coefficient where asperities carry the load", NUMBER, 0, 1)
     ] = None
-    starvation: Annotated[
-        _Optional,
-        Positive("key of files before version 0.2, oil_supply where the case has none", NUMBER, 1),
-    ] = None
-    fullness: Annotated[
-        _Optional,
-        Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 0.01, 1),
-    ] = None
-    inlet_film: Annotated[
-        _Optional,
-        Quantity(
-            "key of files before version 0.2, whose place oil_supply takes",
-            NUMBER,
-            1,
-            1e6,
-            above=True,
-        ),
-    ] = None
     grease_yield_stress: Annotated[
         _Optional,
         Quantity("yield stress, which acts on idle rollers and in pockets", PRESSURE, 0, 1e5),

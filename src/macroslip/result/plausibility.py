@@ -133,9 +133,7 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
 
     With those on its loads.
     """
-    notes = result.attrs.get("oil_supply_note", "").splitlines()
-    doubts = [f"{line}." for line in notes if not line.startswith("oil_supply ")]
-    doubts += result.attrs.get("doubtful_loads", "").splitlines()
+    doubts = result.attrs.get("doubtful_loads", "").splitlines()
     return doubts + _doubtful_rating(result) + _preload_by_heat(result) + _films_in_balance(result)
 
 

@@ -11,7 +11,7 @@ from macroslip.bearing import Bearing, geometry
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Quantity, Whole
 from macroslip.input.section import input_section
-from macroslip.input.units import ANGLE, FORCE, INVERSE_SPEED, LENGTH, MASS, NUMBER
+from macroslip.input.units import ANGLE, FORCE, INVERSE_SPEED, LENGTH, MASS
 
 #: How a roller meets a spar.
 IMPACTS = ("squeeze-film", "dry")
@@ -48,9 +48,6 @@ class Cage:
         Whether oil between roller and spar resists their approach, or they meet dry.
     damping : float
         D of the dry contact [s/m], K δ^1.5 (1 + D δ'); larger takes more energy from an impact.
-    film_fullness : float, optional
-        Of files before version 0.2; without effect, since the case's `oil_supply` says how full
-        pockets are.
     arrangement : "one" or "per-row"
         One cage for both rows, or two that turn on their own.
     mass : float
@@ -105,16 +102,6 @@ class Cage:
     damping: Annotated[
         float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)
     ] = _DAMPING
-    film_fullness: Annotated[
-        float | None,
-        Quantity(
-            "key of files before version 0.2, whose place oil_supply takes",
-            NUMBER,
-            0.0,
-            1.0,
-            above=True,
-        ),
-    ] = None
     arrangement: Annotated[
         str, Choice("one cage for both rows, or one a row", lambda: ARRANGEMENTS)
     ] = "one"
