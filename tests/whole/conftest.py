@@ -85,7 +85,7 @@ def run(bearing, lubricant):
         start=None,
         change=None,
         outputs=11,
-        rests=True,
+        extrapolates=True,
         laws=None,
         **choices,
     ):
@@ -114,7 +114,13 @@ def run(bearing, lubricant):
         for _ in range(4):
             assembly, _ = with_tables(prepared, box)
             found = gather(
-                prepared, assembly, motion, begin, times, tolerance=tolerance, rests=rests
+                prepared,
+                assembly,
+                motion,
+                begin,
+                times,
+                tolerance=tolerance,
+                extrapolates=extrapolates,
             )
             if found.status != OUTSIDE_TABLES:
                 break

@@ -80,7 +80,7 @@ def test_energies_spin_and_force_converge(run):
 def test_tractions_that_rest_change_nothing(run):
     """Between evaluations tractions follow from slopes; evaluated in every iteration they give the same."""
     found = run(Cage(), RADIAL, 2.143, 0.2)
-    other = run(Cage(), RADIAL, 2.143, 0.2, rests=False)
+    other = run(Cage(), RADIAL, 2.143, 0.2, extrapolates=False)
     assert found.memory["evaluations"] < 0.5 * other.memory["evaluations"]
     assert found.energy().sum(axis=0) == pytest.approx(
         other.energy().sum(axis=0), rel=2e-3, abs=1e-6

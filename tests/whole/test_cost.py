@@ -21,7 +21,7 @@ def test_work_grows_in_proportion_to_the_rollers(run):
     for rollers in (7, 14, 28):
         shaft = ([0.0, 0.25, 0.5], [2.0, 2.5, 1.5])
         found = run(
-            Cage(weight=False, mass=50.0 * rollers / 28), (0.0, 0.0, 8e-4), shaft, 0.5, rollers=rollers, rests=False,
+            Cage(weight=False, mass=50.0 * rollers / 28), (0.0, 0.0, 8e-4), shaft, 0.5, rollers=rollers, extrapolates=False,
             gravity=False, tolerance=2e-5,
         )  # fmt: skip
         iterations[rollers] = int(found.memory["iterations"])

@@ -1,4 +1,4 @@
-"""Slopes of the tractions' sheets, on which Newton's method rests and forces between evaluations."""
+"""Slopes of the linearised tractions, on which Newton's method and forces between evaluations rest."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from macroslip.compiled import jit
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import table_box
 from macroslip.whole.model import whole_bearing, with_tables
-from macroslip.whole.stage import FIRST, REST, ROLLER
+from macroslip.whole.stage import FIRST, SCHEDULE, ROLLER
 from macroslip.whole.tractions import (
     MOMENT,
-    SHEET,
+    LINEARISATION,
     cage_from,
     evaluate_marked,
-    new_sheets,
+    new_linearisations,
     raceway_from,
     shear_from,
 )
@@ -40,21 +40,24 @@ def assembly(request, bearing, lubricant):
     return with_tables(held, table_box(np.array([-0.41, -0.36]), 5e4, 2e-4))[0]
 
 
-def sheets_at(assembly, load, speed, slip):
-    """The sheet of a roller whose both raceways are at this load [N], ring speed and slip [m/s]."""
+def linearisations_at(assembly, load, speed, slip):
+    """The linearised tractions of a roller whose both raceways are at this load [N], ring speed and slip [m/s]."""
     count = assembly.places.size
-    moments, (sheets, _), rests = (
+    moments, (linearisations, _), schedules = (
         np.zeros((2, count), MOMENT),
-        new_sheets(count),
-        np.zeros(count, REST),
+        new_linearisations(count),
+        np.zeros(count, SCHEDULE),
     )
     for name in ("inner", "outer"):
         moments[f"{name}_load"], moments[f"{name}_speed"] = load, speed
-    rests["marked"] = True
+    schedules["marked"] = True
     rollers = np.zeros(count, ROLLER)
     rollers["y"][:, FIRST] = slip
-    assert evaluate_marked(assembly, 0.0, moments[0], rollers, FIRST, rests, sheets[0]) == 2 * count
-    return sheets[0, 0]
+    assert (
+        evaluate_marked(assembly, 0.0, moments[0], rollers, FIRST, schedules, linearisations[0])
+        == 2 * count
+    )
+    return linearisations[0, 0]
 
 
 @pytest.mark.parametrize("raceway", ["inner", "outer"])
@@ -62,59 +65,59 @@ def sheets_at(assembly, load, speed, slip):
 @pytest.mark.parametrize("direction", [-1.0, 1.0])
 def test_slopes_of_a_raceway(assembly, raceway, load, direction):
     speed, slip = direction * SPEED, direction * SLIP
-    sheet = sheets_at(assembly, load, speed, slip)[raceway]
+    linear = linearisations_at(assembly, load, speed, slip)[raceway]
     for name, width, ways in (
         ("slip", 2e-6, [(load, speed, slip + step) for step in (1e-6, -1e-6)]),
         ("load", 2e-5 * load, [(load * (1.0 + step), speed, slip) for step in (1e-5, -1e-5)]),
         ("speed", 2e-6, [(load, speed + step, slip) for step in (1e-6, -1e-6)]),
     ):
-        more, less = (sheets_at(assembly, *way)[raceway] for way in ways)
+        more, less = (linearisations_at(assembly, *way)[raceway] for way in ways)
         for force in ("spin", "pull", "shear"):
             slope = (more[force] - less[force]) / width
-            size = abs(sheet["pull"]) / {"slip": SLIP, "load": load, "speed": abs(SPEED)}[name]
-            assert sheet[f"{force}_by_{name}"] == pytest.approx(slope, rel=1e-3, abs=1e-5 * size)
+            size = abs(linear["pull"]) / {"slip": SLIP, "load": load, "speed": abs(SPEED)}[name]
+            assert linear[f"{force}_by_{name}"] == pytest.approx(slope, rel=1e-3, abs=1e-5 * size)
     # The inlet resists whatever turns.
-    assert sheet["shear"] * speed <= 0.0
+    assert linear["shear"] * speed <= 0.0
 
 
 def test_between_evaluations_forces_follow_the_slopes(assembly):
-    sheet = sheets_at(assembly, 3e4, SPEED, SLIP)["inner"]
+    linear = linearisations_at(assembly, 3e4, SPEED, SLIP)["inner"]
     place = (3.003e4, 1.001 * SPEED, 1.001 * SLIP)
-    found = sheets_at(assembly, *place)["inner"]
-    sheet = SimpleNamespace(**{name: sheet[name] for name in SHEET.names or ()})
-    assert raceway_from(sheet, *place) == pytest.approx((found["spin"], found["pull"]), rel=1e-4)
-    assert shear_from(sheet, *place) == pytest.approx(found["shear"], rel=1e-4)
-    assert raceway_from(sheet, 0.0, SPEED, SLIP) == (0.0, 0.0)
+    found = linearisations_at(assembly, *place)["inner"]
+    linear = SimpleNamespace(**{name: linear[name] for name in LINEARISATION.names or ()})
+    assert raceway_from(linear, *place) == pytest.approx((found["spin"], found["pull"]), rel=1e-4)
+    assert shear_from(linear, *place) == pytest.approx(found["shear"], rel=1e-4)
+    assert raceway_from(linear, 0.0, SPEED, SLIP) == (0.0, 0.0)
 
 
 @jit
-def friction(assembly, sheet, push, sliding):
+def friction(assembly, linear, push, sliding):
     """Friction of the cage with its slopes, evaluated anew."""
-    sheet.load = -1.0
-    return cage_from(assembly.bodies[0], assembly.tables, sheet, push, sliding, 0.1)
+    linear.load = -1.0
+    return cage_from(assembly.bodies[0], assembly.tables, linear, push, sliding, 0.1)
 
 
 @pytest.mark.parametrize("push", [-30.0, 0.5])
 @pytest.mark.parametrize("sliding", [0.35, -0.35])
 def test_slopes_of_the_cage(assembly, push, sliding):
-    sheet = new_sheets(1)[0][0, 0]["cage"]
-    force, by_sliding, by_push = friction(assembly, sheet, push, sliding)
+    linear = new_linearisations(1)[0][0, 0]["cage"]
+    force, by_sliding, by_push = friction(assembly, linear, push, sliding)
     assert force * sliding > 0.0
     slope = (
-        friction(assembly, sheet, push, sliding + 1e-5)[0]
-        - friction(assembly, sheet, push, sliding - 1e-5)[0]
+        friction(assembly, linear, push, sliding + 1e-5)[0]
+        - friction(assembly, linear, push, sliding - 1e-5)[0]
     ) / 2e-5
     assert by_sliding == pytest.approx(slope, rel=1e-3, abs=1e-6 * abs(force / sliding))
     step = 1e-4 * abs(push)
     slope = (
-        friction(assembly, sheet, push + step, sliding)[0]
-        - friction(assembly, sheet, push - step, sliding)[0]
+        friction(assembly, linear, push + step, sliding)[0]
+        - friction(assembly, linear, push - step, sliding)[0]
     ) / (2.0 * step)
     assert by_push == pytest.approx(slope, rel=1e-3, abs=1e-6 * abs(force / push))
 
 
 def test_a_dry_roller_in_the_middle_of_its_pocket_feels_nothing(assembly):
-    sheet = new_sheets(1)[0][0, 0]["cage"]
-    force, _, _ = friction(assembly, sheet, 0.0, 0.35)
+    linear = new_linearisations(1)[0][0, 0]["cage"]
+    force, _, _ = friction(assembly, linear, 0.0, 0.35)
     assert (force == 0.0) == (assembly.bodies[0]["oily"] == 0)
     assert math.isfinite(force)

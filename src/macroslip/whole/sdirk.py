@@ -6,8 +6,9 @@ Nodes γ and 1, γ = 1 − 1/√2, the last stage being the step's end. The erro
 third-order quadrature of the slopes at the step's start and both stages, divided by the stage's
 matrix, which takes out what a gripped contact damps.
 
-Tractions rest: at every evaluation the force predicted by the slopes of the evaluation before is
-compared with the one found, and the time to the next evaluation follows from the difference.
+Tractions are extrapolated linearly between evaluations: at every evaluation the force predicted by
+the slopes of the evaluation before is compared with the new one, and the time to the next
+evaluation follows from the difference.
 
 It computes steps and nothing else. They go into buffers; when these are full the kernel returns,
 and goes on where it was when it is called again.
@@ -89,7 +90,7 @@ LIMITS = np.dtype(
                 # can get.
                 "rounding",
                 "longest_step",  # longest step [s]
-                "longest_rest",  # longest time between evaluations of tractions [s]
+                "longest_interval",  # longest time between evaluations of tractions [s]
             )
         ),
         # Relative change of load or slip within which the slopes of a cage's contact serve [-].
@@ -98,7 +99,7 @@ LIMITS = np.dtype(
         ("slip_reach", "f8"),
         ("slowest", "f8"),  # least speed of a raceway contact in its tables [m/s]
         ("max_steps", "i8"),  # most steps, with those rejected
-        ("rests", "i8"),  # 1 if tractions may follow from slopes between evaluations, or 0
+        ("extrapolates", "i8"),  # 1 if tractions may follow from slopes between evaluations, or 0
     ]
 )
 #: State of the kernel between two calls.
@@ -183,7 +184,7 @@ def steps_of(
     *,
     tolerance: float = 2e-4,
     max_steps: int = 100_000_000,
-    rests: bool = True,
+    extrapolates: bool = True,
 ) -> Iterator[Part]:
     """Integrate all rollers and cages over the motion of the inner ring.
 
@@ -199,7 +200,7 @@ def steps_of(
         Relative error of energies [-].
     max_steps : int
         Steps, with those rejected, after which it gives up.
-    rests : bool
+    extrapolates : bool
         Whether tractions may follow from their slopes between evaluations; without, every iteration
         evaluates all.
 
@@ -228,7 +229,7 @@ def steps_of(
     space.cages["y"][:, STATE, 0] = start.cage_lead
     limits = _limits(assembly, motion, float(stops[-1]), tolerance)
     limits["max_steps"] = max_steps
-    limits["rests"] = rests
+    limits["extrapolates"] = extrapolates
     count = assembly.places.size
     rows = max(_BUFFER // (STEP.itemsize * count), 16)
     steps = np.zeros((rows, count), STEP)
@@ -259,7 +260,7 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     limits["force"] = tuning.FORCE_SHARE * tolerance
     limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
     limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
-    limits["longest_rest"] = tuning.LONGEST_REST
+    limits["longest_interval"] = tuning.LONGEST_INTERVAL
     # What slopes leave out goes with the square of their reach.
     finer = min(1.0, math.sqrt(tolerance / 2e-4))
     limits["cage_reach"] = tuning.CAGE_REACH * finer
@@ -302,24 +303,24 @@ def _write_stage(assembly, k, time, weight, space, row):
     The stage is at `time` [s] and has the weight `weight` [s].
     """
     moments = space.moments[k]
-    sheets = space.sheets[0]
+    linearisations = space.linearisations[0]
     rollers = space.rollers
     for j in range(row.size):
         step = row[j]
         body = assembly.bodies[assembly.places[j].row]
         at = moments[j]
-        sheet = sheets[j]
+        linear = linearisations[j]
         own = rollers[j].y[FIRST + k]
         at_inner = (at.inner_load, at.inner_speed, own[0])
         at_outer = (at.outer_load, at.outer_speed, own[1])
-        shear_in = shear_from(sheet.inner, *at_inner)
-        shear_out = shear_from(sheet.outer, *at_outer)
-        shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
+        shear_in = shear_from(linear.inner, *at_inner)
+        shear_out = shear_from(linear.outer, *at_outer)
+        shear_cage = cage_shear_from(linear.cage, at.push, at.sliding)
         inner, rolling_in, rough_in = extrapolated_power(
-            sheet.inner, body.inner, at.spin_inner, at.pull_inner, shear_in, *at_inner
+            linear.inner, body.inner, at.spin_inner, at.pull_inner, shear_in, *at_inner
         )
         outer, rolling_out, rough_out = extrapolated_power(
-            sheet.outer, body.outer, at.spin_outer, at.pull_outer, shear_out, *at_outer
+            linear.outer, body.outer, at.spin_outer, at.pull_outer, shear_out, *at_outer
         )
         step.time[k] = time
         step.weight[k] = weight
@@ -345,7 +346,7 @@ def _write_stage(assembly, k, time, weight, space, row):
         rough[0] = rough_in
         rough[1] = rough_out
         rough[2] = (
-            sheet.cage.rough * abs(at.push) / sheet.cage.load if sheet.cage.load > 0.0 else 0.0
+            linear.cage.rough * abs(at.push) / linear.cage.load if linear.cage.load > 0.0 else 0.0
         )
         step.lag_power[k, 0] = inner.curvature
         step.lag_power[k, 1] = outer.curvature
@@ -388,9 +389,9 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
     else:
         tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
     space.numbers[0] = space.numbers[1]
-    rests = space.rests
-    for j in range(rests.size):
-        rests[j].fresh = limits.rests == 0 or rests[j].rest < h or h == 0.0
+    schedules = space.schedules
+    for j in range(schedules.size):
+        schedules[j].fresh = limits.extrapolates == 0 or schedules[j].interval < h or h == 0.0
     worst = 0.0
     solved = True
     for k in range(stages):
@@ -400,7 +401,7 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
             now = instant(motion, interval, time)
             span = k * (1.0 - GAMMA) * h
             change = now.shaft_speed - start.shaft_speed
-            for j in range(rests.size):
+            for j in range(schedules.size):
                 _guess(space.rollers[j].y, k, step, span, assembly.places[j].inner_radius * change)
             for c in range(space.cages.size):
                 _guess(
@@ -415,14 +416,14 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
                 space.moments[k],
                 whole.turn[k],
             )
-            rest = solve_stage(
+            residual = solve_stage(
                 assembly,
                 Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach, limits.slip_reach),
                 k,
                 space,
             )
-            solved = rest <= tolerance
-            worst = max(worst, rest) if solved else rest
+            solved = residual <= tolerance
+            worst = max(worst, residual) if solved else residual
             if solved:
                 _keep_rate(step, k, space)
                 whole.shaft_speed[k] = now.shaft_speed
@@ -448,43 +449,43 @@ def _step_error(assembly, limits, h, space):
     borders = space.borders
     for j in range(rollers.size):
         y = rollers[j].y
-        rest = blocks[j].rest
+        residual = blocks[j].residual
         for i in range(2):
-            rest[i] = bearing.roller_mass / GAMMA * _off(y, i)
+            residual[i] = bearing.roller_mass / GAMMA * _off(y, i)
         worst = max(worst, abs(h * _off(y, 2)) / (allowed * tuning.PLACE_TIME))
     for c in range(cages.size):
         y = cages[c].y
-        rest = borders[c].rest
+        residual = borders[c].residual
         for i in range(3):
-            rest[i] = bearing.cage_mass / GAMMA * _off(y, 0 if i == 0 else i + 1)
+            residual[i] = bearing.cage_mass / GAMMA * _off(y, 0 if i == 0 else i + 1)
     size = 3 if bearing.translates else 1
     solve(assembly.places, size, blocks, borders)
     for j in range(rollers.size):
-        rest = blocks[j].rest
-        worst = max(worst, abs(rest[0]) / allowed, abs(rest[1]) / allowed)
+        residual = blocks[j].residual
+        worst = max(worst, abs(residual[0]) / allowed, abs(residual[1]) / allowed)
     for c in range(cages.size):
         for i in range(size):
-            worst = max(worst, abs(borders[c].rest[i]) / allowed)
+            worst = max(worst, abs(borders[c].residual[i]) / allowed)
     return worst
 
 
 @jit_inline
-def _contact_off(known, sheet, law, mass, limits, span, power_scale):
+def _contact_off(known, linear, law, mass, limits, span, power_scale):
     """Error of extrapolated forces and powers of a raceway contact over what is allowed.
 
-    They are extrapolated from `known` to the new evaluation `sheet`, `span` [s] later; `law` is the
+    They are extrapolated from `known` to the new evaluation `linear`, `span` [s] later; `law` is the
     raceway's record of `CONTACT`, `mass` a roller's [kg].
     """
-    load = sheet.load
-    speed = sheet.speed
-    slip = sheet.slip
+    load = linear.load
+    speed = linear.speed
+    slip = linear.slip
     spin, pull = raceway_from(known, load, speed, slip)
-    off = max(abs(spin - sheet.spin), abs(pull - sheet.pull))
-    drift = off / (mass / max(span, 1e-9) + max(sheet.spin_by_slip, sheet.pull_by_slip, 0.0))
+    off = max(abs(spin - linear.spin), abs(pull - linear.pull))
+    drift = off / (mass / max(span, 1e-9) + max(linear.spin_by_slip, linear.pull_by_slip, 0.0))
     shear = shear_from(known, load, speed, slip)
     guess, rolling_guess, _ = extrapolated_power(known, law, spin, pull, shear, load, speed, slip)
     friction, rolling, _ = extrapolated_power(
-        sheet, law, sheet.spin, sheet.pull, sheet.shear, load, speed, slip
+        linear, law, linear.spin, linear.pull, linear.shear, load, speed, slip
     )
     wrong = rolling_guess - rolling
     power = abs(rolling)
@@ -505,46 +506,46 @@ def _refresh(assembly, limits, time, space, power_scale):
     `power_scale` is the mean frictional power of a raceway contact so far [W]. Returns whether the
     forces of all resting rollers were near those predicted; otherwise the step has to be repeated.
     """
-    rests = space.rests
+    schedules = space.schedules
     moments = space.moments[1]
-    sheets = space.sheets[0]
-    known = space.sheets[1]
-    for j in range(rests.size):
-        one = rests[j]
-        one.due = one.fresh or time - known[j].when >= one.rest
-        one.marked = one.due and (not one.fresh or sheets[j].when != time)
+    linearisations = space.linearisations[0]
+    known = space.linearisations[1]
+    for j in range(schedules.size):
+        schedule = schedules[j]
+        schedule.due = schedule.fresh or time - known[j].when >= schedule.interval
+        schedule.marked = schedule.due and (not schedule.fresh or linearisations[j].when != time)
     # The last stage as a sum, as stages are numbered elsewhere: for a constant all of it would be
     # compiled once more.
     space.memory[0].evaluations += evaluate_marked(
-        assembly, time, moments, space.rollers, FIRST + 1, rests, sheets
+        assembly, time, moments, space.rollers, FIRST + 1, schedules, linearisations
     )
     mass = assembly.bearing[0].roller_mass
     good = True
-    for j in range(rests.size):
-        one = rests[j]
+    for j in range(schedules.size):
+        schedule = schedules[j]
         body = assembly.bodies[assembly.places[j].row]
-        new = sheets[j]
+        new = linearisations[j]
         old = known[j]
-        if one.due:
+        if schedule.due:
             span = time - old.when
             inner = _contact_off(old.inner, new.inner, body.inner, mass, limits, span, power_scale)
             outer = _contact_off(old.outer, new.outer, body.outer, mass, limits, span, power_scale)
-            one.ratio = max(inner, outer)
-            if not one.fresh and one.ratio > tuning.FAR_OFF and span > 0.0:
-                one.rest = 0.0
+            schedule.ratio = max(inner, outer)
+            if not schedule.fresh and schedule.ratio > tuning.FAR_OFF and span > 0.0:
+                schedule.interval = 0.0
                 good = False
-    # Times change only after a good step: a roller that has to be evaluated in its repetition would
-    # rest again.
-    for j in range(rests.size):
-        one = rests[j]
-        if good and one.due:
-            factor = tuning.REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
+    # Intervals change only after a good step: a roller that has to be evaluated in its repetition
+    # would be extrapolated again.
+    for j in range(schedules.size):
+        schedule = schedules[j]
+        if good and schedule.due:
+            factor = tuning.INTERVAL_SAFETY / math.sqrt(max(schedule.ratio, 1e-4))
             factor = (
-                max(tuning.REST_PART, min(factor, tuning.REST_GROWTH))
-                if one.ratio <= tuning.FAR_OFF
+                max(tuning.INTERVAL_PART, min(factor, tuning.INTERVAL_GROWTH))
+                if schedule.ratio <= tuning.FAR_OFF
                 else 0.0
             )
-            one.rest = min(limits.longest_rest, (time - known[j].when) * factor)
+            schedule.interval = min(limits.longest_interval, (time - known[j].when) * factor)
     return good
 
 
@@ -682,13 +683,13 @@ def _advance(end, space, row):
     memory = space.memory[0]
     rollers = space.rollers
     cages = space.cages
-    rests = space.rests
+    schedules = space.schedules
     numbers = space.numbers
     memory.steps += 1
     for j in range(row.size):
         for k in range(2):
             memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
-        if rests[j].due:
+        if schedules[j].due:
             numbers[1, j] = numbers[0, j]
         _take_over(rollers[j].y)
     for c in range(cages.size):

@@ -28,7 +28,7 @@ from macroslip.whole.tractions import (
     cage_from,
     evaluate_marked,
     is_out_of_reach,
-    new_sheets,
+    new_linearisations,
     raceway_from,
 )
 
@@ -53,9 +53,9 @@ CAGE = np.dtype(
     ]
 )
 #: When the tractions of a roller are evaluated.
-REST = np.dtype(
+SCHEDULE = np.dtype(
     [
-        ("rest", "f8"),  # time for which the tractions that were kept serve [s]
+        ("interval", "f8"),  # time for which the tractions that were kept serve [s]
         ("ratio", "f8"),  # error of the last predicted values over what is allowed [-]
         ("fresh", "?"),  # true if it is evaluated in every iteration
         ("settled", "?"),  # true if it needs no further evaluation in this stage
@@ -73,14 +73,14 @@ BLOCK = np.dtype(
         ("give", "f8"),  # derivative of N by x' [N s/m]
         ("by_sliding", "f8"),  # derivative of F_c by slip [N s/m]
         ("by_push", "f8"),  # derivative of F_c by N [-]
-        ("rest", "f8", (2,)),  # residuals, or the right-hand side of a solution [N]
+        ("residual", "f8", (2,)),  # residuals, or the right-hand side of a solution [N]
     ]
 )
 #: A cage's part of the matrix.
 BORDER = np.dtype(
     [
         ("matrix", "f8", (3, 3)),  # derivatives of its residuals by w, p, q [N s/m]
-        ("rest", "f8", (3,)),  # residuals, or the right-hand side of a solution [N]
+        ("residual", "f8", (3,)),  # residuals, or the right-hand side of a solution [N]
     ]
 )
 
@@ -91,9 +91,11 @@ class Space(NamedTuple):
     rollers: np.ndarray  #: shape (n,)
     cages: np.ndarray  #: shape (c,)
     moments: np.ndarray  #: Shape (2, n). At both stages.
-    sheets: np.ndarray  #: Shape (2, n). Those of the step under way, and those kept from before it.
+    linearisations: (
+        np.ndarray
+    )  #: Shape (2, n). Those of the step under way, and those kept from before it.
     numbers: np.ndarray  #: Shape (2, n, columns). The same memory.
-    rests: np.ndarray  #: shape (n,)
+    schedules: np.ndarray  #: shape (n,)
     blocks: np.ndarray  #: shape (n,)
     borders: np.ndarray  #: shape (c,)
     memory: np.ndarray  #: shape (1,)
@@ -104,7 +106,7 @@ def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     count = assembly.places.size
     cages = int(assembly.bearing[0]["cages"])
     return Space(
-        np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), MOMENT), *new_sheets(count), np.zeros(count, REST),
+        np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), MOMENT), *new_linearisations(count), np.zeros(count, SCHEDULE),
         np.zeros(count, BLOCK), np.zeros(cages, BORDER), memory,
     )  # fmt: skip
 
@@ -136,7 +138,7 @@ class Meeting(NamedTuple):
 
 
 @jit_inline
-def meet(bearing, contact, stage, at, own, star, cage, sheet):
+def meet(bearing, contact, stage, at, own, star, cage, linear):
     """Push and friction of a roller's pocket at the speeds of a stage.
 
     Parameters
@@ -153,7 +155,7 @@ def meet(bearing, contact, stage, at, own, star, cage, sheet):
         The roller's y*.
     cage : ndarray, shape (6,)
         Unknowns of its cage, as in `CAGE`.
-    sheet : record of `macroslip.whole.tractions.SHEETS`
+    linear : record of `macroslip.whole.tractions.LINEARISATIONS`
         Its cage contact is evaluated again where the slopes do not serve.
 
     Returns
@@ -179,7 +181,7 @@ def meet(bearing, contact, stage, at, own, star, cage, sheet):
     sliding = 0.5 * (v_in + v_out + at.ring) + bearing.lever * bearing.pitch_radius * cage_turn
     body, tables = contact
     friction, by_sliding, by_push = cage_from(
-        body, tables, sheet.cage, push, sliding, stage.cage_reach
+        body, tables, linear.cage, push, sliding, stage.cage_reach
     )
     at.friction = friction
     at.push = push
@@ -192,7 +194,7 @@ def meet(bearing, contact, stage, at, own, star, cage, sheet):
 
 
 @jit_inline
-def _write_block(inertia, at, sheet, met, block):
+def _write_block(inertia, at, linear, met, block):
     """Inverse of a roller's block, and the derivatives by which its pocket's forces follow."""
     block.give = met.give
     block.by_sliding = met.by_sliding
@@ -202,11 +204,11 @@ def _write_block(inertia, at, sheet, met, block):
     spin_out = 0.0
     pull_out = 0.0
     if at.inner_load > 0.0:
-        spin_in = sheet.inner.spin_by_slip
-        pull_in = sheet.inner.pull_by_slip
+        spin_in = linear.inner.spin_by_slip
+        pull_in = linear.inner.pull_by_slip
     if at.outer_load > 0.0:
-        spin_out = sheet.outer.spin_by_slip
-        pull_out = sheet.outer.pull_by_slip
+        spin_out = linear.outer.spin_by_slip
+        pull_out = linear.outer.pull_by_slip
     # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
     shared = met.by_sliding
     tilted = met.by_push * met.give
@@ -226,12 +228,12 @@ def _write_block(inertia, at, sheet, met, block):
 def _add_to_border(bearing, stage, at, met, block, border):
     """Add a roller to its cage's equations, and the cage to the roller's."""
     matrix = border.matrix
-    rest = border.rest
+    residual = border.residual
     row = block.row
     column = block.column
     lever = bearing.lever
     by_w = -met.give
-    rest[0] += met.push * met.arm + met.friction * lever
+    residual[0] += met.push * met.arm + met.friction * lever
     half_push = 0.5 * met.give
     half_friction = 0.5 * met.by_push * met.give
     row[0, 0] = half_push * met.arm + lever * (0.5 * met.by_sliding + half_friction)
@@ -242,8 +244,8 @@ def _add_to_border(bearing, stage, at, met, block, border):
     matrix[0, 0] += met.arm * by_w + lever * friction_by_w
     if bearing.translates:
         cosine, sine = at.cosine, at.sine
-        rest[1] -= met.push * sine
-        rest[2] += met.push * cosine
+        residual[1] -= met.push * sine
+        residual[2] += met.push * cosine
         by_p = met.give * (sine + stage.step * met.cage_turn * cosine)
         by_q = met.give * (-cosine + stage.step * met.cage_turn * sine)
         row[0, 1] = -sine * half_push
@@ -296,13 +298,13 @@ def eliminate(places, size, blocks, borders):
 
 
 @jit_inline
-def _solve_border(matrix, rest, size):
+def _solve_border(matrix, residual, size):
     """Solve the small border in place by Cramer's rule.
 
     Its diagonal is dominated by mass over step.
     """
     if size == 1:
-        rest[0] /= matrix[0, 0]
+        residual[0] /= matrix[0, 0]
         return
     m00 = matrix[0, 0]
     m01 = matrix[0, 1]
@@ -317,12 +319,18 @@ def _solve_border(matrix, rest, size):
     c01 = m12 * m20 - m10 * m22
     c02 = m10 * m21 - m11 * m20
     determinant = m00 * c00 + m01 * c01 + m02 * c02
-    r0 = rest[0]
-    r1 = rest[1]
-    r2 = rest[2]
-    rest[0] = (r0 * c00 + r1 * (m02 * m21 - m01 * m22) + r2 * (m01 * m12 - m02 * m11)) / determinant
-    rest[1] = (r0 * c01 + r1 * (m00 * m22 - m02 * m20) + r2 * (m02 * m10 - m00 * m12)) / determinant
-    rest[2] = (r0 * c02 + r1 * (m01 * m20 - m00 * m21) + r2 * (m00 * m11 - m01 * m10)) / determinant
+    r0 = residual[0]
+    r1 = residual[1]
+    r2 = residual[2]
+    residual[0] = (
+        r0 * c00 + r1 * (m02 * m21 - m01 * m22) + r2 * (m01 * m12 - m02 * m11)
+    ) / determinant
+    residual[1] = (
+        r0 * c01 + r1 * (m00 * m22 - m02 * m20) + r2 * (m02 * m10 - m00 * m12)
+    ) / determinant
+    residual[2] = (
+        r0 * c02 + r1 * (m01 * m20 - m00 * m21) + r2 * (m00 * m11 - m01 * m10)
+    ) / determinant
 
 
 @jit_inline
@@ -335,35 +343,35 @@ def solve(places, size, blocks, borders):
     size : int
         Unknowns of a cage: one, or three where it translates.
     blocks : ndarray of `BLOCK`, shape (n,)
-        `rest` of each: right-hand side [N], replaced by the solution v_in, v_out [m/s].
+        `residual` of each: right-hand side [N], replaced by the solution v_in, v_out [m/s].
     borders : ndarray of `BORDER`, shape (c,)
-        `rest` of each: right-hand side [N], replaced by the solution w, p, q [m/s].
+        `residual` of each: right-hand side [N], replaced by the solution w, p, q [m/s].
     """
     for j in range(places.size):
         inverse = blocks[j].inverse
-        rest = blocks[j].rest
+        residual = blocks[j].residual
         row = blocks[j].row
-        first = inverse[0] * rest[0] + inverse[1] * rest[1]
-        second = inverse[2] * rest[0] + inverse[3] * rest[1]
-        rest[0] = first
-        rest[1] = second
-        border_rest = borders[places[j].cage].rest
+        first = inverse[0] * residual[0] + inverse[1] * residual[1]
+        second = inverse[2] * residual[0] + inverse[3] * residual[1]
+        residual[0] = first
+        residual[1] = second
+        border_residual = borders[places[j].cage].residual
         for i in range(size):
-            border_rest[i] -= row[0, i] * first + row[1, i] * second
+            border_residual[i] -= row[0, i] * first + row[1, i] * second
     for c in range(borders.size):
-        _solve_border(borders[c].matrix, borders[c].rest, size)
+        _solve_border(borders[c].matrix, borders[c].residual, size)
     for j in range(places.size):
         inverse = blocks[j].inverse
-        rest = blocks[j].rest
+        residual = blocks[j].residual
         column = blocks[j].column
-        change = borders[places[j].cage].rest
+        change = borders[places[j].cage].residual
         first = 0.0
         second = 0.0
         for k in range(size):
             first += column[0, k] * change[k]
             second += column[1, k] * change[k]
-        rest[0] -= inverse[0] * first + inverse[1] * second
-        rest[1] -= inverse[2] * first + inverse[3] * second
+        residual[0] -= inverse[0] * first + inverse[1] * second
+        residual[1] -= inverse[2] * first + inverse[3] * second
 
 
 @jit_inline
@@ -371,25 +379,25 @@ def _begin_cage(bearing, stage, cage, star, border):
     """Parts of a cage's equations that no roller enters."""
     inertia = bearing.cage_mass / stage.step
     matrix = border.matrix
-    rest = border.rest
+    residual = border.residual
     for i in range(3):
         for k in range(3):
             matrix[i, k] = inertia if i == k else 0.0
     turning = cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius
     drive = math.tanh(turning / GUIDE_SPEED)
     past = turning - bearing.land_turns * stage.shaft_speed * bearing.pitch_radius
-    rest[0] = (
+    residual[0] = (
         inertia * (cage[0] - star[0]) + bearing.guide_friction * drive + bearing.land_drag * past
     )
     matrix[0, 0] += bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED + bearing.land_drag
-    rest[1] = inertia * (cage[2] - star[2])
-    rest[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
+    residual[1] = inertia * (cage[2] - star[2])
+    residual[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
     if bearing.translates:
         push, n_x, n_y, by_place, by_speed = guide_force(
             bearing.radial_play, cage[4], cage[5], cage[2], cage[3]
         )
-        rest[1] += push * n_x
-        rest[2] += push * n_y
+        residual[1] += push * n_x
+        residual[2] += push * n_y
         radial = by_speed + stage.step * by_place
         turning_push = (
             stage.step * push / math.sqrt(cage[4] ** 2 + cage[5] ** 2) if push > 0.0 else 0.0
@@ -401,32 +409,34 @@ def _begin_cage(bearing, stage, cage, star, border):
 
 
 @jit_inline
-def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
+def _raceway_forces(assembly, stage, k, moments, rollers, schedules, linearisations):
     """Raceway forces in stage `k`, evaluated where slopes do not serve; returns the evaluations."""
     for j in range(moments.size):
-        rest = rests[j]
+        schedule = schedules[j]
         at = moments[j]
-        sheet = sheets[j]
+        linear = linearisations[j]
         own = rollers[j].y[FIRST + k]
         at.spin_inner, at.pull_inner = raceway_from(
-            sheet.inner, at.inner_load, at.inner_speed, own[0]
+            linear.inner, at.inner_load, at.inner_speed, own[0]
         )
         at.spin_outer, at.pull_outer = raceway_from(
-            sheet.outer, at.outer_load, at.outer_speed, own[1]
+            linear.outer, at.outer_load, at.outer_speed, own[1]
         )
-        if not rest.fresh and is_out_of_reach(sheet, at, own, stage.slip_reach):
-            rest.fresh = True
-        rest.marked = rest.fresh and not rest.settled
-    evaluations = evaluate_marked(assembly, stage.time, moments, rollers, FIRST + k, rests, sheets)
+        if not schedule.fresh and is_out_of_reach(linear, at, own, stage.slip_reach):
+            schedule.fresh = True
+        schedule.marked = schedule.fresh and not schedule.settled
+    evaluations = evaluate_marked(
+        assembly, stage.time, moments, rollers, FIRST + k, schedules, linearisations
+    )
     for j in range(moments.size):
-        if rests[j].marked:
+        if schedules[j].marked:
             at = moments[j]
-            inner = sheets[j].inner
-            outer = sheets[j].outer
+            inner = linearisations[j].inner
+            outer = linearisations[j].outer
             off = abs(at.spin_inner - inner.spin) + abs(at.pull_inner - inner.pull)
             off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
             # Slopes that predicted the force well enough serve until the stage is solved.
-            rests[j].settled = off <= tuning.PREDICTED * stage.tolerance
+            schedules[j].settled = off <= tuning.PREDICTED * stage.tolerance
             at.spin_inner = inner.spin
             at.pull_inner = inner.pull
             at.spin_outer = outer.spin
@@ -451,7 +461,7 @@ def _assemble(assembly, stage, k, size, space):
     rollers = space.rollers
     cages = space.cages
     moments = space.moments[k]
-    sheets = space.sheets[0]
+    linearisations = space.linearisations[0]
     places = assembly.places
     blocks = space.blocks
     borders = space.borders
@@ -461,7 +471,9 @@ def _assemble(assembly, stage, k, size, space):
     for c in range(cages.size):
         _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], borders[c])
     memory = space.memory[0]
-    memory.evaluations += _raceway_forces(assembly, stage, k, moments, rollers, space.rests, sheets)
+    memory.evaluations += _raceway_forces(
+        assembly, stage, k, moments, rollers, space.schedules, linearisations
+    )
     memory.iterations += 1
     inertia = bearing.roller_mass / stage.step
     worst = 0.0
@@ -469,27 +481,27 @@ def _assemble(assembly, stage, k, size, space):
     for j in range(moments.size):
         c = places[j].cage
         at = moments[j]
-        sheet = sheets[j]
+        linear = linearisations[j]
         block = blocks[j]
         own = rollers[j].y[FIRST + k]
         star = rollers[j].y[STAR]
-        met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], sheet)
+        met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], linear)
         friction = at.spin_inner + at.spin_outer + met.friction
         drive = slip_drive(friction, at.pull_inner, at.pull_outer, met.push, at.tangential)
-        rest_in = inertia * (own[0] - star[0]) + drive.turning - drive.driving
-        rest_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
-        block.rest[0] = rest_in
-        block.rest[1] = rest_out
-        worst = max(worst, abs(rest_in), abs(rest_out))
+        residual_in = inertia * (own[0] - star[0]) + drive.turning - drive.driving
+        residual_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
+        block.residual[0] = residual_in
+        block.residual[1] = residual_out
+        worst = max(worst, abs(residual_in), abs(residual_out))
         # `max` may ignore a NaN.
-        finite = finite and abs(rest_in) + abs(rest_out) < math.inf
-        _write_block(inertia, at, sheet, met, block)
+        finite = finite and abs(residual_in) + abs(residual_out) < math.inf
+        _write_block(inertia, at, linear, met, block)
         _add_to_border(bearing, stage, at, met, block, borders[c])
     for c in range(cages.size):
         for i in range(size):
-            rest = abs(borders[c].rest[i])
-            worst = max(worst, rest)
-            finite = finite and rest < math.inf
+            size = abs(borders[c].residual[i])
+            worst = max(worst, size)
+            finite = finite and size < math.inf
     return worst if finite else math.inf
 
 
@@ -502,12 +514,12 @@ def _update(k, size, space):
     borders = space.borders
     for j in range(rollers.size):
         own = rollers[j].y[FIRST + k]
-        change = blocks[j].rest
+        change = blocks[j].residual
         own[0] -= change[0]
         own[1] -= change[1]
     for c in range(cages.size):
         cage = cages[c].y[FIRST + k]
-        change = borders[c].rest
+        change = borders[c].residual
         cage[0] -= change[0]
         if size == 3:
             cage[2] -= change[1]
@@ -522,24 +534,24 @@ def _follow(assembly, stage, k, space):
     rollers = space.rollers
     cages = space.cages
     moments = space.moments[k]
-    sheets = space.sheets[0]
+    linearisations = space.linearisations[0]
     blocks = space.blocks
     borders = space.borders
     for j in range(blocks.size):
         c = places[j].cage
         at = moments[j]
-        sheet = sheets[j]
+        linear = linearisations[j]
         block = blocks[j]
         cage = cages[c].y[FIRST + k]
-        border = borders[c].rest
-        v_in = -block.rest[0]
-        v_out = -block.rest[1]
+        border = borders[c].residual
+        v_in = -block.residual[0]
+        v_out = -block.residual[1]
         if at.inner_load > 0.0:
-            at.spin_inner += sheet.inner.spin_by_slip * v_in
-            at.pull_inner += sheet.inner.pull_by_slip * v_in
+            at.spin_inner += linear.inner.spin_by_slip * v_in
+            at.pull_inner += linear.inner.pull_by_slip * v_in
         if at.outer_load > 0.0:
-            at.spin_outer += sheet.outer.spin_by_slip * v_out
-            at.pull_outer += sheet.outer.pull_by_slip * v_out
+            at.spin_outer += linear.outer.spin_by_slip * v_out
+            at.pull_outer += linear.outer.pull_by_slip * v_out
         speed = 0.5 * (v_in - v_out) + border[0]
         if bearing.translates:
             turn = (
@@ -584,12 +596,12 @@ def solve_stage(assembly, stage, k, space):
     places = assembly.places
     blocks = space.blocks
     borders = space.borders
-    rests = space.rests
+    schedules = space.schedules
     size = 3 if assembly.bearing[0].translates else 1
     worst = math.inf
     before = math.inf
     for j in range(blocks.size):
-        rests[j].settled = False
+        schedules[j].settled = False
     for _ in range(tuning.ITERATIONS):
         worst = _assemble(assembly, stage, k, size, space)
         eliminate(places, size, blocks, borders)
@@ -597,7 +609,7 @@ def solve_stage(assembly, stage, k, space):
             break
         solve(places, size, blocks, borders)
         _update(k, size, space)
-        predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_REST)
+        predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_RESIDUAL)
         if predicted <= stage.tolerance:
             _place_cages(stage, k, space.cages)
             _follow(assembly, stage, k, space)

@@ -21,7 +21,7 @@ from macroslip.mechanics.speeds import inner_ring_speed, outer_ring_speed
 from macroslip.whole import tuning
 
 #: Tractions of a raceway contact and their slopes, at the state in which they were evaluated.
-SHEET = np.dtype(
+LINEARISATION = np.dtype(
     [
         (name, "f8")
         for name in (
@@ -46,7 +46,7 @@ SHEET = np.dtype(
     ]
 )
 #: Friction of the cage's contact and its slopes, at the state in which it was evaluated.
-CAGE_SHEET = np.dtype(
+CAGE_LINEARISATION = np.dtype(
     [
         (name, "f8")
         for name in (
@@ -63,11 +63,11 @@ CAGE_SHEET = np.dtype(
     ]
 )
 #: Tractions of a roller in its three contacts.
-SHEETS = np.dtype(
+LINEARISATIONS = np.dtype(
     [
-        ("inner", SHEET),
-        ("outer", SHEET),
-        ("cage", CAGE_SHEET),
+        ("inner", LINEARISATION),
+        ("outer", LINEARISATION),
+        ("cage", CAGE_LINEARISATION),
         ("when", "f8"),  # time of the last evaluation of the raceways [s]
     ]
 )
@@ -99,17 +99,17 @@ MOMENT = np.dtype(
 )
 
 
-def new_sheets(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Sheets of `count` rollers, none evaluated yet, shape (2, n).
+def new_linearisations(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Linearised tractions of `count` rollers, none evaluated yet, shape (2, n).
 
     They are those of the step under way and those kept.
 
     The second array is the first one's numbers, shape (2, n, columns).
     """
-    sheets = np.zeros((2, count), SHEETS)
-    sheets["when"] = -np.inf
-    sheets["cage"]["load"] = -1.0
-    return sheets, sheets.view(float).reshape(2, count, -1)
+    linearisations = np.zeros((2, count), LINEARISATIONS)
+    linearisations["when"] = -np.inf
+    linearisations["cage"]["load"] = -1.0
+    return linearisations, linearisations.view(float).reshape(2, count, -1)
 
 
 @jit_inline
@@ -183,33 +183,33 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
 
 
 @jit
-def _evaluate(body, law, tables, load, speed, slip, sheet):
-    """Evaluate a raceway contact at its load [N], ring speed and slip [m/s] into its sheet."""
+def _evaluate(body, law, tables, load, speed, slip, linear):
+    """Evaluate a raceway contact at its load [N], ring speed and slip [m/s] into its record."""
     forces = NO_RACEWAY_FORCES
     if load > 0.0:
         log_mean = log_speed(speed - 0.5 * slip)
         forces = raceway_forces(body, law, tables, contact_load(load), speed, slip, log_mean)
-    sheet.slip = slip
-    sheet.load = load
-    sheet.speed = speed
-    sheet.spin = forces.friction + forces.shear
-    sheet.pull = forces.pull
-    sheet.shear = forces.shear
-    sheet.spin_by_slip = forces.friction_by_slip + forces.shear_by_slip
-    sheet.pull_by_slip = forces.pull_by_slip
-    sheet.shear_by_slip = forces.shear_by_slip
-    sheet.spin_by_load = forces.friction_by_load + forces.shear_by_load
-    sheet.pull_by_load = forces.pull_by_load
-    sheet.shear_by_load = forces.shear_by_load
-    sheet.spin_by_speed = forces.friction_by_speed + forces.shear_by_speed
-    sheet.pull_by_speed = forces.pull_by_speed
-    sheet.shear_by_speed = forces.shear_by_speed
-    sheet.skew = forces.skew
-    sheet.rough = forces.asperity_power
+    linear.slip = slip
+    linear.load = load
+    linear.speed = speed
+    linear.spin = forces.friction + forces.shear
+    linear.pull = forces.pull
+    linear.shear = forces.shear
+    linear.spin_by_slip = forces.friction_by_slip + forces.shear_by_slip
+    linear.pull_by_slip = forces.pull_by_slip
+    linear.shear_by_slip = forces.shear_by_slip
+    linear.spin_by_load = forces.friction_by_load + forces.shear_by_load
+    linear.pull_by_load = forces.pull_by_load
+    linear.shear_by_load = forces.shear_by_load
+    linear.spin_by_speed = forces.friction_by_speed + forces.shear_by_speed
+    linear.pull_by_speed = forces.pull_by_speed
+    linear.shear_by_speed = forces.shear_by_speed
+    linear.skew = forces.skew
+    linear.rough = forces.asperity_power
 
 
 @jit
-def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
+def evaluate_marked(assembly, time, moments, rollers, which, schedules, linearisations):
     """Evaluate the tractions of both raceway contacts of marked rollers.
 
     Parameters
@@ -223,9 +223,9 @@ def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
         Slips [m/s].
     which : int
         Set of unknowns that counts: `STATE` to `LAST` of `macroslip.whole.stage`.
-    rests : ndarray of `macroslip.whole.stage.REST`, shape (n,)
+    schedules : ndarray of `macroslip.whole.stage.SCHEDULE`, shape (n,)
         Rollers with `marked` are evaluated.
-    sheets : ndarray of `SHEETS`, shape (n,)
+    linearisations : ndarray of `LINEARISATIONS`, shape (n,)
         Filled where a roller is evaluated.
 
     Returns
@@ -237,26 +237,26 @@ def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
     places = assembly.places
     tables = address(assembly)
     evaluations = 0
-    for j in range(rests.size):
-        if rests[j].marked:
+    for j in range(schedules.size):
+        if schedules[j].marked:
             body = bodies[places[j].row]
             at = moments[j]
-            sheet = sheets[j]
+            linear = linearisations[j]
             own = rollers[j].y[which]
-            _evaluate(body, body.inner, tables, at.inner_load, at.inner_speed, own[0], sheet.inner)
-            _evaluate(body, body.outer, tables, at.outer_load, at.outer_speed, own[1], sheet.outer)
-            sheet.when = time
+            _evaluate(body, body.inner, tables, at.inner_load, at.inner_speed, own[0], linear.inner)
+            _evaluate(body, body.outer, tables, at.outer_load, at.outer_speed, own[1], linear.outer)
+            linear.when = time
             evaluations += 2
     return evaluations
 
 
 @jit_inline
-def raceway_from(sheet, load, speed, slip):
+def raceway_from(linear, load, speed, slip):
     """Tractions of a raceway contact, extrapolated linearly between evaluations.
 
     Parameters
     ----------
-    sheet : record of `SHEET`
+    linear : record of `LINEARISATION`
         Tractions and slopes at the last evaluation.
     load : float
         Normal load Q [N]; a contact with none or less transmits nothing.
@@ -272,21 +272,31 @@ def raceway_from(sheet, load, speed, slip):
     """
     if load <= 0.0:
         return 0.0, 0.0
-    dv = slip - sheet.slip
-    dq = load - sheet.load
-    du = speed - sheet.speed
-    spin = sheet.spin + sheet.spin_by_slip * dv + sheet.spin_by_load * dq + sheet.spin_by_speed * du
-    pull = sheet.pull + sheet.pull_by_slip * dv + sheet.pull_by_load * dq + sheet.pull_by_speed * du
+    dv = slip - linear.slip
+    dq = load - linear.load
+    du = speed - linear.speed
+    spin = (
+        linear.spin
+        + linear.spin_by_slip * dv
+        + linear.spin_by_load * dq
+        + linear.spin_by_speed * du
+    )
+    pull = (
+        linear.pull
+        + linear.pull_by_slip * dv
+        + linear.pull_by_load * dq
+        + linear.pull_by_speed * du
+    )
     return spin, pull
 
 
 @jit_inline
-def shear_from(sheet, load, speed, slip):
+def shear_from(linear, load, speed, slip):
     """Rolling resistance of a raceway contact, extrapolated linearly between evaluations.
 
     Parameters
     ----------
-    sheet : record of `SHEET`
+    linear : record of `LINEARISATION`
         Tractions and slopes at the last evaluation.
     load : float
         Normal load Q [N]; a contact with none or less has no resistance.
@@ -302,36 +312,36 @@ def shear_from(sheet, load, speed, slip):
     """
     if load <= 0.0:
         return 0.0
-    shear = sheet.shear + sheet.shear_by_slip * (slip - sheet.slip)
+    shear = linear.shear + linear.shear_by_slip * (slip - linear.slip)
     return (
         shear
-        + sheet.shear_by_load * (load - sheet.load)
-        + sheet.shear_by_speed * (speed - sheet.speed)
+        + linear.shear_by_load * (load - linear.load)
+        + linear.shear_by_speed * (speed - linear.speed)
     )
 
 
 @jit_inline
-def _reaches(sheet, load, speed, slip, slip_reach):
+def _reaches(linear, load, speed, slip, slip_reach):
     """True if extrapolation serves at another load [N], ring speed and slip [m/s].
 
     A contact at rest has no slopes.
     """
-    if sheet.slip == 0.0 and sheet.speed == 0.0 and (slip != 0.0 or speed != 0.0):
+    if linear.slip == 0.0 and linear.speed == 0.0 and (slip != 0.0 or speed != 0.0):
         return False
-    change = sheet.pull_by_slip * (slip - sheet.slip)
+    change = linear.pull_by_slip * (slip - linear.slip)
     return (
-        abs(load - sheet.load) <= tuning.LOAD_REACH * sheet.load
+        abs(load - linear.load) <= tuning.LOAD_REACH * linear.load
         and abs(change) <= slip_reach * load
     )
 
 
 @jit_inline
-def is_out_of_reach(sheet, at, slips, slip_reach):
+def is_out_of_reach(linear, at, slips, slip_reach):
     """True if a raceway's load or slip has changed too much for extrapolation.
 
     Parameters
     ----------
-    sheet : record of `SHEETS`
+    linear : record of `LINEARISATIONS`
         Tractions and slopes at the last evaluation.
     at : record of `MOMENT`
         Loads [N] and ring speeds [m/s] now.
@@ -345,20 +355,20 @@ def is_out_of_reach(sheet, at, slips, slip_reach):
     bool
     """
     return not (
-        _reaches(sheet.inner, at.inner_load, at.inner_speed, slips[0], slip_reach)
-        and _reaches(sheet.outer, at.outer_load, at.outer_speed, slips[1], slip_reach)
+        _reaches(linear.inner, at.inner_load, at.inner_speed, slips[0], slip_reach)
+        and _reaches(linear.outer, at.outer_load, at.outer_speed, slips[1], slip_reach)
     )
 
 
 @jit_inline
-def extrapolated_power(sheet, law, spin, pull, shear, load, speed, slip):
+def extrapolated_power(linear, law, spin, pull, shear, load, speed, slip):
     """Frictional power of a raceway contact, extrapolated between evaluations.
 
     The skew moment grows with load to the power 3/2, the power of asperities in proportion to it.
 
     Parameters
     ----------
-    sheet : record of `SHEET`
+    linear : record of `LINEARISATION`
         Tractions at the last evaluation.
     law : record of `macroslip.roller.model.CONTACT`
         Of the raceway.
@@ -378,20 +388,20 @@ def extrapolated_power(sheet, law, spin, pull, shear, load, speed, slip):
     asperities : float
         Part of the frictional power that asperities dissipate [W].
     """
-    if load <= 0.0 or sheet.load <= 0.0:
+    if load <= 0.0 or linear.load <= 0.0:
         return RacewayPower(0.0, 0.0, 0.0), 0.0, 0.0
-    growth = (load - sheet.load) / sheet.load
+    growth = (load - linear.load) / linear.load
     lag = pull - spin + (1.0 - law.push) * shear
-    skew = sheet.skew * (1.0 + 1.5 * growth)
+    skew = linear.skew * (1.0 + 1.5 * growth)
     return (
         raceway_power(law, slip, speed, spin - shear, lag, skew),
         -shear * (2.0 * speed - slip),
-        sheet.rough * (1.0 + growth),
+        linear.rough * (1.0 + growth),
     )
 
 
 @jit_inline
-def cage_from(body, tables, sheet, push, sliding, part):
+def cage_from(body, tables, linear, push, sliding, part):
     """Friction of the cage on a roller, extrapolated linearly between evaluations.
 
     The contact is the same in both rows. A pocket full of oil brakes its roller without load too.
@@ -401,7 +411,7 @@ def cage_from(body, tables, sheet, push, sliding, part):
     body : record of `macroslip.roller.model.BODY`
     tables : int
         Address of the flat array of tables.
-    sheet : record of `CAGE_SHEET`
+    linear : record of `CAGE_LINEARISATION`
         The last evaluation, replaced by one at the present state where load or slip is out of
         reach.
     push : float
@@ -424,30 +434,32 @@ def cage_from(body, tables, sheet, push, sliding, part):
     if not body.oily and load <= tuning.LIGHT:
         return 0.0, 0.0, 0.0
     if not (
-        abs(load - sheet.load) <= part * sheet.load + tuning.LIGHT
-        and abs(sliding - sheet.slip) <= part * abs(sheet.slip)
+        abs(load - linear.load) <= part * linear.load + tuning.LIGHT
+        and abs(sliding - linear.slip) <= part * abs(linear.slip)
     ):
         found = cage_forces(body, tables, load, -sliding, log_speed(sliding))
-        sheet.force = found.friction + found.resistance
-        sheet.by_slip = found.friction_by_slip + found.resistance_by_slip
-        sheet.by_load = found.friction_by_load + found.resistance_by_load
-        sheet.shear = found.resistance
-        sheet.shear_by_slip = found.resistance_by_slip
-        sheet.shear_by_load = found.resistance_by_load
-        sheet.rough = found.asperity_power
-        sheet.slip = sliding
-        sheet.load = load
+        linear.force = found.friction + found.resistance
+        linear.by_slip = found.friction_by_slip + found.resistance_by_slip
+        linear.by_load = found.friction_by_load + found.resistance_by_load
+        linear.shear = found.resistance
+        linear.shear_by_slip = found.resistance_by_slip
+        linear.shear_by_load = found.resistance_by_load
+        linear.rough = found.asperity_power
+        linear.slip = sliding
+        linear.load = load
     force = (
-        sheet.force + sheet.by_slip * (sliding - sheet.slip) + sheet.by_load * (load - sheet.load)
+        linear.force
+        + linear.by_slip * (sliding - linear.slip)
+        + linear.by_load * (load - linear.load)
     )
-    return force, sheet.by_slip, sheet.by_load if push > 0.0 else -sheet.by_load
+    return force, linear.by_slip, linear.by_load if push > 0.0 else -linear.by_load
 
 
 @jit_inline
-def cage_shear_from(sheet, push, sliding):
-    """Rolling resistance [N] in the cage's friction, from the sheet's slopes."""
+def cage_shear_from(linear, push, sliding):
+    """Rolling resistance [N] in the cage's friction, from its slopes."""
     return (
-        sheet.shear
-        + sheet.shear_by_slip * (sliding - sheet.slip)
-        + sheet.shear_by_load * (abs(push) - sheet.load)
+        linear.shear
+        + linear.shear_by_slip * (sliding - linear.slip)
+        + linear.shear_by_load * (abs(push) - linear.load)
     )

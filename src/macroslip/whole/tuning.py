@@ -63,19 +63,19 @@ ITERATIONS = 12
 PREDICTED = 10.0
 #: Least part of a residual that is taken to be left by the next update. Newton's iteration squares
 #: it, but slopes of contacts are those of a state nearby. Judgement.
-PREDICTED_REST = 1e-3
+PREDICTED_RESIDUAL = 1e-3
 
 # --- Tractions between evaluations ----------------------------------------------------------------
 
 #: Longest time between evaluations of a roller's tractions [s], the sample interval of the bundled
 #: loads. Judgement.
-LONGEST_REST = 0.05
+LONGEST_INTERVAL = 0.05
 #: Most factor by which the time between evaluations changes. Judgement.
-REST_GROWTH = 2.0
+INTERVAL_GROWTH = 2.0
 #: Least factor by which the time between evaluations changes. Judgement.
-REST_PART = 0.3
+INTERVAL_PART = 0.3
 #: Safety factor on the time between evaluations. Judgement.
-REST_SAFETY = 0.8
+INTERVAL_SAFETY = 0.8
 #: How many times its allowance a predicted force may be off before no slopes serve in the repeated
 #: or next step. Judgement.
 FAR_OFF = 30.0
