@@ -13,10 +13,10 @@ from macroslip.compiled import jit
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import table_box
 from macroslip.whole.model import whole_bearing, with_tables
-from macroslip.whole.stage import FIRST, SCHEDULE, ROLLER
+from macroslip.whole.stage import FIRST, ROLLER, SCHEDULE
 from macroslip.whole.tractions import (
-    MOMENT,
     LINEARISATION,
+    MOMENT,
     cage_from,
     evaluate_marked,
     new_linearisations,
