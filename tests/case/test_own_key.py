@@ -1,0 +1,59 @@
+"""A key of an input file is declared once: reader, messages, JSON Schema and Python follow."""
+
+from typing import Annotated
+
+import pytest
+
+from macroslip import InputError
+from macroslip.input.fields import Positive
+from macroslip.input.files import Place, parse
+from macroslip.input.messages import together
+from macroslip.input.section import input_section, json_schema, read_fields
+from macroslip.input.units import FORCE, TIME
+
+
+@input_section("brake", "brake of the shaft", positional=True)
+class Brake:
+    """Brake of the shaft, as a new section of a case would be declared."""
+
+    force: Annotated[float, Positive("force of the brake", FORCE, 1e6)]
+    delay: Annotated[float, Positive("time until it acts", TIME, 60.0)] = 0.5
+
+
+def read(text: str) -> Brake:
+    data, source = parse(text, "brake.yaml")
+    values, problems = read_fields(Brake, data, Place(source))
+    if problems:
+        raise together(problems)
+    return Brake(**values)
+
+
+def test_a_file_has_the_key_with_its_unit_and_python_has_it_in_si():
+    assert read("force: 12 kN") == Brake(12e3) == Brake(force=12e3, delay=0.5)
+    assert read("force: 12 kN\ndelay: 200 ms").delay == 0.2
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("delay: 1 s", r"'force' is missing \(force of the brake\)"),
+        ("force: 12 kN\ndelay: 2 min\n", "line 2, delay: it is 2 min. Allowed: above 0, up to 1 min"),
+        ("force: 12", "line 1, force: it is 12, which does not give its unit.*N or kN"),
+        ("force: 12 kN\ndelya: 1 s", "line 2: .*'delya'.*delay"),
+    ],
+)
+def test_messages_name_line_value_range_and_key(text, message):
+    with pytest.raises(InputError, match=message):
+        read(text)
+
+
+def test_a_call_in_python_is_checked_alike():
+    with pytest.raises(InputError, match="delay.*61.*60 s"):
+        Brake(12e3, delay=61.0)
+
+
+def test_the_schema_has_key_unit_and_meaning():
+    schema = json_schema(Brake)
+    assert schema["required"] == ["force"]
+    assert schema["properties"]["force"]["description"].startswith("force of the brake")
+    assert "kN" in schema["properties"]["force"]["pattern"]
