@@ -1,4 +1,4 @@
-"""How functions are compiled: on first call, without fast-math.
+"""Decorators of compiled functions: compiled on first call, without fast-math.
 
 They are cached on disk and release the lock of the interpreter.
 """

@@ -246,7 +246,7 @@ class Case:
 
     @property
     def inlet_supply(self) -> str | float:
-        """How full inlets are: `oil_supply`, or what stands for None.
+        """Oil supply that counts: `oil_supply`, or its default where that is None.
 
         That is "skf" with laws that have a starved film or rolling resistance, and "flooded" with
         others.
@@ -255,7 +255,7 @@ class Case:
 
     @property
     def ring_loads(self) -> BearingLoads | RollerLoads:
-        """What loads the rollers.
+        """Load history from which the loads of the rollers follow.
 
         The load on the inner ring, or loads of the rollers that are given.
         """

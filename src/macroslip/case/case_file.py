@@ -1,4 +1,4 @@
-"""From a case file to a `Case`.
+"""Reader of case files: builds a `Case`, and reports all problems together.
 
 Whatever is wrong with the file is reported together, each with its line and remedy.
 """

@@ -1,4 +1,4 @@
-"""How much oil the inlets of the contacts get.
+"""Oil supply of the inlets of the contacts.
 
 One choice of a case, from which films, rolling and idle contacts follow.
 

@@ -186,7 +186,7 @@ def _of_turbine(turbine: Turbine) -> list[list[str]]:
 
 
 class _About(NamedTuple):
-    """What is told of a kind of record beside its quantities."""
+    """Text about a kind of record beside its quantities."""
 
     heading: str
     rows: Callable[[Any], list[list[str]]]

@@ -1,4 +1,4 @@
-"""How a command fails: one clean paragraph and an exit code a script can act on."""
+"""Failures of commands: one clean paragraph and an exit code a script can act on."""
 
 from __future__ import annotations
 

@@ -183,7 +183,7 @@ def _read(
 
 
 def _holds_bearing_loads(file: Path, sheet: str) -> bool:
-    """Whether a table has the columns of main-bearing loads; other faults show when it is read."""
+    """True if a table has the columns of main-bearing loads; other faults show when it is read."""
     from macroslip.loads.table import open_table
 
     if not file.is_file() or file.suffix.lower() not in (

@@ -66,7 +66,7 @@ def print_json(data: Mapping[str, Any] | list[Any]) -> None:
 
 
 def _plain(data: Any) -> Any:
-    """The same in types that JSON has.
+    """A value in types that JSON has.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""How far a command is: bars with the time left, or a line for each stage."""
+"""Progress of a command: bars with the time left, or a line for each stage."""
 
 from __future__ import annotations
 

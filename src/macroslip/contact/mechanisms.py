@@ -205,7 +205,7 @@ class Laws:
         return cls(**PRESETS[name])
 
     def but(self, **changes: Any) -> Laws:
-        """The same with some choices changed."""
+        """A copy with some choices changed."""
         return replace(self, **changes)
 
     @property

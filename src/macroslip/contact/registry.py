@@ -79,7 +79,7 @@ class Law(NamedTuple):
         return found[()]
 
     def inside(self, interface: Interface, load, entrainment_speed) -> np.ndarray:
-        """Whether a film law is in its range."""
+        """True where a film law is in its range."""
         if self.in_range is None:
             return np.ones(np.broadcast(load, entrainment_speed).shape, dtype=bool)[()]
         return self._values(
@@ -126,7 +126,7 @@ class Law(NamedTuple):
 
     @property
     def is_own(self) -> bool:
-        """Whether the law is the user's."""
+        """True if the law is the user's."""
         return not getattr(self.function, "__module__", "").startswith("macroslip.")
 
     @property

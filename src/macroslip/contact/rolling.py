@@ -302,7 +302,7 @@ def prepare_rolling(
 
 
 def at_oil_gap(numbers: RollingNumbers, oil_gap: float) -> RollingNumbers:
-    """The same raceway contact with inlets that are full from another gap on [m]."""
+    """A copy with inlets that are full from another gap on [m]."""
     shape = GapShape(
         0.5 * numbers.plug.double_radius, 0.5 * numbers.double_lateral, 2.0 * numbers.half_length
     )

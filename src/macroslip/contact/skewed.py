@@ -95,7 +95,7 @@ class SkewedContact(NamedTuple):
 
 
 class Resultants(NamedTuple):
-    """What a contact does to the roller."""
+    """Forces and moments of a contact on the roller."""
 
     #: Moment of the tractions about the roller's axis over r [N]; positive where it drives the spin
     #: up.

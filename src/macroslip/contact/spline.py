@@ -111,7 +111,7 @@ class _Vectors:
         self.builder = builder
 
     def splat(self, value: Any) -> Any:
-        """The same number in all lanes."""
+        """A vector with one number in all lanes."""
         first = self.builder.insert_element(_EMPTY, value, ir.Constant(_INDEX, 0))
         return self.builder.shuffle_vector(
             first, _EMPTY, ir.Constant(ir.VectorType(_INDEX, CHANNELS), [0] * CHANNELS)
@@ -185,7 +185,7 @@ def _is_flat(table: Any) -> bool:
 
 @intrinsic
 def uncounted(typingctx, array):
-    """The same array, whose references are not counted.
+    """An array whose references are not counted.
 
     For a call during which the caller keeps it alive.
 

@@ -382,7 +382,7 @@ def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
 
 
 def contact_parts(contact: ContactLaws) -> tuple:
-    """All that a contact's traction depends on."""
+    """Numbers and laws on which a contact's traction depends, for the key of its table."""
     one = contact.interface
     oil = contact.interface.lubricant
     sources = contact.own_sources

@@ -1,4 +1,4 @@
-"""From the hub to the main bearing: statics of a shaft on a three-point or a four-point mount."""
+"""Statics of a shaft on three-point or four-point mount: hub loads to main-bearing load."""
 
 from __future__ import annotations
 

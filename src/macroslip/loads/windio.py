@@ -62,7 +62,7 @@ _EXAMPLES = {
 
 @dataclass(frozen=True, slots=True)
 class WindioShaft:
-    """What a turbine file tells of the shaft; None or empty where it tells nothing."""
+    """Data of the shaft in a turbine file; None or empty where the file has none."""
 
     file: str  #: Name of the file
     tilt: float | None  #: [rad], positive with the hub end up

@@ -1,4 +1,4 @@
-"""From the values of a lubricant file to the values at the inlet of the contacts."""
+"""Values of the oil at the inlet of the contacts, derived from those of a lubricant file."""
 
 from __future__ import annotations
 

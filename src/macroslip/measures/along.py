@@ -1,4 +1,4 @@
-"""How power lies along a roller at a raceway, station by station."""
+"""Distribution of frictional power along a roller at a raceway, by station."""
 
 from __future__ import annotations
 

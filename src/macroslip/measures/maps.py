@@ -1,4 +1,4 @@
-"""Where on the raceways and along the roller energy is dissipated.
+"""Maps of dissipated energy on the raceways and along the roller.
 
 A sample spreads the energies since the one before over the way since then, as if power had passed
 linearly in time from how it lay along the roller at that one to how it lies now.

@@ -1,4 +1,4 @@
-"""All that a result holds of one roller, gathered from its steps buffer by buffer.
+"""Measures of one roller in a result, summed over its steps buffer by buffer.
 
 It is the same for both engines.
 """

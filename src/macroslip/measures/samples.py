@@ -1,4 +1,4 @@
-"""When the contacts of a roller are sampled, and what a sample holds.
+"""Samples of the contacts of a roller: their times, and the record of one.
 
 A contact is evaluated station by station, which is called a sample, where its power has changed, a
 value is a new highest one, or some way has been travelled: at every step it would cost more than

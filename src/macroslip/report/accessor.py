@@ -245,7 +245,7 @@ class Plot:
         return self._drawn(axes, draw.plot_load_zone, load_zone(self._result), self._row(row))
 
     def orbit(self, row: str | None = None, *, axes: PolarAxes | None = None) -> PolarAxes:
-        """Where on the orbit energy is dissipated, looking downwind; own axes must be polar.
+        """Dissipated energy over the orbit, looking downwind; own axes must be polar.
 
         Needs traces that begin with the loads.
         """

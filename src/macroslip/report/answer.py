@@ -34,7 +34,7 @@ _TRACED = 0.98
 
 @dataclass(frozen=True, slots=True)
 class RowSlip:
-    """How the rollers of a row turn; None where a result does not tell."""
+    """Speeds of the rollers of a row over pure rolling; None where a result has none."""
 
     row: str
     loaded: float | None  #: Share of time in which a roller carries load [1]
@@ -132,7 +132,7 @@ def _load(share: float | None) -> str:
 
 
 def _turning(slip: RowSlip) -> str:
-    """How fast the rollers turn, under load and without."""
+    """Sentence on the rollers' speed, under load and without."""
     hardly_loaded = slip.under_load is None or (slip.loaded or 0.0) < _HARDLY_LOADED
     if hardly_loaded and slip.without_load is not None:
         low, high = (number(100.0 * ratio, 2) for ratio in slip.without_load)
@@ -154,7 +154,7 @@ def _turning(slip: RowSlip) -> str:
 
 
 def _slowest(lowest: float | None) -> str:
-    """What the slowest roller does, where no traces tell more."""
+    """Sentence on the slowest roller, where there are no traces."""
     if lowest is None:
         return (
             "the shaft stands still or hardly turns, "
@@ -167,7 +167,7 @@ def _slowest(lowest: float | None) -> str:
 
 
 def _slowing(lowest: float) -> str:
-    """What rollers do without load."""
+    """Sentence on rollers without load."""
     percent = number(100.0 * abs(lowest), 2)
     if lowest < 0.0:
         return f"even turn backwards, at up to {percent} % of it"
@@ -175,7 +175,7 @@ def _slowing(lowest: float) -> str:
 
 
 def _films(result: xr.Dataset) -> list[str]:
-    """Whether loaded contacts run on a full film; nothing where that is not known."""
+    """Sentence on full films of loaded contacts; none where that is not known."""
     if "film_slip_time" not in result:
         return []
     time = result.film_slip_time.transpose("row", "raceway", "film_class", "slip_class")

@@ -113,7 +113,7 @@ class _Section(NamedTuple):
 
     @classmethod
     def of(cls, bearing: Bearing, half: float) -> _Section:
-        """Those of a bearing."""
+        """The lengths that a drawing of a bearing takes."""
         return cls(
             half,
             _MILLI * bearing.row_offset,

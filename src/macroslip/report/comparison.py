@@ -159,7 +159,7 @@ def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list[str]:
-    """What restricts the comparison of results."""
+    """Sentences on limits of the comparison of results."""
     if not differ:
         return ["The results differ in nothing: they were computed from the same input."]
     apart = [
@@ -368,7 +368,7 @@ def _parts(study: xr.Dataset, labels: Sequence[str]) -> dict[str, xr.Dataset]:
 def _design_notes(
     years: Mapping[str, xr.Dataset], parts: Mapping[str, xr.Dataset], pooled: Sequence[str]
 ) -> list[str]:
-    """What restricts the comparison of designs; a design has several values of `pooled`."""
+    """Sentences on limits of the comparison of designs; a design has several values of `pooled`."""
     notes = [coverage(next(iter(years.values())))]
     if pooled:
         notes.append(

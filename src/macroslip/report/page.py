@@ -35,7 +35,7 @@ class Table:
 
     @property
     def numeric(self) -> list[bool]:
-        """Whether every cell of a column is a number, or a dash for one."""
+        """True for each column whose cells are all numbers, or dashes for these."""
         columns = list(zip(*self.rows, strict=True)) or [()] * len(self.headings)
         return [bool(cells) and all(map(_NUMBER.match, cells)) for cells in columns]
 

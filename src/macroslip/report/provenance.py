@@ -1,4 +1,4 @@
-"""Where a page's numbers come from: program, inputs, tolerances, statuses, works cited."""
+"""Provenance of a page's numbers: program, inputs, tolerances, statuses, works cited."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
 
 
 def estimated_values(result: xr.Dataset) -> tuple[int, int]:
-    """How many values of bearing and lubricant are engineering estimates, and of how many."""
+    """Numbers of engineering estimates and of all values of bearing and lubricant."""
     settings = stored_settings(result)
     entries = [
         value
@@ -101,7 +101,7 @@ def estimated_values(result: xr.Dataset) -> tuple[int, int]:
 
 
 def rollers_failed(results: Iterable[xr.Dataset]) -> tuple[int, int]:
-    """How many rollers of some datasets failed, and how many there are."""
+    """Number of rollers of some datasets that failed, and of all rollers."""
     statuses = [result.status for result in results]
     return sum(int((status != 0).sum()) for status in statuses), sum(
         int(status.size) for status in statuses
@@ -109,7 +109,7 @@ def rollers_failed(results: Iterable[xr.Dataset]) -> tuple[int, int]:
 
 
 def failures(name: str, result: xr.Dataset) -> list[dict[str, Any]]:
-    """When and how rollers of a result failed."""
+    """Rollers of a result that failed, with the time and the cause."""
     if "end_time" not in result:
         return []
     failed = np.argwhere(result.status.transpose("row", "roller").values != Status.COMPLETED)
@@ -148,7 +148,7 @@ def overview_table(results: Mapping[str, xr.Dataset]) -> Table:
 
 
 def is_whole(result: xr.Dataset) -> bool:
-    """Whether orbit and spin were computed together."""
+    """True if orbit and spin were computed together."""
     return result.attrs.get("dynamics") == "whole-bearing" and "momentum_residual" in result
 
 
@@ -367,7 +367,7 @@ def criteria_table(lines: Sequence[Mapping[str, Any]]) -> Table:
 
 
 def how_sure(lines: Sequence[Mapping[str, Any]]) -> str:
-    """What makes the values of criteria unsure, once for all criteria that share it.
+    """Uncertainties of the values of criteria, once for all criteria that share one.
 
     Examples
     --------
@@ -391,7 +391,7 @@ def by_raceway(values: xr.DataArray) -> list[tuple[str, str, float]]:
 
 
 def surface_shares(density: xr.DataArray) -> list[dict[str, Any]]:
-    """Of each row that dissipates energy its parts with slip < 0 and with Λ < 1 [%]."""
+    """Parts of the energy with slip < 0 and with Λ < 1 [%], for each row that dissipates energy."""
     total = density.sum([dim for dim in density.dims if dim != "row"])
     shares = 100.0 * density / total.where(total > 0.0)
     return [

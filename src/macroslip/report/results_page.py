@@ -353,7 +353,7 @@ def _further_bodies(shown: ShownResult, results: Mapping[str, xr.Dataset]) -> di
 
 
 def _damage(shown: ShownResult) -> Markup:
-    """From slip to damage: criteria, worn profiles, time by film and slide-roll ratio."""
+    """Damage by slip: criteria, worn profiles, time by film and slide-roll ratio."""
     result = shown.result
     pictures = []
     if shown.criteria:

@@ -21,7 +21,7 @@ INTERNAL = ("case", "run", "outcome", "reason", "key")
 
 
 def study_about(study: xr.Dataset) -> str:
-    """How many runs of which loads, bearings, lubricants and models a study has."""
+    """Numbers of runs, loads, bearings, lubricants and models of a study, in a sentence."""
     parts = [f"{study.sizes['case']} runs"]
     several_models = any(str(name).startswith("laws.") for name in study.coords)
     for name, plural in SEVERAL.items():

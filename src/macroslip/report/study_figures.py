@@ -66,7 +66,7 @@ def plot_lifetime(axes: Axes, life: xr.Dataset, shown: Sequence[int]) -> Axes:
 
 
 def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[int]) -> Axes:
-    """How many orbits a year of a roller exceed what `EXCEEDED` names, the designs overlaid.
+    """Orbits a year in which a roller exceeds a quantity of `EXCEEDED`, the designs overlaid.
 
     Parameters
     ----------

@@ -297,7 +297,7 @@ def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
 def _effects(
     study: xr.Dataset, weighted: _Weighted
 ) -> tuple[Markup | str, Markup | str, list[Picture]]:
-    """Of a sample what moves the energy most in a sentence, its section and pictures."""
+    """Sensitivities of a sample: a sentence on the strongest, their section and pictures."""
     text = words(_TEMPLATE)
     if not sampled_parameters(study):
         return "", "", []

@@ -301,7 +301,7 @@ def _svg(figure: Figure, axes: Axes, legend: str) -> str:
 def row_pictures(
     plot: Callable[..., object], about: str, data: Any, rows: Sequence[str], **options: Any
 ) -> list[Picture]:
-    """The same picture of every row, on one scale.
+    """Pictures of one kind for every row, on one scale.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""From a case to its results: every roller on its own, or the whole bearing at once."""
+"""Simulation of a case: every roller on its own, or the whole bearing at once."""
 
 from __future__ import annotations
 

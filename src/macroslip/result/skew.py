@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
-    """How the rollers of both rows skew; empty without skew. `laws` are the downwind row's."""
+    """Skew of the rollers of both rows; empty without skew. `laws` are the downwind row's."""
     if case.laws.skew == "none":
         return {}
     table = skew_table(laws, case.bearing, box)

@@ -224,7 +224,7 @@ def stiffness_table(stiffness: xr.Dataset) -> pd.DataFrame:
 
 
 def stiffness_data(stiffness: xr.Dataset) -> dict[str, Any]:
-    """The same as plain data for JSON, with the matrices as lists of rows."""
+    """Stiffness of the ring as plain data for JSON, with the matrices as lists of rows."""
     points = []
     for number in range(stiffness.sizes["point"]):
         point = stiffness.isel(point=number)

@@ -36,7 +36,7 @@ def travel_rate(time: np.ndarray, position: np.ndarray, start: float, end: float
 def reversal_rate(
     time: np.ndarray, force: np.ndarray, dead_band: float, start: float, end: float
 ) -> float:
-    """How often a force changes its sign an hour, beyond a dead band.
+    """Reversals of a force an hour: changes of its sign beyond a dead band.
 
     A change counts where the force was beyond the band on one side before and is beyond it on the
     other side now; what happens within the band does not count.

@@ -80,7 +80,7 @@ class _Contacts(NamedTuple):
     stiffness: float  #: K [N/m^1.5]
 
     def rows(self, index: np.ndarray) -> _Contacts:
-        """Those at some of the samples."""
+        """The contacts at some of the samples."""
         if index.size == len(self.play):
             return self
         return _Contacts(self.normals[index], self.play[index], self.stiffness)

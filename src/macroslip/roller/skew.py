@@ -120,7 +120,7 @@ def _resistance_on(laws: RollerLaws, load, speed) -> tuple[np.ndarray, np.ndarra
 
 
 def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Where a roller lies under axial tractions, by the conditions of axial force and couple.
+    """Axial shift and tilt of a roller under axial tractions, by balance of axial force and couple.
 
     Parameters
     ----------
@@ -243,7 +243,7 @@ class _SlipSearch:
 def _contacts_at(
     pair: Pair, states: _States, slip, tilt, middles
 ) -> tuple[list[Resultants], np.ndarray]:
-    """What the raceways do to a roller, and the slope of their spin moments by slip [N s/m]."""
+    """Forces of the raceways on a roller, and the slope of their spin forces by slip [N s/m]."""
     step = _STEP * np.abs(states.ring_speed)
     # Each state, and the same with a little more slip.
     load, ring_speed, skew, tilts = (np.tile(values, 2) for values in (*states, tilt))
@@ -355,7 +355,7 @@ def equilibrium(
 
 
 class Pocket(NamedTuple):
-    """How the cage holds a roller against skew, by the shape of its spars."""
+    """Guidance of a roller by the cage against skew, by the shape of its spars."""
 
     largest: float  #: Largest skew [rad]
     arm: float  #: Moment of the two spars over the force of either, with the roller at its stop [m]

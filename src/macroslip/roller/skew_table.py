@@ -305,5 +305,5 @@ def turned(table, guide, load, ring_speed, push):
 
 
 def guide_of(pocket: Pocket, axial_sign: int) -> Guide:
-    """What holds the rollers of a row."""
+    """Cage guidance of the rollers of a row."""
     return Guide(float(axial_sign), pocket.largest, pocket.arm, pocket.effective_radius)

@@ -1,4 +1,4 @@
-"""What may warm a main bearing: friction as it is computed, as handbooks have it, or by speed only.
+"""Models of the heat of a main bearing: computed friction, friction by handbooks, or speed alone.
 
 Every model gives the heat of each row of a record up to constants that a fit finds.
 """

@@ -1,4 +1,4 @@
-"""Whether columns of a record are what its description calls them."""
+"""Plausibility of the columns of a record against its description."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def _same_sensors(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> 
 
 
 def doubts(values: Quantities, described: ScadaDescription) -> list[str]:
-    """What makes results of the columns less sure, in sentences."""
+    """Sentences on what makes results of the columns less certain."""
     column = described.columns.bearing_temperature
     resolution = sensor_resolution(values["bearing_temperature"])
     if resolution < _COARSE:

@@ -283,7 +283,7 @@ def rows_by_month(counts: pd.DataFrame) -> pd.DataFrame:
 
 
 def told_rows(scada: Scada) -> str:
-    """What was read, in a sentence.
+    """Sentence on the rows that were read.
 
     Rows of the turbine, period, hours that are used.
     """

@@ -1,4 +1,4 @@
-"""How the friction torque of the base bearing grows with the speed of the shaft, M ∝ n^e.
+"""Exponents e of the friction torque of the base bearing by the speed of the shaft, M ∝ n^e.
 
 A study has one speed for each wind; a turbine of another rated speed, or one that idles, has others.
 """

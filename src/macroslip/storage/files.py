@@ -60,7 +60,7 @@ def flush(descriptor: int) -> None:
 
 
 def flush_folder(folder: Path) -> None:
-    """The same for the names in a folder.
+    """Write the names in a folder to the disk.
 
     Systems without such a thing, as Windows, keep them by themselves.
     """

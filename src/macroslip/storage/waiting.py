@@ -1,4 +1,4 @@
-"""What a process waits for before it computes: compiling, and tables.
+"""Waiting times of a process before it computes: compiling, and tables.
 
 Whoever shows progress listens; nobody has to.
 """

@@ -1,4 +1,4 @@
-"""How the runs of a study are drawn together over a lifetime."""
+"""Aggregation of the runs of a study over a lifetime."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from macroslip.study.weights import (
 
 @dataclass(frozen=True)
 class Aggregation:
-    """How the runs of a study are drawn together over a lifetime.
+    """Aggregation of the runs of a study over a lifetime.
 
     Raises InputError if the lifetime is not above 0.
     """

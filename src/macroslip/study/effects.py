@@ -79,7 +79,7 @@ def sampled_parameters(study: xr.Dataset) -> list[str]:
 
 
 def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.Dataset:
-    """How the criteria and lives of a year change with each sampled parameter.
+    """Sensitivity of the criteria and lives of a year to each sampled parameter.
 
     Raises InputError if the study has no sample, or a label or a weight is wrong.
 

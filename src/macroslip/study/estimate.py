@@ -1,4 +1,4 @@
-"""How long a study takes and how much disk, from a few of its runs."""
+"""Estimate of a study's time and disk space, from a few of its runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How often an orbit exceeds an energy or a power, and the bearing's load a range."""
+"""Exceedance curves: orbits over energy and power, cycles over the range of the load."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ THRESHOLDS = np.logspace(-9.0, 9.0, 721)
 
 
 def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
-    """How many orbits a year of one roller exceed an energy, and a peak power.
+    """Orbits a year in which one roller exceeds an energy, and a peak power.
 
         n(x) = 1 year · Σ_b p_b N_b(> x) / t_b
 

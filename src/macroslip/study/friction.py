@@ -121,7 +121,7 @@ def _check_labels(study: xr.Dataset, where: str) -> None:
 
 
 def _is_production(study: xr.Dataset) -> np.ndarray:
-    """Whether a run is of a mean wind, and no event."""
+    """True for runs of a mean wind, which are no events."""
     if "event" not in study.coords:
         return np.ones(study.sizes["case"], dtype=bool)
     return study.event.values.astype(str) == ""

@@ -1,4 +1,4 @@
-"""From the runs of a study to a lifetime: means of each bin, weighted by how likely it is."""
+"""Lifetime energies of a study: means of each bin, weighted by its probability."""
 
 from __future__ import annotations
 

@@ -307,7 +307,7 @@ def _rows_of_table(path: Path, sheet: str) -> tuple[list[str], list[dict[str, An
 
 
 def _rows_of_sheet(path: Path, sheet: str) -> tuple[list[str], list[dict[str, Any]]]:
-    """The same of a sheet of a workbook; a column with a fraction is one of fractions."""
+    """Columns and rows of a sheet of a workbook; a column with a fraction is one of fractions."""
     header, *cells = sheet_cells(path, sheet) or [[]]
     columns = {}
     for name, *column in zip(header, *cells, strict=True):

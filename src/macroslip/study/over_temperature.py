@@ -109,7 +109,7 @@ class RunsOverTemperature:
         return np.moveaxis(of_series, 0, 1)
 
     def mean(self, shares: TemperatureShares, field: str, width: float) -> xr.Dataset:
-        """One case for each series: the mean over the time at each temperature.
+        """Means of the runs of each series over the time at each temperature, one case a series.
 
         Parameters
         ----------

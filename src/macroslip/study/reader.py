@@ -32,7 +32,7 @@ _RAGGED = {"orbit": "orbit", "time": "sample"}
 
 
 def is_study(path: Path) -> bool:
-    """Whether a path is the folder of a study."""
+    """True if a path is the folder of a study."""
     return (path / MANIFEST).is_file()
 
 

@@ -231,7 +231,7 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
 def _bins(
     rates: Mapping[str, np.ndarray], joint: JointShares, share: np.ndarray, names: list[str]
 ) -> pd.DataFrame:
-    """Where energy and wear of production come from, over wind speed and temperature.
+    """Shares of energy and wear of production over wind speed and temperature.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ _REMEDY = "Compute it again: macroslip study STUDY.yaml -o DIR --resume"
 
 
 def case_path(directory: Path, key: str) -> Path:
-    """Where the result of a case lies: 256 folders keep any one of them small."""
+    """Path of the result of a case: 256 folders keep any one of them small."""
     if len(key) != 64 or not set(key) <= set("0123456789abcdef"):
         raise ValueError(f"{key!r} is not a key")
     return directory / CASES / key[:2] / f"{key}.nc"

@@ -55,7 +55,7 @@ _KEPT = "Nothing that was reported done is lost."
 
 @dataclass
 class Ended:
-    """How a study ended."""
+    """Outcome of a study: counts, time, and why it stopped."""
 
     progress: Progress  #: Counts and time
     #: Labels, outcome and reason of runs that failed, or whose rollers did: the first thousand,

@@ -66,7 +66,7 @@ class Setting:
 
     @classmethod
     def written(cls, key: str, value: Any) -> Setting:
-        """From a value as a case file has it: `0.2 mm` becomes number and unit."""
+        """A setting from text of a case file: `0.2 mm` becomes number and unit."""
         match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
         return cls(key, value) if match is None else cls(key, float(match["number"]), match["unit"])
 

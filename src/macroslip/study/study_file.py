@@ -322,7 +322,7 @@ class GridAxis:
 
 @input_section("loads", "load histories, from exactly one source", one_of=LOAD_SOURCES)
 class StudyLoads:
-    """Where the load histories come from, and the fields they are labelled with."""
+    """Source of the load histories, and the fields that label them."""
 
     files: Annotated[
         list[str] | None,

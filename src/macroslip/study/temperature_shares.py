@@ -1,4 +1,4 @@
-"""How long the oil is at each temperature, at each wind speed and in events."""
+"""Shares of time at each temperature of the oil, at each wind speed and in events."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class TemperatureShares:
 
     @classmethod
     def measured(cls, joint: JointShares) -> TemperatureShares:
-        """Those of a measured year.
+        """The shares of a measured year.
 
         A bin of wind speed without a row has the temperatures of the nearest one that has some.
         Events have the temperatures of idle rows where the rotor stands, else the mean one of rows
@@ -69,7 +69,7 @@ class TemperatureShares:
         return cls(temperatures, rows, unit[-1], unit[-1], np.append(weight, 0.0), False)
 
     def at(self, production: float, standing: float) -> TemperatureShares:
-        """The same winds at one temperature of production and one of standing [K]."""
+        """A copy with one temperature of production and one of standing [K] at all winds."""
         unit = np.eye(2)
         return TemperatureShares(
             np.array([production, standing]),
@@ -81,7 +81,7 @@ class TemperatureShares:
         )
 
     def warmer(self, by: float) -> TemperatureShares:
-        """The same with all temperatures higher [K]."""
+        """A copy with all temperatures higher [K]."""
         return replace(self, temperatures=self.temperatures + by)
 
     def of_wind(self, centre: float, width: float) -> np.ndarray:

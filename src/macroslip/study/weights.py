@@ -107,7 +107,7 @@ IEC_CLASSES = {
 
 @dataclass(frozen=True)
 class Rate:
-    """How often an event happens in a year, or for how many hours of it.
+    """Rate of an event: times a year, or hours of a year.
 
     InputError for numbers below 0.
     """
@@ -179,7 +179,7 @@ class _WeibullOrClass(Form):
 
 @input_section("weights.wind", "how likely each wind speed is")
 class Wind:
-    """How likely each wind speed is."""
+    """Distribution of the wind speed."""
 
     weibull: Annotated[Weibull, _WeibullOrClass("Weibull distribution of the wind speed")]
 
@@ -207,7 +207,7 @@ class OilTemperature:
     "and events",
 )
 class Weighting:
-    """How much each load history counts.
+    """Weighting of the load histories.
 
     Scale and shape beside `field` are read as those of `wind.weibull`. A measured year, `scada`,
     stands in place of wind speeds and temperatures.
@@ -249,7 +249,7 @@ class Weighting:
 
     @property
     def year(self) -> Year:
-        """What a year consists of."""
+        """Distribution of wind speeds and rates of events of a year."""
         return Year(self._wind, self.events or {})
 
     @property
@@ -262,7 +262,7 @@ class Weighting:
 
     @property
     def temperatures(self) -> TemperatureShares | None:
-        """How long the oil is at each temperature; None where only the runs tell it."""
+        """Shares of time at each temperature of the oil; None where only runs have these."""
         if isinstance(self.scada, JointShares):
             return TemperatureShares.measured(self.scada)
         if self.temperature is None:
@@ -272,7 +272,7 @@ class Weighting:
         return TemperatureShares.given(of_wind, likely)
 
     def with_measured_year(self, loads: Sequence[Load], folder: Path) -> Weighting:
-        """The same with the means of the turbine read and sorted into the bins of the loads.
+        """A copy with the means of the turbine read and sorted into the bins of the loads.
 
         Raises InputError if the means cannot be read; relative paths start at `folder`.
         """
@@ -464,7 +464,7 @@ class Binning(Bins):
     field: str | None
 
     def probabilities(self, weights: Weights | None) -> np.ndarray:
-        """As those of `Bins`; without weights all time is in the one bin of all runs."""
+        """Share of all time of each bin; without weights one bin has all runs and all time."""
         return np.ones(1) if weights is None else super().probabilities(weights)
 
     def coordinates(self, study: xr.Dataset, *, bins: bool = True) -> dict[str, Any]:

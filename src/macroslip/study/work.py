@@ -1,4 +1,4 @@
-"""One run of a study, from its load file to a stored result.
+"""Computation of one run of a study: load file, result, storage.
 
 It is the same in threads, processes and clusters.
 """

@@ -78,7 +78,7 @@ class ThisProcess:
             self._pool.shutdown(cancel_futures=True)
 
     def free_places(self) -> int:
-        """As many as run at once."""
+        """Number of tasks that can be submitted: as many as run at once."""
         return self._count - len(self._under_way)
 
     def submit(self, tasks: list[Task]) -> None:
@@ -137,7 +137,7 @@ class Processes:
             seat.pool.shutdown(cancel_futures=True)
 
     def free_places(self) -> int:
-        """As many as there are idle processes."""
+        """Number of tasks that can be submitted: one for each idle process."""
         return len(self._idle)
 
     def submit(self, tasks: list[Task]) -> None:

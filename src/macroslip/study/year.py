@@ -54,7 +54,7 @@ DESIGN_COLUMNS = {
 
 
 def year(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
-    """What a year does to each design of a study.
+    """Energies, criteria and lives of a year for each design of a study.
 
     Without weights all runs count alike, in one bin; the lifetime has no effect. Lives accumulate
     by the rule of Palmgren and Miner, 1/L = Σ p_b/L_b, and ranges of damage-equivalent loads, which
@@ -274,7 +274,7 @@ def file_names(paths: list[str]) -> list[str]:
 
 
 def coverage(annual: xr.Dataset) -> str:
-    """What share of a year the cases of `year` cover, as a sentence.
+    """Sentence on the share of a year that the cases of `year` cover.
 
     Examples
     --------

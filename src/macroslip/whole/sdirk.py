@@ -604,7 +604,7 @@ def _cut(bearing, rollers, step, left):
 
 @jit_inline
 def _leaves_tables(assembly, limits, space):
-    """Whether a roller ends the step in a state that its tables do not hold."""
+    """True if a roller ends the step in a state outside its tables."""
     body = assembly.bodies[0]
     moments = space.moments[1]
     rollers = space.rollers

@@ -1,4 +1,4 @@
-"""What a criterion of damage is: value, reference, how sure it is, and what a year makes of it."""
+"""Criterion of damage: value, reference, uncertainty, and its sum or extreme over a year."""
 
 from __future__ import annotations
 
