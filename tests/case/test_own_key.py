@@ -37,7 +37,10 @@ def test_a_file_has_the_key_with_its_unit_and_python_has_it_in_si():
     ("text", "message"),
     [
         ("delay: 1 s", r"'force' is missing \(force of the brake\)"),
-        ("force: 12 kN\ndelay: 2 min\n", "line 2, delay: it is 2 min. Allowed: above 0, up to 1 min"),
+        (
+            "force: 12 kN\ndelay: 2 min\n",
+            "line 2, delay: it is 2 min. Allowed: above 0, up to 1 min",
+        ),
         ("force: 12", "line 1, force: it is 12, which does not give its unit.*N or kN"),
         ("force: 12 kN\ndelya: 1 s", "line 2: .*'delya'.*delay"),
     ],
