@@ -54,6 +54,20 @@ def test_a_line_of_units_stands_below_the_names(tmp_path):
     same(HubLoads.read(book), HubLoads.read(as_csv(tmp_path / "loads.csv", HUB)))
 
 
+def test_names_as_people_write_them_above_a_sheet(tmp_path):
+    forces = [f"{name} [kN]" for name in ("fx", "fy", "fz")]
+    moments = [f"{name} [kNm]" for name in ("mx", "my", "mz")]
+    names = ["Time [s]", "Rotor speed [rpm]", *forces, *moments]
+    book = save(tmp_path / "loads.xlsx", loads=[names, *HUB[1:]])
+    same(HubLoads.read(book), HubLoads.read(as_csv(tmp_path / "loads.csv", HUB)))
+
+
+def test_another_sheet_is_thought_of_where_the_first_has_no_loads(tmp_path):
+    book = save(tmp_path / "loads.xlsx", notes=[["turbine X"], ["17 m/s"]], loads=HUB)
+    with pytest.raises(InputError, match="Another sheet of the workbook is read if the key sheet"):
+        HubLoads.read(book)
+
+
 def test_bearing_and_roller_loads(tmp_path):
     rows = (
         ["time_s", "shaft_speed_rad_s", "F_X0_N", "F_Y0_N", "F_Z0_N"],

@@ -11,7 +11,8 @@ main-bearing force ``F_X0``, ``F_Y0``, ``F_Z0``  ``…_N``, ``…_kN``
 =============================================  ===================================================
 
 A table of hub loads holds time, speed and the six hub loads; a table of bearing loads holds time,
-speed and the three main-bearing forces. A unit may stand in brackets, ``fx [kN]``, and channels of
+speed and the three main-bearing forces. A unit may stand in brackets, ``fx [kN]`` or
+``Rotor speed [rpm]``, and channels of
 OpenFAST may have their own names, ``LSShftFxa_[kN]``, as tools export them: a table with all of
 them is read as OpenFAST's own output is, with rotating axes and aliases.
 """
@@ -58,6 +59,9 @@ _BEARING_VECTORS = {"force": ("F_X0", "F_Y0", "F_Z0")}
 _OPENFAST = {name.lower(): quantity for quantity, names in FIXED_CHANNELS.items() for name in names}
 #: Columns of loads that have this program's names.
 _OWN_COMPONENT = re.compile(r"\s*([fm][xyz]|F_[XYZ]0)(?![a-zA-Z])")
+_MISSING_COLUMNS = (
+    "Add or rename the columns; the unit is part of the name, as in time_s or fx [kN]."
+)
 _IN_BRACKETS = re.compile(r"(?P<name>.*?)[ _]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
@@ -179,9 +183,7 @@ def _read(
             f"no column for {'; '.join(missing)}. "
             f"The columns are: {', '.join(table.names) or 'none'}",
             where=str(path),
-            remedy=other_remedy
-            if other
-            else "Add or rename the columns; the unit is part of the name, as in time_s and fx_kN.",
+            remedy=other_remedy if other else _MISSING_COLUMNS + _other_sheets(path),
         )
     chosen = {quantity: column for quantity, column in columns.items() if column is not None}
     numbers = table.numbers([index for index, _ in chosen.values()])
@@ -195,6 +197,13 @@ def _read(
     return result | {"reading": tuple(table.names[index] for index, _ in chosen.values())}
 
 
+def _other_sheets(path: Path) -> str:
+    """Reminder that a workbook has other sheets; nothing for other files."""
+    if path.suffix.lower() != EXTENSION:
+        return ""
+    return " Another sheet of the workbook is read if the key sheet names it."
+
+
 def _filled_rows(values: NDArray[np.float64]) -> int:
     """Number of rows before the empty ones at the end, which spreadsheets leave."""
     filled = np.flatnonzero(~np.isnan(values).all(axis=1))
@@ -206,13 +215,16 @@ def _spelled(name: str) -> str:
 
     Examples
     --------
-    >>> _spelled("LSShftMxa_[kN-m]"), _spelled("fx (kN)"), _spelled("fx_kN")
-    ('mx_kNm', 'fx_kN', 'fx_kN')
+    >>> _spelled("LSShftMxa_[kN-m]"), _spelled("fx (kN)"), _spelled("Rotor speed [rpm]")
+    ('mx_kNm', 'fx_kN', 'rotor_speed_rpm')
     """
     brackets = _IN_BRACKETS.fullmatch(name.strip())
     if brackets is None:
         return name.strip()
-    quantity = _OPENFAST.get(brackets["name"].lower(), brackets["name"])
+    quantity = "_".join(brackets["name"].split())
+    if any(quantity.lower() in choices for choices, _ in _BASE.values()):
+        quantity = quantity.lower()
+    quantity = _OPENFAST.get(brackets["name"].lower(), quantity)
     return f"{quantity}_{re.sub('[-·* ]', '', brackets['unit']).replace('/', '_')}"
 
 

@@ -54,11 +54,20 @@ def plot_root_mean_squares(axes: Axes, heat: BearingHeat) -> Axes:
     """Root mean square of the residuals of the reference, a bar a model, the least at the top."""
     fits = sorted(heat.fits, key=lambda fit: -fit.residual)
     colours = [BLUE if fit.model.supply else ORANGE for fit in fits]
-    axes.barh([model_name(fit) for fit in fits], [fit.residual for fit in fits], color=colours)
-    least = fits[-1].residual
-    axes.axvline(least, color=BLACK, linewidth=0.8)
-    axes.set_xlim(0.9 * least, None)
-    axes.tick_params(axis="y", labelsize=SMALL)
+    axes.barh(range(len(fits)), [fit.residual for fit in fits], height=0.4, color=colours)
+    for line, fit in enumerate(fits):
+        axes.annotate(
+            model_name(fit),
+            (0.0, line + 0.25),
+            xytext=(3, 0),
+            textcoords="offset points",
+            va="bottom",
+            fontsize=SMALL,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
+        )
+    axes.axvline(fits[-1].residual, color=BLACK, linewidth=0.8)
+    axes.set_ylim(-0.4, len(fits))
+    axes.set_yticks([])
     return finish(axes, "root mean square of the residual [K/h]", "")
 
 

@@ -222,7 +222,7 @@ def _opening_pictures(heat: BearingHeat) -> Sequence[Picture]:
             draw.plot_root_mean_squares,
             "Root mean square of the residual of every model",
             heat,
-            width=6.4,
+            **OPENING,
         ),
         picture(draw.plot_index, "Weekly index of heat over time, every model", heat, **OPENING),
     ]

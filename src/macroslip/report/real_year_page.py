@@ -11,7 +11,7 @@ from macroslip.report.real_year_figures import (
     plot_over_fixed,
     plot_over_wind_and_temperature,
 )
-from macroslip.report.style import Picture, picture
+from macroslip.report.style import Picture, picture, scaled
 from macroslip.study.real_year import OFFSET
 from macroslip.study.year import DESIGN_COLUMNS
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from macroslip.study.real_year import RealYear
 
 _TEMPLATE = "real_year.html"
+#: Numbers of a table that have the quantity's unit.
+_AMOUNTS = ("real", "at_mean", "fixed", "oil_cooler", "oil_warmer")
 #: What is shared out over wind speed and temperature, and its name.
 _SHARED = {"share": "time", "energy [J]": "energy", "wear [m]": "wear"}
 
@@ -106,10 +108,12 @@ def _table(table: pd.DataFrame) -> Table:
     rows = []
     for line in table.to_dict("records"):
         name = DESIGN_COLUMNS[line["quantity"]].meaning
-        unit = f" [{line['unit']}]" if line["unit"] != "1" else ""
+        factor, units = scaled(line["fixed"], line["unit"])
+        unit = f" [{units}]" if units != "1" else ""
         head = f"{line['design']}: {name}{unit}" if several else f"{name}{unit}"
+        amounts = {key: factor * line[key] for key in _AMOUNTS}
         keys = ("real", "at_mean", "fixed", "real_over_fixed", "oil_cooler", "oil_warmer")
-        cells = [number(line[key], 3) for key in (*keys, "seeds [%]", "factor")]
+        cells = [number((line | amounts)[key], 3) for key in (*keys, "seeds [%]", "factor")]
         rows.append((head, *cells))
     headings = ("", "real", "at the mean", "at 35 °C", "real over 35 °C")
     headings += ("oil 5 K cooler", "oil 5 K warmer", "seeds [%]", "known to a factor")
