@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from macroslip.bearing.tapered import TaperedBearing
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.contact.line_rolling import line_contacts
 from macroslip.errors import InputError
 from macroslip.loads.history import HubLoads
 from macroslip.lubricant import Lubricant
@@ -72,3 +73,64 @@ def test_a_temperature_difference_beyond_the_range_of_preload_is_refused():
 def test_a_negative_length_is_refused():
     with pytest.raises(InputError, match="hub_to_bearing"):
         TaperedMount(-1.0)
+
+
+def test_microslip_and_pressure_of_the_hardest_roller_are_those_of_an_independent_program():
+    """L1 at 0.2 mm: 34 µm/s in the mean at the inner raceway; 235 kN press it with nearly 1.9 GPa."""
+    speed = 12.0 * 2.0 * np.pi / 60.0
+    loads = HubLoads.constant([700e3, 50e3, -1300e3], [0.0, -700e3, 200e3], speed, 1.0, step=1.0)
+    history = tapered_history(MAIN, OIL, loads, TaperedMount(0.0)).isel(time=0)
+    assert float(history.raceway_microslip.max()) == pytest.approx(34e-6, rel=0.05)
+    hardest = history.pressure_along.sel(row="downwind")
+    assert float(hardest.max()) == pytest.approx(float(history.contact_pressure.max()))
+    inner = line_contacts(MAIN, OIL)[0]
+    load = (2.0 * np.pi * hardest**2 / (inner.curvature * inner.modulus)).sum()
+    load = load * MAIN.roller_length / hardest.size
+    assert float(load) == pytest.approx(float(history.inner_load.max()), rel=1e-9)
+
+
+def test_a_tilted_roller_is_pressed_at_its_edge(history):
+    """Straight rollers under preload alone have the profile's share in the outer tenths."""
+    calm = HubLoads.constant([0.0] * 3, [0.0] * 3, 1.2566, 1.0, step=1.0)
+    straight = tapered_history(MAIN, OIL, calm, TaperedMount(0.0)).isel(time=0)
+    turned = HubLoads.constant([0.0] * 3, [0.0, 2e6, 0.0], 1.2566, 1.0, step=1.0)
+    tilted = tapered_history(MAIN, OIL, turned, TaperedMount(0.0)).isel(time=0)
+    assert straight.edge_share.values == pytest.approx(straight.edge_share.values[0], rel=1e-6)
+    # The rib, through the centre of the sphere, moves the load a little from the middle.
+    load = straight.pressure_along.isel(row=0) ** 2
+    assert abs(float((load * load.place).sum() / load.sum())) < 2e-3
+    edges = tilted.edge_pressure / tilted.contact_pressure
+    assert edges.max() > (straight.edge_pressure / straight.contact_pressure).max()
+    assert tilted.edge_share.max() > 1.5 * straight.edge_share.max()
+    assert (history.edge_pressure <= history.contact_pressure).all()
+
+
+def test_with_play_rollers_float_by_thirteen_times_their_gap():
+    """Play p/2 a row along the shaft is a gap p/2 sin α_o, and 1/(2 sin β) times that along a roller."""
+    calm = HubLoads.constant([0.0] * 3, [0.0] * 3, 1.2566, 1.0, step=1.0)
+    loose = tapered_history(MAIN.replace(preload=-0.2e-3), OIL, calm, TaperedMount(0.0))
+    row = tapered_geometry(MAIN)
+    gap = 0.1e-3 * np.sin(row.outer_angle)
+    expected = gap / (2.0 * np.sin(row.half_cone_angle))
+    assert loose.axial_float.values == pytest.approx(expected, rel=0.01)
+    assert expected / gap == pytest.approx(13.1, abs=0.1)
+    held = tapered_history(MAIN.replace(preload=0.4e-3), OIL, calm, TaperedMount(0.0))
+    assert held.axial_float.max() == 0.0
+
+
+def test_the_law_of_a_strip_changes_loads_by_up_to_a_fifth():
+    calm = HubLoads.constant([0.0] * 3, [0.0] * 3, 1.2566, 1.0, step=1.0)
+    soft = tapered_history(MAIN, OIL, calm, TaperedMount(0.0))
+    stiff = tapered_history(
+        MAIN, OIL, calm, TaperedMount(0.0), TaperedState(line_law="plane-strain")
+    )
+    ratio = float(stiff.outer_load.max() / soft.outer_load.max())
+    assert ratio == pytest.approx(1.2, abs=0.05)
+    assert float(soft.other_line_law) == pytest.approx(ratio, rel=1e-6)
+    assert float(stiff.other_line_law) == pytest.approx(1.0 / ratio, rel=1e-6)
+
+
+def test_torque_has_its_parts(history):
+    parts = history.rolling_torque + history.rib_torque
+    assert parts.values == pytest.approx(history.friction_torque.values, rel=1e-12)
+    assert (history.least_load.values == history.outer_load.min("roller").values).all()

@@ -7,38 +7,44 @@ their load zones is not computed.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from macroslip.bearing.tapered import TaperedBearing, TaperedGeometry, tapered_geometry
-from macroslip.contact.line import line_pressure
-from macroslip.contact.line_rolling import LineContact, line_contacts, rolling_resistance
-from macroslip.contact.rib import rib_contact, rib_state
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.contact.line import strip_places
+from macroslip.contact.line_rolling import line_contacts, line_film, rolling_resistance
 from macroslip.errors import InputError
 from macroslip.loads.history import HubLoads
 from macroslip.loads.moment_bearing import moment_bearing_load
 from macroslip.lubricant import Lubricant
+from macroslip.result.tapered_checks import check_moment, check_preload
+from macroslip.result.tapered_raceways import axial_float, raceway_strips
+from macroslip.result.tapered_ribs import LEAST_SPEED, RIB_SURFACES, rib_values
 from macroslip.ring.grip import grip_load
 from macroslip.ring.orbit import shaft_angle
 from macroslip.ring.tapered import (
-    ROW_SIGNS,
     TaperedBalance,
     TaperedRing,
     gearbox_support,
-    strip_loads,
     tapered_balance,
     tapered_ring,
+    two_bearings,
 )
 
 #: Names of the rows, by the thrust that they carry.
 ROWS = ("downwind", "upwind")
 #: Thermal expansion of bearing steel [1/K], engineering value.
 STEEL_EXPANSION = 12e-6
-#: Least speed of a surface [m/s], in place of a shaft at rest.
-_LEAST_SPEED = 1e-9
+#: Least load of a film [N].
+_LEAST_LOAD = 1e-3
+#: Laws of a strip of a line contact.
+LINE_LAWS = ("palmgren", "plane-strain")
+#: Thickness of the rings behind the raceways over the roller's diameter, an estimate.
+_RING_THICKNESS = 0.58
 _BY_ROLLER = ("time", "row", "roller")
 _BY_ROW = ("time", "row")
 #: Dimensions, unit and long name of every variable of `tapered_history`.
@@ -48,17 +54,47 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "outer_load": (_BY_ROLLER, "N", "load of a roller on the outer raceway"),
     "inner_load": (_BY_ROLLER, "N", "load of a roller on the inner raceway"),
     "rib_force": (_BY_ROLLER, "N", "force of the rib on a roller"),
+    "roller_angle": (_BY_ROLLER, "rad", "position of a roller round the bearing"),
+    "least_load": (_BY_ROW, "N", "least load of a roller on the outer raceway"),
     "below_grip": (_BY_ROW, "1", "number of rollers whose load is below that of grip"),
+    "axial_float": (_BY_ROW, "m", "largest way of a loose roller from the rib to where it wedges"),
     "contact_pressure": (_BY_ROW, "Pa", "largest pressure at the inner raceway"),
+    "pressure_along": (
+        ("time", "row", "strip"),
+        "Pa",
+        "pressure along the hardest roller at the inner raceway",
+    ),
+    "edge_pressure": (_BY_ROW, "Pa", "largest pressure in the outer tenths of the rollers"),
+    "edge_share": (_BY_ROW, "1", "load of the hardest roller's outer tenths over its load"),
+    "raceway_microslip": (_BY_ROW, "m/s", "mean microslip along the hardest roller, inner raceway"),
+    "raceway_film_ratio": (_BY_ROW, "1", "least film over roughness at the inner raceway"),
     "rib_pressure": (_BY_ROW, "Pa", "largest pressure at the ribs"),
+    "rib_pressure_speed": (_BY_ROW, "W/m^2", "largest pressure times sliding speed at the ribs"),
+    "rib_pass_energy": (_BY_ROW, "J/m^2", "pressure times slip of a place of the rib in a pass"),
+    "rib_flash_temperature": (_BY_ROW, "K", "largest flash temperature at the ribs"),
+    "rib_friction": (_BY_ROW, "1", "coefficient of friction at the ribs, mean by load"),
+    "rib_asperity_share": (_BY_ROW, "1", "largest share of the ribs' load on asperities"),
+    "rib_asperity_work": (
+        ("time", "row", "surface"),
+        "W/m^2",
+        "asperities' pressure times slip per time, for wear",
+    ),
+    "rib_ellipse_margin": (_BY_ROW, "m", "room of the rib's ellipse to the edge; cut below 0"),
     "rib_film_ratio": (_BY_ROW, "1", "least film over roughness at the ribs"),
     "rolling_power": (_BY_ROW, "W", "power of the raceways' rolling resistance"),
     "rib_power": (_BY_ROW, "W", "friction power of the ribs"),
+    "rolling_torque": (("time",), "N m", "friction torque of the raceways"),
+    "rib_torque": (("time",), "N m", "friction torque of the ribs"),
     "friction_torque": (("time",), "N m", "friction torque of raceways and ribs"),
     "preload": ((), "m", "axial preload with the temperature difference"),
     "preload_change": ((), "m", "change of preload by the temperature difference"),
     "grip_load": ((), "N", "load from which on a raceway grips a roller"),
     "rib_sliding_speed": ((), "m/s", "sliding speed at the ribs, in the mean"),
+    "other_line_law": (
+        (),
+        "1",
+        "largest roller load by the other line law over that by the chosen",
+    ),
     "failed": ((), "1", "samples whose ring balance was not found"),
 }
 #: Part of the load and least force [N] up to which a balance counts as found.
@@ -67,25 +103,38 @@ _FOUND = (1e-5, 1.0)
 
 @dataclass(frozen=True)
 class TaperedMount:
-    """How the shaft with a tapered roller main bearing is held beside it.
+    """How a shaft is held by tapered roller bearings, and beside them.
+
+    One bearing carries alone, or a gearbox's elastic support behind it takes a part (three-point),
+    or two bearings carry, all of their rows together on a rigid shaft.
 
     Parameters
     ----------
     hub_to_bearing : float [m]
-        From the hub centre to the bearing's middle, downwind, not negative.
+        From the hub centre to the bearing's middle, downwind, not negative; with two bearings to
+        the front one's.
     support_stiffness : float [N/m]
-        Stiffness of the gearbox's support across the shaft; 0 where the bearing carries alone.
+        Stiffness of the gearbox's support across the shaft; 0 where there is none.
     bearing_to_support : float [m]
         From the bearing's middle to that support.
+    front_to_rear : float [m]
+        Distance of two bearings' middles; 0 where there is one. The gearbox then takes torque only.
+    rows_each : int
+        Rows of each of two bearings: 1, the rollers' middles of one being its middle and the
+        arrangement that of both together, or 2, each with the preload of the file.
     """
 
     hub_to_bearing: float
     support_stiffness: float = 0.0
     bearing_to_support: float = 0.0
+    front_to_rear: float = 0.0
+    rows_each: int = 2
 
     def __post_init__(self) -> None:
-        """InputError for a length or a stiffness that is negative."""
-        for name in ("hub_to_bearing", "support_stiffness", "bearing_to_support"):
+        """InputError for lengths and a stiffness that are negative, or that exclude each other."""
+        for name in (
+            "hub_to_bearing", "support_stiffness", "bearing_to_support", "front_to_rear",
+        ):  # fmt: skip
             if not getattr(self, name) >= 0.0:
                 raise InputError(
                     f"{name} is {getattr(self, name)}",
@@ -93,11 +142,74 @@ class TaperedMount:
                     allowed="0 or more",
                     remedy="Lengths are measured from the hub towards the gearbox.",
                 )
+        if self.front_to_rear and self.support_stiffness:
+            raise InputError(
+                "two bearings and a support of the gearbox are given",
+                where="TaperedMount",
+                allowed="front_to_rear, or support_stiffness",
+                remedy="Two bearings hold the shaft, and the gearbox takes torque only: remove "
+                "support_stiffness.",
+            )
+        if self.rows_each not in (1, 2) or (self.rows_each == 1 and not self.front_to_rear):
+            raise InputError(
+                f"rows_each is {self.rows_each}, and front_to_rear {self.front_to_rear:g} m",
+                where="TaperedMount",
+                allowed="1 with two bearings, or 2",
+                remedy="A single row carries thrust one way only: give the distance of two.",
+            )
+
+    @property
+    def middle(self) -> float:
+        """From the hub centre to the middle of all rows [m], about which moments are taken."""
+        return self.hub_to_bearing + 0.5 * self.front_to_rear
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """Names of the rows, by the thrust that they carry."""
+        if self.front_to_rear and self.rows_each == 2:
+            return tuple(f"{bearing} {row}" for bearing in ("front", "rear") for row in ROWS)
+        return ROWS
+
+    def mounted(self, bearing: TaperedBearing) -> TaperedBearing:
+        """Return the bearing, or two single rows of its kind at their distance as one bearing.
+
+        Parameters
+        ----------
+        bearing : TaperedBearing
+
+        Returns
+        -------
+        TaperedBearing
+
+        Raises
+        ------
+        InputError
+            If the rows overlap.
+        """
+        if self.rows_each == 1:
+            return bearing.replace(row_offset=0.5 * self.front_to_rear)
+        return bearing
+
+    def ring(self, bearing: TaperedBearing, ring_thickness: float | None) -> TaperedRing:
+        """Numbers of the balance of all rows on the shaft.
+
+        Parameters
+        ----------
+        bearing : TaperedBearing
+            As `mounted`, with its preload.
+        ring_thickness : float or None
+            As in `tapered_ring`.
+        """
+        support = gearbox_support(self.support_stiffness, self.bearing_to_support)
+        ring = tapered_ring(bearing, support=support, ring_thickness=ring_thickness)
+        if self.front_to_rear and self.rows_each == 2:
+            return two_bearings(ring, self.front_to_rear)
+        return ring
 
 
 @dataclass(frozen=True)
 class TaperedState:
-    """Temperature and oil of a tapered roller main bearing.
+    """Temperature, oil and law of a line contact of a tapered roller main bearing.
 
     Parameters
     ----------
@@ -106,15 +218,46 @@ class TaperedState:
     rolling : {"zhou-hoeprich", "goksem-hargreaves"}
         Rolling resistance of the raceways.
     film_factor : float [-]
-        Film at the raceways over the film with a full inlet, for the load of grip.
+        Film at the raceways over the film with a full inlet, for grip and film ratio.
     slide_roll_ratio : float [-]
         Slip over the entrainment speed that counts as grip.
+    line_law : {"palmgren", "plane-strain"}
+        Law of a strip of a line contact. Plane strain is stiffer by 11 to 14 %.
+    ring_thickness : float [m], optional
+        Thickness of the rings behind the raceways in plane strain; without it 0.58 roller
+        diameters, an estimate, which counts by its logarithm.
     """
 
     temperature_difference: float = 0.0
     rolling: str = "zhou-hoeprich"
     film_factor: float = 1.0
     slide_roll_ratio: float = 0.01
+    line_law: str = "palmgren"
+    ring_thickness: float | None = None
+
+    def __post_init__(self) -> None:
+        """InputError for a law of a line contact that does not exist."""
+        if self.line_law not in LINE_LAWS:
+            raise InputError(
+                f"there is no law of a line contact {self.line_law!r}",
+                where="TaperedState",
+                allowed=" or ".join(LINE_LAWS),
+                remedy="Choose one of them.",
+            )
+
+    def thickness_of(self, law: str, bearing: TaperedBearing) -> float | None:
+        """Thickness of the rings by which strips give way under a law [m]; None by Palmgren's.
+
+        Parameters
+        ----------
+        law : {"palmgren", "plane-strain"}
+        bearing : TaperedBearing
+        """
+        if law == "palmgren":
+            return None
+        if self.ring_thickness is not None:
+            return self.ring_thickness
+        return _RING_THICKNESS * bearing.roller_diameter
 
 
 def warmed(bearing: TaperedBearing, temperature_difference: float) -> TaperedBearing:
@@ -146,41 +289,6 @@ def warmed(bearing: TaperedBearing, temperature_difference: float) -> TaperedBea
     return bearing.replace(preload=bearing.preload + change * temperature_difference)
 
 
-def _by_row(values: np.ndarray) -> np.ndarray:
-    """Numbers of all rollers as (time, row, roller)."""
-    return values.reshape(len(values), len(ROW_SIGNS), -1)
-
-
-def _largest_pressure(
-    ring: TaperedRing, balance: TaperedBalance, angle: np.ndarray, contact: LineContact
-) -> np.ndarray:
-    """Largest pressure at the inner raceway of each row [Pa], shape (time, row)."""
-    strip = contact.length / ring.profile.size
-    pressures = np.empty((len(angle), len(ROW_SIGNS)))
-    for sample in range(len(angle)):
-        inner, _ = strip_loads(ring, balance, angle, sample)
-        largest = inner.max(axis=1).reshape(len(ROW_SIGNS), -1).max(axis=1)
-        pressures[sample] = line_pressure(largest / strip, contact.curvature, contact.modulus)
-    return pressures
-
-
-def _rolling_power(
-    row: TaperedGeometry,
-    contacts: tuple[LineContact, LineContact],
-    balance: TaperedBalance,
-    speed: np.ndarray,
-    law: str,
-) -> np.ndarray:
-    """Power of the raceways' rolling resistance of each row [W], shape (time, row)."""
-    surface = np.maximum(row.surface_speed(speed), _LEAST_SPEED)[:, None, None]
-    loads = balance.inner_load, balance.outer_load
-    resistance = sum(
-        rolling_resistance(contact, _by_row(load), surface, law)
-        for contact, load in zip(contacts, loads, strict=True)
-    )
-    return (2.0 * resistance * surface).sum(axis=2)
-
-
 def tapered_history(
     bearing: TaperedBearing,
     lubricant: Lubricant,
@@ -198,7 +306,7 @@ def tapered_history(
     hub_loads : HubLoads
     mount : TaperedMount
     state : TaperedState, optional
-        Temperature difference and oil; none and flooded without it.
+        Temperature difference, oil and law of a strip; none, flooded and Palmgren's without it.
 
     Returns
     -------
@@ -210,26 +318,24 @@ def tapered_history(
     Raises
     ------
     InputError
-        If the preload that the temperature difference leaves is out of range, or no load grips.
+        If the preload that the temperature difference leaves is out of range or presses the rollers
+        beyond the static load rating, the rows cannot carry the moment, or no load grips.
     """
     state = TaperedState() if state is None else state
-    warm = warmed(bearing, state.temperature_difference)
-    ring = tapered_ring(
-        warm, support=gearbox_support(mount.support_stiffness, mount.bearing_to_support)
-    )
+    mounted = mount.mounted(bearing)
+    warm = warmed(mounted, state.temperature_difference)
+    ring = mount.ring(warm, state.thickness_of(state.line_law, warm))
     angle = shaft_angle(hub_loads.time, hub_loads.shaft_speed)
-    force, moment = moment_bearing_load(hub_loads, mount.hub_to_bearing)
+    force, moment = moment_bearing_load(hub_loads, mount.middle)
+    check_preload(warm, ring)
+    check_moment(warm, ring, moment)
     balance = tapered_balance(ring, angle, force, moment)
     size = np.linalg.norm(force, axis=1) + np.linalg.norm(moment, axis=1) / ring.pitch_radius
     is_found = balance.unbalanced <= _FOUND[0] * size + _FOUND[1]
-    speed = np.abs(hub_loads.shaft_speed)
-    values = {
-        **_ring_values(balance),
-        **_raceway_values(warm, lubricant, ring, balance, angle, speed, state),
-        **_rib_values(warm, lubricant, balance, speed),
-    }
-    power = (values["rolling_power"] + values["rib_power"]).sum(axis=1)
-    values["friction_torque"] = power / np.where(speed > 0.0, speed, np.nan)
+    solved = _Solved(warm, lubricant, ring, balance, angle, np.abs(hub_loads.shaft_speed), state)
+    values = {**_ring_values(solved), **_raceway_values(solved)}
+    values |= rib_values(warm, lubricant, solved.by_row(balance.rib_force), solved.speed)
+    values |= _torques(values, solved.speed)
     for name, numbers in values.items():
         if np.ndim(numbers):
             shape = (-1, *(1,) * (np.ndim(numbers) - 1))
@@ -237,78 +343,132 @@ def tapered_history(
     values["preload"] = warm.preload
     values["preload_change"] = warm.preload - bearing.preload
     values["failed"] = int((~is_found).sum())
+    values["other_line_law"] = _other_line_law(solved, mount, force, moment)
     return xr.Dataset(
         {
             name: (dims, values[name], {"units": units, "long_name": long_name})
             for name, (dims, units, long_name) in VARIABLES.items()
         },
-        {
-            "time": ("time", hub_loads.time, {"units": "s", "long_name": "time"}),
-            "row": ("row", list(ROWS), {"long_name": "row, by the thrust that it carries"}),
-            "direction": ("direction", ["X0", "Y0", "Z0"]),
-            "axis": ("axis", ["X0", "Y0"]),
-        },
+        _coordinates(warm, ring, hub_loads, mount),
         {"bearing": bearing.name, "lubricant": lubricant.name, "loads": hub_loads.source},
     )
 
 
-def _ring_values(balance: TaperedBalance) -> dict[str, Any]:
-    """Displacement of the ring and forces on the rollers, by the name of the variable."""
+def _coordinates(
+    bearing: TaperedBearing, ring: TaperedRing, hub_loads: HubLoads, mount: TaperedMount
+) -> dict[str, Any]:
+    """Coordinates of a result."""
+    places = strip_places(bearing.roller_length, ring.profile.size)
+    along = {"units": "m", "long_name": "place along the roller, towards its large end"}
     return {
-        "ring_displacement": balance.displacement[:, :3],
-        "ring_tilt": balance.displacement[:, 3:],
-        "outer_load": _by_row(balance.outer_load),
-        "inner_load": _by_row(balance.inner_load),
-        "rib_force": _by_row(balance.rib_force),
+        "time": ("time", hub_loads.time, {"units": "s", "long_name": "time"}),
+        "row": ("row", list(mount.row_names), {"long_name": "row, by the thrust that it carries"}),
+        "direction": ("direction", ["X0", "Y0", "Z0"]),
+        "axis": ("axis", ["X0", "Y0"]),
+        "surface": ("surface", list(RIB_SURFACES)),
+        "place": ("strip", places, along),
     }
 
 
-def _raceway_values(
-    bearing: TaperedBearing,
-    lubricant: Lubricant,
-    ring: TaperedRing,
-    balance: TaperedBalance,
-    angle: np.ndarray,
-    speed: np.ndarray,
-    state: TaperedState,
-) -> dict[str, Any]:
+class _Solved(NamedTuple):
+    """A balance over a load history with all that belongs to it."""
+
+    bearing: TaperedBearing
+    lubricant: Lubricant
+    ring: TaperedRing
+    balance: TaperedBalance
+    angle: np.ndarray  #: Shape (time,). Angle of the shaft [rad]
+    speed: np.ndarray  #: Shape (time,). Speed of the shaft [rad/s], not negative
+    state: TaperedState
+
+    def by_row(self, values: np.ndarray) -> np.ndarray:
+        """Numbers of all rollers as (time, row, roller)."""
+        return values.reshape(len(values), -1, self.bearing.rollers_per_row)
+
+
+def _ring_values(solved: _Solved) -> dict[str, Any]:
+    """Displacement of the ring and forces on the rollers, by the name of the variable."""
+    balance = solved.balance
+    angle = solved.ring.angle + solved.ring.orbit_ratio * solved.angle[:, None]
+    outer = solved.by_row(balance.outer_load)
+    row = tapered_geometry(solved.bearing)
+    room = axial_float(row, solved.ring, balance, solved.angle)
+    return {
+        "ring_displacement": balance.displacement[:, :3],
+        "ring_tilt": balance.displacement[:, 3:],
+        "outer_load": outer,
+        "inner_load": solved.by_row(balance.inner_load),
+        "rib_force": solved.by_row(balance.rib_force),
+        "roller_angle": solved.by_row(np.remainder(angle, 2.0 * np.pi)),
+        "least_load": outer.min(axis=2),
+        "axial_float": solved.by_row(room).max(axis=2),
+    }
+
+
+def _raceway_values(solved: _Solved) -> dict[str, Any]:
     """Grip, pressure and rolling resistance of the raceways, by the name of the variable."""
-    contacts = line_contacts(bearing, lubricant)
+    contacts = line_contacts(solved.bearing, solved.lubricant)
+    state = solved.state
     grip = np.nan
-    if speed.any():
+    if solved.speed.any():
         grip = grip_load(
-            bearing,
-            lubricant,
-            float(speed.mean()),
+            solved.bearing,
+            solved.lubricant,
+            float(solved.speed.mean()),
             slide_roll_ratio=state.slide_roll_ratio,
             film_factor=state.film_factor,
             rolling=state.rolling,
         )
-    row = tapered_geometry(bearing)
+    row = tapered_geometry(solved.bearing)
+    surface = np.maximum(row.surface_speed(solved.speed), LEAST_SPEED)[:, None]
+    strips = raceway_strips(
+        row,
+        solved.ring,
+        solved.balance,
+        solved.angle,
+        solved.speed,
+        contacts[0],
+        solved.bearing.rollers_per_row,
+    )
+    inner = solved.by_row(solved.balance.inner_load)
+    hardest = np.maximum(inner.max(axis=2), _LEAST_LOAD)
+    film = state.film_factor * line_film(contacts[0], hardest, surface)
+    loads = inner, solved.by_row(solved.balance.outer_load)
+    resistance = sum(
+        rolling_resistance(contact, load, surface[:, :, None], state.rolling)
+        for contact, load in zip(contacts, loads, strict=True)
+    )
     return {
         "grip_load": grip,
-        "below_grip": (_by_row(balance.outer_load) < grip).sum(axis=2).astype(float),
-        "contact_pressure": _largest_pressure(ring, balance, angle, contacts[0]),
-        "rolling_power": _rolling_power(row, contacts, balance, speed, state.rolling),
+        "below_grip": (loads[1] < grip).sum(axis=2).astype(float),
+        "contact_pressure": strips.pressure,
+        "pressure_along": strips.along,
+        "edge_pressure": strips.edge_pressure,
+        "edge_share": strips.edge_share,
+        "raceway_microslip": strips.microslip,
+        "raceway_film_ratio": film / contacts[0].roughness,
+        "rolling_power": (2.0 * resistance * surface[:, :, None]).sum(axis=2),
     }
 
 
-def _rib_values(
-    bearing: TaperedBearing, lubricant: Lubricant, balance: TaperedBalance, speed: np.ndarray
-) -> dict[str, Any]:
-    """Pressure, film and friction of the ribs, by the name of the variable."""
-    row = tapered_geometry(bearing)
-    entrainment = np.maximum(row.rib_entrainment_speed(speed), _LEAST_SPEED)
-    rib = rib_state(
-        rib_contact(bearing, lubricant),
-        _by_row(balance.rib_force),
-        entrainment[:, None, None],
-        row.rib_sliding_speed(speed)[:, None, None],
-    )
-    is_pressed = rib.pressure > 0.0
-    return {
-        "rib_pressure": rib.pressure.max(axis=2),
-        "rib_film_ratio": np.where(is_pressed, rib.film_ratio, np.inf).min(axis=2),
-        "rib_power": rib.power.sum(axis=2),
-        "rib_sliding_speed": float(row.rib_sliding_speed(float(speed.mean()))),
-    }
+def _torques(values: dict[str, Any], speed: np.ndarray) -> dict[str, np.ndarray]:
+    """Torque of raceways, ribs and both [N m]; NaN where the shaft is at rest."""
+    turning = np.where(speed > 0.0, speed, np.nan)
+    rolling = values["rolling_power"].sum(axis=1) / turning
+    rib = values["rib_power"].sum(axis=1) / turning
+    return {"rolling_torque": rolling, "rib_torque": rib, "friction_torque": rolling + rib}
+
+
+def _other_line_law(
+    solved: _Solved, mount: TaperedMount, force: np.ndarray, moment: np.ndarray
+) -> float:
+    """Largest roller load by the law of a strip that was not chosen over that by the chosen one."""
+    largest = solved.balance.outer_load.max(axis=1)
+    worst = int(largest.argmax())
+    if not largest[worst] > 0.0:
+        return math.nan
+    (other,) = (law for law in LINE_LAWS if law != solved.state.line_law)
+    ring = mount.ring(solved.bearing, solved.state.thickness_of(other, solved.bearing))
+    here = slice(worst, worst + 1)
+    balance = tapered_balance(ring, solved.angle[here], force[here], moment[here])
+    return float(balance.outer_load.max() / largest[worst])

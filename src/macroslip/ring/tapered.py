@@ -194,6 +194,33 @@ def gearbox_support(stiffness: float, distance: float) -> np.ndarray:
     return stiffness * (np.outer(horizontal, horizontal) + np.outer(vertical, vertical))
 
 
+def two_bearings(ring: TaperedRing, distance: float) -> TaperedRing:
+    """Rows of two alike bearings on one rigid shaft, the front one's first.
+
+    Parameters
+    ----------
+    ring : TaperedRing
+        Of one bearing.
+    distance : float
+        Of their middles [m]; the middle between them is the point about which moments are taken.
+
+    Returns
+    -------
+    TaperedRing
+
+    Examples
+    --------
+    >>> four_rows = two_bearings(tapered_ring(TaperedBearing.read("tdo-main-bearing")), 2.0)
+    >>> [round(float(station), 3) for station in four_rows.station[::34]]
+    [-1.085, -0.915, 0.915, 1.085]
+    """
+    return ring._replace(
+        angle=np.tile(ring.angle, 2),
+        sign=np.tile(ring.sign, 2),
+        station=np.concatenate([ring.station - 0.5 * distance, ring.station + 0.5 * distance]),
+    )
+
+
 def tapered_balance(
     ring: TaperedRing, shaft_angle: np.ndarray, force: np.ndarray, moment: np.ndarray
 ) -> TaperedBalance:

@@ -135,13 +135,13 @@ class TaperedPage:
         self._check_angle()
 
     def _check_size(self) -> None:
-        sizes = self.bore is not None and self.outside is not None
-        if sizes and not self.bore < self.outside:
-            raise InputError(
-                f"bore is {1e3 * self.bore:g} mm",
-                allowed=f"below the outside diameter, {1e3 * self.outside:g} mm",
-            )
-        if not sizes and self.fatigue_load_limit is None:
+        if self.bore is not None and self.outside is not None:
+            if not self.bore < self.outside:
+                raise InputError(
+                    f"bore is {1e3 * self.bore:g} mm",
+                    allowed=f"below the outside diameter, {1e3 * self.outside:g} mm",
+                )
+        elif self.fatigue_load_limit is None:
             raise InputError(
                 "the size of the bearing is not given",
                 allowed="bore and outside diameter, or the fatigue load limit, from which ISO 281 "
@@ -238,16 +238,11 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, NDArray[np.f
     def between(accepted: Accepted) -> NDArray[np.float64]:
         return rng.uniform(*accepted, SAMPLES)
 
-    rounding = E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
-    if page.axial_factor_e is not None:
-        alpha = np.arctan((page.axial_factor_e + rounding) / 1.5)
-    else:
-        alpha = np.arctan(_cotangent_factor(page.rows) / (page.axial_factor_y + rounding))
+    alpha = _angles(page, E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES))
     if page.bore is not None and page.outside is not None:
         pitch = 0.5 * (page.bore + page.outside) * between(PITCH)
     else:
-        by_limit = 0.1 * (page.static_load_rating / (8.2 * page.fatigue_load_limit)) ** (1.0 / 0.3)
-        pitch = by_limit * between(PITCH_OF_LIMIT)
+        pitch = _pitch_of_limit(page) * between(PITCH_OF_LIMIT)
     rating = page.static_load_rating * between(STATIC_RATING)
     spacing = between(SPACING)
     slenderness = between(SLENDERNESS)
@@ -271,6 +266,20 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, NDArray[np.f
         "contact_height": diameter * between(CONTACT_HEIGHT),
     }
     return drawn | {"row_offset": _row_offset(page, drawn, between(RIB), between(GAP))}
+
+
+def _angles(page: TaperedPage, rounding: NDArray) -> NDArray[np.float64]:
+    """Angle of the outer raceway [rad] by the axial factor, with what its rounding left."""
+    if page.axial_factor_e is not None:
+        return np.arctan((page.axial_factor_e + rounding) / 1.5)
+    assert page.axial_factor_y is not None, "a page has e or Y"
+    return np.arctan(_cotangent_factor(page.rows) / (page.axial_factor_y + rounding))
+
+
+def _pitch_of_limit(page: TaperedPage) -> float:
+    """Pitch diameter [m] of C_u = C0/8.2 (100 mm/Dpw)^0.3, ISO 281."""
+    assert page.fatigue_load_limit is not None, "a page has d and D, or C_u"
+    return 0.1 * (page.static_load_rating / (8.2 * page.fatigue_load_limit)) ** (1.0 / 0.3)
 
 
 def _load_centre(drawn: Mapping[str, NDArray]) -> NDArray[np.float64]:

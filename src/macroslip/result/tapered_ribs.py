@@ -1,0 +1,107 @@
+"""Pressure, film, friction, smearing and wear at the ribs of a tapered roller bearing."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.contact.rib import RibState, rib_contact, rib_state
+from macroslip.damage.rib import pass_energy, rib_flash_temperature
+from macroslip.lubricant import Lubricant
+
+#: Surfaces that wear at the ribs.
+RIB_SURFACES = ("rib", "roller end")
+#: Least speed of a surface [m/s], in place of a shaft at rest.
+LEAST_SPEED = 1e-9
+
+
+class _Speeds(NamedTuple):
+    """Speeds of a bearing's parts at the rib, shape (time, 1, 1)."""
+
+    sliding: np.ndarray  #: v_f [m/s]
+    rib: np.ndarray  #: Of the rib past the contact [m/s]
+    roller: np.ndarray  #: Of the roller's end past the contact [m/s]
+    past_rollers: np.ndarray  #: Revolutions of the inner ring past the rollers [1/s]
+    spin: np.ndarray  #: Revolutions of a roller in the frame of the cage [1/s]
+
+
+def _speeds(bearing: TaperedBearing, shaft_speed: np.ndarray) -> _Speeds:
+    """Speeds at the rib in pure rolling."""
+    row = tapered_geometry(bearing)
+    speed = shaft_speed[:, None, None]
+    past = (1.0 - row.orbit_ratio) * speed
+    spin = row.spin_ratio * speed
+    return _Speeds(
+        sliding=row.rib_sliding_speed(speed),
+        rib=np.maximum(past * row.rib_radius, LEAST_SPEED),
+        roller=np.maximum(spin * row.rib_radius_on_roller, LEAST_SPEED),
+        past_rollers=past / (2.0 * np.pi),
+        spin=spin / (2.0 * np.pi),
+    )
+
+
+def rib_values(
+    bearing: TaperedBearing, lubricant: Lubricant, rib_force: np.ndarray, shaft_speed: np.ndarray
+) -> dict[str, Any]:
+    """What the ribs do and suffer, by the name of the variable of `tapered_history`.
+
+    Parameters
+    ----------
+    bearing : TaperedBearing
+    lubricant : Lubricant
+        At its temperature.
+    rib_force : ndarray, shape (time, row, roller)
+        F_f of every roller [N].
+    shaft_speed : ndarray, shape (time,)
+        Speed of the inner ring [rad/s], not negative.
+
+    Returns
+    -------
+    dict
+        Values over (time, row); `rib_asperity_work` over (time, row, surface).
+    """
+    speeds = _speeds(bearing, shaft_speed)
+    entrainment = 0.5 * (speeds.rib + speeds.roller)
+    rib = rib_state(rib_contact(bearing, lubricant), rib_force, entrainment, speeds.sliding)
+    pressed = rib.pressure > 0.0
+    total = rib_force.sum(axis=2)
+    friction = (rib.friction_coefficient * rib_force).sum(axis=2) / np.where(
+        total > 0.0, total, 1.0
+    )
+    largest = rib.pressure.max(axis=2)
+    return {
+        "rib_pressure": largest,
+        "rib_pressure_speed": largest * speeds.sliding[:, :, 0],
+        "rib_film_ratio": np.where(pressed, rib.film_ratio, np.inf).min(axis=2),
+        "rib_friction": friction,
+        "rib_asperity_share": rib.asperity_share.max(axis=2),
+        "rib_ellipse_margin": bearing.rib_contact_height - rib.half_across.max(axis=2),
+        "rib_power": rib.power.sum(axis=2),
+        "rib_sliding_speed": float(speeds.sliding.mean()),
+        **_suffered(rib, speeds),
+    }
+
+
+def _suffered(rib: RibState, speeds: _Speeds) -> dict[str, np.ndarray]:
+    """Work of a pass, flash temperature and asperities' work of both surfaces."""
+    along = rib.half_along
+    on_rib = pass_energy(rib.pressure, along, speeds.sliding, speeds.rib)
+    on_roller = pass_energy(rib.pressure, along, speeds.sliding, speeds.roller)
+    flash = rib_flash_temperature(
+        rib.pressure,
+        along,
+        rib.friction_coefficient,
+        speeds.sliding,
+        (speeds.rib, speeds.roller),
+    )
+    # A place of the rib meets all rollers of its row once a revolution past them, a place of a
+    # roller's circle of contact meets the rib once a turn of the roller.
+    rib_work = (on_rib * rib.asperity_share).sum(axis=2) * speeds.past_rollers[:, :, 0]
+    roller_work = (on_roller * rib.asperity_share).max(axis=2) * speeds.spin[:, :, 0]
+    return {
+        "rib_pass_energy": on_rib.max(axis=2),
+        "rib_flash_temperature": flash.max(axis=2),
+        "rib_asperity_work": np.stack([rib_work, roller_work], axis=2),
+    }
