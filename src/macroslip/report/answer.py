@@ -204,8 +204,8 @@ def _films(result: xr.Dataset) -> list[str]:
 
 def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
     """The criterion nearest to its reference, or furthest beyond, and others beyond theirs."""
-    told = [line for line in criteria if line["in answer"] and np.isfinite(line["ratio"])]
-    judged = sorted(told, key=lambda line: -line["ratio"])
+    shown = [line for line in criteria if line["in answer"] and np.isfinite(line["ratio"])]
+    judged = sorted(shown, key=lambda line: -line["ratio"])
     if not judged:
         return []
     first = judged[0]

@@ -158,12 +158,12 @@ def _supplies(heat: BearingHeat) -> str:
     own = [fit for fit in heat.fits if fit.model.name == FRICTION]
     if len(own) == 1:
         return "Other supplies of oil were not tried; one turbine cannot tell them apart."
-    told = ", ".join(
+    residuals = ", ".join(
         f"{fit.model.supply} {fit.residual:.4f} K/h with {1e-6 * fit.values['capacity']:.2f} MJ/K"
         for fit in sorted(own, key=lambda fit: fit.residual)
     )
     return (
-        f"By supply of oil: {told}. Lubrication cannot be read off one turbine: supply, heat "
+        f"By supply of oil: {residuals}. Lubrication cannot be read off one turbine: supply, heat "
         "capacity and seals trade."
     )
 
@@ -174,7 +174,7 @@ def _flags(heat: BearingHeat) -> str:
     days = heat.index[chosen & (heat.index["period"] == "day")]
     months = heat.index[chosen & (heat.index["period"] == "month")]["r"]
     flag = first_flag(days)
-    told = (
+    crossing = (
         f"its cumulative sum passes {FLAGGED:g} on {flag:%Y-%m-%d}"
         if flag is not None
         else f"its cumulative sum stays below {FLAGGED:g}"
@@ -187,7 +187,7 @@ def _flags(heat: BearingHeat) -> str:
             f"does on {flag:%Y-%m-%d}." if flag is not None else "does not."
         )
     return (
-        f"Index of the heat, 1 in the reference{spread}; {told}.{over} It is an index and no alarm: "
+        f"Index of the heat, 1 in the reference{spread}; {crossing}.{over} It is an index and no alarm: "
         "sound turbines wander from 0.7 to 1.4."
     )
 

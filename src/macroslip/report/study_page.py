@@ -143,7 +143,7 @@ def study_page(
         parts.append(provenance_section({study.attrs["title"] or "study": study}))
     parts += sections(_TEMPLATE, {"study": text.file(_without_folders(study.attrs["study"]))})
     answer = text.answer(
-        {one.name: int((study.outcome.values == str(one)).sum()) for one in Outcome},
+        {outcome.name: int((study.outcome.values == str(outcome)).sum()) for outcome in Outcome},
         ranking,
         notes,
         _extremes(study),

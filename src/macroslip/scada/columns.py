@@ -73,8 +73,8 @@ def unit_of(name: str) -> str:
     >>> unit_of("Power (kW)"), unit_of("rotor_rpm"), unit_of("Ws_avg")
     ('kW', 'r/min', '')
     """
-    found = _IN_BRACKETS.search(name) or _BEHIND.search(name)
-    return _UNITS.get(found["unit"].lower(), "") if found else ""
+    match = _IN_BRACKETS.search(name) or _BEHIND.search(name)
+    return _UNITS.get(match["unit"].lower(), "") if match else ""
 
 
 def recognized(names: Iterable[str]) -> dict[str, str]:
@@ -86,11 +86,11 @@ def recognized(names: Iterable[str]) -> dict[str, str]:
     {'time': 'Date_time', 'wind_speed': 'Ws_avg', 'bearing_temperature': 'Rbt_avg'}
     """
     bare = {name: _IN_BRACKETS.sub("", name).strip().lower() for name in names}
-    found: dict[str, str] = {}
+    columns: dict[str, str] = {}
     for quantity, patterns in PATTERNS.items():
         for pattern in patterns:
             fits = [name for name, own in bare.items() if re.fullmatch(pattern, own)]
             if fits:
-                found[quantity] = fits[0]
+                columns[quantity] = fits[0]
                 break
-    return found
+    return columns

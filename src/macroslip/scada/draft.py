@@ -51,17 +51,17 @@ def draft(file: Path, folder: Path, sheet: str | None = None) -> tuple[str, list
     """
     files_of([str(file)], Path())
     names = column_names(file, sheet)
-    found = recognized(names)
-    if not found:
+    columns_found = recognized(names)
+    if not columns_found:
         raise InputError(
             "no column has a name that is known",
             where=str(file),
             allowed=", ".join(names[:20]),
             remedy="Write the description by hand: docs/scada.md has one.",
         )
-    values = _values(file, found, sheet)
-    columns = {quantity: _column(quantity, found, values) for quantity in _NAMES}
-    rated = {name: _largest(name, found, values) for name in ("rotor_speed", "power")}
+    values = _values(file, columns_found, sheet)
+    columns = {quantity: _column(quantity, columns_found, values) for quantity in _NAMES}
+    rated = {name: _largest(name, columns_found, values) for name in ("rotor_speed", "power")}
     relative = os.path.relpath(file, folder)
     lines = [
         "# Ten-minute means of a turbine: what macroslip scada init has recognized. Check it, and",
@@ -69,8 +69,8 @@ def draft(file: Path, folder: Path, sheet: str | None = None) -> tuple[str, list
         f"turbine: {_turbine(values)}",
         f"files: [{_quoted(relative)}]",
         *([f"sheet: {_quoted(sheet)}"] if sheet else []),
-        *_rows(found, values),
-        *_time(found, values),
+        *_rows(columns_found, values),
+        *_time(columns_found, values),
         "columns:",
         *(line for column in columns.values() for line in column),
         "# The largest values that occur, as a guess: write those of the turbine's data sheet.",
@@ -81,29 +81,32 @@ def draft(file: Path, folder: Path, sheet: str | None = None) -> tuple[str, list
         "# capacity: {mass: 6 t, range: [4 t, 8 t]}",
         "# reference: [2024-01-01, 2024-12-31]",
     ]
-    told = [f"{_NAMES[quantity]}: {found.get(quantity, 'not recognized')}" for quantity in _NAMES]
-    return "\n".join(lines) + "\n", told
+    notes = [
+        f"{_NAMES[quantity]}: {columns_found.get(quantity, 'not recognized')}"
+        for quantity in _NAMES
+    ]
+    return "\n".join(lines) + "\n", notes
 
 
-def _values(file: Path, found: dict[str, str], sheet: str | None) -> pd.DataFrame:
+def _values(file: Path, columns: dict[str, str], sheet: str | None) -> pd.DataFrame:
     """The first rows of the recognized columns, by quantity; numbers where they are numbers."""
-    parts = list(itertools.islice(pieces(file, found.values(), sheet), 1))
+    parts = list(itertools.islice(pieces(file, columns.values(), sheet), 1))
     if not parts:
         raise InputError("the file has no rows", where=str(file))
     table = parts[0].head(_ROWS)
-    return pd.DataFrame({quantity: table[name] for quantity, name in found.items()})
+    return pd.DataFrame({quantity: table[name] for quantity, name in columns.items()})
 
 
-def _column(quantity: str, found: dict[str, str], values: pd.DataFrame) -> list[str]:
+def _column(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> list[str]:
     """Line of a quantity; a comment for one that may be left out and was not recognized."""
-    if quantity not in found:
+    if quantity not in columns:
         unit = "degC" if quantity.endswith("temperature") else "m/s"
         mark = "  " if quantity in _NEEDED else "  # "
         return [f"{mark}{quantity}: {{column: {_MISSING}, unit: {unit}}}"]
-    name = found[quantity]
-    told = unit_of(name)
-    unit = told or _guessed(quantity, _numbers(values, quantity))
-    comment = "" if told else "  # the unit is a guess by the values"
+    name = columns[quantity]
+    unit_in_name = unit_of(name)
+    unit = unit_in_name or _guessed(quantity, _numbers(values, quantity))
+    comment = "" if unit_in_name else "  # the unit is a guess by the values"
     return [f"  {quantity}: {{column: {_quoted(name)}, unit: {unit}}}{comment}"]
 
 
@@ -127,12 +130,12 @@ def _numbers(values: pd.DataFrame, quantity: str) -> np.ndarray:
     return numbers[np.isfinite(numbers)]
 
 
-def _largest(quantity: str, found: dict[str, str], values: pd.DataFrame) -> float:
+def _largest(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> float:
     """Nearly the largest value [r/min or kW], by the unit in the name or a guess."""
     if quantity not in values:
         return 1.0
     numbers = _numbers(values, quantity)
-    unit = unit_of(found[quantity]) or _guessed(quantity, numbers)
+    unit = unit_of(columns[quantity]) or _guessed(quantity, numbers)
     factor = {"rad/s": 30.0 / np.pi, "MW": 1e3, "W": 1e-3}.get(unit, 1.0)
     return factor * float(np.quantile(numbers, 0.999)) if numbers.size else 1.0
 
@@ -143,17 +146,17 @@ def _turbine(values: pd.DataFrame) -> str:
     return _quoted(str(values["turbine"].dropna().iloc[0]))
 
 
-def _rows(found: dict[str, str], values: pd.DataFrame) -> list[str]:
+def _rows(columns: dict[str, str], values: pd.DataFrame) -> list[str]:
     """The section on rows, where a file has several turbines."""
-    several = "turbine" in found and len(set(values["turbine"])) > 1
+    several = "turbine" in columns and len(set(values["turbine"])) > 1
     if not several:
         return []
-    return [f"rows: {{column: {_quoted(found['turbine'])}, equals: {_turbine(values)}}}"]
+    return [f"rows: {{column: {_quoted(columns['turbine'])}, equals: {_turbine(values)}}}"]
 
 
-def _time(found: dict[str, str], values: pd.DataFrame) -> list[str]:
+def _time(columns: dict[str, str], values: pd.DataFrame) -> list[str]:
     """The section on time, with the step that the rows have, and a zone where texts tell none."""
-    if "time" not in found:
+    if "time" not in columns:
         return [
             "# No column of time was recognized: name it, or assume that rows follow one another.",
             f"time: {{column: {_MISSING}}}",
@@ -169,7 +172,7 @@ def _time(found: dict[str, str], values: pd.DataFrame) -> list[str]:
     minutes = float(np.median(steps)) / 60.0 if steps.size else 10.0
     zone = "" if has_offset else ", zone: UTC"
     lines = [] if has_offset else ["# The times tell no offset: is the clock in UTC?"]
-    section = f"column: {_quoted(found['time'])}{zone}{form}, stamp: start, step: {minutes:g} min"
+    section = f"column: {_quoted(columns['time'])}{zone}{form}, stamp: start, step: {minutes:g} min"
     return [*lines, f"time: {{{section}}}"]
 
 

@@ -99,7 +99,7 @@ def _stuck(
     """
     gap = np.concatenate([[True], np.diff(time) > 1.5 * described.time.step])
     rated = {"rotor_speed": described.rated.rotor_speed, "power": described.rated.power}
-    found = np.zeros(time.size, dtype=bool)
+    stuck = np.zeros(time.size, dtype=bool)
     for name, column in values.items():
         counted = np.ones(time.size, dtype=bool)
         if name == "bearing_temperature":
@@ -107,8 +107,8 @@ def _stuck(
         elif name in rated:
             counted = turning & (column < _HELD * rated[name])
         most = _STUCK_BEARING if name == "bearing_temperature" else _STUCK_OTHER
-        found |= run_lengths(column, counted, gap) >= most
-    return found
+        stuck |= run_lengths(column, counted, gap) >= most
+    return stuck
 
 
 def run_lengths(values: np.ndarray, counted: np.ndarray, breaks: np.ndarray) -> np.ndarray:
@@ -146,12 +146,12 @@ def jumps(values: Quantities, time: np.ndarray, step: float) -> np.ndarray:
     and grow with longer ones.
     """
     after_gap = np.diff(time) > 1.5 * step
-    found = np.zeros(time.size, dtype=bool)
+    is_jump = np.zeros(time.size, dtype=bool)
     for name, limit in _JUMPS.items():
         if name in values:
             allowed = limit * max(step / _TEN_MINUTES, 1.0)
-            found[1:] |= (np.abs(np.diff(values[name])) > allowed + _ROUNDING) & ~after_gap
-    return found
+            is_jump[1:] |= (np.abs(np.diff(values[name])) > allowed + _ROUNDING) & ~after_gap
+    return is_jump
 
 
 def dropped_by_filter(first: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:

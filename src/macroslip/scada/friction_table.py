@@ -200,13 +200,13 @@ class FrictionTable:
         """
         winds, log_speeds, log_torque = self._curves[supply]
         wind, speed, oil = np.broadcast_arrays(
-            *(np.asarray(one, dtype=float) for one in (wind_speed, shaft_speed, temperature))
+            *(np.asarray(values, dtype=float) for values in (wind_speed, shaft_speed, temperature))
         )
         held = np.clip(oil, log_torque.x[0], log_torque.x[-1])
-        place = np.interp(wind, winds, np.arange(winds.size))
-        below = np.minimum(place.astype(int), max(winds.size - 2, 0))
+        position = np.interp(wind, winds, np.arange(winds.size))
+        below = np.minimum(position.astype(int), max(winds.size - 2, 0))
         above = np.minimum(below + 1, winds.size - 1)
-        part = place - below
+        part = position - below
         at_winds = log_torque(held)
         lower = np.take_along_axis(at_winds, below[None], axis=0)[0]
         upper = np.take_along_axis(at_winds, above[None], axis=0)[0]

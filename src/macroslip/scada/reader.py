@@ -235,9 +235,9 @@ def _repeated_hours(
     values = np.column_stack([column[order] for column in record.columns.values()])
     differs = np.zeros(order.size, dtype=bool)
     differs[1:] = later[1:] & np.any(values[1:] != values[:-1], axis=1)
-    found = np.zeros(len(record.times.utc), dtype=bool)
-    found[order] = hours_shown_twice(record.times.utc[order], differs, step)
-    return found
+    repeated = np.zeros(len(record.times.utc), dtype=bool)
+    repeated[order] = hours_shown_twice(record.times.utc[order], differs, step)
+    return repeated
 
 
 def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) -> pd.DataFrame:
@@ -265,12 +265,12 @@ def _missing_months(counts: pd.DataFrame, most: float = 0.3) -> list[str]:
     table = rows_by_month(counts)
     expected = table.drop(columns=["jump", "duplicate", "no time"]).sum(axis=1)
     missing = 1.0 - table["kept"].to_numpy() / expected.to_numpy()
-    told = [
+    months = [
         f"{month} ({100.0 * share:.0f} %)"
         for month, share in zip(table.index, missing.tolist(), strict=True)
         if share > most
     ]
-    return [f"More than 30 % is missing in {', '.join(told)}."] if told else []
+    return [f"More than 30 % is missing in {', '.join(months)}."] if months else []
 
 
 def rows_by_month(counts: pd.DataFrame) -> pd.DataFrame:

@@ -49,7 +49,7 @@ def speed_exponents(supplies: Iterable[str]) -> tuple[dict[str, pd.Series], tupl
     kelvin = ZERO_CELSIUS + np.array(TEMPERATURES)
     numbers = {1.0 if name == _FLOODED else float(name): name for name in EXPONENTS if name != SKF}
     known = sorted(numbers)
-    curves = np.array([EXPONENTS[numbers[one]] for one in known])
+    curves = np.array([EXPONENTS[numbers[number]] for number in known])
     exponents = {}
     notes = []
     for supply in supplies:

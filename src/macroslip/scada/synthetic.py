@@ -238,10 +238,10 @@ def _bearing(
     high = friction.temperatures[-1]
     grid = np.arange(low - _BEYOND, high + _BEYOND, _CELL)
     # Beyond the table its ends are held.
-    known, place = np.unique(np.clip(grid, low, high), return_inverse=True)
+    known, inverse = np.unique(np.clip(grid, low, high), return_inverse=True)
     powers = [friction.power(truth.supply, wind, speed, kelvin) for kelvin in known]
     seals = truth.seal_torque * speed
-    heats = per_heat * (factor[:, None] * np.stack(powers, axis=1)[:, place] + seals[:, None])
+    heats = per_heat * (factor[:, None] * np.stack(powers, axis=1)[:, inverse] + seals[:, None])
     slopes = np.diff(heats, axis=1) / _CELL
     loss = truth.to_nacelle + truth.to_ambient
     drive = truth.to_nacelle * nacelle + truth.to_ambient * ambient

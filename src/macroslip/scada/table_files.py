@@ -32,25 +32,25 @@ def files_of(patterns: Sequence[str], folder: Path) -> list[Path]:
 
     Raises InputError for a pattern that no file fits, and for a file of another kind.
     """
-    found: dict[Path, None] = {}
+    files: dict[Path, None] = {}
     for pattern in patterns:
         path = Path(pattern)
         start = Path(path.anchor) if path.is_absolute() else folder
         name = str(path.relative_to(path.anchor)) if path.is_absolute() else pattern
         paths = sorted(start.glob(name)) if re.search(r"[*?\[]", name) else [start / name]
-        if not paths or not all(one.is_file() for one in paths):
+        if not paths or not all(file.is_file() for file in paths):
             raise InputError(
                 f"there is no file {pattern!r} in '{folder}'",
                 where="files",
                 allowed="paths from the folder of this description, with * and ? as wildcards",
             )
-        found |= dict.fromkeys(paths)
-    for path in found:
+        files |= dict.fromkeys(paths)
+    for path in files:
         if not path.name.lower().endswith(SUFFIXES):
             raise InputError(
                 "the file is of no known kind", where=str(path), allowed=", ".join(SUFFIXES)
             )
-    return list(found)
+    return list(files)
 
 
 def column_names(path: Path, sheet: str | None = None) -> list[str]:

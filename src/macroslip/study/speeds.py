@@ -66,14 +66,14 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
 
 def speed_notes(table: pd.DataFrame) -> list[str]:
     """Bins in which the speeds of `speeds_beside` differ by more than a tenth, in a sentence."""
-    told = [
+    differences = [
         f"{measured:.3g} against {of_study:.3g} at {wind:g} m/s"
         for wind, measured, of_study, _ in table.itertuples(index=False)
         if abs(measured / of_study - 1.0) > _MOST
     ]
-    if not told:
+    if not differences:
         return []
     return [
         "The rotor turns at another speed than that of the study's load cases, by more than 10 %: "
-        f"{', '.join(told)} (r/min)."
+        f"{', '.join(differences)} (r/min)."
     ]

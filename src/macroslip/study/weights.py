@@ -269,7 +269,7 @@ class Weighting:
             return None
         of_wind = self.temperature.by_wind
         likely = [self._wind.probability(centre, self.width) for centre in of_wind]
-        return TemperatureShares.given(of_wind, likely)
+        return TemperatureShares.from_wind(of_wind, likely)
 
     def with_measured_year(self, loads: Sequence[Load], folder: Path) -> Weighting:
         """A copy with the means of the turbine read and sorted into the bins of the loads.
