@@ -53,7 +53,9 @@ class TemperatureShares:
         return cls(temperatures, by_wind, standing, at_mean, lasting, True)
 
     @classmethod
-    def from_wind(cls, by_wind: Mapping[float, float], likely: Sequence[float]) -> TemperatureShares:
+    def from_wind(
+        cls, by_wind: Mapping[float, float], likely: Sequence[float]
+    ) -> TemperatureShares:
         """One temperature [K] for each wind speed; events have the mean by how likely each is."""
         total = sum(likely)
         if not total > 0.0:
