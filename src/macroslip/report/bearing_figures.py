@@ -142,8 +142,15 @@ def plot_bearing(
 ) -> Axes:
     """Both rows to scale, looking downwind: rollers coloured by slip, with spokes for their loads.
 
-    Takes the dataset of `macroslip.result.orbit.still`. The longest spoke stands for the load
-    `longest` [N], by default the largest one of the moment; pictures of several moments share one.
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    still : xarray.Dataset
+        From `macroslip.result.orbit.still`.
+    bearing : Bearing
+    longest : float, optional
+        Load that the longest spoke stands for [N], by default the largest one of the moment;
+        pictures of several moments share one.
     """
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Circle

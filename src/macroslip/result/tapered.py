@@ -467,7 +467,7 @@ def _other_line_law(
     worst = int(largest.argmax())
     if not largest[worst] > 0.0:
         return math.nan
-    (other,) = (law for law in LINE_LAWS if law != solved.state.line_law)
+    other = next(law for law in LINE_LAWS if law != solved.state.line_law)
     ring = mount.ring(solved.bearing, solved.state.thickness_of(other, solved.bearing))
     here = slice(worst, worst + 1)
     balance = tapered_balance(ring, solved.angle[here], force[here], moment[here])

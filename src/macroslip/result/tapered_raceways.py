@@ -114,7 +114,10 @@ def raceway_strips(
     width = contact.length / count
     at_edge = edge_strips(contact.length, count)
     over = (len(shaft_angle), rows)
-    pressure, edge_pressure, edge_share, slip = (np.zeros(over) for _ in range(4))
+    pressure = np.zeros(over)
+    edge_pressure = np.zeros(over)
+    edge_share = np.zeros(over)
+    slip = np.zeros(over)
     along = np.zeros((*over, count))
     for sample in range(len(shaft_angle)):
         inner, _ = strip_loads(ring, balance, shaft_angle, sample)

@@ -401,7 +401,20 @@ def _start(ring, d, state):
 
 @jit
 def solve_series(ring, shaft_angle, loads, tolerance, results):
-    """Fill the balances of a load history, each from the one before."""
+    """Fill the balances of a load history, each from the one before.
+
+    Parameters
+    ----------
+    ring : TaperedRing
+    shaft_angle : ndarray, shape (n,)
+        Angle of the shaft [rad].
+    loads : ndarray, shape (n, 5)
+        Forces [N] and moments [N m] on the ring.
+    tolerance : ndarray, shape (n,)
+        Unbalanced force at which a balance has converged [N].
+    results : TaperedBalance
+        Written.
+    """
     rollers = ring.sign.size
     motions = np.empty((rollers, 3, 5))
     state = _new_state(rollers)

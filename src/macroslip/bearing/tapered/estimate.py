@@ -391,7 +391,8 @@ def _published(page: TaperedPage) -> dict[str, dict]:
         }
     else:
         twice = "of two rows together, from the maker's page of one, ISO"
-        dynamic, limit = page.dynamic_load_rating, page.fatigue_load_limit
+        dynamic = page.dynamic_load_rating
+        limit = page.fatigue_load_limit
         values |= {
             "dynamic_load_rating": (
                 None if dynamic is None else 2.0 ** (7.0 / 9.0) * dynamic, "kN", "D", f"{twice} 281",
