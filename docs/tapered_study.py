@@ -149,6 +149,8 @@ def print_numbers():
             f"wear at 1e-17 m2/N: {work[0] * 1e-17 * 3.156e7 * 1e6:.2g} um a year on the rib, "
             f"{work[1] * 1e-17 * 3.156e7 * 1e6:.2g} on the rollers' ends"
         )
+    alone = history(0.2, ((0.0, 0.0, 0.0), (0.0, 0.0)))
+    print(f"preload alone, plane strain: {float(alone.other_line_law):.3f}")
     for law in ("palmgren", "plane-strain"):
         for name, load in LOADS.items():
             result = history(0.2, load, line_law=law)

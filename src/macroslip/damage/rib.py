@@ -1,9 +1,9 @@
 """Smearing and wear where the rollers' large ends slide on the rib of a tapered roller bearing.
 
-The rib slides in pure rolling, all the time and at every loaded roller. No threshold is published
-for it that holds beyond its own rig, so that values are given and nothing is judged: pressure times
-sliding speed, what a place of the rib suffers in one pass, the flash temperature, and the wear of
-both surfaces where asperities carry.
+The rib slides in pure rolling, all the time and at every loaded roller. No published threshold is
+known to hold for it beyond the rig that it is from, so that values are given and nothing is judged:
+pressure times sliding speed, what a place of the rib suffers in one pass, the flash temperature, and
+the wear of both surfaces where asperities carry.
 """
 
 from __future__ import annotations
