@@ -72,7 +72,7 @@ def heat_sentences(heat: BearingHeat, description: ScadaDescription) -> list[str
 
 
 def _worth(heat: BearingHeat) -> str:
-    """Whether the physics earns its keep."""
+    """Sentence on the residual of computed friction beside that of its rivals."""
     own = heat.chosen
     names = (FRICTION, FRICTION_ALONE, MEAN_TEMPERATURE)
     rivals = [fit for fit in heat.fits if fit.model.name not in names]

@@ -123,9 +123,9 @@ def raceway_strips(
         inner, _ = strip_loads(ring, balance, shaft_angle, sample)
         inner = inner.reshape(rows, rollers, count)
         largest = inner.max(axis=1)
-        found = line_pressure(largest / width, contact.curvature, contact.modulus)
-        pressure[sample] = found.max(axis=1)
-        edge_pressure[sample] = found[:, at_edge > 0.0].max(axis=1)
+        line_pressures = line_pressure(largest / width, contact.curvature, contact.modulus)
+        pressure[sample] = line_pressures.max(axis=1)
+        edge_pressure[sample] = line_pressures[:, at_edge > 0.0].max(axis=1)
         for k in range(rows):
             hardest = int(inner[k].sum(axis=1).argmax())
             loads = inner[k, hardest]

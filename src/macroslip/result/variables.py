@@ -591,7 +591,7 @@ _TABLE = (
 #: Every variable by name, in the order of a result.
 VARIABLES = {variable.name: variable for variable in _TABLE}
 #: Variables of a case's `contact_details`.
-CONTACT_DETAILS = tuple(one.name for one in _TABLE if one.when == DETAILS)
+CONTACT_DETAILS = tuple(variable.name for variable in _TABLE if variable.when == DETAILS)
 #: Counts of an integrator.
 COUNTS = ("steps", "rejections", "force_evaluations")
 #: Extremes of an orbit, and of entries into the load zone, in the order of

@@ -169,7 +169,7 @@ def _analysed(scada: Scada, record: pd.DataFrame, friction: FrictionTable) -> _A
 
 
 def _in_reference(start: pd.DatetimeIndex, period: tuple | None) -> NDArray[np.bool_]:
-    """Whether each window begins in the reference; all do where there is none."""
+    """True for windows that begin in the reference; for all where there is none."""
     if period is None:
         return np.ones(len(start), dtype=bool)
     first, end = period

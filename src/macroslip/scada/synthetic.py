@@ -168,7 +168,7 @@ def _correlated(random: np.random.Generator, rows: int, correlation: float) -> N
 def _within_spells(
     random: np.random.Generator, rows: int, number: float, length: float
 ) -> NDArray[np.bool_]:
-    """Whether a row lies in one of so many spells of a mean length."""
+    """True for rows in one of `number` spells of a mean length."""
     inside = np.zeros(rows, dtype=bool)
     starts = random.integers(0, rows, round(number))
     lengths = random.geometric(1.0 / length, starts.size)

@@ -134,7 +134,7 @@ def sheet_cells(path: Path, sheet: str = "") -> list[list[Any]]:
     with reading(path, _AGAIN):
         book = openpyxl.load_workbook(path, read_only=True, data_only=True)
         try:
-            names = [found.title for found in book.worksheets]
+            names = [sheet_of_book.title for sheet_of_book in book.worksheets]
             if sheet and sheet not in names:
                 raise InputError(
                     f"the workbook has no sheet '{sheet}'",

@@ -52,7 +52,7 @@ ROW_VARIABLES = {
         "smallest ratio of spin to spin in pure rolling in the window, of all rollers",
     ),
     "failed_rollers": ("1", "number of rollers whose integration failed"),
-    **{one.run_name: (one.run_unit, one.run_meaning) for one in YEARLY},
+    **{yearly.run_name: (yearly.run_unit, yearly.run_meaning) for yearly in YEARLY},
 }
 #: The same of the rating of a case.
 RATING_VARIABLES = {

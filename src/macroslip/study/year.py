@@ -254,7 +254,7 @@ def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[s
 
 
 def _follows_model(dataset: xr.Dataset | xr.DataArray, texts: list[str]) -> bool:
-    """Whether every model of the groups has one text only."""
+    """True if every model of the groups has one text only."""
     models = dataset.coords["model"].values.ravel().tolist() if "model" in dataset.coords else []
     if len(models) != len(texts):
         return False

@@ -161,16 +161,16 @@ class Cage:
                 allowed="with impact: dry",
                 remedy="Set impact: dry, or remove damping.",
             )
-        given = [name for name in _LAND if getattr(self, name) is not None]
-        if self.guided_by == "rollers" and given:
+        land_keys = [name for name in _LAND if getattr(self, name) is not None]
+        if self.guided_by == "rollers" and land_keys:
             raise InputError(
-                f"{' and '.join(given)} {'describes' if len(given) == 1 else 'describe'} a ring's land, and rollers guide the cage",
-                where=given[0],
+                f"{' and '.join(land_keys)} {'describes' if len(land_keys) == 1 else 'describe'} a ring's land, and rollers guide the cage",
+                where=land_keys[0],
                 allowed="with guided_by: inner-ring or outer-ring",
-                remedy=f"Set guided_by, or remove {' and '.join(given)}.",
+                remedy=f"Set guided_by, or remove {' and '.join(land_keys)}.",
             )
-        if self.guided_by != "rollers" and len(given) < len(_LAND):
-            missing = [name for name in _LAND if name not in given]
+        if self.guided_by != "rollers" and len(land_keys) < len(_LAND):
+            missing = [name for name in _LAND if name not in land_keys]
             raise InputError(
                 f"the {self.guided_by} guides the cage, and {' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} "
                 "not given",

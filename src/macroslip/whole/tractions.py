@@ -437,14 +437,14 @@ def cage_from(body, tables, linear, push, sliding, part):
         abs(load - linear.load) <= part * linear.load + tuning.LIGHT
         and abs(sliding - linear.slip) <= part * abs(linear.slip)
     ):
-        found = cage_forces(body, tables, load, -sliding, log_speed(sliding))
-        linear.force = found.friction + found.resistance
-        linear.by_slip = found.friction_by_slip + found.resistance_by_slip
-        linear.by_load = found.friction_by_load + found.resistance_by_load
-        linear.shear = found.resistance
-        linear.shear_by_slip = found.resistance_by_slip
-        linear.shear_by_load = found.resistance_by_load
-        linear.rough = found.asperity_power
+        contact = cage_forces(body, tables, load, -sliding, log_speed(sliding))
+        linear.force = contact.friction + contact.resistance
+        linear.by_slip = contact.friction_by_slip + contact.resistance_by_slip
+        linear.by_load = contact.friction_by_load + contact.resistance_by_load
+        linear.shear = contact.resistance
+        linear.shear_by_slip = contact.resistance_by_slip
+        linear.shear_by_load = contact.resistance_by_load
+        linear.rough = contact.asperity_power
         linear.slip = sliding
         linear.load = load
     force = (

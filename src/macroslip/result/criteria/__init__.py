@@ -17,6 +17,6 @@ def _declared() -> list[Criterion]:
 
 
 #: All criteria in their order.
-CRITERIA: tuple[Criterion, ...] = tuple(sorted(_declared(), key=lambda one: one.order))
+CRITERIA: tuple[Criterion, ...] = tuple(sorted(_declared(), key=lambda criterion: criterion.order))
 #: What a study keeps of them.
-YEARLY: tuple[Yearly, ...] = tuple(yearly for one in CRITERIA for yearly in one.yearly)
+YEARLY: tuple[Yearly, ...] = tuple(yearly for criterion in CRITERIA for yearly in criterion.yearly)
