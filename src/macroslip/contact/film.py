@@ -145,8 +145,10 @@ def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
 
 def masjedi_khonsari_notes(interface: Interface) -> list[str]:
     """The groups that load and speed do not change, where they are outside `RANGES`."""
-    found = line_groups(interface)._asdict()
-    groups = [(name, found[name], *RANGES[name]) for name in ("material", "roughness", "hardness")]
+    group_values = line_groups(interface)._asdict()
+    groups = [
+        (name, group_values[name], *RANGES[name]) for name in ("material", "roughness", "hardness")
+    ]
     return [
         f"the {name} group {value:.4g} is outside {low:g} to {high:g}"
         for name, value, low, high in groups
@@ -269,8 +271,8 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
     heavy = scale - 0.135 * log_w + 0.705 * log_u
     density = dowson_higginson(interface.hertz.pressure * np.exp(log_load / 3.0))
     light = _log_moes_film(groups, radius, log_load, log_speed) - np.log(density)
-    place = np.clip((log_w - _LOG_HEAVY) / _DECADE + 1.0, 0.0, 1.0)
-    weight = place**3 * (10.0 - 15.0 * place + 6.0 * place * place)
+    decades = np.clip((log_w - _LOG_HEAVY) / _DECADE + 1.0, 0.0, 1.0)
+    weight = decades**3 * (10.0 - 15.0 * decades + 6.0 * decades * decades)
     smooth = np.exp(light + weight * (heavy - light))
     if groups.roughness <= 0.0:
         return smooth

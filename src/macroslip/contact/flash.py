@@ -175,10 +175,10 @@ def transient_flash(
             continue
         uptake = effusivity_1 * math.sqrt(abs(speed_1[n])) + effusivity_2 * math.sqrt(speed)
         for m in range(_PLACES.size):
-            place = half_width[n] * _PLACES[m]
+            position = half_width[n] * _PLACES[m]
             came = 0.0
             k = n
-            span = math.sqrt((place + widest) / speed)
+            span = math.sqrt((position + widest) / speed)
             for q in range(_NODES.size):
                 # The square root in the integral is the variable.
                 since = (span * _NODES[q]) ** 2
@@ -189,7 +189,7 @@ def transient_flash(
                     k -= 1
                 share = (then - time[k - 1]) / (time[k] - time[k - 1])
                 width = half_width[k - 1] + share * (half_width[k] - half_width[k - 1])
-                inside = 1.0 - ((place - speed * since) / width) ** 2
+                inside = 1.0 - ((position - speed * since) / width) ** 2
                 if inside > 0.0:
                     power = power_per_length[k - 1] + share * (
                         power_per_length[k] - power_per_length[k - 1]

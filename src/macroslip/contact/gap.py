@@ -146,8 +146,8 @@ def ratios(kappa, aspect) -> np.ndarray:
     >>> bool(np.allclose(ratios(1.0, 0.0), 1.0, atol=1e-12))
     True
     """
-    place = np.log1p(kappa), np.sqrt(aspect * np.sqrt(1.0 + kappa))
-    return np.exp([spline.ev(*place) for spline in _ratio_splines()])
+    coordinates = np.log1p(kappa), np.sqrt(aspect * np.sqrt(1.0 + kappa))
+    return np.exp([spline.ev(*coordinates) for spline in _ratio_splines()])
 
 
 # Both rows have the same contacts, and runs of a study many of them in common.
@@ -184,7 +184,7 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     correction = ratios(curvature / gap, np.sqrt(8.0 * radius * gap) / length)
     if math.isfinite(oil_gap):
         starved = np.array(
-            [starved_martin(min(widest_inlet, float(one))) for one in oil_gap / (FLOW * gap)]
+            [starved_martin(min(widest_inlet, float(inlet))) for inlet in oil_gap / (FLOW * gap)]
         ).T
     else:
         starved = np.array(starved_martin(widest_inlet))[:, None]
@@ -198,23 +198,23 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     )
 
 
-def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, place):
+def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, coordinate):
     """Value of one of the splines over even knots; straight on beyond their ends."""
-    inside = np.clip(place, knots[0], knots[-1])
+    inside = np.clip(coordinate, knots[0], knots[-1])
     per_step = (knots.size - 1) / (knots[-1] - knots[0])
     cell = np.minimum(((inside - knots[0]) * per_step).astype(int), knots.size - 2)
     t = inside - knots[cell]
     a, b, c, d = (np.ascontiguousarray(cubics[k, :, which])[cell] for k in range(4))
-    return ((a * t + b) * t + c) * t + d + (place - inside) * ((3.0 * a * t + 2.0 * b) * t + c)
+    return ((a * t + b) * t + c) * t + d + (coordinate - inside) * ((3.0 * a * t + 2.0 * b) * t + c)
 
 
 def film_at_load(gap: Gap, log_group):
     """Ln h0, ln F_R/(η0 u) and ln S of a contact that carries a load, from ln Q/(η0 u) [ln m]."""
-    place = np.asarray(log_group, dtype=float)
-    return tuple(_cubic(gap.log_loads, gap.by_load, k, place) for k in range(3))
+    coordinate = np.asarray(log_group, dtype=float)
+    return tuple(_cubic(gap.log_loads, gap.by_load, k, coordinate) for k in range(3))
 
 
 def film_at_gap(gap: Gap, log_gap):
     """Ln Q/(η0 u), ln F_R/(η0 u) and ln S of a contact whose gap is given, from ln h0 [ln m]."""
-    place = np.asarray(log_gap, dtype=float)
-    return tuple(_cubic(gap.log_gaps, gap.by_gap, k, place) for k in range(3))
+    coordinate = np.asarray(log_gap, dtype=float)
+    return tuple(_cubic(gap.log_gaps, gap.by_gap, k, coordinate) for k in range(3))

@@ -116,7 +116,7 @@ def contact_shape(
     raceway = (
         geometry.inner_raceway_contour_radius if inner else geometry.outer_raceway_contour_radius
     )(bearing)
-    place = (
+    contact_radius = (
         geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
     )
     return ContactShape(
@@ -125,7 +125,7 @@ def contact_shape(
         roller_radius=geometry.roller_radius(bearing),
         half_length=half_length,
         curvature_ratio=1.0 / interface.rolling_radius,
-        spin_ratio=axial_sign * math.sin(bearing.contact_angle) / place,
+        spin_ratio=axial_sign * math.sin(bearing.contact_angle) / contact_radius,
     )
 
 
@@ -137,7 +137,8 @@ def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
     """
     half = 0.5 * bearing.roller_length
     return min(
-        one.hertz.load_at_semi_axis_across(half) for one in interfaces(bearing, lubricant)[:2]
+        raceway.hertz.load_at_semi_axis_across(half)
+        for raceway in interfaces(bearing, lubricant)[:2]
     )
 
 

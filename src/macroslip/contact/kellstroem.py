@@ -113,7 +113,10 @@ def saturating_patch(patch: Patch, coefficient, full_slip, load, ring_speed, sli
     250.0
     """
     coefficient, full_slip, load, ring_speed, slip = np.broadcast_arrays(
-        *(np.asarray(one, dtype=float) for one in (coefficient, full_slip, load, ring_speed, slip))
+        *(
+            np.asarray(values, dtype=float)
+            for values in (coefficient, full_slip, load, ring_speed, slip)
+        )
     )
     across = patch.across * np.cbrt(load)
     bend = np.zeros(load.shape)

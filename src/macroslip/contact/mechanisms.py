@@ -27,11 +27,11 @@ def _names(module: str, holder: str, *first: str) -> Callable[[], list[str]]:
     Kernels need not be imported to read a case.
     """
 
-    def found() -> list[str]:
+    def names() -> list[str]:
         laws = getattr(import_module(f"macroslip.contact.{module}"), holder)
         return [*first, *(laws if isinstance(laws, dict) else laws.names())]
 
-    return found
+    return names
 
 
 @input_section("laws", "physics in the contacts: a named set, and mechanisms that differ from it")
@@ -215,9 +215,9 @@ class Laws:
         for model in PRESETS:
             other = Laws.named(model)
             names = [
-                one.name
-                for one in fields(self)
-                if getattr(self, one.name) != getattr(other, one.name)
+                member.name
+                for member in fields(self)
+                if getattr(self, member.name) != getattr(other, member.name)
             ]
             differences[model] = sorted(f"{name} {_word(getattr(self, name))}" for name in names)
         nearest = min(differences, key=lambda model: len(differences[model]))

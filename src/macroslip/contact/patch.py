@@ -94,9 +94,9 @@ _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
 
 
 @jit_inline
-def _node(count, place):
+def _node(count, coordinate):
     """Cell of a coordinate counted in nodes, kept within the spline, and the place in the cell."""
-    inside = min(max(place, 0.0), count - 3.0)
+    inside = min(max(coordinate, 0.0), count - 3.0)
     cell = min(int(inside), count - 4)
     return cell, inside - cell
 
@@ -104,15 +104,15 @@ def _node(count, place):
 @jit_inline
 def _on_line(coefficients, cell, t):
     """Value of a spline of one coordinate."""
-    rest = 1.0 - t
-    one = coefficients[cell]
-    two = coefficients[cell + 1]
-    three = coefficients[cell + 2]
-    four = coefficients[cell + 3]
-    middle = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * two + (
-        4.0 - 6.0 * rest * rest + 3.0 * rest * rest * rest
-    ) * three
-    return (rest * rest * rest * one + middle + t * t * t * four) * (1.0 / 6.0)
+    u = 1.0 - t
+    first = coefficients[cell]
+    second = coefficients[cell + 1]
+    third = coefficients[cell + 2]
+    fourth = coefficients[cell + 3]
+    middle = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * second + (
+        4.0 - 6.0 * u * u + 3.0 * u * u * u
+    ) * third
+    return (u * u * u * first + middle + t * t * t * fourth) * (1.0 / 6.0)
 
 
 class FilmNode(NamedTuple):
@@ -131,8 +131,8 @@ def film_node(chords, film):
     For `chord_stress_at`, once for all chords of a contact.
     """
     logarithm = math.log(film)
-    cell, place = _node(chords.shape[1], (logarithm - chords.lowest_film) / chords.film_spacing)
-    return FilmNode(film, logarithm, cell, place)
+    cell, position = _node(chords.shape[1], (logarithm - chords.lowest_film) / chords.film_spacing)
+    return FilmNode(film, logarithm, cell, position)
 
 
 @jit_inline
@@ -217,7 +217,7 @@ def rolling_lines(bend, spin, slip, end):
 
 
 @jit
-def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
+def patch_traction(patch, chords, load, film, share, ring_speed, slip, resultants):
     """Integrate the traction of a raceway contact over its ellipse.
 
     The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
@@ -239,7 +239,7 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
         u2 in the middle of the contact [m/s].
     slip : float
         Δu in the middle of the contact [m/s].
-    found : ndarray, shape (4,)
+    resultants : ndarray, shape (4,)
         Written: pull [N], lag [N], skew moment [N m] and power of asperities [W].
     """
     root = load ** (1.0 / 3.0)
@@ -290,10 +290,10 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
         pull = pull + more
         lag = lag + second_moment * per_drop
         skew = skew + more_skew
-    found[0] = pull
-    found[1] = lag
-    found[2] = skew
-    found[3] = rough
+    resultants[0] = pull
+    resultants[1] = lag
+    resultants[2] = skew
+    resultants[3] = rough
 
 
 @jit
@@ -320,19 +320,21 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
     ndarray, shape (states, 4)
         Pull [N], lag [N], skew moment [N m] and power of asperities [W], by `patch_traction`.
     """
-    found = np.empty((loads.size, 4))
+    resultants = np.empty((loads.size, 4))
     for n in range(loads.size):
         patch_traction(
-            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], found[n]
+            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], resultants[n]
         )
-    return found
+    return resultants
 
 
 def traction_values(patch: Patch, chords: ChordTable, *states: np.ndarray) -> np.ndarray:
     """`patch_tractions` of arrays that broadcast against each other, shape (..., 4)."""
-    states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in states))
-    found = patch_tractions(patch, chords, *(np.ascontiguousarray(one).ravel() for one in states))
-    return found.reshape(*states[0].shape, 4)
+    states = np.broadcast_arrays(*(np.asarray(state, dtype=float) for state in states))
+    resultants = patch_tractions(
+        patch, chords, *(np.ascontiguousarray(state).ravel() for state in states)
+    )
+    return resultants.reshape(*states[0].shape, 4)
 
 
 def patch_power(
@@ -358,9 +360,9 @@ def patch_power(
     float
         Power [W].
     """
-    found = np.empty(4)
-    patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, found)
-    return _power(patch, found[0], found[1], found[2], ring_speed, slip)
+    resultants = np.empty(4)
+    patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, resultants)
+    return _power(patch, resultants[0], resultants[1], resultants[2], ring_speed, slip)
 
 
 def _power(
@@ -405,10 +407,10 @@ def fine_power(
     first, second = rolling_lines(bend, spin, slip, across * end)
     edges = np.array([-end, first / across, second / across, end])
     lengths = np.diff(edges)
-    place = (edges[:-1, None] + lengths[:, None] * _FINE_NODES).ravel()
+    relative = (edges[:-1, None] + lengths[:, None] * _FINE_NODES).ravel()
     weight = (lengths[:, None] * _FINE_WEIGHTS).ravel()
-    station = across * place
-    cosine = np.sqrt(1.0 - place**2)
+    station = across * relative
+    cosine = np.sqrt(1.0 - relative**2)
     local = slip + station * (bend * station - spin)
     stress = chord_stress(
         fluid,

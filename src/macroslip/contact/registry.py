@@ -61,22 +61,22 @@ class Law(NamedTuple):
         Raises InputError if the law raises, or gives anything but finite, positive numbers, one for
         each state.
         """
-        found = self._values(self.function, interface, states, "fiu", "real numbers").astype(float)
-        bad = ~(np.isfinite(found) & (found > 0.0))
+        values = self._values(self.function, interface, states, "fiu", "real numbers").astype(float)
+        bad = ~(np.isfinite(values) & (values > 0.0))
         if bad.any():
             known = zip(
                 _STATES[self.kind],
-                (np.broadcast_to(one, bad.shape)[bad][0] for one in states),
+                (np.broadcast_to(state, bad.shape)[bad][0] for state in states),
                 strict=True,
             )
             at = ", ".join(f"{name} {value:.4g} {unit}" for (name, unit), value in known)
-            fault = f"it gives {found[bad][0]:.4g} {_UNITS[self.kind]}"
+            fault = f"it gives {values[bad][0]:.4g} {_UNITS[self.kind]}"
             raise _wrong(
                 fault,
                 f"{self.kind} law '{self.name}', {interface.name}, {at}",
                 "a finite number above zero",
             )
-        return found[()]
+        return values[()]
 
     def inside(self, interface: Interface, load, entrainment_speed) -> np.ndarray:
         """True where a film law is in its range."""
@@ -97,13 +97,13 @@ class Law(NamedTuple):
     ) -> np.ndarray:
         """Values of a function of the law at states, refused if of a wrong kind or shape."""
         # A law may change the arrays it is given.
-        arrays = [np.array(one, dtype=float) for one in np.broadcast_arrays(*states)]
+        arrays = [np.array(state, dtype=float) for state in np.broadcast_arrays(*states)]
         where = f"{part}{self.kind} law '{self.name}', {interface.name}"
         size = arrays[0].size
         _begun[0] = time.monotonic()
         try:
             with np.errstate(all="ignore"):
-                found = np.asarray(function(interface, *(one.ravel() for one in arrays)))
+                values = np.asarray(function(interface, *(state.ravel() for state in arrays)))
         except (KeyboardInterrupt, MacroslipError):
             raise
         except BaseException as error:
@@ -111,18 +111,18 @@ class Law(NamedTuple):
             raise _wrong(
                 f"{type(error).__name__} in it ({reason})", where, "a function that raises nothing"
             ) from error
-        if found.shape != (size,) or found.dtype.kind not in kinds:
-            given = (
-                f"an array of shape {found.shape} of type {found.dtype}"
-                if found.ndim
-                else f"{found.item()!r:.80}"
+        if values.shape != (size,) or values.dtype.kind not in kinds:
+            received = (
+                f"an array of shape {values.shape} of type {values.dtype}"
+                if values.ndim
+                else f"{values.item()!r:.80}"
             )
             raise _wrong(
-                f"for {size} states it gives {given}",
+                f"for {size} states it gives {received}",
                 where,
                 f"an array of {size} {noun}, one for each state",
             )
-        return found.reshape(arrays[0].shape)
+        return values.reshape(arrays[0].shape)
 
     @property
     def is_own(self) -> bool:
@@ -291,12 +291,12 @@ register_film(
 )
 
 
-def film_range_notes(name: str, found: Iterable[Interface]) -> list[str]:
+def film_range_notes(name: str, raceways_and_cage: Iterable[Interface]) -> list[str]:
     """Numbers outside the range of the film law `name` at some interface, at any load and speed."""
     notes = FILM_LAWS.named(name).range_notes
     return [
         f"{interface.name}: {note}"
-        for interface in found
+        for interface in raceways_and_cage
         for note in (notes(interface) if notes else [])
     ]
 

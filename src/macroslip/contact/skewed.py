@@ -174,7 +174,7 @@ def skewed_contact(
     """
     inner = laws.name == "inner"
     side = -1 if inner else 1
-    place = (
+    contact_radius = (
         geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
     )
     contour = (
@@ -190,8 +190,8 @@ def skewed_contact(
         shear = film_shear(laws.fluid)
     cosine = float(np.cos(bearing.contact_angle))
     return SkewedContact(
-        laws, shear, corner, side, geometry.roller_radius(bearing), geometry.roller_contour_radius(bearing), place,
-        0.5 * bearing.roller_length, 1.0 / contour, side * cosine / place,
+        laws, shear, corner, side, geometry.roller_radius(bearing), geometry.roller_contour_radius(bearing), contact_radius,
+        0.5 * bearing.roller_length, 1.0 / contour, side * cosine / contact_radius,
         axial_sign * float(np.sin(bearing.contact_angle)), cosine,
     )  # fmt: skip
 
@@ -382,7 +382,9 @@ def _chords(
         corner = np.sqrt(np.maximum(corner_slip**2 - along**2, 0.0))
         levels = [0.0, -corner, corner]
     places = [_crossings(lines, level) for level in levels]
-    inner = np.sort(np.concatenate([one for pair in places for one in pair], axis=1), axis=1)
+    inner = np.sort(
+        np.concatenate([crossing for pair in places for crossing in pair], axis=1), axis=1
+    )
     edges = np.concatenate([low, np.clip(inner, low, high), high], axis=1)
     length = np.diff(edges, axis=1)
     station = (edges[:, :-1] + length * _NODES).reshape(len(edges), -1, 1)
@@ -398,10 +400,10 @@ def _crossings(lines: SlipLines, level) -> list[np.ndarray]:
     larger = -0.5 * (linear + np.copysign(np.sqrt(np.maximum(inside, 0.0)), linear))
     with np.errstate(divide="ignore", invalid="ignore"):
         places = [
-            np.where(inside > 0.0, one, -0.5 * linear / square)
-            for one in (larger / square, constant / larger)
+            np.where(inside > 0.0, root, -0.5 * linear / square)
+            for root in (larger / square, constant / larger)
         ]
-    return [np.nan_to_num(one) for one in places]
+    return [np.nan_to_num(root) for root in places]
 
 
 def _stresses(

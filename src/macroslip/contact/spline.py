@@ -80,8 +80,8 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
     """
     for dimension in range(dimensions):
         nodes = np.moveaxis(values, dimension, 0)
-        found = np.empty((len(nodes) + 2, *nodes.shape[1:]))
-        inner = found[1:-1]  # that of a node stands at its place
+        coefficients = np.empty((len(nodes) + 2, *nodes.shape[1:]))
+        inner = coefficients[1:-1]  # that of a node stands at its place
         # Not a knot: the fourth difference of the first five coefficients vanishes, which gives the
         # second node's.
         for side in (slice(None), slice(None, None, -1)):
@@ -96,11 +96,13 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
             right.shape
         )
         for side in (slice(None), slice(None, None, -1)):
-            for place in (1, 0):
-                found[side][place] = (
-                    6.0 * nodes[side][place] - 4.0 * found[side][place + 1] - found[side][place + 2]
+            for index in (1, 0):
+                coefficients[side][index] = (
+                    6.0 * nodes[side][index]
+                    - 4.0 * coefficients[side][index + 1]
+                    - coefficients[side][index + 2]
                 )
-        values = np.moveaxis(found, 0, dimension)
+        values = np.moveaxis(coefficients, 0, dimension)
     return np.ascontiguousarray(values)
 
 
@@ -123,23 +125,23 @@ class _Vectors:
             self.builder.extract_element(vector, ir.Constant(_INDEX, n)) for n in range(CHANNELS)
         ]
 
-    def add_product(self, one: Any, other: Any, added: Any) -> Any:
+    def add_product(self, factor: Any, other: Any, added: Any) -> Any:
         """A product and a sum, in one operation where the processor has it."""
         kind = ir.FunctionType(_VECTOR, [_VECTOR] * 3)
         function = self.builder.module.declare_intrinsic("llvm.fmuladd.v4f64", fnty=kind)
-        return self.builder.call(function, [one, other, added])
+        return self.builder.call(function, [factor, other, added])
 
-    def polynomial(self, terms: list[list[float]], place: Any) -> Any:
+    def polynomial(self, terms: list[list[float]], position: Any) -> Any:
         """The four weights of a cell at a place in it."""
-        at = self.splat(place)
+        at = self.splat(position)
         total = ir.Constant(_VECTOR, terms[-1])
         for term in terms[-2::-1]:
             total = self.add_product(total, at, ir.Constant(_VECTOR, term))
         return total
 
-    def weights(self, terms: list[list[float]], place: Any) -> list[Any]:
+    def weights(self, terms: list[list[float]], position: Any) -> list[Any]:
         """The four weights of a cell at a place in it, each in all lanes."""
-        return [self.splat(one) for one in self.lanes(self.polynomial(terms, place))]
+        return [self.splat(lane) for lane in self.lanes(self.polynomial(terms, position))]
 
     def sum(self, weights: list[Any], vectors: list[Any]) -> Any:
         """Σ w x in every lane."""
@@ -150,22 +152,22 @@ class _Vectors:
 
     def lines(self, address: Any, stride: Any) -> list[list[Any]]:
         """Lines of four neighbouring nodes along another axis."""
-        found = []
+        lines_read = []
         for _ in range(4):
-            found.append(self.line(address))
+            lines_read.append(self.line(address))
             address = self.builder.add(address, stride)
-        return found
+        return lines_read
 
     def line(self, address: Any) -> list[Any]:
         """Four neighbouring nodes along the last axis, each with its four splines."""
         step = ir.Constant(_SIZE, 8 * CHANNELS)
-        found = []
+        nodes = []
         for _ in range(4):
-            found.append(
+            nodes.append(
                 self.builder.load(self.builder.inttoptr(address, _VECTOR.as_pointer()), align=8)
             )
             address = self.builder.add(address, step)
-        return found
+        return nodes
 
 
 def _place(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, start: Any) -> Any:
@@ -193,9 +195,9 @@ def uncounted(typingctx, array):
     """
 
     def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        found = context.make_array(array)(context, builder, arguments[0])
-        found.meminfo = ir.Constant(found.meminfo.type, None)
-        return found._getvalue()
+        view = context.make_array(array)(context, builder, arguments[0])
+        view.meminfo = ir.Constant(view.meminfo.type, None)
+        return view._getvalue()
 
     return array(array), _generate
 
@@ -247,8 +249,8 @@ def spline_value(typingctx, table, start, strides, places):
         a, b, c, d = write.lanes(builder.fmul(write.sum(w, planes), write.polynomial(_CUBIC, u)))
         return builder.fadd(builder.fadd(a, b), builder.fadd(c, d))
 
-    given = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
-    return (types.float64(table, *given), _generate) if _is_flat(table) else None
+    arguments_taken = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
+    return (types.float64(table, *arguments_taken), _generate) if _is_flat(table) else None
 
 
 @intrinsic
@@ -281,19 +283,24 @@ def splines_in_square(typingctx, table, start, stride, t, u):
         address = _place(context, builder, table, arguments[0], arguments[1])
         step = builder.mul(arguments[2], ir.Constant(_SIZE, 8))
         (w, dw), (z, dz) = (
-            [write.weights(terms, place) for terms in (_CUBIC, _QUADRATIC)]
-            for place in arguments[3:]
+            [write.weights(terms, position) for terms in (_CUBIC, _QUADRATIC)]
+            for position in arguments[3:]
         )
         # Along the first axis first: without its derivative half of the sums are left.
         nodes = list(zip(*write.lines(address, step), strict=True))
         sums = [write.sum(w, values) for values in nodes]
         slopes = [write.sum(dw, values) for values in nodes]
-        found = [write.sum(z, sums), write.sum(z, slopes), write.sum(dz, sums)]
-        fours = [context.make_tuple(builder, _FOUR, write.lanes(one)) for one in found]
+        derivatives = [write.sum(z, sums), write.sum(z, slopes), write.sum(dz, sums)]
+        fours = [
+            context.make_tuple(builder, _FOUR, write.lanes(derivative))
+            for derivative in derivatives
+        ]
         return context.make_tuple(builder, signature.return_type, fours)
 
-    given = (types.intp, types.intp, types.float64, types.float64)
-    return (types.UniTuple(_FOUR, 3)(table, *given), _generate) if _is_flat(table) else None
+    arguments_taken = (types.intp, types.intp, types.float64, types.float64)
+    return (
+        (types.UniTuple(_FOUR, 3)(table, *arguments_taken), _generate) if _is_flat(table) else None
+    )
 
 
 @intrinsic
@@ -348,14 +355,19 @@ def splines_in_cube(typingctx, table, start, strides, places):
             values.append(write.sum(v, sums))
             by_third.append(write.sum(dv, sums))
             by_first.append(write.sum(v, [write.sum(dw, four) for four in nodes]))
-        found = [
+        derivatives = [
             write.sum(z, values),
             write.sum(z, by_first),
             write.sum(dz, values),
             write.sum(z, by_third),
         ]
-        fours = [context.make_tuple(builder, _FOUR, write.lanes(one)) for one in found]
+        fours = [
+            context.make_tuple(builder, _FOUR, write.lanes(derivative))
+            for derivative in derivatives
+        ]
         return context.make_tuple(builder, signature.return_type, fours)
 
-    given = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
-    return (types.UniTuple(_FOUR, 4)(table, *given), _generate) if _is_flat(table) else None
+    arguments_taken = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
+    return (
+        (types.UniTuple(_FOUR, 4)(table, *arguments_taken), _generate) if _is_flat(table) else None
+    )

@@ -52,8 +52,8 @@ def inlet_for_film(factor: float) -> float:
     >>> round(inlet_for_film(0.7), 3), inlet_for_film(1.0)
     (2.963, inf)
     """
-    rest = 1.0 - float(betaincinv(5.0 / 3.0, 4.0 / 3.0, factor ** (4.0 / 3.0)))
-    return 1.0 / rest if rest > 0.0 else math.inf
+    share = 1.0 - float(betaincinv(5.0 / 3.0, 4.0 / 3.0, factor ** (4.0 / 3.0)))
+    return 1.0 / share if share > 0.0 else math.inf
 
 
 def inlet_for_rolling(factor: float) -> float:
@@ -85,7 +85,7 @@ def _inlets() -> CubicSpline:
 def _martin() -> CubicSpline:
     """Ln of the starved over the flooded rolling force of a rigid line contact, over ln(S − 1)."""
     above = np.geomspace(_LEAST, _LARGEST, 80)
-    return CubicSpline(np.log(above), np.log([starved_martin(1.0 + one)[1] for one in above]))
+    return CubicSpline(np.log(above), np.log([starved_martin(1.0 + excess)[1] for excess in above]))
 
 
 def inlet_at_gap(gap, flooded_film):
@@ -101,8 +101,8 @@ def inlet_at_gap(gap, flooded_film):
     2.963
     """
     spline = _inlets()
-    place = np.log(gap) - np.log(flooded_film)
-    return 1.0 + np.exp(spline(np.clip(place, spline.x[0], spline.x[-1])))
+    log_ratio = np.log(gap) - np.log(flooded_film)
+    return 1.0 + np.exp(spline(np.clip(log_ratio, spline.x[0], spline.x[-1])))
 
 
 def rigid_rolling_factor(inlet):

@@ -147,7 +147,10 @@ def heated_shear(rheology: int, viscous_stress, characteristic_stress, heat):
     0.691124
     """
     viscous, limit, heat = np.broadcast_arrays(
-        *(np.asarray(one, dtype=float) for one in (viscous_stress, characteristic_stress, heat))
+        *(
+            np.asarray(values, dtype=float)
+            for values in (viscous_stress, characteristic_stress, heat)
+        )
     )
     stress = np.array(limited_stress(rheology, viscous, limit))
     power = heat * stress
@@ -190,20 +193,20 @@ def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarra
     left = np.arange(c.size)
     for _ in range(60):
         at = c[left]
-        given = ratio[left]
+        stress = ratio[left]
         warm = heat[left]
         decay = np.exp(-2.0 * at)
         tangent = (1.0 - decay) / (1.0 + decay)
         spread = 2.0 * at * (1.0 + decay * decay) / (1.0 - decay * decay) - 1.0
-        thinned = given * _thinning(at)
+        thinned = stress * _thinning(at)
         put_in = warm * limited_stress(rheology, thinned, 1.0)
-        rest = at * tangent - put_in
-        above = rest > 0.0
+        residual = at * tangent - put_in
+        above = residual > 0.0
         high[left] = np.where(above, at, high[left])
         low[left] = np.where(above, low[left], at)
         elasticity = _elasticity(rheology, np.maximum(thinned, 1e-300))
         slope = tangent + at * (1.0 - tangent * tangent) + put_in * elasticity * spread / at
-        following = at - rest / slope
+        following = at - residual / slope
         inside = (low[left] <= following) & (following <= high[left])
         following = np.where(inside, following, 0.5 * (low[left] + high[left]))
         c[left] = following
@@ -253,10 +256,10 @@ def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
         if laws.heating
         else 0.0
     )
-    found = Fluid(
+    fluid = Fluid(
         rheology, lubricant.viscosity, exponent, index, pressure, characteristic[rheology], heating
     )
-    highest = float(log_viscosity(found, HIGHEST_PRESSURE))
+    highest = float(log_viscosity(fluid, HIGHEST_PRESSURE))
     if highest > _HIGHEST_LOG_VISCOSITY:
         raise InputError(
             f"viscosity rises to 1e{highest / math.log(10.0):.0f} Pa s at {HIGHEST_PRESSURE / 1e9:g} GPa, "
@@ -265,7 +268,7 @@ def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
             allowed=f"up to 1e{_HIGHEST_LOG_VISCOSITY / math.log(10.0):.0f} Pa s; oils have 10 to 50 1/GPa",
             remedy="Look at the number and its unit.",
         )
-    return found
+    return fluid
 
 
 def log_viscosity(fluid: Fluid, pressure):
@@ -350,7 +353,7 @@ def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
     0.9999
     """
     pressure, film, slip = (
-        np.asarray(one, dtype=float)[..., None] for one in (pressure, film_thickness, slip)
+        np.asarray(values, dtype=float)[..., None] for values in (pressure, film_thickness, slip)
     )
     local = pressure * _COSINES
     viscous = np.exp(log_viscosity(fluid, local)) * slip / film
@@ -382,9 +385,11 @@ def _local_stress(rheology: int) -> _LocalStress:
 
     coefficients = spline_coefficients(solved(viscous.nodes, heat.nodes), 2)
     # A spline has one coefficient before its first node.
-    middles = np.meshgrid(*(np.arange(one.cells) + 1.5 for one in (viscous, heat)), indexing="ij")
-    found = map_coordinates(coefficients, middles, order=3, prefilter=False)
-    off = np.abs(found - solved(viscous.middles, heat.middles))
+    middles = np.meshgrid(
+        *(np.arange(coordinate.cells) + 1.5 for coordinate in (viscous, heat)), indexing="ij"
+    )
+    tabulated = map_coordinates(coefficients, middles, order=3, prefilter=False)
+    off = np.abs(tabulated - solved(viscous.middles, heat.middles))
     return _LocalStress(coefficients, off <= _LARGEST_ERROR)
 
 
@@ -392,26 +397,28 @@ def _log_local_stress(rheology: int, viscous: np.ndarray, heat: np.ndarray) -> n
     """ln(τ/τ_L) at both coordinates of `_LocalStress`, from its table where that is good."""
     table = _local_stress(rheology)
     places = [
-        (one - low) / _SPACING for one, (low, _) in zip((viscous, heat), _BOUNDS, strict=True)
+        (coordinate - low) / _SPACING
+        for coordinate, (low, _) in zip((viscous, heat), _BOUNDS, strict=True)
     ]
     cells = [
-        np.clip(one, 0.0, size - 1.0).astype(int)
-        for one, size in zip(places, table.good.shape, strict=True)
+        np.clip(coordinate, 0.0, size - 1.0).astype(int)
+        for coordinate, size in zip(places, table.good.shape, strict=True)
     ]
     inside = [
-        (one >= 0.0) & (one < size) for one, size in zip(places, table.good.shape, strict=True)
+        (coordinate >= 0.0) & (coordinate < size)
+        for coordinate, size in zip(places, table.good.shape, strict=True)
     ]
     known = inside[0] & inside[1] & table.good[cells[0], cells[1]]
-    found = np.empty(viscous.shape)
+    logarithm = np.empty(viscous.shape)
     # A spline has one coefficient before its first node.
-    nodes = [one[known] + 1.0 for one in places]
-    found[known] = map_coordinates(
+    nodes = [coordinate[known] + 1.0 for coordinate in places]
+    logarithm[known] = map_coordinates(
         table.coefficients, nodes, order=3, prefilter=False, mode="nearest"
     )
-    found[~known] = np.log(
+    logarithm[~known] = np.log(
         heated_shear(rheology, np.exp(viscous[~known]), 1.0, np.exp(heat[~known]))
     )
-    return found
+    return logarithm
 
 
 def local_stress(fluid: Fluid, pressure, log_film, log_slip):

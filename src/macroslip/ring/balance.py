@@ -171,16 +171,16 @@ def _push_into_contact(
     magnitude = _length(force)
     push = (magnitude / ring.stiffness) ** (2.0 / 3.0) + abs(ring.radial_play)
     is_pushed = magnitude > _tolerance(force)
-    found = _evaluate(contacts, force, displacement)
+    state = _evaluate(contacts, force, displacement)
     while True:
-        is_free = is_pushed & (_trace(found.hessian) == 0.0) & (push < _LONGEST_PUSH)
+        is_free = is_pushed & (_trace(state.hessian) == 0.0) & (push < _LONGEST_PUSH)
         free = np.flatnonzero(is_free)
         if not free.size:
-            return found
+            return state
         displacement[free] += (push[free] / magnitude[free])[:, None] * force[free]
         push[free] *= 2.0
         pushed = _evaluate(contacts.rows(free), force[free], displacement[free])
-        found.replace(free, pushed, np.arange(free.size))
+        state.replace(free, pushed, np.arange(free.size))
 
 
 @np.errstate(invalid="ignore", divide="ignore", over="ignore")
@@ -196,20 +196,20 @@ def _descend(
     They start from `displacement`, which is changed in place.
     """
     tolerance = _tolerance(force)
-    found = _push_into_contact(ring, contacts, force, displacement)
+    state = _push_into_contact(ring, contacts, force, displacement)
     relative = np.full(len(force), 1e-6)
     for _ in range(most_iterations):
-        unbalanced = _length(found.gradient)
+        unbalanced = _length(state.gradient)
         active = np.flatnonzero(unbalanced > tolerance)
         if not active.size:
             break
-        gradient = found.gradient[active]
-        hessian = found.hessian[active]
+        gradient = state.gradient[active]
+        hessian = state.hessian[active]
         step = _damped_newton_step(hessian, gradient, relative[active] * _trace(hessian))
         trial = displacement[active] + step
         tried = _evaluate(contacts.rows(active), force[active], trial)
         left = _length(tried.gradient)
-        expected = found.energy[active] + 1e-4 * (gradient * step).sum(axis=1)
+        expected = state.energy[active] + 1e-4 * (gradient * step).sum(axis=1)
         in_contact = (_trace(tried.hessian) > 0.0) | (left <= tolerance[active])
         # Close to the solution the energy no longer resolves the progress that the unbalanced force
         # still shows.
@@ -217,11 +217,11 @@ def _descend(
         is_taken = in_contact & is_better
         taken = active[is_taken]
         displacement[taken] = trial[is_taken]
-        found.replace(taken, tried, is_taken)
+        state.replace(taken, tried, is_taken)
         relative[taken] = np.maximum(0.1 * relative[taken], 1e-14)
         refused = active[~is_taken]
         relative[refused] = np.maximum(10.0 * relative[refused], 1e-8)
-    return _length(found.gradient)
+    return _length(state.gradient)
 
 
 def balance(

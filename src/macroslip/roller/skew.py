@@ -99,7 +99,7 @@ def raceways(
         Contacts with the inner and the outer raceway.
     """
     inner, outer = (
-        skewed_contact(one, bearing, axial_sign, shear) for one in (laws.inner, laws.outer)
+        skewed_contact(contact, bearing, axial_sign, shear) for contact in (laws.inner, laws.outer)
     )
     return Pair(inner, outer)
 
@@ -137,14 +137,17 @@ def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]
         ζ_c [m].
     """
     r = pair.inner.roller_radius
-    sides = np.array([one.side for one in pair])
+    sides = np.array([contact.side for contact in pair])
     # By θ and δ: ζ_c, the place ζ + δ + k r θ on the raceway, and the arm of the normal force.
     middle = np.array(
-        [[k * (one.along * r - 1.0), one.along] for k, one in zip(sides, pair, strict=True)]
+        [
+            [k * (contact.along * r - 1.0), contact.along]
+            for k, contact in zip(sides, pair, strict=True)
+        ]
     )
-    middle /= np.array([[one.lateral] for one in pair])
+    middle /= np.array([[contact.lateral] for contact in pair])
     arm = middle + np.stack([sides * r, np.zeros(2)], axis=1)
-    slope = np.array([[one.along] for one in pair]) * (arm + np.array([0.0, 1.0]))
+    slope = np.array([[contact.along] for contact in pair]) * (arm + np.array([0.0, 1.0]))
     conditions = np.stack([slope.sum(axis=0), sides @ (r * slope - arm)])
     right = np.stack([axial.sum(axis=0), r * np.tensordot(sides, axial, 1)]) / load
     lies = np.tensordot(np.linalg.inv(conditions), right, 1)

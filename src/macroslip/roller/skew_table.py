@@ -125,7 +125,9 @@ def _cubes(
     load, speed, skew = axes
     laws = laws._replace(inner=laws.inner.at_gap(oil_gap), outer=laws.outer.at_gap(oil_gap))
     pair = raceways(laws, bearing, 1)
-    numbers = [(contact_parts(one.laws), tuple(one)[2:], one.laws.rolling) for one in pair]
+    numbers = [
+        (contact_parts(contact.laws), tuple(contact)[2:], contact.laws.rolling) for contact in pair
+    ]
     key = table_key("skew", tuple(numbers), load, skew)
     first = round(speed.first / _SPEED)
 
@@ -160,8 +162,8 @@ def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: fl
                 "This is a defect of the solver; please report it with the bearing and the oil."
             )
         states.append(at)
-    found = np.stack([_scaled(one, states[0], loads, speed) for one in states], axis=2)
-    return np.concatenate([found[0, :, :0:-1], found[1]], axis=1)
+    quantities = np.stack([_scaled(state, states[0], loads, speed) for state in states], axis=2)
+    return np.concatenate([quantities[0, :, :0:-1], quantities[1]], axis=1)
 
 
 def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: float) -> np.ndarray:
@@ -181,9 +183,9 @@ def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: flo
 
 
 @jit_inline
-def _at(table, part, load, speed, place):
+def _at(table, part, load, speed, coordinate):
     """Four quantities of a cube at the places of load and speed, and at a coordinate of skew."""
-    j, u, _ = cell_of(table.skew, place)
+    j, u, _ = cell_of(table.skew, coordinate)
     inner = CHANNELS * (table.skew.cells + 3)
     outer = inner * (table.speed.cells + 3)
     start = part * table.more + load[0] * outer + speed[0] * inner + CHANNELS * j
@@ -197,21 +199,21 @@ def raceway_push(table, load, ring_speed):
 
     It presses the roller on a spar beside weight and drag.
     """
-    place = cell_of(table.load, math.log(load))
+    row = cell_of(table.load, math.log(load))
     column = cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed))))
-    return -math.copysign(load, ring_speed) * _at(table, 1, place, column, 0.0)[2]
+    return -math.copysign(load, ring_speed) * _at(table, 1, row, column, 0.0)[2]
 
 
 @jit_inline
-def _arm(guide, place):
+def _arm(guide, coordinate):
     """Moment by which a spar straightens a roller over its force [m], at a coordinate of skew."""
-    return min(guide.effective_radius * _SCALE * math.sinh(place), 0.5 * guide.arm)
+    return min(guide.effective_radius * _SCALE * math.sinh(coordinate), 0.5 * guide.arm)
 
 
 @jit_inline
-def _left(table, guide, row, column, way, press, place):
+def _left(table, guide, row, column, way, press, coordinate):
     """Moment that drives the roller on at a coordinate of skew, over Q^(4/3) [N m/N^(4/3)]."""
-    return way * _at(table, 0, row, column, way * place)[0] - press * _arm(guide, place)
+    return way * _at(table, 0, row, column, way * coordinate)[0] - press * _arm(guide, coordinate)
 
 
 @jit_inline
@@ -234,21 +236,21 @@ def _rest(table, guide, row, column, way, press, moment):
         return high, beyond > 0.0
     # Regula falsi, which halves the value at an end that stays (Illinois).
     side = 0
-    place = low + (high - low) * excess / (excess - beyond)
+    coordinate = low + (high - low) * excess / (excess - beyond)
     for _ in range(_ITERATIONS):
-        left = _left(table, guide, row, column, way, press, place)
+        left = _left(table, guide, row, column, way, press, coordinate)
         if left > 0.0:
-            low = place
+            low = coordinate
             excess = left
             beyond = 0.5 * beyond if side > 0 else beyond
             side = 1
         else:
-            high = place
+            high = coordinate
             beyond = left
             excess = 0.5 * excess if side < 0 else excess
             side = -1
-        place = low + (high - low) * excess / (excess - beyond)
-    return place, beyond > 0.0
+        coordinate = low + (high - low) * excess / (excess - beyond)
+    return coordinate, beyond > 0.0
 
 
 @jit
@@ -276,21 +278,21 @@ def turned(table, guide, load, ring_speed, push):
     press = abs(push) / heavy
     first = _at(table, 0, row, column, 0.0)
     way = math.copysign(1.0, first[0])
-    place, stops = _rest(table, guide, row, column, way, press, way * first[0])
-    value = _at(table, 0, row, column, way * place)
-    other = _at(table, 1, row, column, way * place)
-    change = _at(table, 2, row, column, way * place)
-    angle = way * _SCALE * math.sinh(place)
-    rest = heavy * (value[0] - way * press * _arm(guide, place))
-    held = rest if stops else 0.0
-    left = 0.0 if stops else abs(rest)
+    coordinate, stops = _rest(table, guide, row, column, way, press, way * first[0])
+    value = _at(table, 0, row, column, way * coordinate)
+    other = _at(table, 1, row, column, way * coordinate)
+    change = _at(table, 2, row, column, way * coordinate)
+    angle = way * _SCALE * math.sinh(coordinate)
+    residual = heavy * (value[0] - way * press * _arm(guide, coordinate))
+    held = residual if stops else 0.0
+    left = 0.0 if stops else abs(residual)
     # Straight, nothing is added, not even by rounding.
     tilt = 0.0
     shift = 0.0
     slip = 0.0
     power = 0.0
     axial = 0.0
-    if place > 0.0:
+    if coordinate > 0.0:
         power = load * size
         axial = guide.side * load * value[3]
         tilt = guide.side * other[0]

@@ -14,7 +14,7 @@ from macroslip.roller.skew_table import Guide, SkewTable, raceway_push, turned
 
 
 @jit
-def _forces(table, guides, ring, body, angle, speed, roller_load, found):
+def _forces(table, guides, ring, body, angle, speed, roller_load, forces):
     """Sum forces over both rows, downwind first; `body` is weight [N], drag [N s²], u2/−Ω [m]."""
     weight, drag, radius = body
     for k in range(angle.size):
@@ -33,9 +33,9 @@ def _forces(table, guides, ring, body, angle, speed, roller_load, found):
             push = weight * cosine + drag * orbit_speed * abs(orbit_speed)
             push += raceway_push(table, loads[j], -orbit_speed * radius)
             axial = turned(table, guide, loads[j], -orbit_speed * radius, push).axial
-            found[k, 0] -= axial * ring.axial[j] * cosine
-            found[k, 1] -= axial * ring.axial[j] * sine
-            found[k, 2] += axial * ring.cos_contact_angle
+            forces[k, 0] -= axial * ring.axial[j] * cosine
+            forces[k, 1] -= axial * ring.axial[j] * sine
+            forces[k, 2] += axial * ring.cos_contact_angle
 
 
 def thrust(
@@ -71,7 +71,7 @@ def thrust(
     -----
     A spar presses as on a gripped roller: with weight, drag and what both raceways leave on it.
     """
-    found = np.zeros((motion.time.size, 3))
+    forces = np.zeros((motion.time.size, 3))
     body = (model.weight_in_plane, model.drag, model.outer_radius)
     _forces(
         table,
@@ -81,6 +81,6 @@ def thrust(
         motion.shaft_angle,
         motion.shaft_speed,
         roller_loads(ring, motion.shaft_angle, motion.displacement),
-        found,
+        forces,
     )
-    return found
+    return forces

@@ -100,7 +100,7 @@ def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
 
     Those that do not exist are passed over.
     """
-    if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
+    if path.exists() and any(source.exists() and path.samefile(source) for source in inputs):
         fault = "this is a file that the output is made from"
         raise InputError(fault, where=str(path), remedy="Choose another name; it would be lost.")
 
