@@ -39,7 +39,7 @@ _SPAR_END = 7.0
 
 @dataclass(frozen=True)
 class ContactLaws:
-    """The laws of one contact of a roller."""
+    """The chosen laws of one contact, with the numbers of its bearing and oil."""
 
     name: str  #: `inner`, `outer` or `cage`
     interface: Interface
@@ -146,7 +146,7 @@ class ContactLaws:
 
 
 class RollerLaws(NamedTuple):
-    """The laws of a roller's three contacts."""
+    """The chosen laws of a roller's three contacts, with the numbers of its bearing and oil."""
 
     inner: ContactLaws
     outer: ContactLaws

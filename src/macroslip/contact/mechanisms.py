@@ -36,7 +36,7 @@ def _names(module: str, holder: str, *first: str) -> Callable[[], list[str]]:
 
 @input_section("laws", "physics in the contacts: a named set, and mechanisms that differ from it")
 class Laws:
-    """Mechanisms in the contacts of a roller. The defaults are the paper's model.
+    """Choice of mechanisms in the contacts, by the names of a case file; by default the paper's model.
 
     Raises InputError for a choice that does not exist, or one that a law of one's own makes void.
 

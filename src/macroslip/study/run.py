@@ -251,7 +251,7 @@ class Session:
     def workers(
         self, workers: int | None, scheduler: str | None, threads: int | None
     ) -> Iterator[tuple[Workers, int | None]]:
-        """Who computes, and with how many threads a run."""
+        """Executor of the runs, and number of threads of one."""
         if scheduler is not None:
             self.note(f"runs are computed by {scheduler}")
             with dask_workers(scheduler, self.note) as pool:
