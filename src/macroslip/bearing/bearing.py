@@ -212,12 +212,10 @@ class Bearing(Record):
         """
         if entries.get("kind") == "tapered":
             raise InputError(
-                "this is the file of a tapered roller bearing, of which single rollers' slip is not "
-                "computed",
+                "this is the file of a tapered roller bearing",
                 where=(source or Source()).where("kind"),
                 allowed="a spherical or a cylindrical roller bearing",
-                remedy="Its roller loads, grip, ribs and friction are computed in Python, by "
-                "macroslip.result.tapered.tapered_history (docs/tapered.md).",
+                remedy="Case files take it; in Python read_bearing of macroslip.bearing.kinds does.",
             )
         return super().from_dict(entries, source)
 

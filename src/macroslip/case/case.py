@@ -14,6 +14,8 @@ from typing import Annotated, Any
 import numpy as np
 
 from macroslip.bearing import Bearing
+from macroslip.bearing.kinds import BEARING_KINDS, AnyBearing
+from macroslip.case.kinds import check_kind
 from macroslip.case.load_source import LoadSource
 from macroslip.case.oil_supply import OilSupply, check_supply, inlet_supply, oil_gap
 from macroslip.case.parts import (
@@ -32,8 +34,9 @@ from macroslip.input.fields import Choice, Context, Flag, Form, Quantity, Text
 from macroslip.input.files import Place, Source
 from macroslip.input.messages import shown, together
 from macroslip.input.section import Made, OrWord, Variants, form_from, input_section
-from macroslip.input.units import TEMPERATURE
+from macroslip.input.units import TEMPERATURE, TEMPERATURE_DIFFERENCE
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads, RollerLoads, main_bearing_load
+from macroslip.loads.moment_bearing import shaft_load
 from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
 from macroslip.overview import html_overview
@@ -46,6 +49,8 @@ IMPOSED_ORBIT, WHOLE_BEARING = DYNAMICS = ("imposed-orbit", "whole-bearing")
 _FASTEST_ROTOR = 100.0
 #: Axial part of a load that counts as none.
 _NO_THRUST = 1e-9
+#: Keys of a drivetrain that are told only where they are given.
+_RARE_KEYS = ("windio", "gearbox_stiffness")
 #: The word for a temperature that follows from friction and the loss of heat.
 BALANCE = "balance"
 
@@ -106,7 +111,7 @@ class Case:
 
     Parameters
     ----------
-    bearing : Bearing
+    bearing : Bearing or TaperedBearing
     lubricant : Lubricant
     temperature : float or "balance", optional
         Of the oil at the inlets of the contacts [K]; None: that for which the lubricant's values
@@ -114,6 +119,9 @@ class Case:
         `heat`.
     heat : Heat, optional
         Goes with "balance".
+    temperature_difference : float
+        Inner ring and rollers over outer ring of a tapered roller bearing, against the state for
+        which its preload is given [K].
     oil_supply : "flooded", "skf" or float, optional
         How full the inlets of all contacts are: flooded; as SKF's replenishment factor says; or the
         film over the flooded film, 0.3 to 1, at the inner raceway under the mean load and speed.
@@ -153,7 +161,7 @@ class Case:
     """
 
     bearing: Annotated[
-        Bearing, Made((Bearing,), Text("name in the catalogue, or path of a bearing file"))
+        AnyBearing, Made(BEARING_KINDS, Text("name in the catalogue, or path of a bearing file"))
     ] = field(default_factory=lambda: Bearing.read("skf-240-600-bc"))
     lubricant: Annotated[
         Lubricant, Made((Lubricant,), Text("name in the catalogue, or path of a lubricant file"))
@@ -168,6 +176,16 @@ class Case:
         ),
     ] = None
     heat: Heat | None = None
+    temperature_difference: Annotated[
+        float,
+        Quantity(
+            "inner ring and rollers of a tapered roller bearing over its outer ring, against the "
+            "state for which the preload is given",
+            TEMPERATURE_DIFFERENCE,
+            -100.0,
+            100.0,
+        ),
+    ] = 0.0
     oil_supply: Annotated[
         str | float | None,
         OilSupply(
@@ -259,11 +277,21 @@ class Case:
 
         The load on the inner ring, or loads of the rollers that are given.
         """
-        return (
-            main_bearing_load(self.loads, self.drivetrain)
-            if isinstance(self.loads, HubLoads)
-            else self.loads
-        )
+        if isinstance(self.loads, HubLoads):
+            if self.bearing.kind == "tapered":
+                return shaft_load(self.loads, self.drivetrain)[0]
+            return main_bearing_load(self.loads, self.drivetrain)
+        return self.loads
+
+    @property
+    def ring_moments(self) -> np.ndarray:
+        """Moments on the inner ring about X0 and Y0 [N m], shape (n, 2), of `ring_loads`.
+
+        None where the force on the bearing is given, or where the bearing carries no moment.
+        """
+        if isinstance(self.loads, HubLoads) and self.bearing.kind == "tapered":
+            return shaft_load(self.loads, self.drivetrain)[1]
+        return np.zeros((self.loads.time.size, 2))
 
     @property
     def bearing_loads(self) -> BearingLoads:
@@ -295,6 +323,7 @@ class Case:
         is_whole = self.dynamics == WHOLE_BEARING
         used = {
             "oil_supply": self.laws.asks_for_oil,
+            "temperature_difference": self.bearing.kind == "tapered",
             "dynamics": is_whole,
             "cage": is_whole or self.laws.skew != "none",
         }
@@ -335,12 +364,13 @@ class Case:
 
 def _plain(value: Any) -> Any:
     """A value of a case as numbers, text, lists and mappings."""
-    if isinstance(value, (Bearing, Lubricant)):
+    if isinstance(value, (*BEARING_KINDS, Lubricant)):
         return value.as_dict()
     if isinstance(value, Heat):
         return {key: entry for key, entry in asdict(value).items() if entry is not None}
-    if isinstance(value, Drivetrain) and value.windio is None:
-        return {key: entry for key, entry in asdict(value).items() if key != "windio"}
+    if isinstance(value, Drivetrain):
+        left_out = [key for key in _RARE_KEYS if getattr(value, key) is None]
+        return {key: entry for key, entry in asdict(value).items() if key not in left_out}
     if is_dataclass(value) and not isinstance(value, type):
         return asdict(value)
     return list(value) if isinstance(value, tuple) else value
@@ -431,8 +461,11 @@ def _kind_of_bearing(case: Case) -> Iterator[InputError]:
     """Yield what the kind of bearing cannot have.
 
     A spherical roller bearing no speed beyond rotors', a cylindrical one no axial load, loads at
-    the hub, skew or second cage.
+    the hub, skew or second cage, a tapered one what `check_tapered` names.
     """
+    yield from check_kind(case)
+    if case.bearing.kind == "tapered":
+        return
     if case.bearing.kind == "spherical":
         if (fastest := float(np.abs(case.loads.shaft_speed).max())) > _FASTEST_ROTOR:
             yield InputError(

@@ -10,7 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from macroslip.bearing import Bearing
+from macroslip.bearing.kinds import AnyBearing, bearing_catalogue, read_bearing
 from macroslip.case.case import BALANCE, Case
 from macroslip.case.load_source import LoadSource
 from macroslip.contact.mechanisms import check_lubricant
@@ -164,9 +164,7 @@ def build_case(
         inner = (key, value.key) if isinstance(value, LoadSource) else (key,)
         try:
             if key in ("bearing", "lubricant"):
-                parts[key] = known.get(key) or _record(
-                    Bearing if key == "bearing" else Lubricant, value, folder
-                )
+                parts[key] = known.get(key) or _record(key, value, folder)
             elif isinstance(value, LoadSource):
                 parts[key] = series(value) if series else value.series(folder)
             elif key == "forces":  # a section in files only
@@ -216,19 +214,22 @@ def _with_windio(
     return {**data, "drivetrain": {**drivetrain, **written}}, []
 
 
-def _record(kind: type[Record], name: str, folder: Path) -> Record:
-    names = kind.catalogue()
+def _record(noun: str, name: str, folder: Path) -> AnyBearing | Lubricant:
+    """Read a bearing or a lubricant of the catalogue, or its file."""
+    is_bearing = noun == "bearing"
+    names = bearing_catalogue() if is_bearing else Lubricant.catalogue()
+    read = read_bearing if is_bearing else Lubricant.read
     path = folder / name
     if name in names:
-        return kind.read(name)
+        return read(name)
     if not path.exists():
         close = nearest(name, names)
         raise InputError(
             f"{shown(name)} is neither in the catalogue nor a file",
-            where=kind.noun,
-            allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
+            where=noun,
+            allowed=f"{', '.join(names)}, or the path of a {noun} file",
             remedy=f"Did you mean {close}?"
             if close
             else f"Relative paths start at {folder.resolve()}.",
         )
-    return kind.read(path)
+    return read(path)

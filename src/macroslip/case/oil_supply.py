@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     from macroslip.lubricant import Lubricant
 
 FLOODED, SKF = WORDS = ("flooded", "skf")
-#: K_Z of the SKF model by the number of rows: cylindrical roller bearings with cage, and spherical
-#: ones.
-_TYPE_FACTORS = {"cylindrical": 5.1, "spherical": 5.5}
+#: K_Z of the SKF model by the kind of bearing: cylindrical roller bearings with cage, spherical and
+#: tapered ones.
+_TYPE_FACTORS = {"cylindrical": 5.1, "spherical": 5.5, "tapered": 6.0}
 #: Least film over flooded film.
 _LEAST = 0.3
 
@@ -185,13 +185,19 @@ def _inner_raceway(
     Under a force on the inner ring [N] and a size of the shaft's speed [rad/s].
     """
     from macroslip.ring.balance import balance, roller_loads
+    from macroslip.ring.tapered import tapered_balance, tapered_ring
     from macroslip.roller.model import ring_geometry, roller_model
 
     model = roller_model(bearing, oil, 1, tilt=0.0)
-    ring = ring_geometry(bearing, model)
     angle = np.zeros(1)
-    displacement, _ = balance(ring, angle, np.array([force]), np.zeros((1, 3)))
-    loads = roller_loads(ring, angle, displacement)[0]
+    if bearing.kind == "tapered":
+        # Moments hardly change the mean load of the rollers.
+        found = tapered_balance(tapered_ring(bearing), angle, np.array([force]), np.zeros((1, 2)))
+        loads = found.outer_load[0]
+    else:
+        ring = ring_geometry(bearing, model)
+        displacement, _ = balance(ring, angle, np.array([force]), np.zeros((1, 3)))
+        loads = roller_loads(ring, angle, displacement)[0]
     row = max(loads.reshape(bearing.rows, -1), key=np.sum)
     loaded = row[row > 0.0]
     return (

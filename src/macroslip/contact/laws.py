@@ -146,11 +146,15 @@ class ContactLaws:
 
 
 class RollerLaws(NamedTuple):
-    """The chosen laws of a roller's three contacts, with the numbers of its bearing and oil."""
+    """The chosen laws of a roller's contacts, with the numbers of its bearing and oil.
+
+    Three contacts of every roller, and the rib of a tapered one.
+    """
 
     inner: ContactLaws
     outer: ContactLaws
     cage: ContactLaws
+    rib: ContactLaws | None = None
 
 
 def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int) -> RollerLaws:
@@ -242,6 +246,10 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 curved=laws.asperities != "none" or sheared,
             )
         )
+    if bearing.kind == "tapered":
+        from macroslip.contact.tapered import tapered_laws
+
+        return tapered_laws(RollerLaws(*contacts), laws, bearing, lubricant)
     return RollerLaws(*contacts)
 
 

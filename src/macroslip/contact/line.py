@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from macroslip.bearing.tapered.geometry import profile_depth
+
 #: Approach of Palmgren's law [m] at 1 N on a contact of 1 m in the units of his formula: δ = 3.84e-5
 #: mm · Q^0.9/l^0.8, Q in N and l in mm.
 _PALMGREN = 3.84e-5
@@ -19,8 +21,6 @@ _PALMGREN = 3.84e-5
 PALMGREN_EXPONENT = 10.0 / 9.0
 #: Loads per length between which a power of the approach is fitted to plane strain [N/m].
 _FITTED_LOADS = (1e4, 3e6)
-#: Depth of the profile over the roller's diameter [-], per contact.
-_PROFILE_DEPTH = 0.00035
 
 
 def palmgren_coefficient(contact_length: float) -> float:
@@ -202,7 +202,7 @@ def logarithmic_profile(place, roller_length: float, roller_diameter: float):
     22.17
     """
     relative = 2.0 * np.asarray(place) / roller_length
-    return -_PROFILE_DEPTH * roller_diameter * np.log1p(-relative * relative)
+    return -profile_depth(roller_diameter) * np.log1p(-relative * relative)
 
 
 def strip_places(roller_length: float, strips: int) -> np.ndarray:

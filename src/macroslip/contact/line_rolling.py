@@ -7,11 +7,12 @@ they go, which is small.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.bearing.tapered import TaperedBearing, TaperedGeometry, tapered_geometry
 from macroslip.contact.film import (
     inlet_heating_factor,
     masjedi_khonsari_thickness,
@@ -57,10 +58,8 @@ def line_contacts(bearing: TaperedBearing, lubricant: Lubricant) -> tuple[LineCo
     -------
     inner, outer : LineContact
     """
-    row = tapered_geometry(bearing)
     modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
-    inner = 1.0 / row.roller_radius + np.cos(row.inner_angle) / row.inner_radius
-    outer = 1.0 / row.roller_radius - np.cos(row.outer_angle) / row.outer_radius
+    inner, outer = raceway_curvatures(tapered_geometry(bearing))
     common = (
         bearing.roller_length,
         modulus,
@@ -68,7 +67,21 @@ def line_contacts(bearing: TaperedBearing, lubricant: Lubricant) -> tuple[LineCo
         bearing.hardness,
         lubricant,
     )
-    return LineContact(float(inner), *common), LineContact(float(outer), *common)
+    return LineContact(inner, *common), LineContact(outer, *common)
+
+
+def raceway_curvatures(row: TaperedGeometry) -> tuple[float, float]:
+    """Curvature sums of a roller's middle with inner and outer raceway in the plane of rolling [1/m].
+
+    Examples
+    --------
+    >>> row = tapered_geometry(TaperedBearing.read("tdo-main-bearing"))
+    >>> [round(one, 2) for one in raceway_curvatures(row)]
+    [34.78, 30.17]
+    """
+    inner = 1.0 / row.roller_radius + math.cos(row.inner_angle) / row.inner_radius
+    outer = 1.0 / row.roller_radius - math.cos(row.outer_angle) / row.outer_radius
+    return inner, outer
 
 
 def rolling_resistance(contact: LineContact, load, speed, law: str = "zhou-hoeprich"):

@@ -160,6 +160,22 @@ def film_friction(contact: RibContact, load, film_thickness, sliding_speed, laws
     return (stress * chord * across * np.cos(angle) * weight).sum(axis=-1)
 
 
+def rib_asperity_share(film_ratio):
+    """Share of the rib's load that asperities carry, exp(−1.90 Λ^0.99) [-].
+
+    Λ ≥ 0 is the film thickness over the composite RMS roughness [-].
+
+    Masjedi and Khonsari, Proc. IMechE J 228 (2014) 1001 (point contacts), at the roughness of
+    ground ribs.
+
+    Examples
+    --------
+    >>> float(round(rib_asperity_share(1.0), 4))
+    0.1496
+    """
+    return np.exp(-_SHARE_FACTOR * np.power(film_ratio, _SHARE_EXPONENT))
+
+
 def rib_state(
     contact: RibContact, load, entrainment_speed, sliding_speed, laws: Laws | None = None
 ) -> RibState:
@@ -202,7 +218,7 @@ def rib_state(
         contact.lubricant,
     )
     ratio = film / contact.roughness
-    share = np.exp(-_SHARE_FACTOR * np.power(ratio, _SHARE_EXPONENT))
+    share = rib_asperity_share(ratio)
     film_only = film_friction(contact, carried, film, sliding_speed, laws) / carried
     friction = share * contact.lubricant.boundary_friction + (1.0 - share) * film_only
     root = np.cbrt(carried)

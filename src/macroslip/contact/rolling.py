@@ -66,7 +66,8 @@ REFERENCES = {
 RIGID = ROLLING / math.sqrt(2.0)
 _LOG_FLOW = math.log(FLOW)
 _LOG_RIGID = math.log(RIGID)
-_LOG_SLICE = math.log(math.pi**2 / 16.0)
+#: ln of the load per length of the slice that stands for an ellipse, over that of its middle.
+LOG_SLICE = math.log(math.pi**2 / 16.0)
 
 #: Order with which the rigid limit joins each elastic one.
 ORDERS = {"inlet": 10.0, "whole-film": 3.64}
@@ -391,7 +392,7 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
 
 def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h0):
     order = ORDERS[numbers.name]
-    log_m = numbers.log_load + _LOG_SLICE + (2.0 / 3.0) * log_load - 0.5 * log_speed
+    log_m = numbers.log_load + LOG_SLICE + (2.0 / 3.0) * log_load - 0.5 * log_speed
     elastic = log_elastic(numbers.name, log_m, numbers.log_material + 0.25 * log_speed)
     rigid = _LOG_RIGID + 0.5 * log_m
     line = joined(rigid, elastic, -order)

@@ -22,6 +22,7 @@ from macroslip.contact.patch import Patch, patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.starvation import shared_gaps
+from macroslip.contact.strips import StripLaws
 from macroslip.contact.traction import chord_table
 from macroslip.storage.tables import remembered, stored, table_key
 from macroslip.storage.waiting import TABLES, tell
@@ -39,6 +40,8 @@ _LEAST_LOAD = 0.05
 _LIGHTEST = 1e-3
 #: Slip ratio by which asinh is scaled with microslip, which varies by as much over a contact.
 _MICROSLIP = 6e-4
+#: The same of a line contact, where only the profile slips.
+_LITTLE_MICROSLIP = 6e-5
 #: Slip ratio of a roller that spins while the ring is at rest.
 _LARGEST_RATIO = 4.0
 #: Slip ratio at which rolling comes to rest, v = 2 u2.
@@ -185,7 +188,10 @@ def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tup
 
     Sliding per slip, rolling resistance, and ln of the volume flow's film.
     """
-    conductance, resistance, film = light_contact(contact.rolling, load, speed)
+    if isinstance(contact, StripLaws):
+        conductance, resistance, film = contact.light(load, speed)
+    else:
+        conductance, resistance, film = light_contact(contact.rolling, load, speed)
     return conductance, resistance, np.log(film)
 
 
@@ -246,6 +252,8 @@ def tractions(
     asperity_power : ndarray
         Power of asperities [W].
     """
+    if isinstance(contact, StripLaws):
+        return contact.tractions(load, ring_speed, slip)
     entrainment = np.maximum(np.abs(ring_speed - 0.5 * slip), REST_SPEED)
     film = contact.film_thickness(load, entrainment)
     share = contact.asperity_share(load, entrainment, film)
@@ -327,7 +335,7 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     stretch = _STRETCH * per_pressure * hertz.pressure
     if shape.microslip:
         middle = shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio)
-        scale = _MICROSLIP
+        scale = _LITTLE_MICROSLIP if isinstance(contact, StripLaws) else _MICROSLIP
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
@@ -390,6 +398,7 @@ def contact_parts(contact: ContactLaws) -> tuple:
         contact.film_name, contact.oil_gap, contact.thermal_loading, contact.fluid, contact.traction_name,
         contact.friction, contact.asperity_name, tuple(patch_of(contact)), one.rolling_radius, one.modulus, one.roughness, one.hardness,
         oil.viscosity, oil.pressure_viscosity, sources, repr(oil) if sources else "",
+        contact.strips if isinstance(contact, StripLaws) else None,
     )  # fmt: skip
 
 

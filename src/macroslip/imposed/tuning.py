@@ -21,6 +21,9 @@ LONGEST_TURN = 0.6
 #: has its stages, and jumps where a roller leaves its spar for its stop, which the error of a step
 #: does not see.
 LONGEST_SKEWED_TURN = 0.018
+#: The same of tapered rollers. Their rib's power follows the load of the rings, whose changes the
+#: error of a step does not see; a step is then about as long as the samples of load series.
+LONGEST_RIBBED_TURN = 0.06
 #: Most growth of a step, its least part after an error, and its part after stages that were not
 #: solved; the first two as in Hairer and Wanner's RADAU5, IV.8, the third a judgement.
 GROWTH = 5.0

@@ -116,6 +116,7 @@ RECORDED_TEMPERATURE = Dimension(
     {**TEMPERATURE.units, "degF": Unit(Fraction(5, 9), Fraction("459.67"))}
 )
 TEMPERATURE_DIFFERENCE = _dimension(K=1)
+STIFFNESS = _dimension(**{"N/m": 1, "kN/mm": 10**6, "MN/m": 10**6})
 INVERSE_TEMPERATURE = _dimension(**{"1/K": 1})
 KINEMATIC_VISCOSITY = _dimension(
     **{"m2/s": 1, "mm2/s": Fraction(1, 10**6), "cSt": Fraction(1, 10**6)}

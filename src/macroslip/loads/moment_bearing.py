@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from macroslip.loads.history import HubLoads
+from macroslip.constants import GRAVITY
+from macroslip.loads.history import BearingLoads, HubLoads
+from macroslip.loads.statics import Drivetrain
 
 
 def moment_bearing_load(
@@ -41,3 +43,44 @@ def moment_bearing_load(
     force = np.column_stack([fy, fz, fx])
     moment = np.column_stack([my + hub_to_bearing * fz, mz - hub_to_bearing * fy])
     return force, moment
+
+
+def shaft_load(
+    hub_loads: HubLoads, drivetrain: Drivetrain
+) -> tuple[BearingLoads, NDArray[np.float64]]:
+    """Force and moment of rotor and shaft on the middle of a main bearing that carries moments.
+
+    What a gearbox beside the bearing takes of them follows from the balance of the ring.
+
+    Parameters
+    ----------
+    hub_loads : HubLoads
+    drivetrain : Drivetrain
+        Its distance from hub to bearing, tilt, and mass of the shaft.
+
+    Returns
+    -------
+    loads : BearingLoads
+        The force, with time and speed of the hub loads.
+    moment : ndarray, shape (n, 2)
+        About X0 and Y0 through the bearing's middle [N m].
+
+    Examples
+    --------
+    A shaft of 10 t, 1 m behind the bearing, holds the rotor's weight in balance:
+
+    >>> loads = HubLoads.constant([0.0, 0.0, -98.1e3], [0.0, 0.0, 0.0], 1.26, 1.0)
+    >>> shaft = Drivetrain(mount="alone", hub_to_bearing=1.0, tilt=0.0, shaft_mass=1e4,
+    ...                    shaft_mass_station=2.0)
+    >>> force, moment = shaft_load(loads, shaft)
+    >>> (force.force[0] / 1e3).round(1).tolist(), np.abs(moment[0]).round(6).tolist()
+    ([0.0, -196.2, 0.0], [0.0, 0.0])
+    """
+    force, moment = moment_bearing_load(hub_loads, drivetrain.hub_to_bearing)
+    weight = drivetrain.shaft_mass * GRAVITY
+    across = weight * np.cos(drivetrain.tilt)
+    force += np.array([0.0, -across, weight * np.sin(drivetrain.tilt)])
+    moment[:, 0] += (drivetrain.shaft_mass_station - drivetrain.hub_to_bearing) * across
+    source = f"main bearing under {hub_loads.source}"
+    loads = BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, source, hub_loads.event)
+    return loads, moment

@@ -14,11 +14,11 @@ from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity, Text
 from macroslip.input.section import input_section
-from macroslip.input.units import ANGLE, LENGTH, MASS, NUMBER
+from macroslip.input.units import ANGLE, LENGTH, MASS, NUMBER, STIFFNESS
 from macroslip.loads.history import BearingLoads, HubLoads
 from macroslip.loads.windio import windio_values
 
-MOUNTS = ("three-point", "four-point")
+MOUNTS = ("three-point", "four-point", "alone")
 BEARINGS = ("front", "rear")
 FRONTS = ("self-aligning", "moment-carrying")
 #: Default distance from the main bearing to the gearbox's support [m].
@@ -46,14 +46,15 @@ class Drivetrain:
 
     Lengths are measured along the shaft, positive downwind. Valid for a rotor upwind of the tower.
     On a three-point mount one main bearing and the gearbox carry the shaft. On a four-point mount
-    two main bearings carry it, and the gearbox takes nothing but torque. Raises InputError for a
+    two main bearings carry it, and the gearbox takes nothing but torque. A main bearing that carries
+    moments may carry it alone. Raises InputError for a
     value outside its range, for keys of a four-point mount that are missing there, or given on a
     three-point mount.
 
     Parameters
     ----------
     mount : str
-        `three-point` or `four-point`.
+        `three-point`, `four-point` or `alone`.
     hub_to_bearing : float [m]
         Hub centre to main-bearing centre, on a four-point mount to the front one, 0 to 20 m. The
         default 1.26 m is an engineering estimate for the WindPACT 1.5 MW turbine, whose published
@@ -61,6 +62,9 @@ class Drivetrain:
     bearing_to_gearbox : float [m]
         Three-point mount: main-bearing centre to the plane of the gearbox's support, above 0 up to
         20 m. Default 2.2 m, an estimate as well.
+    gearbox_stiffness : float [N/m]
+        Three-point mount of a main bearing that carries moments, which makes the shaft statically
+        indeterminate: stiffness of the gearbox's support across the shaft, above 0 up to 1e11 N/m.
     front_to_rear : float [m]
         Four-point mount: centre of the front to centre of the rear main bearing, above 0 up to
         20 m.
@@ -98,6 +102,14 @@ class Drivetrain:
     bearing_to_gearbox: Annotated[
         float, Positive("distance from main bearing to gearbox support", LENGTH, 20.0)
     ] = _TO_GEARBOX
+    gearbox_stiffness: Annotated[
+        float | None,
+        Positive(
+            "stiffness of the gearbox's support, beside a main bearing that carries moments",
+            STIFFNESS,
+            1e11,
+        ),
+    ] = None
     front_to_rear: Annotated[
         float | None, Positive("distance from front to rear main bearing", LENGTH, 20.0)
     ] = None
@@ -170,11 +182,14 @@ class Drivetrain:
                 allowed="front_to_rear: a length; locating and bearing: front or rear",
                 remedy="Add what is missing.",
             )
-        if self.mount == "three-point" and excluded:
-            fault = f"the mount is three-point, which has no {' and no '.join(excluded)}"
+        if self.mount != "four-point" and excluded:
+            fault = f"the mount is {self.mount}, which has no {' and no '.join(excluded)}"
             raise InputError(fault, remedy="Write mount: four-point, or remove what belongs to it.")
-        if self.mount == "four-point" and self.bearing_to_gearbox != _TO_GEARBOX:
-            fault = "the mount is four-point, on which bearing_to_gearbox does not count"
+        if self.mount != "three-point" and self.bearing_to_gearbox != _TO_GEARBOX:
+            fault = f"the mount is {self.mount}, on which bearing_to_gearbox does not count"
+            raise InputError(fault, remedy="Remove it, or write mount: three-point.")
+        if self.mount != "three-point" and self.gearbox_stiffness is not None:
+            fault = f"the mount is {self.mount}, on which gearbox_stiffness does not count"
             raise InputError(fault, remedy="Remove it, or write mount: three-point.")
         self._check_front()
 
@@ -258,6 +273,13 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     front [   0.  -473.4    0. ] kN
     rear [  0.  210.4 164.4] kN
     """
+    if drivetrain.mount == "alone":
+        raise InputError(
+            "the mount is alone, on which one main bearing carries the rotor's moments",
+            where="drivetrain.mount",
+            allowed="three-point or four-point for bearings that carry no moment",
+            remedy="Choose a mount with two supports, or a tapered roller bearing.",
+        )
     first, second = _without_moments(hub_loads, drivetrain)
     # Across the shaft only: a moment-carrying front leaves the thrust where it is.
     spared = (drivetrain.front_moment_share or 0.0) * second * [1.0, 1.0, 0.0]

@@ -159,6 +159,8 @@ class RollerMeasures:
             "power": states["power"],
             "rolling_power": states["rolling"],
             "film_thickness": _films(states, model.laws),
+            "rib_friction": states["rib_force"],
+            "rib_power": states["rib_power"],
             **(
                 self.skew.traces(states)
                 if self.skew

@@ -68,6 +68,10 @@ END = np.dtype(
         ("rolling", "f8", (3,)),
         # Part of the raceways' power by the contact angle [W].
         ("skew_power", "f8", (2,)),
+        # Friction of a tapered roller's rib, positive where it drives the spin up [N], and its
+        # power [W].
+        ("rib_force", "f8"),
+        ("rib_power", "f8"),
     ]
 )
 
@@ -95,6 +99,8 @@ def write_end(step, end):
         end.rolling[i] = step.rolling[last, i]
     end.skew_power[0] = step.skew_power[last, 0]
     end.skew_power[1] = step.skew_power[last, 1]
+    end.rib_force = step.rib_force[last]
+    end.rib_power = step.rib_power[last]
 
 
 class Batch:
@@ -163,6 +169,9 @@ class Totals(NamedTuple):
     #: 4)
     samples: np.ndarray
     latest: np.ndarray  #: Orbit and stretch of the last step; -2 before the first
+    #: At a tapered roller's rib, in each complete orbit and last in the rest of the window: energy
+    #: of friction, the part of it by asperities [J], and largest power [W]
+    rib: np.ndarray
 
 
 def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
@@ -170,9 +179,8 @@ def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
     orbits = edges.size - 1
     shapes = (3, 3, 3, (3, len(MECHANISMS)), (orbits, 3), (orbits + 1, 3))
     ratio = np.array([np.inf, max(SPIN_RATIO_SPEED * highest_speed, STANDSTILL), 0.0])
-    return Totals._make(
-        [edges, *map(np.zeros, shapes), ratio, np.zeros(2), np.zeros((2, 4)), np.array([-2, -1])]
-    )
+    sums = [np.zeros(2), np.zeros((2, 4)), np.array([-2, -1]), np.zeros((orbits + 1, 3))]
+    return Totals._make([edges, *map(np.zeros, shapes), ratio, *sums])
 
 
 @jit
@@ -293,11 +301,15 @@ def book(steps, j, totals, states):
         if step.start < edges[0]:
             continue
         orbit = orbit_at(edges, 0.5 * (step.start + step.end), totals.latest[0])
+        rib = totals.rib[orbit]
         span = 0.0
         films = 0.0
         for k in range(step.stages):
             weight = step.weight[k]
             span += weight
+            rib[0] += weight * step.rib_power[k]
+            rib[1] += weight * step.rib_rough[k]
+            rib[2] = max(rib[2], step.rib_power[k])
             films += weight * (min(step.inner_load[k], step.outer_load[k]) - step.elastic_load[k])
             for i in range(3):
                 energy = weight * step.power[k, i]

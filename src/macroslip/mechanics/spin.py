@@ -15,6 +15,7 @@ from macroslip.mechanics.cage import cage_forces, cage_load
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.power import raceway_power
 from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
+from macroslip.mechanics.rib import NO_RIB_FORCES, rib_forces
 from macroslip.mechanics.speeds import outer_ring_speed, surface_speed
 
 #: Loads and speeds of a roller at one place and time, whatever its spin.
@@ -49,7 +50,7 @@ FORCES = np.dtype(
         ("inner", "f8"),
         ("outer", "f8"),
         ("cage", "f8"),
-        # Rolling resistance of all three contacts in (16) [N].
+        # Rolling resistance of all three contacts and friction of a rib in (16) [N].
         ("resistance", "f8"),
         # d(F_i + F_o + F_c + resistance)/dΔu, dF_i/dΔu and dF_o/dΔu [N s/m].
         ("slope", "f8"),
@@ -65,6 +66,14 @@ FORCES = np.dtype(
         # Power of rolling resistance, and power that asperities dissipate, by interface [W].
         ("rolling", "f8", (3,)),
         ("rough", "f8", (3,)),
+        # Friction of a tapered roller's rib F_f [N], its slope by Δu [N s/m], what the inner
+        # raceway's friction is below `inner` and the outer one's above `outer` by it [N], its power,
+        # and the part of it by asperities [W].
+        ("rib", "f8"),
+        ("rib_by_slip", "f8"),
+        ("rib_held", "f8"),
+        ("rib_power", "f8"),
+        ("rib_rough", "f8"),
     ]
 )
 
@@ -109,7 +118,9 @@ def slip_forces(body, tables, at, slip, forces):
 
     The roller's surface speed is u1 = u2 − Δu (31). The cage is at rest in the orbiting frame, Δu_c
     = −u1, and its normal force balances everything tangential (32), F_i and F_o with what rolling
-    resistance does: its shear and the push of the inclined pressure.
+    resistance does: its shear and the push of the inclined pressure. What the rib of a tapered
+    roller does to the orbit the raceways hold, by slips of their own that an imposed orbit does not
+    have: F_i and F_o are here those of the common slip, and `rib_held` is what they differ by.
 
     Parameters
     ----------
@@ -135,6 +146,8 @@ def slip_forces(body, tables, at, slip, forces):
         outer = raceway_forces(body, body.outer, tables, load, ring_speed, slip, log_mean)
     push = cage_load(at.tangential, inner.pull, outer.pull)
     push_by_slip = inner.pull_by_slip - outer.pull_by_slip
+    if body.ribbed:
+        push += _add_rib(body.rib, tables, at, slip, inner, outer, forces)
     cage = cage_forces(body, tables, abs(push), surface, log_speed(surface))
     cage_by_push = cage.friction_by_load + cage.resistance_by_load
     cage_by_push = cage_by_push if push >= 0.0 else -cage_by_push
@@ -142,11 +155,15 @@ def slip_forces(body, tables, at, slip, forces):
     forces.outer = outer.friction
     forces.cage = cage.friction
     forces.resistance = inner.shear + outer.shear + cage.resistance
+    if body.ribbed:
+        forces.resistance += body.rib.arm * forces.rib
     forces.inner_slope = inner.friction_by_slip
     forces.outer_slope = outer.friction_by_slip
     slope = inner.friction_by_slip + outer.friction_by_slip
     slope += inner.shear_by_slip + outer.shear_by_slip
     slope += cage.friction_by_slip + cage.resistance_by_slip
+    if body.ribbed:
+        slope += body.rib.arm * forces.rib_by_slip
     forces.slope = slope + cage_by_push * push_by_slip
     forces.cage_load = push
     forces.cage_load_slope = push_by_slip
@@ -160,6 +177,29 @@ def slip_forces(body, tables, at, slip, forces):
     forces.rough[0] = inner.asperity_power
     forces.rough[1] = outer.asperity_power
     forces.rough[2] = cage.asperity_power
+
+
+@jit_inline
+def _add_rib(law, tables, at, slip, inner, outer, forces):
+    """Write the friction of the rib; returns what the cage is spared of the raceways' pulls [N].
+
+    The raceways pass e F_f on, at a common slip in the ratio of their slopes a and b. On an orbit of
+    its own a gripped roller shares it evenly: no cage holds what is left, e F_f (a − b)/(a + b).
+    """
+    rib = NO_RIB_FORCES
+    if at.elastic_load > 0.0:
+        rib = rib_forces(law, tables, at.elastic_load, at.ring_speed, slip)
+    near = inner.friction_by_slip
+    far = outer.friction_by_slip
+    spared = 0.0
+    if near > 0.0 and far > 0.0:
+        spared = law.arm * rib.friction * (near - far) / (near + far)
+    forces.rib = rib.friction
+    forces.rib_by_slip = rib.by_slip
+    forces.rib_held = 0.5 * (law.pull * rib.friction - spared)
+    forces.rib_power = rib.power
+    forces.rib_rough = rib.asperity_power
+    return spared
 
 
 @jit_inline

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from macroslip.bearing import Bearing, load_ratings
 from macroslip.rating import iso
+from macroslip.rating.tapered import equivalent_load, static_equivalent_load, tapered_ratings
 
 
 class LoadRatings(NamedTuple):
@@ -35,7 +36,7 @@ def ratings_of(bearing: Bearing) -> LoadRatings:
 
     A spherical roller bearing needs its C and C0, in which makers differ from the standards'
     formulas by up to 37 %; a cylindrical one without them has ISO 281's C for line contacts and ISO
-    76's C0. C_u follows from C0 (ISO 281, annex B) where it is not given. Raises InputError if a
+    76's C0, and a tapered one likewise. C_u follows from C0 (ISO 281, annex B) where it is not given. Raises InputError if a
     spherical roller bearing lacks C, C0 or an axial factor.
 
     Examples
@@ -44,6 +45,13 @@ def ratings_of(bearing: Bearing) -> LoadRatings:
     >>> round(found.dynamic / 1e3), round(found.minimum / 1e3)
     (8502, 163)
     """
+    if bearing.kind == "tapered":
+        known = tapered_ratings(bearing)
+        limit = bearing.fatigue_load_limit
+        if limit is None:
+            limit = load_ratings.fatigue_load_limit(known.static, 2.0 * bearing.pitch_radius)
+        minimum = iso.minimum_load_of_rollers(known.dynamic)
+        return LoadRatings(float(known.dynamic), float(known.static), float(limit), minimum)
     if bearing.kind == "spherical":
         bearing.require(
             "dynamic_load_rating", "static_load_rating", *_AXIAL_FACTORS, purpose="the rating"
@@ -70,7 +78,8 @@ def equivalent_loads(
     """Equivalent radial loads of a bearing under radial and axial loads [N].
 
     Without contact angle rollers carry no axial load: P = P0 = F_r in a cylindrical roller bearing
-    (ISO 281:2007, section 7.2; ISO 76:2006, section 6.2.1).
+    (ISO 281:2007, section 7.2; ISO 76:2006, section 6.2.1). Those of a tapered roller bearing know
+    neither moments nor preload.
 
     Examples
     --------
@@ -78,6 +87,12 @@ def equivalent_loads(
     >>> float(found.dynamic), float(found.static)
     (415000.0, 410000.0)
     """
+    if bearing.kind == "tapered":
+        known = tapered_ratings(bearing)
+        return EquivalentLoads(
+            equivalent_load(known, radial_load, axial_load),
+            static_equivalent_load(known, radial_load, axial_load),
+        )
     if bearing.kind == "cylindrical":
         radial = np.asarray(radial_load, dtype=float)
         return EquivalentLoads(radial, radial)

@@ -21,12 +21,14 @@ from macroslip.lubricant import Lubricant
 from macroslip.rating import iso
 from macroslip.rating.kinds import EquivalentLoads, LoadRatings, equivalent_loads, ratings_of
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
+from macroslip.rating.tapered import StripRating
 from macroslip.ring.motion import elastic_loads, ring_motion
 from macroslip.roller.model import ring_geometry, roller_model
 
 RACEWAYS = ("inner", "outer")
 FILM_LAW = "masjedi-khonsari"
-#: How the load of a roller lies along it, for the reference life.
+#: How the load of a roller lies along it, for the reference life: as Hertz has it, in a tapered
+#: roller bearing by strips with profile and tilt, and evenly.
 DISTRIBUTIONS = ("hertz", "uniform")
 LOADS = ("radial", "axial", "equivalent")
 LOAD_CLASSES = 40
@@ -75,6 +77,7 @@ def rate(
     *,
     contamination: float = CONTAMINATION,
     wohler_exponents: tuple[float, ...] = WOHLER_EXPONENTS,
+    strips: StripRating | None = None,
 ) -> xr.Dataset:
     """Rate a bearing: static safety, rating lives, pressures, film, minimum load and load spectra.
 
@@ -97,6 +100,9 @@ def rate(
         e_C of ISO 281 [-], above 0 and at most 1.
     wohler_exponents : tuple of float
         Slopes m for which damage-equivalent loads are given [-].
+    strips : StripRating, optional
+        Damage and pressures by the strips of tapered rollers: they take the place of Hertz' ellipse
+        in reference lives and largest pressures.
 
     Examples
     --------
@@ -108,6 +114,7 @@ def rate(
     (40.75, '2.21e+07 h')
     """
     history = _history(bearing, lubricant, loads, roller_load, contamination)
+    history = history._replace(strips=strips)
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
              _spectra(history, wohler_exponents))  # fmt: skip
     variables = {name: value for part in parts for name, value in part.items()}
@@ -146,6 +153,7 @@ class _History(NamedTuple):
     radial: NDArray[np.float64]  #: Fr [N]
     axial: NDArray[np.float64]  #: Fa [N]
     equivalent: EquivalentLoads
+    strips: StripRating | None = None  #: Of tapered rollers
 
     @property
     def viscosity_ratio(self) -> float:
@@ -276,6 +284,8 @@ def _reference(history: _History) -> dict[str, tuple]:
             damages[:, row, k] = iso.damage_series(
                 load, semi_axes[k], bearing.roller_length, rating, stationary
             )
+    if history.strips is not None:
+        damages[DISTRIBUTIONS.index("hertz")] = history.strips.damage
 
     def hours(life: NDArray[np.float64]) -> NDArray[np.float64]:
         # Palmgren and Miner: the shares of life used by each load add up.
@@ -317,6 +327,8 @@ def _contacts(history: _History) -> dict[str, tuple]:
             for roller_load in largest
         ]
     )
+    if history.strips is not None:
+        pressure = history.strips.pressure
     inner = geometry.inner_contact_radius(bearing)
     outer = geometry.outer_contact_radius(bearing)
     entrainment = np.abs(history.loads.shaft_speed) * inner * outer / (inner + outer)

@@ -10,6 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from macroslip.bearing import load_ratings
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.contact.hertz import effective_modulus
+from macroslip.contact.line import line_pressure
+from macroslip.contact.line_rolling import raceway_curvatures
 from macroslip.rating.iso import REDUCTION, reference_life, ring_ratings
 from macroslip.ring.tapered import ROW_SIGNS, TaperedBalance, TaperedRing, strip_loads
 
@@ -112,6 +115,30 @@ def equivalent_load(
     return np.where(along <= ratings.axial_factor_e * across, mixed, axial_load)
 
 
+def static_equivalent_load(
+    ratings: TaperedRatings, radial: ArrayLike, axial: ArrayLike
+) -> NDArray[np.float64]:
+    """Static equivalent radial load P0 = F_r + Y0 |F_a| [N] of a double-row bearing.
+
+    Parameters
+    ----------
+    ratings : TaperedRatings
+    radial, axial : array_like
+        Radial load F_r, not negative, and axial load F_a of either sign [N].
+
+    References
+    ----------
+    ISO 76:2006, section 6.2.
+
+    Examples
+    --------
+    >>> ratings = tapered_ratings(TaperedBearing.read("tdo-main-bearing"))
+    >>> round(float(static_equivalent_load(ratings, 1300e3, 700e3)) / 1e3)
+    1825
+    """
+    return np.asarray(radial, float) + ratings.axial_factor_y0 * np.abs(axial)
+
+
 def strip_damage(
     strips: NDArray[np.float64], rating: float, stationary: bool
 ) -> NDArray[np.float64]:
@@ -179,6 +206,46 @@ def tapered_reference_life(
     ----------
     ISO/TS 16281:2008, section 6.3.
     """
+    # Every sample stands for half of the angle to each of its neighbours.
+    turned = np.abs(np.gradient(shaft_angle))
+    if not turned.any():
+        return math.nan
+    damage = strip_rating(bearing, ring, balance, shaft_angle).damage
+    return float(reference_life(np.average(damage, axis=-1, weights=turned)))
+
+
+class StripRating(NamedTuple):
+    """What the strips of all rollers tell of a load history."""
+
+    damage: NDArray[np.float64]  #: (Q_e/Q_c)^(9/2) over (row, raceway, sample)
+    pressure: NDArray[np.float64]  #: Largest pressure [Pa] over (row, raceway)
+
+
+def strip_rating(
+    bearing: TaperedBearing,
+    ring: TaperedRing,
+    balance: TaperedBalance,
+    shaft_angle: NDArray[np.float64],
+) -> StripRating:
+    """Damage of every raceway at every sample, and its largest pressure, by the loads of strips.
+
+    Parameters
+    ----------
+    bearing : TaperedBearing
+    ring : TaperedRing
+        That of the balance.
+    balance : TaperedBalance
+    shaft_angle : ndarray, shape (n,)
+        Shaft angles of the balance [rad].
+
+    Returns
+    -------
+    StripRating
+
+    References
+    ----------
+    ISO/TS 16281:2008, section 6.3.
+    """
     row = tapered_geometry(bearing)
     slenderness = bearing.roller_diameter * math.cos(row.outer_angle) / (2.0 * bearing.pitch_radius)
     rating = ring_ratings(
@@ -188,15 +255,15 @@ def tapered_reference_life(
         row.outer_angle,
         slenderness,
     )
-    # Every sample stands for half of the angle to each of its neighbours.
-    turned = np.abs(np.gradient(shaft_angle))
-    if not turned.any():
-        return math.nan
-    damage = np.zeros((len(shaft_angle), len(ROW_SIGNS), 2))
+    damage = np.zeros((len(ROW_SIGNS), 2, len(shaft_angle)))
+    largest = np.zeros((len(ROW_SIGNS), 2))
     for sample in range(len(shaft_angle)):
-        inner, outer = strip_loads(ring, balance, shaft_angle, sample)
-        shape = (len(ROW_SIGNS), -1, inner.shape[-1])
-        damage[sample, :, 0] = strip_damage(inner.reshape(shape), rating.inner, stationary=False)
-        damage[sample, :, 1] = strip_damage(outer.reshape(shape), rating.outer, stationary=True)
-    mean = np.average(damage, axis=0, weights=turned)
-    return float(reference_life(mean))
+        strips = np.stack(strip_loads(ring, balance, shaft_angle, sample))
+        inner, outer = strips.reshape(2, len(ROW_SIGNS), -1, strips.shape[-1])
+        damage[:, 0, sample] = strip_damage(inner, rating.inner, stationary=False)
+        damage[:, 1, sample] = strip_damage(outer, rating.outer, stationary=True)
+        largest = np.maximum(largest, np.stack([inner, outer], axis=1).max(axis=(2, 3)))
+    modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
+    curvature = np.array(raceway_curvatures(row))
+    strip = bearing.roller_length / ring.profile.size
+    return StripRating(damage, line_pressure(largest / strip, curvature, modulus))

@@ -13,6 +13,7 @@ import xarray as xr
 from macroslip.damage.micropitting import share_below
 from macroslip.measures.along import FILM_EDGES
 from macroslip.report.page import number
+from macroslip.report.tapered import tapered_sentences
 from macroslip.result.orbit import in_window
 
 #: A row is said to skid if its rollers without load hardly ever come above this part of rolling
@@ -67,6 +68,7 @@ def answer(result: xr.Dataset, criteria: Sequence[Mapping[str, Any]] = ()) -> li
             f"{failed} of {result.status.size} rollers FAILED; every mean they enter is missing."
         )
     sentences += [row_sentence(row_slip(result, row)) for row in result.row.values.tolist()]
+    sentences += tapered_sentences(result)
     return [*sentences, *_films(result), *_nearest(criteria)]
 
 

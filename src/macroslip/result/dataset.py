@@ -35,7 +35,7 @@ from macroslip.measures.along import STATIONS
 from macroslip.measures.cage import SIDES, CageMeasures
 from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
-from macroslip.result import skew, surface_maps
+from macroslip.result import skew, surface_maps, tapered_case
 from macroslip.result.cage_variables import cage_values, open_books
 from macroslip.result.heat_balance import operating_rings
 from macroslip.result.prepared import Prepared
@@ -45,6 +45,7 @@ from macroslip.result.variables import (
     CURVED_TRACES,
     ENTRY_EXTREMES,
     ORBIT_EXTREMES,
+    TAPERED_TRACES,
     VARIABLES,
     WHOLE_TRACES,
     described,
@@ -189,9 +190,14 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
         left_out.add(ASPERITIES)
     if not curved:
         left_out.add(CURVED_TRACES)
+    if ready.tapered is None:
+        left_out.add(TAPERED_TRACES)
     values = _window_values(table)
     values["inlet_temperature"] = np.array(case.oil.inlet_temperature)
     values |= axial_values(ready)
+    if ready.tapered is not None:
+        ribs = _gathered(table, "rib")
+        values |= tapered_case.rib_values(ribs) | tapered_case.ring_values(ready)
     if ready.edges.size == 1:
         values["peak_power_by_position"] = _peaks_by_position(table)
     if curved:

@@ -13,15 +13,17 @@ from macroslip.case.case import WHOLE_BEARING, Case
 from macroslip.case.oil_supply import supply_note
 from macroslip.case.parts import Radau
 from macroslip.constants import GRAVITY
-from macroslip.contact.interface import highest_load, interfaces, truncated_share, truncation_load
+from macroslip.contact.interface import highest_load, truncated_share, truncation_load
 from macroslip.contact.registry import check_own_laws, film_range_notes
 from macroslip.contact.table import Box, table_box
 from macroslip.errors import InputError
 from macroslip.loads import RollerLoads
 from macroslip.result.plausibility import doubtful_loads
 from macroslip.result.skew import thrust_on_ring
+from macroslip.result.tapered_case import tapered_ring_motion
 from macroslip.ring.motion import elastic_loads, own_motions, ring_motion
 from macroslip.ring.orbit import Motion, merged_times, orbit_times
+from macroslip.ring.tapered_motion import TaperedMotion, tapered_own_motions
 from macroslip.roller.model import RollerModel, TableReport, body_force, ring_geometry, roller_model
 
 #: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
@@ -49,6 +51,7 @@ class Prepared:
     end: float  #: End of the simulation [s]
     trace_time: np.ndarray  #: Times of traces [s]; none without traces
     box: Box  #: States that the tables of the contacts hold
+    tapered: TaperedMotion | None = None  #: Balance of the ring of a tapered roller bearing
 
     @property
     def model(self) -> RollerModel:
@@ -70,17 +73,21 @@ class Prepared:
     def notes(self, tables: TableReport) -> dict[str, Any]:
         """Attributes on films out of range, contacts cut off at the roller's ends, and tables."""
         case = self.case
-        # Of some hundred samples.
-        few = Motion(*(values[:: max(1, self.motion.time.size // 200)] for values in self.motion))
-        pressed = elastic_loads(case.ring_loads, ring_geometry(case.bearing, self.model), few)
+        if self.tapered is not None:
+            pressed = self.tapered.balance.outer_load
+            beyond = 0.0
+        else:
+            # Of some hundred samples.
+            every = max(1, self.motion.time.size // 200)
+            few = Motion(*(values[::every] for values in self.motion))
+            pressed = elastic_loads(case.ring_loads, ring_geometry(case.bearing, self.model), few)
+            beyond = truncated_share(self.largest, truncation_load(case.bearing, case.oil))
+        laws = self.model.laws
+        contacts = tuple(one.interface for one in (laws.inner, laws.outer, laws.cage))
         return {
-            "film_range_notes": "\n".join(
-                film_range_notes(case.laws.film, interfaces(case.bearing, case.oil))
-            ),
+            "film_range_notes": "\n".join(film_range_notes(case.laws.film, contacts)),
             "mean_elastic_load": float(pressed.mean()),
-            "truncated_share": truncated_share(
-                self.largest, truncation_load(case.bearing, case.oil)
-            ),
+            "truncated_share": beyond,
             "oil_supply_note": supply_note(case),
             "doubtful_loads": "\n".join(doubtful_loads(case.loads, case.bearing)),
             "contact_evaluation": "tables",
@@ -109,9 +116,19 @@ def prepare(case: Case) -> Prepared:
         for row in row_names(case.bearing)
     }
     model = next(iter(models.values()))
-    ring = ring_geometry(case.bearing, model)
-    limit = highest_load(case.bearing, case.oil, case.laws)
-    motion, largest = ring_motion(loads, case.bearing, ring, limit)
+    tapered = None
+    own = []
+    if case.bearing.kind == "tapered":
+        tapered = tapered_ring_motion(case)
+        motion = tapered.motion
+        largest = float(tapered.balance.outer_load.max())
+        own = tapered_own_motions(tapered, model.stiffness, case.bearing.contact_angle)
+    else:
+        ring = ring_geometry(case.bearing, model)
+        limit = highest_load(case.bearing, case.oil, case.laws)
+        motion, largest = ring_motion(loads, case.bearing, ring, limit)
+        if isinstance(loads, RollerLoads):
+            own = own_motions(loads, ring, motion)
     ring_speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
     fastest = float(np.abs(ring_speeds).max())
     check_own_laws(case.laws, case.bearing, case.oil, fastest)
@@ -139,7 +156,7 @@ def prepare(case: Case) -> Prepared:
         case=case,
         models=models,
         motion=motion,
-        own_motions=own_motions(loads, ring, motion) if isinstance(loads, RollerLoads) else [],
+        own_motions=own,
         largest=largest,
         heaviest=heaviest,
         highest_speed=fastest,
@@ -147,6 +164,7 @@ def prepare(case: Case) -> Prepared:
         end=end,
         trace_time=_trace_times(case, motion, edges, end),
         box=table_box(ring_speeds, heaviest, float(tolerance), falling),
+        tapered=tapered,
     )
 
 

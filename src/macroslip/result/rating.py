@@ -10,8 +10,11 @@ from numpy.typing import NDArray
 
 from macroslip.case.case import BALANCE, Case
 from macroslip.errors import InputError
+from macroslip.loads import BearingLoads
 from macroslip.rating import rate, roller_load_history
 from macroslip.rating.rate import CONTAMINATION
+from macroslip.rating.tapered import StripRating, strip_rating
+from macroslip.result.tapered_case import tapered_ring_motion
 
 #: One of so many samples of the ring balance is used.
 _EVERY = 5
@@ -24,7 +27,7 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     InputError as
     `macroslip.rating.roller_load_history`.
     """
-    loads, roller_load = roller_load_history(case.bearing, case.oil, case.ring_loads)
+    loads, roller_load, _ = _load_history(case)
     here = np.flatnonzero((loads.time >= start) & (loads.time <= end))[::_EVERY]
     return loads.time[here], np.moveaxis(roller_load[..., here], -1, 0)
 
@@ -43,8 +46,22 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     >>> round(float(rating.static_safety), 2)
     30.64
     """
-    history = roller_load_history(case.bearing, case.oil, case.ring_loads)
-    return rate(case.bearing, case.oil, *history, contamination=contamination)
+    loads, found, strips = _load_history(case)
+    return rate(case.bearing, case.oil, loads, found, contamination=contamination, strips=strips)
+
+
+def _load_history(case: Case) -> tuple[BearingLoads, NDArray[np.float64], StripRating | None]:
+    """Loads at the samples of the ring's balance, those of all rollers, and of tapered strips."""
+    if case.bearing.kind != "tapered":
+        return *roller_load_history(case.bearing, case.oil, case.ring_loads), None
+    found = tapered_ring_motion(case)
+    motion = found.motion
+    known = case.ring_loads
+    force = np.column_stack([np.interp(motion.time, known.time, one) for one in known.force.T])
+    loads = BearingLoads(motion.time, motion.shaft_speed, force, known.source)
+    pressed = np.moveaxis(found.balance.outer_load, 0, -1)
+    strips = strip_rating(case.bearing, found.ring, found.balance, motion.shaft_angle)
+    return loads, pressed.reshape(case.bearing.rows, case.bearing.rollers_per_row, -1), strips
 
 
 def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:

@@ -11,8 +11,8 @@ from typing import Any
 
 import xarray as xr
 
-from macroslip.bearing import Bearing
 from macroslip.bearing.geometry import AXIAL_SIGNS
+from macroslip.bearing.kinds import bearing_from_dict
 from macroslip.contact.mechanisms import Laws
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
@@ -34,7 +34,7 @@ class RunInput:
 
     Attributes
     ----------
-    bearing : Bearing
+    bearing : Bearing or TaperedBearing
 
     Raises
     ------
@@ -46,7 +46,7 @@ class RunInput:
         self._settings = settings
         self._rows = rows
         with _complete():
-            self.bearing = Bearing.from_dict(settings["bearing"])
+            self.bearing = bearing_from_dict(settings["bearing"])
 
     @property
     def start(self) -> float:

@@ -16,7 +16,7 @@ from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.contact.table import larger
 from macroslip.imposed.run import Outcome, Problem, fixed_step, radau_limits, steps_of
 from macroslip.imposed.status import OUTSIDE_TABLES
-from macroslip.imposed.tuning import LONGEST_SKEWED_TURN, LONGEST_TURN
+from macroslip.imposed.tuning import LONGEST_RIBBED_TURN, LONGEST_SKEWED_TURN, LONGEST_TURN
 from macroslip.machine import usable_processors
 from macroslip.measures.cage import CageMeasures
 from macroslip.measures.roller import RollerMeasures, Row, Wanted
@@ -78,7 +78,7 @@ def simulate(
         ready.edges,
         ready.highest_speed,
         ready.trace_time,
-        case.contact_details and ready.model.curved,
+        case.contact_details and ready.model.curved and ready.tapered is None,
         # Beside the steps of a whole bearing samples cost little.
         spacing=0.05 if whole else 1.0,
     )  # fmt: skip
@@ -164,6 +164,7 @@ def _problem(ready: Prepared, roller: Roller, skewing: Skewing | None) -> Proble
     motion = ready.motion
     if isinstance(integrator, Radau):
         turns = skewing is not None and skewing.guide.largest > 0.0
+        longest = LONGEST_TURN if ready.tapered is None else LONGEST_RIBBED_TURN
         limits = radau_limits(
             roller,
             motion,
@@ -171,7 +172,7 @@ def _problem(ready: Prepared, roller: Roller, skewing: Skewing | None) -> Proble
             max_steps=integrator.max_steps,
             heaviest=ready.heaviest,
             window=float(ready.edges[0]),
-            longest_turn=LONGEST_SKEWED_TURN if turns else LONGEST_TURN,
+            longest_turn=LONGEST_SKEWED_TURN if turns else longest,
         )
         stops = np.unique(np.concatenate([ready.edges, ready.trace_time, [ready.end]]))
         return Problem(roller, motion, limits, stops)

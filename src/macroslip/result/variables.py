@@ -15,6 +15,8 @@ TRACES = "with `traces`"
 CURVED_TRACES = "with `traces`, where slip may vary along the roller, or asperities touch"
 SKEW = "with `laws: {skew: quasi-static}`"
 SKEW_TRACES = "with `laws: {skew: quasi-static}` and `traces`"
+TAPERED = "in a tapered roller bearing"
+TAPERED_TRACES = "in a tapered roller bearing, with `traces`"
 WHOLE = "with `dynamics: whole-bearing`"
 WHOLE_TRACES = "with `dynamics: whole-bearing` and `traces`"
 
@@ -126,6 +128,90 @@ _TABLE = (
         AXIAL,
         "changes of the sign of the axial load in the window over its duration, beyond a dead "
         "band of 0.1 % of the static load rating of ISO 76 to either side",
+    ),
+    Variable(
+        "rib_energy",
+        _ROLLERS,
+        "J",
+        TAPERED,
+        "energy dissipated by friction at the rib in the window, beside the energy by interface",
+    ),
+    Variable(
+        "rib_asperity_energy",
+        _ROLLERS,
+        "J",
+        TAPERED,
+        "part of the energy at the rib in the window that asperities dissipate",
+    ),
+    Variable(
+        "rib_orbit_energy",
+        (*_ROLLERS, "orbit"),
+        "J",
+        TAPERED,
+        "energy dissipated by friction at the rib in each complete orbit",
+    ),
+    Variable(
+        "rib_peak_power",
+        (*_ROLLERS, "orbit"),
+        "W",
+        TAPERED,
+        "largest frictional power at the rib in each complete orbit",
+    ),
+    Variable(
+        "largest_rib_force",
+        _ROWS,
+        "N",
+        TAPERED,
+        "largest force of the rib on a roller in the window",
+    ),
+    Variable(
+        "rib_pressure", _ROWS, "Pa", TAPERED, "largest Hertzian pressure at the ribs in the window"
+    ),
+    Variable(
+        "rib_pressure_speed",
+        _ROWS,
+        "W/m2",
+        TAPERED,
+        "largest pressure at the ribs times sliding speed in pure rolling, in the window",
+    ),
+    Variable(
+        "min_rib_film_ratio",
+        _ROWS,
+        "1",
+        TAPERED,
+        "least ratio of film thickness to roughness at the ribs in the window, in pure rolling",
+    ),
+    Variable(
+        "rollers_below_grip",
+        _ROWS,
+        "1",
+        TAPERED,
+        "mean number of rollers in the window whose load is below that of grip",
+    ),
+    Variable(
+        "grip_load",
+        (),
+        "N",
+        TAPERED,
+        "load from which on a raceway drives a roller with less than 1 % of slip, at the mean speed",
+    ),
+    Variable(
+        "least_roller_load", _ROWS, "N", TAPERED, "least elastic load of a roller in the window"
+    ),
+    Variable("largest_tilt", (), "rad", TAPERED, "largest tilt of the inner ring in the window"),
+    Variable(
+        "preload",
+        (),
+        "m",
+        TAPERED,
+        "axial interference of both rows with the temperature difference; negative is play",
+    ),
+    Variable(
+        "preload_change",
+        (),
+        "m",
+        TAPERED,
+        "change of the preload by the temperature difference",
     ),
     Variable("status", _ROLLERS, "1", ALWAYS, "outcome of the integration"),
     Variable("steps", _ROLLERS, "1", ALWAYS, "number of steps of the integrator"),
@@ -353,6 +439,14 @@ _TABLE = (
         TRACES,
         "central film thickness; NaN without load",
     ),
+    Variable(
+        "rib_friction",
+        _TRACES,
+        "N",
+        TAPERED_TRACES,
+        "friction of the rib on the roller, positive where it drives the spin up",
+    ),
+    Variable("rib_power", _TRACES, "W", TAPERED_TRACES, "frictional power at the rib"),
     Variable(
         "skew_moment",
         (*_TRACES, "raceway"),

@@ -75,7 +75,7 @@ def ring_motion(
     MacroslipError
         If a balance did not converge.
     """
-    time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
+    time, speed = finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)
     if isinstance(loads, RollerLoads):
         motion = Motion(time, speed, angle, np.zeros((time.size, 3)))
@@ -183,7 +183,7 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
     return found
 
 
-def _finely_sampled(
+def finely_sampled(
     loads: BearingLoads | RollerLoads, orbit_ratio: float, rollers_per_row: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Time and shaft speed of the same piecewise linear loads, sampled finely for the balance."""

@@ -26,6 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from macroslip.bearing.geometry import ROWS, initial_angles
 from macroslip.bearing.tapered import TaperedBearing, TaperedGeometry, tapered_geometry
 from macroslip.contact.hertz import effective_modulus, elliptical_contact
 from macroslip.contact.line import (
@@ -147,11 +148,10 @@ def tapered_ring(
             bearing.roller_diameter / 2.0, ring_thickness, modulus
         )
     count = bearing.rollers_per_row
-    even = -np.pi / 2.0 + 2.0 * np.pi * np.arange(count) / count
     towards = -1.0 if bearing.arrangement == "O" else 1.0
     signs = np.repeat(np.array(ROW_SIGNS, dtype=float), count)
     return TaperedRing(
-        angle=np.concatenate([even, even]),
+        angle=np.concatenate([initial_angles(row, count) for row in ROWS]),
         sign=signs,
         station=towards * signs * bearing.row_offset,
         preload=bearing.preload / 2.0,
@@ -292,23 +292,42 @@ def strip_loads(
     inner, outer : ndarray, shape (rollers, k)
         Loads of the strips of inner and outer raceway [N], from the small end on.
     """
-    angle = ring.angle + ring.orbit_ratio * shaft_angle[sample]
-    dx, dy, dz, turn_x, turn_y = balance.displacement[sample]
-    tilt = turn_y * np.cos(angle) - turn_x * np.sin(angle)
-    moved = np.stack(
-        [
-            dx * np.cos(angle) + dy * np.sin(angle) + ring.station * tilt,
-            ring.sign * (dz - ring.pitch_radius * tilt) + ring.preload,
-            ring.sign * tilt,
-        ],
-        axis=1,
-    )
+    moved = ring_at_rollers(ring, balance.displacement[sample], shaft_angle[sample])
     roller = balance.roller_motion[sample]
     inner = _approaches(ring.inner_radial, ring.inner_axial, ring.inner_arm, moved - roller)
     outer = _approaches(ring.outer_radial, ring.outer_axial, ring.outer_arm, roller)
     pressed = np.maximum(np.stack([inner, outer]) - ring.profile, 0.0)
     loads = ring.strip_coefficient * pressed**ring.strip_exponent
     return loads[0], loads[1]
+
+
+def ring_at_rollers(ring: TaperedRing, displacement: np.ndarray, shaft_angle) -> np.ndarray:
+    """Motion w of the ring at every roller's middle, in the coordinates of its row.
+
+    Parameters
+    ----------
+    ring : TaperedRing
+    displacement : ndarray, shape (..., 5)
+        d of a balance [m, m, m, rad, rad].
+    shaft_angle : array_like, shape (...)
+        Shaft angles [rad].
+
+    Returns
+    -------
+    ndarray, shape (..., rollers, 3)
+        Radial and axial motion with the preload [m], and tilt [rad].
+    """
+    angle = ring.angle + ring.orbit_ratio * np.asarray(shaft_angle)[..., None]
+    dx, dy, dz, turn_x, turn_y = (one[..., None] for one in np.moveaxis(displacement, -1, 0))
+    tilt = turn_y * np.cos(angle) - turn_x * np.sin(angle)
+    return np.stack(
+        [
+            dx * np.cos(angle) + dy * np.sin(angle) + ring.station * tilt,
+            ring.sign * (dz - ring.pitch_radius * tilt) + ring.preload,
+            ring.sign * tilt,
+        ],
+        axis=-1,
+    )
 
 
 def _approaches(radial: float, axial: float, arms: np.ndarray, moved: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ import numpy as np
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, initial_angles, row_names
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
 from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
@@ -51,6 +52,14 @@ CONTACT = np.dtype(
         ("spin", "f8"),  # s/u2 [1/m]: −power by the skew moment, over moment and ring speed
     ]
 )  # fmt: skip
+#: The contact of a tapered roller with its rib.
+RIB = np.dtype(
+    [
+        ("traction", TRACTION),  # table of its traction
+        # With the meaning of `RibNumbers` [-].
+        *((name, "f8") for name in ("share", "speed", "arm", "pull")),
+    ]
+)
 #: Waves of an outer ring out of round, as `RingGeometry` has them.
 WAVES = ("second_x", "second_y", "third_x", "third_y")
 _NUMBERS = (
@@ -73,8 +82,19 @@ BODY = np.dtype(
         ("inner", CONTACT),
         ("outer", CONTACT),
         ("cage", CONTACT),
+        ("ribbed", "i8"),  # 1 for a tapered roller
+        ("rib", RIB),
     ]
 )  # fmt: skip
+
+
+class RibNumbers(NamedTuple):
+    """Rib contact of a tapered roller, whatever its load."""
+
+    share: float  #: Load of the rib over that of the outer raceway [-]
+    speed: float  #: Speed of the rib over that of the raceways past the roller, R_P/R_i [-]
+    arm: float  #: e = ρ_P/r, arm of its friction about the roller's axis over r [-]
+    pull: float  #: g = 1 + ζ_P sin α/R̃, its arm about the bearing's axis over R̃ [-]
 
 
 @dataclass(frozen=True)
@@ -102,6 +122,7 @@ class RollerModel:
     third_x: float
     third_y: float
     laws: RollerLaws  #: Of the three contacts
+    rib: RibNumbers | None = None  #: Of a tapered roller
 
     @property
     def curved(self) -> bool:
@@ -213,6 +234,18 @@ def roller_model(
         third_x=third * math.cos(3.0 * crest),
         third_y=third * math.sin(3.0 * crest),
         laws=prepared,
+        rib=_rib_numbers(bearing) if prepared.rib else None,
+    )
+
+
+def _rib_numbers(bearing: TaperedBearing) -> RibNumbers:
+    """Numbers of the rib of a tapered roller bearing."""
+    row = tapered_geometry(bearing)
+    return RibNumbers(
+        share=row.rib_share,
+        speed=row.rib_radius / row.inner_radius,
+        arm=row.rib_radius_on_roller / row.roller_radius,
+        pull=1.0 + row.rib_place * math.sin(row.axis_angle) / row.pitch_radius,
     )
 
 
@@ -239,6 +272,8 @@ def with_tables(
     model = next(iter(models.values()))
     for name in ("inner", "outer", "cage"):
         errors += _write_contact(first[0][name], tables, getattr(model.laws, name), box, pocket_gap)
+    if model.rib and model.laws.rib:
+        errors.append(_write_rib(first[0], tables, model.laws.rib, model.rib, box))
     flat = tables.flat()
     for row, one in models.items():
         body = first.copy()
@@ -251,6 +286,21 @@ def with_tables(
     typical = max((error.typical for error in errors), default=0.0)
     worst = max((error.worst for error in errors), default=0.0)
     return found, TableReport(typical, worst, flat.nbytes)
+
+
+def _write_rib(
+    body: np.void, tables: Tables, law: ContactLaws, rib: RibNumbers, box: Box
+) -> TableErrors:
+    """Write table and numbers of a tapered roller's rib; the errors of its table."""
+    body["ribbed"] = 1
+    for name in RibNumbers._fields:
+        body["rib"][name] = getattr(rib, name)
+    # Coarse bounds, so that loads and speeds a little apart share their table.
+    load = 2.0 ** math.ceil(math.log2(rib.share * box.load))
+    own = box._replace(
+        load=load, slowest=rib.speed * box.slowest, fastest=round(rib.speed * box.fastest, 12)
+    )
+    return write_traction(body["rib"]["traction"], tables, law, own)
 
 
 def _write_contact(

@@ -54,6 +54,11 @@ STEP = np.dtype(
         ("lag_power", "f8", _BY_RACEWAY),  # part of the power by the contact's curvature [W]
         ("skew_power", "f8", _BY_RACEWAY),  # part of the power by the contact angle [W]
         ("power_before", "f8", (3,)),  # frictional power at the start [W]
+        # Friction of a tapered roller's rib F_f [N], its power, and the part of it by asperities
+        # [W]; 0 without one.
+        ("rib_force", "f8", _AT_STAGES),
+        ("rib_power", "f8", _AT_STAGES),
+        ("rib_rough", "f8", _AT_STAGES),
     ]
 )
 #: Size of a buffer of steps [bytes].
@@ -95,13 +100,16 @@ def write_stage(row, k, body, at, forces, slip, power):
     row.outer_load[k] = at.outer_load
     row.elastic_load[k] = at.elastic_load
     row.cage_load[k] = forces.cage_load
-    row.force[k, 0] = forces.inner
-    row.force[k, 1] = forces.outer
+    row.force[k, 0] = forces.inner - forces.rib_held
+    row.force[k, 1] = forces.outer + forces.rib_held
     row.force[k, 2] = forces.cage
     for i in range(3):
         row.power[k, i] = power[i]
         row.rolling[k, i] = forces.rolling[i]
         row.rough[k, i] = forces.rough[i]
+    row.rib_force[k] = forces.rib
+    row.rib_power[k] = forces.rib_power
+    row.rib_rough[k] = forces.rib_rough
     speed = at.ring_speed
     inner = raceway_power(body.inner, slip, speed, forces.inner, forces.lag[0], forces.skew[0])
     outer = raceway_power(body.outer, slip, speed, forces.outer, forces.lag[1], forces.skew[1])

@@ -12,7 +12,17 @@ from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity, Text
 from macroslip.input.files import Source
 from macroslip.input.record import Record
-from macroslip.input.units import ANGLE, DENSITY, FORCE, LENGTH, MASS, NUMBER, PRESSURE
+from macroslip.input.units import (
+    ANGLE,
+    CONDUCTIVITY,
+    DENSITY,
+    FORCE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    PRESSURE,
+    SPECIFIC_HEAT,
+)
 
 #: Arrangements of the two rows: O, the outer rings' back faces meet (large ends of the rollers away
 #: from the mid-plane), and X, their front faces meet.
@@ -148,11 +158,42 @@ class TaperedBearing(Record):
     rib_roughness: Annotated[
         float, Positive("composite RMS roughness of the large end and the rib", LENGTH, 1e-4)
     ]
+    cage_youngs_modulus: Annotated[
+        float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)
+    ] = 210e9
+    cage_poisson_ratio: Annotated[
+        float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)
+    ] = 0.3
+    thermal_conductivity: Annotated[
+        _Optional, Positive("thermal conductivity of rollers and raceways", CONDUCTIVITY, 1000)
+    ] = None
+    specific_heat: Annotated[
+        _Optional, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)
+    ] = None
+    #: Of other kinds of bearings, whose geometry this one shares at the rollers' middles.
+    osculation_inner: ClassVar[None] = None
+    osculation_outer: ClassVar[None] = None
+    out_of_round_second: ClassVar[None] = None
+    out_of_round_third: ClassVar[None] = None
+    out_of_round_angle: ClassVar[None] = None
+    #: Play is that of the balance of the ring, in which preload is.
+    diametral_clearance: ClassVar[float] = 0.0
 
     @property
     def rows(self) -> int:
         """Number of rows of rollers."""
         return 2
+
+    @property
+    def contact_angle(self) -> float:
+        """Angle of the rollers' axes to the bearing's axis [rad], along whose normal a roller is held."""
+        beta, _ = geometry.cone(self.roller_diameter, 2.0 * self.pitch_radius, self.outer_angle)
+        return self.outer_angle - beta
+
+    @property
+    def roller_crown_radius(self) -> float:
+        """Radius of the crown that the logarithmic profile has at the roller's middle [m]."""
+        return geometry.profile_crown(self.roller_length, self.roller_diameter)
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         faults = [*no_roller(self, source), *overlapping(self, source)]

@@ -1,0 +1,315 @@
+"""Traction, film and oil of a tapered roller's line contact, summed over strips across its axis.
+
+The roller is pressed on its raceway by q(ζ) = c (δ − P(ζ))^n per length, with the logarithmic
+profile P; ζ counts from its middle to its large end. It is taken as aligned with the ring: tilt
+moves load along the roller, on which traction and film depend little. Both surfaces are cones with
+one apex, so that nothing slides along the line but for the profile and for slip of the whole roller:
+
+    v(ζ) = Δu (1 + ζ/A − P/(2r)) + u2 κ P(ζ)/2,
+
+with A the distance of the apex, r the roller's radius at its middle and κ the curvature sum there;
+the interface lies midway between roller and raceway. Each strip is a chord of pressure √(1 − x²/b²)
+with film and asperities of its own load and speed. What its stress does to the roller's spin goes
+with its radius, and what it does to the orbit with the radius of the ring there, both (1 + ζ/A).
+
+Film laws and shares of asperities are those of ellipses, which take w = 3Q/(4a): a strip is given to
+them as the ellipse whose w is its q.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.bearing.tapered.geometry import profile_depth
+from macroslip.compiled import jit
+from macroslip.contact.hertz import HertzContact, effective_modulus
+from macroslip.contact.laws import ContactLaws
+from macroslip.contact.line import (
+    PALMGREN_EXPONENT,
+    half_width,
+    line_pressure,
+    palmgren_coefficient,
+)
+from macroslip.contact.line_rolling import raceway_curvatures
+from macroslip.contact.patch import chord_stress_at, film_node, graded_rule
+from macroslip.contact.rolling import LOG_SLICE, RollingNumbers, light_contact
+from macroslip.contact.traction import ChordTable, chord_table
+
+#: Load of a roller for which the ellipse stands that has the pressure, the width and the approach of
+#: a line contact [N].
+REFERENCE_LOAD = 1e5
+#: Approaches between which loads are known [m], and their number.
+_APPROACHES = (1e-10, 2e-3)
+_KNOTS = 2000
+#: Nodes of each of the three pieces of a line between its ends and its stations of pure rolling.
+_NODES, _WEIGHTS = graded_rule(12)
+#: Iterations for a station of pure rolling; each is exact but for the taper.
+_ITERATIONS = 4
+
+
+class Strips(NamedTuple):
+    """Geometry of a line contact."""
+
+    length: float  #: L, effective [m]
+    depth: float  #: d of the profile P = d ln 1/(1 − (2ζ/L)²) [m]
+    coefficient: float  #: c of q = c (δ − P)^n [N/m^(1+n)]
+    exponent: float  #: n [-]
+    curvature: float  #: κ, sum of both bodies' curvatures in the plane of rolling [1/m]
+    modulus: float  #: Effective modulus E' [Pa]
+    radius: float  #: r at the roller's middle [m]
+    #: 1/A [1/m], reciprocal of the distance of the apex along the roller's axis
+    taper: float
+
+    def profile(self, station):
+        """Drop P of the contour at stations ζ [m]."""
+        relative = 2.0 * np.asarray(station) / self.length
+        return -self.depth * np.log1p(-np.minimum(relative * relative, 1.0 - 1e-15))
+
+    def reach(self, drop):
+        """Station ζ ≥ 0 at which the profile has a drop P ≥ 0 [m]."""
+        return 0.5 * self.length * np.sqrt(-np.expm1(-np.asarray(drop) / self.depth))
+
+
+def strips_of(bearing: TaperedBearing) -> tuple[Strips, Strips]:
+    """Line contacts of a tapered roller with inner and outer raceway.
+
+    Parameters
+    ----------
+    bearing : TaperedBearing
+
+    Returns
+    -------
+    inner, outer : Strips
+    """
+    row = tapered_geometry(bearing)
+    modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
+    inner, outer = (
+        Strips(
+            length=bearing.roller_length,
+            depth=profile_depth(bearing.roller_diameter),
+            coefficient=palmgren_coefficient(bearing.roller_length),
+            exponent=PALMGREN_EXPONENT,
+            curvature=curvature,
+            modulus=modulus,
+            radius=row.roller_radius,
+            taper=1.0 / row.apex_distance,
+        )
+        for curvature in raceway_curvatures(row)
+    )
+    return inner, outer
+
+
+@lru_cache(maxsize=64)
+def _approach_knots(strips: Strips) -> tuple[np.ndarray, np.ndarray]:
+    """Rising ln Q and ln δ of a line contact."""
+    approach = np.geomspace(*_APPROACHES, _KNOTS)
+    nodes, weights = np.polynomial.legendre.leggauss(48)
+    station = strips.reach(approach)[:, None] * nodes
+    pressed = np.maximum(approach[:, None] - strips.profile(station), 0.0)
+    load = strips.coefficient * (pressed**strips.exponent * weights).sum(axis=1)
+    return np.log(load * strips.reach(approach)), np.log(approach)
+
+
+def strip_approach(strips: Strips, load) -> np.ndarray:
+    """Approach δ of an aligned roller [m] under loads Q > 0 [N], without profile.
+
+    Examples
+    --------
+    >>> from macroslip.contact.line import palmgren_coefficient
+    >>> line = Strips(0.107, 2.17e-5, palmgren_coefficient(0.107), 10 / 9, 34.8, 230.8e9, 0.031, 1.23)
+    >>> round(1e6 * float(strip_approach(line, 1e5)), 1)
+    40.0
+    """
+    log_load, log_approach = _approach_knots(strips)
+    return np.exp(np.interp(np.log(load), log_load, log_approach))
+
+
+def equivalent_ellipse(strips: Strips) -> HertzContact:
+    """Ellipse with the pressure, width and approach of a line contact at `REFERENCE_LOAD`."""
+    approach = float(strip_approach(strips, REFERENCE_LOAD))
+    largest = strips.coefficient * approach**strips.exponent
+    root = REFERENCE_LOAD ** (1.0 / 3.0)
+    return HertzContact(
+        semi_axis_across=0.75 * REFERENCE_LOAD / largest / root,
+        semi_axis_along=float(half_width(largest, strips.curvature, strips.modulus)) / root,
+        pressure=float(line_pressure(largest, strips.curvature, strips.modulus)) / root,
+        approach=approach / root**2,
+    )
+
+
+def load_at_pressure(strips: Strips, pressure: float) -> float:
+    """Load [N] at which an aligned roller's largest pressure is the given one [Pa].
+
+    Examples
+    --------
+    >>> from macroslip.contact.line import palmgren_coefficient
+    >>> line = Strips(0.107, 2.17e-5, palmgren_coefficient(0.107), 10 / 9, 34.8, 230.8e9, 0.031, 1.23)
+    >>> round(load_at_pressure(line, 1.637e9) / 1e3)
+    104
+    """
+    per_length = 2.0 * math.pi * pressure**2 / (strips.curvature * strips.modulus)
+    approach = (per_length / strips.coefficient) ** (1.0 / strips.exponent)
+    log_load, log_approach = _approach_knots(strips)
+    return math.exp(float(np.interp(math.log(approach), log_approach, log_load)))
+
+
+class StripTraction(NamedTuple):
+    """Traction of a line contact in many states, arrays of one shape."""
+
+    pull: np.ndarray  #: ∫τ (1 + ζ/A) dA [N], with the sign of the slip
+    lag: np.ndarray  #: ∫τ P/(2r) dA [N]
+    skew: np.ndarray  #: ∫τ ζ dA [N m]
+    asperity_power: np.ndarray  #: Power that asperities dissipate [W]
+
+
+@dataclass(frozen=True)
+class StripLaws(ContactLaws):
+    """The laws of a line contact of a roller with a raceway."""
+
+    strips: Strips
+
+    def _as_ellipse(self, per_length):
+        """Load of the ellipse whose w = 3Q/(4a) is a load per length [N]."""
+        return (per_length * self.interface.hertz.semi_axis_across / 0.75) ** 1.5
+
+    def _middle(self, load):
+        """Load of the ellipse that stands for the middle strip under loads Q > 0 [N]."""
+        approach = strip_approach(self.strips, load)
+        return self._as_ellipse(self.strips.coefficient * approach**self.strips.exponent)
+
+    def film_thickness(self, load, entrainment_speed) -> np.ndarray:
+        """Film thickness of the middle strip [m], at Q > 0 [N] and u_e [m/s]."""
+        return super().film_thickness(self._middle(load), entrainment_speed)
+
+    def film_in_range(self, load, entrainment_speed) -> np.ndarray:
+        """Whether the film law is in its range at the middle strip."""
+        return super().film_in_range(self._middle(load), entrainment_speed)
+
+    def asperity_share(self, load, entrainment_speed, film_thickness) -> np.ndarray:
+        """Share of the middle strip's load that asperities carry [-]."""
+        return super().asperity_share(self._middle(load), entrainment_speed, film_thickness)
+
+    def asperity_share_in_range(self, load) -> np.ndarray:
+        """True where the law of asperities holds at the middle strip."""
+        return super().asperity_share_in_range(self._middle(load))
+
+    def tractions(self, load, ring_speed, slip) -> StripTraction:
+        """Traction by the laws, at loads Q > 0 [N], u2 and Δu of either sign [m/s], of one shape."""
+        strips = self.strips
+        reach, approach = self._reach(load)
+        station, weight = self._stations(reach, ring_speed, slip)
+        shape = station.shape[-2:]
+        growth = 1.0 + station * strips.taper if self.shape.microslip else np.ones(station.shape)
+        drop = strips.profile(station)
+        pressed = np.maximum(approach[..., None, None] - drop, 1e-15)
+        per_length = strips.coefficient * pressed**strips.exponent
+        entrainment = np.abs(ring_speed - 0.5 * slip)[..., None, None] * growth
+        ellipse = self._as_ellipse(per_length)
+        film = super().film_thickness(ellipse, entrainment)
+        share = super().asperity_share(ellipse, np.maximum(entrainment, 1e-12), film)
+        local = self._local_slip(ring_speed, slip, drop, growth)
+        width = half_width(per_length, strips.curvature, strips.modulus)
+        pressure = line_pressure(per_length, strips.curvature, strips.modulus)
+        stress = _stresses(
+            chord_table(self.fluid), *(one.ravel() for one in (pressure, film, np.abs(local)))
+        ).reshape(local.shape)
+        carried = self.boundary_friction * share * per_length
+        rough = carried * np.clip(local / self.full_slip, -1.0, 1.0) * weight
+        force = (1.0 - share) * 2.0 * width * stress * np.copysign(weight, local) + rough
+        half_drop = 0.5 * drop / strips.radius if self.shape.microslip else np.zeros(shape)
+        axes = (-2, -1)
+        return StripTraction(
+            (force * growth).sum(axis=axes),
+            (force * half_drop).sum(axis=axes),
+            (force * station).sum(axis=axes),
+            (rough * local).sum(axis=axes),
+        )
+
+    def _reach(self, load) -> tuple[np.ndarray, np.ndarray]:
+        """Half of the length that touches, and approach [m]."""
+        approach = strip_approach(self.strips, np.asarray(load, dtype=float))
+        return self.strips.reach(approach), approach
+
+    def _local_slip(self, ring_speed, slip, drop, growth) -> np.ndarray:
+        """Slip v(ζ) [m/s] over states, pieces and nodes."""
+        slip = np.asarray(slip)[..., None, None]
+        if not self.shape.microslip:
+            return slip * growth
+        strips = self.strips
+        rolling = 0.5 * strips.curvature * np.asarray(ring_speed)[..., None, None]
+        return slip * (growth - 0.5 * drop / strips.radius) + rolling * drop
+
+    def _stations(self, reach, ring_speed, slip) -> tuple[np.ndarray, np.ndarray]:
+        """Stations [m] and weights [m] of a quadrature that is graded towards pure rolling.
+
+        Of shape (..., 3, nodes): the three pieces end at the ends of the contact and at the stations
+        of pure rolling, where a film that grips turns its stress.
+        """
+        strips = self.strips
+        edges = [-reach, np.zeros_like(reach), np.zeros_like(reach), reach]
+        if self.shape.microslip:
+            rolling = 0.5 * strips.curvature * np.asarray(ring_speed, dtype=float)
+            ratio = np.asarray(slip) / np.where(rolling == 0.0, 1e-30, rolling)
+            for place, side in ((1, -1.0), (2, 1.0)):
+                station = np.zeros_like(reach)
+                for _ in range(_ITERATIONS):
+                    drop = np.maximum(-ratio * (1.0 + station * strips.taper), 0.0)
+                    station = side * np.minimum(strips.reach(drop), reach)
+                edges[place] = station
+        corners = np.stack(edges, axis=-1)
+        lengths = np.diff(corners, axis=-1)[..., None]
+        return corners[..., :-1, None] + lengths * _NODES, lengths * _WEIGHTS
+
+    def light(self, load, mean_speed) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Sliding per slip, rolling resistance and film of the volume flow, as `light_contact` has them.
+
+        The elastic contact has the length that touches, with the middle strip's load for its film
+        and the mean load for its resistance; where it is light it is a rigid roller with a crown.
+        """
+        load, mean_speed = np.broadcast_arrays(np.asarray(load, dtype=float), mean_speed)
+        reach, approach = self._reach(load)
+        middle = self.strips.coefficient * approach**self.strips.exponent
+        conductance, _, film = light_contact(
+            self._slender(load, reach, middle, 0.0), load, mean_speed
+        )
+        mean = 0.5 * load / reach
+        _, resistance, _ = light_contact(
+            self._slender(load, reach, mean, LOG_SLICE), load, mean_speed
+        )
+        return conductance, resistance, film
+
+    def _slender(self, load, reach, per_length, slice_of_ellipse: float) -> RollingNumbers:
+        """Numbers of an ellipse with the length, load per length and area of the line contact."""
+        numbers = self.rolling
+        log_root = np.log(load) / 3.0
+        interface = self.interface
+        doubled = (
+            2.0 * interface.lubricant.viscosity / (interface.modulus * interface.rolling_radius)
+        )
+        unit = interface.modulus * interface.rolling_radius
+        width = half_width(per_length, self.strips.curvature, self.strips.modulus)
+        return numbers._replace(
+            log_load=np.log(per_length / unit)
+            - 0.5 * math.log(doubled)
+            - 2.0 * log_root
+            - slice_of_ellipse,
+            log_scale=np.log(2.0 * reach * unit) + 0.75 * math.log(doubled) - log_root,
+            across=reach * np.exp(-log_root),
+            area=4.0 * reach * width * np.exp(-2.0 * log_root),
+        )
+
+
+@jit
+def _stresses(chords: ChordTable, pressure, film, slip):
+    """Mean stress along chords [Pa], arrays of one length."""
+    found = np.empty(pressure.size)
+    for n in range(pressure.size):
+        node = film_node(chords, film[n])
+        found[n] = chord_stress_at(chords, node, pressure[n], slip[n])
+    return found

@@ -1,0 +1,148 @@
+"""The laws of a tapered roller's contacts: raceways by strips, the rib, and the cage."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.contact.gap import GapShape
+from macroslip.contact.hertz import effective_modulus, elliptical_contact
+from macroslip.contact.interface import ContactShape
+from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED, ContactLaws, RollerLaws
+from macroslip.contact.mechanisms import Laws
+from macroslip.contact.rib import chittenden_thickness, rib_asperity_share
+from macroslip.contact.rolling import prepare_rolling
+from macroslip.contact.strips import StripLaws, Strips, equivalent_ellipse, strips_of
+from macroslip.contact.traction import prepare_fluid
+from macroslip.lubricant import Lubricant
+
+
+@dataclass(frozen=True)
+class RibLaws(ContactLaws):
+    """The laws of a roller's large end on the rib of the inner ring, which slip alike all over."""
+
+    lateral_radius: float  #: Relative radius of curvature across rolling [m]
+    oil_supply: float  #: Film over the film with a full inlet [-]
+
+    def film_thickness(self, load, entrainment_speed) -> np.ndarray:
+        """Film thickness [m] at F > 0 [N] and the mean speed of both surfaces [m/s]."""
+        one = self.interface
+        return self.oil_supply * chittenden_thickness(
+            load,
+            np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED),
+            one.rolling_radius,
+            self.lateral_radius,
+            one.modulus,
+            one.lubricant,
+        )
+
+    def asperity_share(self, load, entrainment_speed, film_thickness) -> np.ndarray:
+        """Share of the load that asperities carry [-]; none with laws without asperities."""
+        film = np.asarray(film_thickness)
+        if self.asperity_name == "none":
+            return np.zeros(film.shape)
+        return rib_asperity_share(film / self.interface.roughness)
+
+    @property
+    def own_sources(self) -> str:
+        """The laws of the rib are the program's own."""
+        return ""
+
+
+def tapered_laws(
+    ellipses: RollerLaws, laws: Laws, bearing: TaperedBearing, lubricant: Lubricant
+) -> RollerLaws:
+    """Laws of raceways, cage and rib, from those of a roller with a crown in place of its profile.
+
+    Parameters
+    ----------
+    ellipses : RollerLaws
+        Laws of the contacts as ellipses, whose choices of film, oil and asperities are kept.
+    laws : Laws
+        The chosen mechanisms.
+    bearing : TaperedBearing
+    lubricant : Lubricant
+        With its `oil_gap`.
+
+    Returns
+    -------
+    RollerLaws
+        With a rib. No contact has a closed form: the paper's film is sheared strip by strip.
+    """
+    fluid = prepare_fluid(laws, lubricant)
+    sheared: dict[str, Any] = {"fluid": fluid, "closed_form": None}
+    inner, outer = (
+        _raceway(law, strips, laws, bearing, sheared)
+        for law, strips in zip((ellipses.inner, ellipses.outer), strips_of(bearing), strict=True)
+    )
+    rib = _rib(ellipses.inner, bearing, sheared)
+    return RollerLaws(inner, outer, replace(ellipses.cage, **sheared), rib)
+
+
+def _raceway(
+    law: ContactLaws,
+    strips: Strips,
+    laws: Laws,
+    bearing: TaperedBearing,
+    sheared: dict[str, Any],
+) -> StripLaws:
+    """Laws of a raceway by strips."""
+    row = tapered_geometry(bearing)
+    length = bearing.roller_length
+    curvature = strips.curvature
+    interface = law.interface._replace(
+        hertz=equivalent_ellipse(strips), rolling_radius=1.0 / curvature
+    )
+    crown = bearing.roller_crown_radius
+    shape = ContactShape(
+        microslip=laws.microslip,
+        contour_radius=2.0 * crown,
+        roller_radius=row.roller_radius,
+        half_length=0.5 * length,
+        curvature_ratio=curvature,
+        # One apex for roller and ring takes the contact angle's slip out.
+        spin_ratio=0.0,
+    )
+    rolling = prepare_rolling(
+        laws.rolling,
+        interface,
+        GapShape(1.0 / curvature, crown, length),
+        row.roller_radius,
+        oil_gap=interface.lubricant.oil_gap if law.rolling is None else law.rolling.oil_gap,
+        heating=laws.inlet_heating,
+    )
+    values = {one.name: getattr(law, one.name) for one in fields(law)}
+    values |= {"interface": interface, "shape": shape, "rolling": rolling}
+    return StripLaws(**(values | sheared), strips=strips)
+
+
+def _rib(law: ContactLaws, bearing: TaperedBearing, sheared: dict[str, Any]) -> RibLaws:
+    """Laws of the rib, whose film and asperities are its own."""
+    row = tapered_geometry(bearing)
+    modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
+    interface = law.interface._replace(
+        name="rib",
+        hertz=elliptical_contact(row.rib_rolling_curvature, row.rib_lateral_curvature, modulus),
+        rolling_radius=1.0 / row.rib_rolling_curvature,
+        roughness=bearing.rib_roughness,
+    )
+    values = {one.name: getattr(law, one.name) for one in fields(law)}
+    values |= {
+        "name": "rib",
+        "interface": interface,
+        "shape": ContactShape(False, math.inf, math.inf, math.inf, 0.0, 0.0),
+        # It tells tables of different ribs apart.
+        "film_name": f"chittenden {bearing.rib_oil_supply!r} {row.rib_lateral_curvature!r}",
+        "oil_gap": math.inf,
+        "thermal_loading": 0.0,
+        "rolling": None,
+    }
+    return RibLaws(
+        **(values | sheared),
+        lateral_radius=1.0 / row.rib_lateral_curvature,
+        oil_supply=bearing.rib_oil_supply,
+    )

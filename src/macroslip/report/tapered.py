@@ -1,0 +1,70 @@
+"""What a page and a command say of a tapered roller bearing beside its rows."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from macroslip.report.page import number
+from macroslip.result.run_input import stored_settings
+
+#: Where the row lies that carries thrust along +Z0, by arrangement.
+_SIDES = {"O": "upwind", "X": "downwind"}
+#: Films above this film ratio Λ are full.
+_FULL_FILM = 3.0
+
+
+def tapered_sentences(result: xr.Dataset) -> list[str]:
+    """Sentences on rows, preload, grip and ribs of a tapered roller bearing; none of another one.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        From `macroslip.simulate`.
+    """
+    if "rib_energy" not in result:
+        return []
+    return [_rows(result), _preload(result), _ribs(result)]
+
+
+def _rows(result: xr.Dataset) -> str:
+    """Where the rows lie that are named by the thrust that they carry."""
+    arrangement = stored_settings(result).get("bearing", {}).get("arrangement", "")
+    side = _SIDES.get(arrangement)
+    lies = f": in {arrangement} arrangement the downwind row lies {side} of the mid-plane"
+    return f"Rows are named by the thrust that they carry{lies if side else ''}."
+
+
+def _preload(result: xr.Dataset) -> str:
+    """Preload, and how many rollers are below grip."""
+    preload = float(result.preload)
+    word = "preload" if preload >= 0.0 else "play"
+    change = float(result.preload_change)
+    by = f", {1e3 * change:+.3g} mm of it by the temperature difference" if change else ""
+    size = number(1e3 * abs(preload), 3)
+    grip = float(result.grip_load)
+    if not np.isfinite(grip):
+        return f"The {word} is {size} mm{by}."
+    below = " and ".join(
+        f"{number(float(count), 2)} {row}"
+        for row, count in result.rollers_below_grip.to_series().items()
+    )
+    return (
+        f"With {size} mm of {word}{by} {below} of {result.attrs['rollers_per_row']} rollers are in "
+        f"the mean below {number(1e-3 * grip, 3)} kN, from where on a raceway grips."
+    )
+
+
+def _ribs(result: xr.Dataset) -> str:
+    """Energy at the ribs beside that of the other contacts, and their film."""
+    ribs = float(result.rib_energy.mean())
+    others = float(result.energy.sum("interface").mean())
+    least = float(result.min_rib_film_ratio.min())
+    film = ""
+    if np.isfinite(least):
+        state = "full" if least > _FULL_FILM else "mixed"
+        film = f"; their film is {state}, at least {number(least, 2)} times the roughness"
+    return (
+        f"Ribs take {number(ribs, 3)} J of a roller in the mean, raceways and cage "
+        f"{number(others, 3)} J by sliding{film}."
+    )

@@ -1,0 +1,144 @@
+"""What a case of a tapered roller bearing adds to a result: preload, balance of its ring, ribs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.contact.rib import rib_contact, rib_state
+from macroslip.contact.strips import load_at_pressure, strips_of
+from macroslip.contact.traction import HIGHEST_PRESSURE
+from macroslip.errors import InputError
+from macroslip.loads import HubLoads
+from macroslip.result.tapered import warmed
+from macroslip.result.tapered_checks import check_preload
+from macroslip.result.tapered_ribs import LEAST_SPEED
+from macroslip.ring.grip import grip_load
+from macroslip.ring.tapered import ROW_SIGNS, gearbox_support, tapered_ring
+from macroslip.ring.tapered_motion import TaperedMotion, tapered_motion
+
+if TYPE_CHECKING:
+    from macroslip.case.case import Case
+    from macroslip.result.prepared import Prepared
+
+
+def warm_bearing(case: Case) -> TaperedBearing:
+    """The bearing of a case with the preload that its temperature difference leaves."""
+    return warmed(case.bearing, case.temperature_difference)
+
+
+def tapered_ring_motion(case: Case) -> TaperedMotion:
+    """Balance of the ring of a case over its loads.
+
+    Parameters
+    ----------
+    case : Case
+        Of a tapered roller bearing.
+
+    Returns
+    -------
+    TaperedMotion
+
+    Raises
+    ------
+    InputError
+        If a roller's load is beyond all pressures of the tables, or the preload leaves its range.
+    MacroslipError
+        If a balance was not found.
+    """
+    support = None
+    drivetrain = case.drivetrain
+    if isinstance(case.loads, HubLoads) and drivetrain.gearbox_stiffness is not None:
+        support = gearbox_support(drivetrain.gearbox_stiffness, drivetrain.bearing_to_gearbox)
+    ring = tapered_ring(warm_bearing(case), support=support)
+    found = tapered_motion(case.ring_loads, case.ring_moments, ring)
+    _refuse(case, found)
+    return found
+
+
+def _refuse(case: Case, found: TaperedMotion) -> None:
+    """InputError for a load of a roller that no bearing steel carries."""
+    largest = float(found.balance.outer_load.max())
+    inner, _ = strips_of(case.bearing)
+    limit = load_at_pressure(inner, HIGHEST_PRESSURE)
+    if largest <= limit:
+        return
+    sample = int(found.balance.outer_load.max(axis=1).argmax())
+    raise InputError(
+        f"a roller carries {largest / 1e3:.4g} kN, with a pressure above {HIGHEST_PRESSURE / 1e9:g} GPa",
+        where=f"{case.loads.source}, t = {found.motion.time[sample]:g} s",
+        allowed=f"roller loads up to {limit / 1e3:.4g} kN for {case.bearing.name}",
+        remedy="Check units and signs of the loads, the preload with temperature_difference, and the "
+        "bearing's size.",
+    )
+
+
+def rib_values(ribs: np.ndarray) -> dict[str, Any]:
+    """Energies and peaks of power at the ribs, by the name of the variable.
+
+    Parameters
+    ----------
+    ribs : ndarray, shape (row, roller, orbits + 1, 3)
+        As `rib` of `macroslip.measures.totals.Totals`.
+    """
+    return {
+        "rib_energy": ribs[..., 0].sum(axis=2),
+        "rib_asperity_energy": ribs[..., 1].sum(axis=2),
+        "rib_orbit_energy": ribs[:, :, :-1, 0],
+        "rib_peak_power": ribs[:, :, :-1, 2],
+    }
+
+
+def ring_values(ready: Prepared) -> dict[str, Any]:
+    """Preload, extremes of the balance in the window, and of the ribs, by the name of the variable.
+
+    Parameters
+    ----------
+    ready : Prepared
+        The case made ready, of a tapered roller bearing.
+    """
+    case = ready.case
+    assert ready.tapered is not None, "the bearing is not a tapered one"
+    time = ready.motion.time
+    inside = (time >= ready.edges[0]) & (time <= ready.end)
+    balance = ready.tapered.balance
+    speed = np.abs(ready.motion.shaft_speed[inside])
+    loads = _by_row(balance.outer_load[inside])
+    mean = float(speed.mean())
+    grip = grip_load(case.bearing, case.oil, mean) if mean > 0.0 else np.nan
+    warm = warm_bearing(case)
+    return {
+        "grip_load": np.array(grip),
+        "rollers_below_grip": (loads < grip).sum(axis=2).mean(axis=0),
+        "least_roller_load": loads.min(axis=(0, 2)),
+        "largest_tilt": np.array(np.hypot(*balance.displacement[inside, 3:].T).max()),
+        "preload": np.array(warm.preload),
+        "preload_change": np.array(warm.preload - case.bearing.preload),
+        **_rib_extremes(ready, _by_row(balance.rib_force[inside]), speed),
+    }
+
+
+def _by_row(values: np.ndarray) -> np.ndarray:
+    """Numbers of all rollers as (time, row, roller)."""
+    return values.reshape(len(values), len(ROW_SIGNS), -1)
+
+
+def _rib_extremes(ready: Prepared, force: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
+    """Extremes at the ribs over the window, of rollers that roll."""
+    row = tapered_geometry(ready.case.bearing)
+    contact = rib_contact(ready.case.bearing, ready.case.oil)
+    largest = force.max(axis=2)
+    entrainment = np.maximum(row.rib_entrainment_speed(speed), LEAST_SPEED)[:, None]
+    sliding = row.rib_sliding_speed(speed)[:, None]
+    rib = rib_state(contact, largest, entrainment, sliding, ready.case.laws)
+    # The film thins with load, and with speed: a shaft at rest has none.
+    turning = (speed > 0.0)[:, None] & (largest > 0.0)
+    ratio = np.where(turning, rib.film_ratio, np.inf).min(axis=0)
+    return {
+        "largest_rib_force": largest.max(axis=0),
+        "rib_pressure": rib.pressure.max(axis=0),
+        "rib_pressure_speed": (rib.pressure * sliding).max(axis=0),
+        "min_rib_film_ratio": np.where(np.isfinite(ratio), ratio, np.nan),
+    }
