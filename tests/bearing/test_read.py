@@ -339,6 +339,6 @@ def test_faulty_waves_are_refused_with_their_line(tmp_path, section, words):
 def test_the_file_of_a_tapered_bearing_is_refused_in_one_sentence():
     """It would lack or have too much of nearly every key, which says nothing."""
     file = resources.files("macroslip.bearing.tapered") / "catalogue" / "tdo-main-bearing.yaml"
-    with pytest.raises(InputError, match=r"tapered roller bearing.*tapered_history") as caught:
+    with pytest.raises(InputError, match=r"tapered roller bearing.*read_bearing") as caught:
         Bearing.read(str(file))
     assert str(caught.value).count("Allowed") == 1

@@ -193,4 +193,10 @@ def test_loads_beyond_all_steel_are_refused():
 
 def test_cage_of_a_whole_bearing_is_refused():
     with pytest.raises(InputError, match="do not use it"):
-        case(cage=Cage(mass=50.0))
+        case(cage=Cage(mass=60.0))
+
+
+def test_osculations_of_a_tapered_bearing_are_refused(tmp_path):
+    (tmp_path / "mine.yaml").write_text(f"{MAIN.as_yaml()}\nosculation_inner: 0.98\n")
+    with pytest.raises(InputError, match="has no osculation_inner: its rollers touch along lines"):
+        read_bearing(tmp_path / "mine.yaml")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, overload
@@ -19,6 +19,7 @@ from macroslip.storage.files import check_new_file, new_file
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.bearing.estimate import EstimatedBearing
+    from macroslip.bearing.tapered import TaperedBearing
     from macroslip.bearing.tapered.estimate import EstimatedTaperedBearing
     from macroslip.input.record import Record
     from macroslip.input.units import Dimension
@@ -56,6 +57,24 @@ def _record(noun: str) -> type[Record]:
     return {"bearing": Bearing, "lubricant": Lubricant, "turbine": Turbine}[noun]
 
 
+def _names(noun: str) -> Sequence[str]:
+    """Names of a catalogue; of bearings those of every kind."""
+    if noun == "bearing":
+        from macroslip.bearing.kinds import bearing_catalogue
+
+        return bearing_catalogue()
+    return _record(noun).catalogue()
+
+
+def _read(noun: str, name_or_file: str) -> Record:
+    """A record of a catalogue or a file; a bearing of any kind."""
+    if noun == "bearing":
+        from macroslip.bearing.kinds import read_bearing
+
+        return read_bearing(name_or_file)
+    return _record(noun).read(name_or_file)
+
+
 _HELP = {
     "bearing": "The bearing catalogue and files of your own.",
     "lubricant": "The lubricant catalogue and files of your own.",
@@ -72,7 +91,7 @@ def _catalogue(noun: str) -> typer.Typer:
     )
 
     def list(as_json: AsJson = False) -> None:
-        records = [_record(noun).read(name) for name in _record(noun).catalogue()]
+        records = [_read(noun, name) for name in _names(noun)]
         if as_json:
             print_json([{"name": record.name, "title": record.title} for record in records])
             return
@@ -86,7 +105,7 @@ def _catalogue(noun: str) -> typer.Typer:
         ] = False,
         as_json: AsJson = False,
     ) -> None:
-        record = _record(noun).read(name_or_file)
+        record = _read(noun, name_or_file)
         if yaml:
             typer.echo(record.as_yaml(), nl=False)
         else:
@@ -144,7 +163,29 @@ def _show(record: Record, more: _Rows | None, as_json: bool) -> None:
         print_table(more.heading, columns, more.lines)
 
 
-def _of_bearing(bearing: Bearing) -> list[list[str]]:
+def _of_tapered(bearing: TaperedBearing) -> list[list[str]]:
+    from macroslip.bearing.tapered import tapered_geometry
+    from macroslip.result.tapered import STEEL_EXPANSION
+
+    row = tapered_geometry(bearing)
+    warmer = row.preload_per_kelvin(STEEL_EXPANSION, bearing.row_offset, bearing.arrangement)
+    sliding = 1e3 * row.inner_rolling_ratio * row.rib_contact_height
+    return [
+        ["apex", f"{1e3 * row.apex_distance:.4g} mm", "distance from the middle of a roller"],
+        ["rib share", f"{row.rib_share:.4f}", "force of the rib / load of the outer raceway"],
+        ["rib sliding", f"{sliding:.4g} mm", "sliding speed at the rib / shaft speed"],
+        ["preload by heat", f"{1e6 * warmer:.4g} um", "for each kelvin of temperature_difference"],
+        [
+            "orbit ratio",
+            f"{row.orbit_ratio:.4f}",
+            "orbital speed of rollers in pure rolling / shaft speed",
+        ],
+    ]
+
+
+def _of_bearing(bearing: Bearing | TaperedBearing) -> list[list[str]]:
+    if bearing.kind == "tapered":
+        return _of_tapered(bearing)
     from macroslip import Lubricant
     from macroslip.contact.interface import truncation_load
     from macroslip.roller.model import roller_model

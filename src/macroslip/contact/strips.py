@@ -287,6 +287,7 @@ class StripLaws(ContactLaws):
     def _slender(self, load, reach, per_length, slice_of_ellipse: float) -> RollingNumbers:
         """Numbers of an ellipse with the length, load per length and area of the line contact."""
         numbers = self.rolling
+        assert numbers is not None, "the laws have no rolling resistance"
         log_root = np.log(load) / 3.0
         interface = self.interface
         doubled = (

@@ -13,7 +13,7 @@ from macroslip.contact.traction import HIGHEST_PRESSURE
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads
 from macroslip.result.tapered import warmed
-from macroslip.result.tapered_checks import check_preload
+from macroslip.result.tapered_checks import check_moment, check_preload
 from macroslip.result.tapered_ribs import LEAST_SPEED
 from macroslip.ring.grip import grip_load
 from macroslip.ring.tapered import ROW_SIGNS, gearbox_support, tapered_ring
@@ -52,7 +52,10 @@ def tapered_ring_motion(case: Case) -> TaperedMotion:
     drivetrain = case.drivetrain
     if isinstance(case.loads, HubLoads) and drivetrain.gearbox_stiffness is not None:
         support = gearbox_support(drivetrain.gearbox_stiffness, drivetrain.bearing_to_gearbox)
-    ring = tapered_ring(warm_bearing(case), support=support)
+    warm = warm_bearing(case)
+    ring = tapered_ring(warm, support=support)
+    check_preload(warm, ring)
+    check_moment(warm, ring, case.ring_moments)
     found = tapered_motion(case.ring_loads, case.ring_moments, ring)
     _refuse(case, found)
     return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
 from macroslip.bearing.rollers import no_roller, overlapping
 from macroslip.bearing.tapered import geometry
@@ -35,6 +35,14 @@ _ARRANGEMENT = Choice(
 _Optional = float | None
 #: Difference up to which angles of two drawings share an apex [rad].
 _ANGLE_ROUNDING = math.radians(0.02)
+#: Keys that bearings of other kinds have.
+_OF_OTHERS = (
+    "osculation_inner",
+    "osculation_outer",
+    "diametral_clearance",
+    "contact_angle",
+    "roller_crown_radius",
+)
 
 
 class TaperedBearing(Record):
@@ -178,6 +186,23 @@ class TaperedBearing(Record):
     out_of_round_angle: ClassVar[None] = None
     #: Play is that of the balance of the ring, in which preload is.
     diametral_clearance: ClassVar[float] = 0.0
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
+        """Build a bearing from the content of a file, as `Record.from_dict` does.
+
+        Raises InputError, in one sentence, for osculations or clearances of other kinds of bearings.
+        """
+        strange = [key for key in _OF_OTHERS if key in entries]
+        if strange:
+            raise InputError(
+                f"a tapered roller bearing has no {' and no '.join(strange)}: its rollers touch along "
+                "lines, and it has a preload",
+                where=(source or Source()).where(strange[0]),
+                allowed="kind: tapered without them, with preload in place of a clearance",
+                remedy=f"Remove {' and '.join(strange)}.",
+            )
+        return super().from_dict(entries, source)
 
     @property
     def rows(self) -> int:
