@@ -5,6 +5,7 @@ import json
 import pytest
 
 from macroslip import Bearing, Lubricant, Turbine
+from macroslip.bearing.kinds import bearing_catalogue
 from macroslip.bearing.tapered import TaperedBearing
 
 KINDS = [("bearing", Bearing), ("lubricant", Lubricant), ("turbine", Turbine)]
@@ -74,7 +75,7 @@ def test_a_name_that_does_not_exist(folder, macroslip):
     assert (done.code, done.out) == (2, "")
     assert done.err == (
         "error: no bearing can be read from 'skf' (No such file or directory). Allowed: the path of a YAML file, or a "
-        f"catalogue name: {', '.join(Bearing.catalogue())}. Relative paths start at {folder}.\n"
+        f"catalogue name: {', '.join(bearing_catalogue())}. Relative paths start at {folder}.\n"
     )
 
 
