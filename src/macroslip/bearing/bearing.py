@@ -6,19 +6,17 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
-from macroslip.bearing import geometry, load_ratings
+from macroslip.bearing import fields, geometry, load_ratings
 from macroslip.bearing.rollers import no_roller, overlapping
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Positive, Quantity, Text
+from macroslip.input.fields import Choice, Positive, Quantity
 from macroslip.input.files import Source
 from macroslip.input.record import Record
 from macroslip.input.units import (
     ANGLE,
     CONDUCTIVITY,
-    DENSITY,
     FORCE,
     LENGTH,
-    MASS,
     NUMBER,
     PRESSURE,
     SPECIFIC_HEAT,
@@ -67,17 +65,11 @@ class Bearing(Record):
         "it: waves of the clearance"
     }
 
-    name: Annotated[str, Text("short name of the bearing, used in results", line=True)]
-    title: Annotated[
-        str, Text("one line that describes the bearing", may_be_empty=True, line=True)
-    ] = ""
+    name: fields.Name
+    title: fields.Title = ""
 
-    bore_diameter: Annotated[_Optional, Positive("bore diameter of the inner ring", LENGTH, 10)] = (
-        None
-    )
-    outside_diameter: Annotated[
-        _Optional, Positive("outside diameter of the outer ring", LENGTH, 10)
-    ] = None
+    bore_diameter: fields.BoreDiameter = None
+    outside_diameter: fields.OutsideDiameter = None
     width: Annotated[_Optional, Positive("width of the bearing", LENGTH, 5)] = None
     dynamic_load_rating: Annotated[
         _Optional, Positive("basic dynamic radial load rating C", FORCE, 1e9)
@@ -85,9 +77,7 @@ class Bearing(Record):
     static_load_rating: Annotated[
         _Optional, Positive("basic static radial load rating C0", FORCE, 1e9)
     ] = None
-    fatigue_load_limit: Annotated[
-        _Optional, Positive("fatigue load limit C_u, in some catalogues P_u", FORCE, 1e9)
-    ] = None
+    fatigue_load_limit: fields.FatigueLoadLimit = None
     axial_factor_e: Annotated[
         _Optional, Positive("ratio e of axial to radial load between Y1 and Y2", NUMBER, 5)
     ] = None
@@ -100,11 +90,9 @@ class Bearing(Record):
     axial_factor_y0: Annotated[_Optional, Positive("static axial load factor Y0", NUMBER, 100)] = (
         None
     )
-    mass: Annotated[_Optional, Positive("mass of the bearing", MASS, 1e6)] = None
+    mass: fields.Mass = None
 
-    rollers_per_row: Annotated[
-        int, Quantity("number of rollers in each row", NUMBER, 3, 500, whole=True)
-    ]
+    rollers_per_row: fields.RollersPerRow
     roller_diameter: Annotated[float, Positive("largest roller diameter", LENGTH, 1)]
     roller_length: Annotated[float, Positive("roller length", LENGTH, 2)]
     contact_angle: Annotated[
@@ -172,20 +160,15 @@ class Bearing(Record):
     poisson_ratio: Annotated[
         float, Quantity("Poisson ratio of rollers and raceways", NUMBER, 0, 0.5, below=True)
     ]
-    density: Annotated[float, Quantity("density of the rollers", DENSITY, 500, 25000)]
+    density: fields.RollerDensity
     cage_youngs_modulus: Annotated[
         float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)
     ]
     cage_poisson_ratio: Annotated[
         float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)
     ]
-    composite_roughness: Annotated[
-        float, Positive("composite RMS roughness of roller and raceway", LENGTH, 1e-4)
-    ]
-    hardness: Annotated[
-        float,
-        Quantity("Vickers hardness of the softer surface, as a pressure", PRESSURE, 1e8, 1e11),
-    ]
+    composite_roughness: fields.CompositeRoughness
+    hardness: fields.Hardness
 
     thermal_conductivity: Annotated[
         _Optional, Positive("thermal conductivity of rollers and raceways", CONDUCTIVITY, 1000)

@@ -6,10 +6,11 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
+from macroslip.bearing import fields
 from macroslip.bearing.rollers import no_roller, overlapping
 from macroslip.bearing.tapered import geometry
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Positive, Quantity, Text
+from macroslip.input.fields import Choice, Positive, Quantity
 from macroslip.input.files import Source
 from macroslip.input.record import Record
 from macroslip.input.units import (
@@ -70,18 +71,12 @@ class TaperedBearing(Record):
     }
 
     kind: Annotated[str, _KIND] = "tapered"
-    name: Annotated[str, Text("short name of the bearing, used in results", line=True)]
-    title: Annotated[
-        str, Text("one line that describes the bearing", may_be_empty=True, line=True)
-    ] = ""
+    name: fields.Name
+    title: fields.Title = ""
     arrangement: Annotated[str, _ARRANGEMENT]
 
-    bore_diameter: Annotated[_Optional, Positive("bore diameter of the inner ring", LENGTH, 10)] = (
-        None
-    )
-    outside_diameter: Annotated[
-        _Optional, Positive("outside diameter of the outer ring", LENGTH, 10)
-    ] = None
+    bore_diameter: fields.BoreDiameter = None
+    outside_diameter: fields.OutsideDiameter = None
     width: Annotated[_Optional, Positive("width of the bearing with both rows", LENGTH, 5)] = None
     dynamic_load_rating: Annotated[
         _Optional, Positive("basic dynamic radial load rating C of both rows", FORCE, 1e9)
@@ -89,14 +84,10 @@ class TaperedBearing(Record):
     static_load_rating: Annotated[
         _Optional, Positive("basic static radial load rating C0 of both rows", FORCE, 1e9)
     ] = None
-    fatigue_load_limit: Annotated[
-        _Optional, Positive("fatigue load limit C_u, in some catalogues P_u", FORCE, 1e9)
-    ] = None
+    fatigue_load_limit: fields.FatigueLoadLimit = None
     mass: Annotated[_Optional, Positive("mass of the bearing", MASS, 1e6)] = None
 
-    rollers_per_row: Annotated[
-        int, Quantity("number of rollers in each row", NUMBER, 3, 500, whole=True)
-    ]
+    rollers_per_row: fields.RollersPerRow
     roller_diameter: Annotated[float, Positive("diameter of a roller at its middle", LENGTH, 1)]
     roller_length: Annotated[float, Positive("effective length of a roller", LENGTH, 2)]
     outer_angle: Annotated[
@@ -156,13 +147,8 @@ class TaperedBearing(Record):
         float, Quantity("Poisson ratio of rollers and rings", NUMBER, 0, 0.5, below=True)
     ]
     density: Annotated[float, Quantity("density of the rollers", DENSITY, 500, 25000)]
-    composite_roughness: Annotated[
-        float, Positive("composite RMS roughness of roller and raceway", LENGTH, 1e-4)
-    ]
-    hardness: Annotated[
-        float,
-        Quantity("Vickers hardness of the softer surface, as a pressure", PRESSURE, 1e8, 1e11),
-    ]
+    composite_roughness: fields.CompositeRoughness
+    hardness: fields.Hardness
     rib_roughness: Annotated[
         float, Positive("composite RMS roughness of the large end and the rib", LENGTH, 1e-4)
     ]
