@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
     from macroslip.result.criteria.criterion import Threshold
 
+#: Beyond this many years of wear no number is given.
+_LONG = 500.0
+
 
 def damage(
     result: Annotated[Path, typer.Argument(help="A file that `macroslip run` wrote.")],
@@ -74,12 +77,7 @@ def damage(
             [
                 row,
                 surface,
-                *(
-                    " to ".join(
-                        f"{years_to_depth:.2g}" for years_to_depth in {line[-1]: 0, line[0]: 0}
-                    )
-                    for line in years[i, j]
-                ),
+                *(_range_of_years(line.min(), line.max()) for line in years[i, j]),
             ]
             for i, row in enumerate(criteria.row.values.tolist())
             for j, surface in enumerate(criteria.place.values.tolist())
@@ -94,6 +92,20 @@ def damage(
         print_table(title, headings, rows)
     if xlsx is not None:
         typer.echo(f"written: {xlsx}")
+
+
+def _range_of_years(least: float, most: float) -> str:
+    """Years to a depth from the fastest to the slowest wear.
+
+    Examples
+    --------
+    >>> _range_of_years(5.4, 540.0), _range_of_years(74.0, 74.0), _range_of_years(2e3, 2e5)
+    ('5.4 to beyond 500', '74', 'beyond 500')
+    """
+    from macroslip.report.page import number
+
+    ends = ["beyond 500" if end > _LONG else number(end, 2) for end in (least, most)]
+    return " to ".join(dict.fromkeys(ends))
 
 
 def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: str) -> None:

@@ -16,6 +16,17 @@ PIPE_WIDTH = 160
 """Characters a line may have where there is no terminal."""
 
 
+def counted(count: int, noun: str) -> str:
+    """A number with its noun, which has an s behind any number but one.
+
+    Examples
+    --------
+    >>> counted(1, "run"), counted(3, "load file")
+    ('1 run', '3 load files')
+    """
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
 def print_table(
     title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]
 ) -> None:

@@ -15,7 +15,7 @@ from macroslip.cli import INTERRUPTED, ignore_interrupts
 from macroslip.cli.failure import CASES_FAILED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.options import AsJson, Force, Quiet, Threads
-from macroslip.cli.printing import plain_console, print_json, print_table
+from macroslip.cli.printing import counted, plain_console, print_json, print_table
 from macroslip.errors import InputError, safe_text
 from macroslip.storage.files import check_new_file, new_file
 
@@ -127,7 +127,8 @@ def _write_study(study: Path, folder: Path, *, force: bool) -> None:
     if len(made.remarks) > _LISTED:
         to_stderr(f"note: {len(made.remarks) - _LISTED} more files are left out or relabelled")
     winds = [labels["wind_speed"] for labels in made.labels]
-    typer.echo(f"{len(winds)} load files, {min(winds):g} to {max(winds):g} m/s")
+    ends = dict.fromkeys(f"{end:g}" for end in (min(winds), max(winds)))
+    typer.echo(f"{counted(len(winds), 'load file')}, {' to '.join(ends)} m/s")
     typer.echo(f"written: {' and '.join(map(str, made.texts))}")
 
 
@@ -166,7 +167,8 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
         ]
     print_table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
     typer.echo(
-        f"Time and disk are estimated from {estimate.looked_at} runs of the study, begun here and now."
+        f"Time and disk are estimated from {counted(estimate.looked_at, 'run')} of the study, "
+        "begun here and now."
         if estimate.looked_at
         else "Time and disk cannot be estimated."
     )

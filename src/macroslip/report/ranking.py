@@ -110,8 +110,10 @@ def _differences(first: str, others: pd.DataFrame) -> list[str]:
             "they are not told apart."
         )
     if unsure:
-        sentences.append(
-            f"How sure the difference between {first} and {', '.join(unsure)} is "
-            "cannot be told from these results."
+        pairs = (
+            "these differences are"
+            if len(unsure) == len(others) > 1
+            else f"the difference is between {first} and {'; and '.join(unsure)}"
         )
+        sentences.append(f"How sure {pairs} cannot be told from these results.")
     return sentences

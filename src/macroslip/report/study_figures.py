@@ -5,6 +5,7 @@ Every function draws on the axes that it takes, and returns them.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -26,6 +27,8 @@ EXCEEDED: Mapping[str, str] = MappingProxyType(
 MOST_CURVES = 6
 #: Letters of a result's name that fit under a figure.
 _NAME_LENGTH = 16
+#: Letters in a line of a label beside a figure.
+_LABEL_LENGTH = 20
 
 
 def _curves(
@@ -137,13 +140,13 @@ def plot_by_result(
             places + 0.16 * (k - 0.5), values[:, k], markersize=5, label=f"{row} row", **style
         )
     shown = [
-        name if len(name) <= _NAME_LENGTH else f"{name[: _NAME_LENGTH - 1]}…" for name in names
+        name if len(name) <= _NAME_LENGTH else f"…{name[1 - _NAME_LENGTH :]}" for name in names
     ]
     upright = len(names) > 4 or sum(map(len, shown)) > 32
     axes.set_xticks(places, shown, rotation=90 if upright else 0)
     axes.set_xlim(-0.5, len(names) - 0.5)
     axes.set_ylim(0.0, 1.08 * max(float(np.nanmax(values, initial=0.0)), 1e-12))
-    return finish(axes, "", label)
+    return finish(axes, "", textwrap.fill(label, _LABEL_LENGTH))
 
 
 def drawable(values: xr.DataArray, order: Sequence[int]) -> list[int]:

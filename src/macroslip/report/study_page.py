@@ -426,9 +426,11 @@ def _extreme_pictures(
     names = case_names(study)
     if len(order) > 1:
         groups = binned(pooled, None).group
+        designs_of_runs = [f"design {order.index(int(group)) + 1}" for group in groups]
+        is_one_case = len(set(names)) == 1
         names = [
-            f"{name} #{order.index(int(group)) + 1}"
-            for name, group in zip(names, groups, strict=True)
+            design if is_one_case else f"{name}, {design}"
+            for name, design in zip(names, designs_of_runs, strict=True)
         ]
     return [
         picture(_plot_extremes, f"By run: {_EXTREMES[name]}", study[name], names, **OPENING)
