@@ -108,6 +108,7 @@ def _fits(friction: FrictionTable) -> Iterator[tuple[str, SyntheticYear, HeatFit
         "noise 0.5 K": SyntheticYear(noise=0.5),
         "steps of 1 K": SyntheticYear(resolution=1.0),
         "20 % missing": SyntheticYear(missing=0.2),
+        "fan, 3 % for each m/s": SyntheticYear(fan=0.03),
     }
     for name, truth in disturbed.items():
         heat = bearing_heat(read(synthetic_year(truth, friction)), table)
@@ -137,14 +138,46 @@ def detected(friction: FrictionTable) -> pd.DataFrame:
     return flags.groupby(["model", "factor"], sort=False).apply(_counted, include_groups=False)
 
 
-def flag(heat: BearingHeat, model: str) -> tuple[float, float]:
-    """Days from the step to the first flag, and the mean index after the step."""
+def shared(friction: FrictionTable) -> pd.DataFrame:
+    """Flags in years whose friction wanders, alone and over a sibling that shares it."""
+    table = only(friction, "skf")
+    lines = []
+    for wander in (0.08, 0.15):
+        for more in (1.0, 1.35):
+            for seed in SEEDS:
+                own = SyntheticYear(
+                    seed=seed, wander=wander, noise=0.0, more_friction=more, more_from=STEP
+                )
+                scada, sibling = (
+                    read(noisy(synthetic_year(truth, friction), number), REFERENCE)
+                    for number, truth in enumerate((own, replace(own, more_friction=1.0)))
+                )
+                heat = bearing_heat(scada, table, sibling)
+                kind = (wander, more)
+                lines.append((*kind, "alone", *flag(heat, FRICTION)))
+                lines.append((*kind, "over the sibling", *flag(heat, FRICTION, "_sibling")))
+    flags = pd.DataFrame(lines, columns=["wander", "factor", "index", "day", "r"])
+    groups = flags.groupby(["index", "wander", "factor"], sort=False)
+    return groups.apply(_counted, include_groups=False)
+
+
+def noisy(record: pd.DataFrame, seed: int) -> pd.DataFrame:
+    """A record with noise of 0.2 K of its own at the bearing's sensor."""
+    noise = np.random.default_rng(seed).normal(0.0, 0.2, len(record))
+    return record.assign(bearing_temperature=record["bearing_temperature"] + noise)
+
+
+def flag(heat: BearingHeat, model: str, over: str = "") -> tuple[float, float]:
+    """Days from the step to the first flag, and the mean index after the step.
+
+    Of the index, or of that over the sibling's, `_sibling`.
+    """
     index = heat.index
     days = index[(index["model"] == model) & (index["period"] == "day")]
-    day = first_flag(days)
+    day = first_flag(days, f"cusum{over}")
     after = days[days["start"] > pd.Timestamp("2024-01-01") + pd.Timedelta(days=STEP)]
     number = np.nan if day is None else (day - pd.Timestamp("2024-01-01")).days - STEP
-    return number, float(np.average(after["r"], weights=after["windows"]))
+    return number, float(np.average(after[f"r{over}"], weights=after["windows"]))
 
 
 def _counted(years: pd.DataFrame) -> pd.Series:
@@ -234,7 +267,8 @@ def main() -> None:
     print(means.round(2).to_string(), end="\n\n", flush=True)
     crack_figure(weeks).savefig(FIGURES / "scada_crack.png", dpi=130)
     print(identified(friction).round(4).to_string(), end="\n\n", flush=True)
-    print(detected(friction).round(2).to_string(), flush=True)
+    print(detected(friction).round(2).to_string(), end="\n\n", flush=True)
+    print(shared(friction).round(2).to_string(), flush=True)
     step_figure(friction).savefig(FIGURES / "scada_step.png", dpi=130)
 
 

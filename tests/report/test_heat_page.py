@@ -40,11 +40,12 @@ def heat(scada):
 
 
 def test_computed_friction_is_told_better_than_speed(heat, scada):
-    worth, constants, index = heat_sentences(heat, scada.description)
+    caution, worth, constants, index = heat_sentences(heat, scada.description)
+    assert "no alarm" in caution and "Lubrication cannot be read off one turbine" in caution
     assert "explains the heat better than its rivals" in worth
     assert "1.84 to 3.68 MJ/K: the fitted capacity lies inside" in constants
-    assert "Lubrication cannot be read off one turbine" in constants
-    assert "no alarm" in index
+    assert "in proportion to the level of the computed friction" in constants
+    assert "its cumulative sum" in index
 
 
 def test_a_rival_with_the_same_heat_takes_the_keep_away(heat, scada):
@@ -59,7 +60,7 @@ def test_a_rival_with_the_same_heat_takes_the_keep_away(heat, scada):
     closest = rivals[int(np.argmin(np.abs(scatters)))]
     twin = replace(closest, model=replace(own.model, name=SPEED, supply=""))
     equal = replace(heat, fits=(*heat.fits, twin))
-    assert "does not earn its keep" in heat_sentences(equal, scada.description)[0]
+    assert "does not earn its keep" in heat_sentences(equal, scada.description)[1]
 
 
 def test_a_better_rival_is_told(heat, scada):
@@ -70,7 +71,7 @@ def test_a_better_rival_is_told(heat, scada):
         heat=own.heat + 0.5 * own.residuals,
         residual=0.5 * own.residual,
     )
-    worse = heat_sentences(replace(heat, fits=(*heat.fits, closer)), scada.description)[0]
+    worse = heat_sentences(replace(heat, fits=(*heat.fits, closer)), scada.description)[1]
     assert "worse than a rival" in worse
     assert block_scatter(heat, closer) < -2.0
 

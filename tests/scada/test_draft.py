@@ -98,6 +98,43 @@ def test_units_are_guessed_from_values_and_marked(tmp_path):
     assert len(Scada.read(tmp_path / "scada.yaml").data) == 1008
 
 
+@pytest.mark.parametrize(
+    "form", ["%d/%m/%Y %H:%M", "%m/%d/%Y %I:%M:%S %p", "%d.%m.%Y %H:%M:%S", "%d-%m-%Y %H:%M"]
+)
+def test_forms_of_times_are_recognized(form, tmp_path):
+    # From 25 March on no month has the number of the day.
+    table = record(rows=144)
+    export = table.assign(time=table["time"].dt.strftime(form))
+    export.rename(columns={"bearing": "Rbt_avg", "wind": "Ws_avg"}).to_csv(
+        tmp_path / "export.csv", index=False
+    )
+    written, _ = draft(tmp_path / "export.csv", tmp_path)
+    assert f"format: '{form}', stamp: start, step: 10 min" in written
+
+
+def test_what_is_needed_and_not_recognized_is_named(tmp_path):
+    table = record().assign(time=record()["time"].dt.strftime("%Y-%m-%d %H:%M"))
+    export = table.rename(columns={"power": "Leistung", "bearing": "Hauptlager", "wind": "Ws_avg"})
+    export.rename(columns={"rotor": "Drehzahl"}).to_csv(tmp_path / "export.csv", index=False)
+    written, told = draft(tmp_path / "export.csv", tmp_path)
+    assert "# Columns of the file that were not recognized: Drehzahl, Leistung, Haupt" in written
+    assert "rotor_speed: {column: NAME OF THE COLUMN, unit: r/min}" in written
+    assert "power: {column: NAME OF THE COLUMN, unit: kW}" in written
+    assert "rated: {rotor_speed: NUMBER r/min, power: NUMBER kW}" in written
+    assert sum("write its column into the file" in line for line in told) == 3
+
+
+def test_a_workbook_tells_its_sheets(tmp_path):
+    table = record().assign(time=record()["time"].dt.strftime("%Y-%m-%d %H:%M"))
+    with pd.ExcelWriter(tmp_path / "export.xlsx") as book:
+        pd.DataFrame({"about": ["a turbine"]}).to_excel(book, sheet_name="About", index=False)
+        table.rename(columns={"bearing": "Rbt_avg"}).to_excel(book, sheet_name="Means", index=False)
+    with pytest.raises(InputError, match="--sheet: About, Means"):
+        draft(tmp_path / "export.xlsx", tmp_path)
+    written, _ = draft(tmp_path / "export.xlsx", tmp_path, "Means")
+    assert "sheet: 'Means'" in written
+
+
 def test_an_export_without_known_names_is_refused(tmp_path):
     pd.DataFrame({"a": [1], "b": [2]}).to_csv(tmp_path / "export.csv", index=False)
     with pytest.raises(InputError, match="no column has a name that is known"):

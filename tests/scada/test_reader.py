@@ -128,6 +128,17 @@ def test_a_stuck_sensor_is_dropped_where_the_rotor_turns_only(read):
     assert rows_of(read(standing))["stuck"] == 0
 
 
+def test_a_coarse_sensor_may_rest_for_hours(read):
+    # Equal values for three hours are normal in steps of a kelvin.
+    table = record().assign(rotor=12.0, power=400.0)
+    table["power"] += np.arange(1008) % 2
+    table["rotor"] += 0.1 * (np.arange(1008) % 2)
+    hours = np.arange(1008) // 100
+    assert rows_of(read(table.assign(bearing=20.0 + hours % 4)))["stuck"] == 0
+    assert rows_of(read(table.assign(bearing=20.0 + 0.1 * (hours % 4))))["stuck"] == 1000
+    assert rows_of(read(table.assign(bearing=20.0 + hours // 4)))["stuck"] == 1008
+
+
 def test_rated_speed_and_power_may_rest(read):
     storm = record().assign(rotor=17.0, power=1500.0)
     assert rows_of(read(storm))["stuck"] == 0

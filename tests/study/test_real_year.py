@@ -20,6 +20,7 @@ from macroslip.scada.description import (
 )
 from macroslip.scada.reader import Scada
 from macroslip.study.aggregation import Aggregation
+from macroslip.study.exceedance import exceedance
 from macroslip.study.over_temperature import RunsOverTemperature, interpolated, weighted_study
 from macroslip.study.real_year import real_year
 from macroslip.study.temperature_shares import TemperatureShares
@@ -335,6 +336,16 @@ def test_extremes_and_lives_are_no_means():
     assert means.basic_life.values == pytest.approx(2.0 / (1.0 / 2e5 + 1.0 / 8e5), rel=1e-9)
     assert means.lowest_spin_ratio.values == pytest.approx(0.2)
     assert means.peak_power_max.values[0, 0] == pytest.approx(3.0 * power(4.0, 15.0, 0))
+
+
+def test_exceedance_of_mixed_temperatures_is_refused_with_its_reason():
+    wind, celsius = months()
+    joint = JointShares.of(turbine(wind, celsius), np.array([4.0, 8.0, 12.0]), 4.0)
+    weights = {"width": 4.0, "scada": joint.content(), "events": EVENTS}
+    study = weighted_study(made_up_study(weights=weights))
+    stored = stored_weighting(made_up_study(weights=weights))
+    with pytest.raises(InputError, match="mix temperatures of the oil"):
+        exceedance(study, Aggregation(stored.year, 1.0, stored.field, stored.width))
 
 
 def test_two_designs_are_compared_on_a_measured_year():

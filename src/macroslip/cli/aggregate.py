@@ -59,7 +59,7 @@ def aggregate(
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
     from macroslip.study.aggregation import aggregation_in_use
     from macroslip.study.export import FORMATS, tables, write_tables
-    from macroslip.study.over_temperature import weighted_study
+    from macroslip.study.over_temperature import MIXED, NOT_MIXED, weighted_study
     from macroslip.study.reader import open_study
     from macroslip.study.year import coverage, year
 
@@ -95,6 +95,8 @@ def aggregate(
     if "lifetime" in frames:
         _lifetime(frames["lifetime"], years)
         typer.echo(coverage(year(study, aggregation)))
+    if MIXED in study.attrs:
+        typer.echo(f"note: {NOT_MIXED}")
     for path in written:
         typer.echo(f"written: {path}")
 

@@ -22,6 +22,13 @@ _TEMPLATE = "heat.html"
 #: residual from which on it is more than hardly.
 _RESOLVED = 2.0
 _CLEARLY = 2.0
+#: What a reader has to know before any number.
+_CAUTION = (
+    "An index of heat is no alarm: sound turbines wander from 0.7 to 1.4 in two years, the neighbour "
+    "as reference matters more than the model, and a regression without any physics flags a real "
+    "crack as sharply. Lubrication cannot be read off one turbine: supply of oil, heat capacity and "
+    "seals trade. In this model starvation cools."
+)
 #: Units in which constants are shown: factor and name.
 _SHOWN = {"capacity": (1e-6, "MJ/K")}
 _HEADINGS = ("model", "residual [K/h]", "constant", "value", "standard error", "unit")
@@ -63,10 +70,12 @@ def heat_page(heat: BearingHeat, description: ScadaDescription, study: str) -> s
 
 
 def heat_sentences(heat: BearingHeat, description: ScadaDescription) -> list[str]:
-    """The answer: whether computed friction explains the heat better, its constants, its index."""
+    """What no index can tell; whether computed friction explains the heat; its constants; its index."""
     return [
+        _CAUTION,
         _worth(heat),
-        f"{_constants(heat.chosen)}{_capacity(heat.chosen, description)} {_supplies(heat)}",
+        f"{_constants(heat.chosen)}{_capacity(heat.chosen, description)} {_level()} "
+        f"{_supplies(heat)}",
         _flags(heat),
     ]
 
@@ -154,18 +163,24 @@ def _capacity(fit: HeatFit, description: ScadaDescription) -> str:
     )
 
 
+def _level() -> str:
+    """How the constants depend on the level of the computed friction."""
+    return (
+        "Capacity and seals stand in proportion to the level of the computed friction: with friction "
+        "that is a quarter too low both come out a quarter too small, and nothing in the record "
+        "shows it."
+    )
+
+
 def _supplies(heat: BearingHeat) -> str:
     own = [fit for fit in heat.fits if fit.model.name == FRICTION]
     if len(own) == 1:
-        return "Other supplies of oil were not tried; one turbine cannot tell them apart."
+        return "Other supplies of oil were not tried; one turbine could not tell them apart."
     residuals = ", ".join(
         f"{fit.model.supply} {fit.residual:.4f} K/h with {1e-6 * fit.values['capacity']:.2f} MJ/K"
         for fit in sorted(own, key=lambda fit: fit.residual)
     )
-    return (
-        f"By supply of oil: {residuals}. Lubrication cannot be read off one turbine: supply, heat "
-        "capacity and seals trade."
-    )
+    return f"By supply of oil: {residuals}. One turbine cannot tell them apart."
 
 
 def _flags(heat: BearingHeat) -> str:
@@ -186,10 +201,7 @@ def _flags(heat: BearingHeat) -> str:
         over = " Over the sibling it " + (
             f"does on {flag:%Y-%m-%d}." if flag is not None else "does not."
         )
-    return (
-        f"Index of the heat, 1 in the reference{spread}; {crossing}.{over} It is an index and no alarm: "
-        "sound turbines wander from 0.7 to 1.4."
-    )
+    return f"Index of the heat, 1 in the reference{spread}; {crossing}.{over}"
 
 
 def fit_table(heat: BearingHeat) -> Table:

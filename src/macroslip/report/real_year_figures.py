@@ -45,7 +45,7 @@ def plot_over_wind_and_temperature(axes: Axes, bins: pd.DataFrame, column: str, 
         rasterized=True,
     )
     scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
-    scale.set_label("% of production's", fontsize=LABEL)
+    scale.set_label("% of production", fontsize=LABEL)
     scale.ax.tick_params(labelsize=SMALL)
     return finish(axes, "wind speed [m/s]", "oil [°C]", title)
 

@@ -39,23 +39,21 @@ def verdict(real_year: RealYear) -> list[str]:
         f"{real_year.mean_standing:.1f} °C while it stands."
     )
     energy = of.loc["energy"]
-    sentences = [f"{temperatures} Energy is {energy['real_over_fixed']:.2f} of that at 35 °C."]
+    oil = f"{temperatures} Energy is {energy['real_over_fixed']:.2f} of that at 35 °C."
     if "wear" not in of.index or not np.isfinite(of.loc["wear", "real"]):
-        return sentences
+        return [oil]
     wear = of.loc["wear"]
     alone = wear["at_mean"] / wear["fixed"]
-    sentences.append(
+    ends = wear["oil_warmer"] / wear["real"], wear["real"] / wear["oil_cooler"]
+    return [
         f"Wear is {wear['real_over_fixed']:.2g} of that at 35 °C: the mean temperature alone makes "
         f"it {alone:.2g}, and how temperature and wind go together changes that by a factor of "
-        f"{wear['real_over_at_mean']:.2f}."
-    )
-    ends = wear["oil_warmer"] / wear["real"], wear["real"] / wear["oil_cooler"]
-    sentences.append(
-        f"{OFFSET:g} K between sensor and oil change wear by a factor of {min(ends):.2g} to "
-        f"{max(ends):.2g}. Wear itself is known to a factor of {wear['factor']:g}, by its "
-        "coefficient k, which is the same in all these years: ratios are surer than values."
-    )
-    return sentences
+        f"{wear['real_over_at_mean']:.2f}. {OFFSET:g} K between sensor and oil, which nobody "
+        f"measures, change wear by a factor of {min(ends):.2g} to {max(ends):.2g}.",
+        oil,
+        f"Wear itself is known to a factor of {wear['factor']:g}, by its coefficient k, which is the "
+        "same in all these years: ratios are surer than values.",
+    ]
 
 
 def real_year_page(real_year: RealYear) -> str:

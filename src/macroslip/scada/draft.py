@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import pandas as pd
 
 from macroslip.errors import InputError
 from macroslip.scada.columns import recognized, unit_of
-from macroslip.scada.table_files import column_names, files_of, pieces
+from macroslip.scada.table_files import column_names, files_of, pieces, sheet_names
 
 _NEEDED = ("wind_speed", "rotor_speed", "power", "bearing_temperature")
 _NAMES = {
@@ -23,6 +24,16 @@ _NAMES = {
     "ambient_temperature": "air outside",
 }
 _MISSING = "NAME OF THE COLUMN"
+#: Units of a quantity whose values tell nothing; the others are temperatures.
+_USUAL = {"wind_speed": "m/s", "rotor_speed": "r/min", "power": "kW"}
+#: Forms of times beside ISO 8601, a day before a month where both fit.
+_FORMS = tuple(
+    f"{day} {clock}"
+    for day in ("%d.%m.%Y", "%d/%m/%Y", "%m/%d/%Y", "%d-%m-%Y")
+    for clock in ("%H:%M", "%H:%M:%S", "%I:%M:%S %p", "%I:%M %p")
+)
+#: Width of a comment.
+_WIDTH = 100
 #: Rows by which values are judged.
 _ROWS = 200_000
 
@@ -57,11 +68,15 @@ def draft(file: Path, folder: Path, sheet: str | None = None) -> tuple[str, list
             "no column has a name that is known",
             where=str(file),
             allowed=", ".join(names[:20]),
-            remedy="Write the description by hand: docs/scada.md has one.",
+            remedy=_other_sheets(file, sheet)
+            or "Write the description by hand: docs/scada.md has one.",
         )
     values = _values(file, columns_found, sheet)
     columns = {quantity: _column(quantity, columns_found, values) for quantity in _NAMES}
-    rated = {name: _largest(name, columns_found, values) for name in ("rotor_speed", "power")}
+    rated = {
+        "rotor_speed": f"{_largest('rotor_speed', columns_found, values)} r/min",
+        "power": f"{_largest('power', columns_found, values)} kW",
+    }
     relative = os.path.relpath(file, folder)
     lines = [
         "# Ten-minute means of a turbine: what macroslip scada init has recognized. Check it, and",
@@ -71,10 +86,11 @@ def draft(file: Path, folder: Path, sheet: str | None = None) -> tuple[str, list
         *([f"sheet: {_quoted(sheet)}"] if sheet else []),
         *_rows(columns_found, values),
         *_time(columns_found, values),
+        *_other_columns(names, columns_found),
         "columns:",
         *(line for column in columns.values() for line in column),
         "# The largest values that occur, as a guess: write those of the turbine's data sheet.",
-        f"rated: {{rotor_speed: {rated['rotor_speed']:.4g} r/min, power: {rated['power']:.5g} kW}}",
+        f"rated: {{rotor_speed: {rated['rotor_speed']}, power: {rated['power']}}}",
         "# Oil in the contacts over the sensor: nobody knows it; 5 K change wear by a factor of two.",
         "oil_offset: 0 K",
         "# For heat: what warms with the bearing, and a period in which it was sound.",
@@ -82,7 +98,7 @@ def draft(file: Path, folder: Path, sheet: str | None = None) -> tuple[str, list
         "# reference: [2024-01-01, 2024-12-31]",
     ]
     notes = [
-        f"{_NAMES[quantity]}: {columns_found.get(quantity, 'not recognized')}"
+        f"{_NAMES[quantity]}: {columns_found.get(quantity, _unknown(quantity))}"
         for quantity in _NAMES
     ]
     return "\n".join(lines) + "\n", notes
@@ -100,7 +116,7 @@ def _values(file: Path, columns: dict[str, str], sheet: str | None) -> pd.DataFr
 def _column(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> list[str]:
     """Line of a quantity; a comment for one that may be left out and was not recognized."""
     if quantity not in columns:
-        unit = "degC" if quantity.endswith("temperature") else "m/s"
+        unit = _USUAL.get(quantity, "degC")
         mark = "  " if quantity in _NEEDED else "  # "
         return [f"{mark}{quantity}: {{column: {_MISSING}, unit: {unit}}}"]
     name = columns[quantity]
@@ -115,7 +131,7 @@ def _guessed(quantity: str, numbers: np.ndarray) -> str:
     if quantity == "wind_speed":
         return "m/s"
     if not numbers.size:
-        return {"rotor_speed": "r/min", "power": "kW"}.get(quantity, "degC")
+        return _USUAL.get(quantity, "degC")
     if quantity == "rotor_speed":
         return "rad/s" if np.quantile(numbers, 0.99) < 4.0 else "r/min"
     if quantity == "power":
@@ -130,14 +146,37 @@ def _numbers(values: pd.DataFrame, quantity: str) -> np.ndarray:
     return numbers[np.isfinite(numbers)]
 
 
-def _largest(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> float:
-    """Nearly the largest value [r/min or kW], by the unit in the name or a guess."""
-    if quantity not in values:
-        return 1.0
-    numbers = _numbers(values, quantity)
+def _largest(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> str:
+    """Nearly the largest value [r/min or kW], by the unit in the name or a guess, as text."""
+    numbers = _numbers(values, quantity) if quantity in values else np.empty(0)
+    if not numbers.size:
+        return "NUMBER"
     unit = unit_of(columns[quantity]) or _guessed(quantity, numbers)
     factor = {"rad/s": 30.0 / np.pi, "MW": 1e3, "W": 1e-3}.get(unit, 1.0)
-    return factor * float(np.quantile(numbers, 0.999)) if numbers.size else 1.0
+    return f"{factor * float(np.quantile(numbers, 0.999)):.5g}"
+
+
+def _unknown(quantity: str) -> str:
+    """What is said of a quantity without a column."""
+    is_needed = quantity in _NEEDED
+    return f"not recognized{'; it is needed: write its column into the file' if is_needed else ''}"
+
+
+def _other_columns(names: list[str], columns: dict[str, str]) -> list[str]:
+    """The other columns of the file, in a comment, where one that is needed was not recognized."""
+    if all(quantity in columns for quantity in (*_NEEDED, "time")):
+        return []
+    others = [name for name in names if name and name not in columns.values()]
+    text = f"Columns of the file that were not recognized: {', '.join(others) or 'none'}."
+    return textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="#   ")
+
+
+def _other_sheets(file: Path, sheet: str | None) -> str:
+    """How to name another sheet of an XLSX file that has several; empty for any other file."""
+    others = [name for name in sheet_names(file) if name != sheet]
+    if not others or (sheet is None and len(others) == 1):
+        return ""
+    return f"Name a sheet with --sheet: {', '.join(others)}."
 
 
 def _turbine(values: pd.DataFrame) -> str:
@@ -163,17 +202,25 @@ def _time(columns: dict[str, str], values: pd.DataFrame) -> list[str]:
         ]
     texts = values["time"].astype("string")
     has_offset = bool(texts.str.contains(r"(?:Z|[+-]\d\d:?\d\d)\s*$", regex=True).all())
-    dates = pd.to_datetime(texts.head(2000), format="ISO8601", utc=True, errors="coerce")
-    form = ""
-    if dates.isna().all():
-        form = ", format: '%d.%m.%Y %H:%M'"
-        dates = pd.to_datetime(texts.head(2000), format="%d.%m.%Y %H:%M", utc=True, errors="coerce")
+    dates, form = _dates(texts.drop_duplicates())
     steps = np.diff(np.unique(dates.dropna())).astype("timedelta64[s]").astype(float)
     minutes = float(np.median(steps)) / 60.0 if steps.size else 10.0
     zone = "" if has_offset else ", zone: UTC"
     lines = [] if has_offset else ["# The times tell no offset: is the clock in UTC?"]
     section = f"column: {_quoted(columns['time'])}{zone}{form}, stamp: start, step: {minutes:g} min"
     return [*lines, f"time: {{{section}}}"]
+
+
+def _dates(texts: pd.Series) -> tuple[pd.Series, str]:
+    """Texts as dates, and the key of the form that reads most of them, if it is not ISO 8601."""
+    dates = pd.to_datetime(texts, format="ISO8601", utc=True, errors="coerce")
+    if dates.notna().any():
+        return dates, ""
+    read = {form: pd.to_datetime(texts, format=form, utc=True, errors="coerce") for form in _FORMS}
+    best = max(_FORMS, key=lambda form: int(read[form].notna().sum()))
+    if not read[best].notna().any():
+        return dates, ", format: FORM OF THE TIMES"
+    return read[best], f", format: '{best}'"
 
 
 def _quoted(text: str | None) -> str:

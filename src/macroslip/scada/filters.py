@@ -11,6 +11,7 @@ import numpy as np
 
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.scada.description import Quantities, ScadaDescription
+from macroslip.scada.plausibility import COARSE, sensor_resolution
 
 #: Filters in their order.
 FILTERS = ("missing", "range", "stuck", "contradiction", "status")
@@ -25,7 +26,8 @@ _TEMPERATURES = {
     "nacelle_temperature": (ZERO_CELSIUS - 30.0, ZERO_CELSIUS + 70.0),
     "ambient_temperature": (ZERO_CELSIUS - 40.0, ZERO_CELSIUS + 50.0),
 }
-#: Equal values in a row from which on a sensor is stuck.
+#: Equal values in a row from which on a sensor is stuck; a bearing's sensor with steps of half a
+#: kelvin and more rests as long as others do.
 _STUCK_BEARING = 18
 _STUCK_OTHER = 144
 #: Share of the rated value from which on a controller holds speed or power, which may then rest.
@@ -106,7 +108,8 @@ def _stuck(
             counted = turning
         elif name in rated:
             counted = turning & (column < _HELD * rated[name])
-        most = _STUCK_BEARING if name == "bearing_temperature" else _STUCK_OTHER
+        is_fine = name == "bearing_temperature" and sensor_resolution(column) < COARSE
+        most = _STUCK_BEARING if is_fine else _STUCK_OTHER
         stuck |= run_lengths(column, counted, gap) >= most
     return stuck
 

@@ -31,8 +31,6 @@ LEAST_SPAN = 8.0
 #: difference between the halves of the reference from which on they are.
 MOST_DRIFT = 1.0 / 3.0
 MOST_CHANGE = 0.10
-#: Step of a sensor from which on it is told [K].
-COARSE = 0.9
 #: Means of a window, and their units.
 WINDOW_UNITS = {"wind_speed": "m/s", "rotor_speed": "rad/s", "bearing_temperature": "K"}
 #: Columns of the tables of a fit and of an index.
@@ -111,7 +109,7 @@ def bearing_heat(
         index = _over_sibling(index, _index_table(list(_indexed(other, same))))
     table = _fit_table(fits, analysed)
     marks = (*_marks(chosen, analysed), *_change_of_halves(chosen, analysed))
-    notes = (*scada.notes, *friction.notes, *_notes(scada, record))
+    notes = (*scada.notes, *friction.notes, *_notes(scada))
     index = index.reindex(columns=list(INDEX_COLUMNS))
     return BearingHeat(fits, chosen, table, index, _window_table(analysed), marks, notes)
 
@@ -228,8 +226,9 @@ def _marks(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
         marks.append(f"{of}: the heat falls where the computed friction rises.")
     if fit.values.get("seal_torque", 0.0) < 0.0:
         marks.append(
-            f"{of}: the torque of the seals is {fit.values['seal_torque']:.0f} N m, below 0; the "
-            "computed friction is too high or grows too little with load, as with a wrong supply."
+            f"{of}: the torque of the seals is {fit.values['seal_torque']:.0f} ± "
+            f"{fit.errors['seal_torque']:.0f} N m, below 0; the computed friction is too high or "
+            "grows too little with load, as with a wrong supply."
         )
     marks += [
         f"{of}: the conductance {name.replace('_', ' ')} is {fit.values[name]:.3g} per hour, "
@@ -267,14 +266,8 @@ def _change_of_halves(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
     )
 
 
-def _notes(scada: Scada, record: pd.DataFrame) -> Iterator[str]:
-    """What a reader has to know of the record and of the reference."""
-    steps = np.diff(np.unique(record.loc[record["used"], "bearing_temperature"].round(4)))
-    if steps.size and steps.min() > COARSE:
-        yield (
-            f"The temperature of the bearing comes in steps of {steps.min():.2g} K: errors of the "
-            "torque of the seals are about three times those of a record in tenths."
-        )
+def _notes(scada: Scada) -> Iterator[str]:
+    """What a reader has to know of the reference."""
     if scada.description.reference is None:
         yield (
             "No reference is given, so the whole record is its own: an index of 1 is its mean, and "

@@ -20,7 +20,7 @@ _MEDIANS = {
 #: Share of equal rows from which on two columns are one sensor.
 _SAME = 0.9
 #: Smallest difference of values of a sensor from which on it is coarse [K].
-_COARSE = 0.45
+COARSE = 0.45
 #: Quantile of the wind speed below which values are no wind speeds but shares of something [m/s].
 _NORMALISED = 1.5
 
@@ -136,7 +136,7 @@ def doubts(values: Quantities, described: ScadaDescription) -> list[str]:
     """Sentences on what makes results of the columns less certain."""
     column = described.columns.bearing_temperature
     resolution = sensor_resolution(values["bearing_temperature"])
-    if resolution < _COARSE:
+    if resolution < COARSE:
         return []
     return [
         f"The bearing's sensor '{column.column}' has steps of {resolution:.2g} K: "

@@ -14,13 +14,13 @@ from macroslip.constants import ZERO_CELSIUS
 
 #: Temperatures of the oil [degC] of `EXPONENTS`.
 TEMPERATURES = (5.0, 20.0, 35.0, 50.0)
-#: e [-] by supply of oil: mean of stretches of the histories 6B and 12B of the base turbine, with
-#: their own speeds and with half of them. `python -m tools.friction_tables` computes them.
+#: e [-] by supply of oil: mean of the histories 6B and 12B of the base turbine, with their own speeds
+#: and with half of them. `python -m tools.friction_tables` computes them.
 EXPONENTS: Mapping[str, tuple[float, ...]] = {
-    "skf": (0.29, 0.50, 0.51, 0.32),
-    "flooded": (0.71, 0.69, 0.61, 0.38),
-    "0.7": (0.59, 0.52, 0.38, 0.03),
-    "0.5": (0.56, 0.49, 0.33, -0.01),
+    "skf": (0.28, 0.50, 0.52, 0.34),
+    "flooded": (0.70, 0.68, 0.62, 0.39),
+    "0.7": (0.59, 0.53, 0.40, 0.05),
+    "0.5": (0.56, 0.49, 0.35, 0.00),
 }
 SKF = "skf"
 _FLOODED = "flooded"
@@ -44,7 +44,7 @@ def speed_exponents(supplies: Iterable[str]) -> tuple[dict[str, pd.Series], tupl
     --------
     >>> exponents, notes = speed_exponents(["skf"])
     >>> round(float(exponents["skf"].loc[308.15]), 2), notes
-    (0.51, ())
+    (0.52, ())
     """
     kelvin = ZERO_CELSIUS + np.array(TEMPERATURES)
     numbers = {1.0 if name == _FLOODED else float(name): name for name in EXPONENTS if name != SKF}

@@ -48,6 +48,10 @@ _STOP_ROWS = 30.0
 _LAG_ROWS = 12.0
 #: Gaps: their mean length [rows].
 _GAP_ROWS = 6.0
+#: Period in which friction wanders [days], and the part of it by which years of neighbouring seeds
+#: differ.
+_WANDER_DAYS = 240.0
+_WANDER_PHASE = 0.618
 #: Step of temperature over which friction is taken as linear, and how far the bearing may be beyond
 #: the friction table [K].
 _CELL = 1.0
@@ -68,6 +72,8 @@ class SyntheticYear:
     missing: float = 0.03  #: Share of rows that are left out
     more_friction: float = 1.0  #: Factor of the bearing's friction from a day on; seals keep theirs
     more_from: int = 200  #: Number of that day, 0 the first
+    wander: float = 0.0  #: Share by which the friction slowly rises and falls; seals keep theirs
+    fan: float = 0.0  #: Share by which the conductance to the nacelle grows with the wind [s/m]
     seed: int = 1
     start: str = "2024-01-01"
     days: int = 365
@@ -91,7 +97,7 @@ def synthetic_year(truth: SyntheticYear, friction: FrictionTable) -> pd.DataFram
 
         dT/dt = 3600 (P_f(T) + M_s n)/C − k_n (T − T_nacelle) − k_o (T − T_ambient)    [K/h]
 
-    with wind, speed and the temperatures of the air constant over ten minutes, and the recorded
+    with k_n growing by `fan` with the wind, and wind, speed and the temperatures of the air constant over ten minutes, and the recorded
     temperature of the bearing the mean of the solution over them.
 
     Parameters
@@ -232,8 +238,7 @@ def _bearing(
     """
     step = _STEP / HOUR
     per_heat = HOUR / truth.capacity
-    factor = np.ones(wind.size)
-    factor[truth.more_from * _ROWS_A_DAY :] = truth.more_friction
+    factor = _friction_factor(truth, wind.size)
     low = friction.temperatures[0]
     high = friction.temperatures[-1]
     grid = np.arange(low - _BEYOND, high + _BEYOND, _CELL)
@@ -243,16 +248,26 @@ def _bearing(
     seals = truth.seal_torque * speed
     heats = per_heat * (factor[:, None] * np.stack(powers, axis=1)[:, inverse] + seals[:, None])
     slopes = np.diff(heats, axis=1) / _CELL
-    loss = truth.to_nacelle + truth.to_ambient
-    drive = truth.to_nacelle * nacelle + truth.to_ambient * ambient
+    to_nacelle = truth.to_nacelle * (1.0 + truth.fan * wind)
+    loss = to_nacelle + truth.to_ambient
+    drive = to_nacelle * nacelle + truth.to_ambient * ambient
     means = np.empty(wind.size)
     now = float(nacelle[0])
     for row in range(wind.size):
         cell = int((now - grid[0]) / _CELL)
         slope = slopes[row, cell]
-        decay = loss - slope
+        decay = loss[row] - slope
         level = (heats[row, cell] - slope * grid[cell] + drive[row]) / decay
         kept = np.exp(-decay * step)
         means[row] = level + (now - level) * (1.0 - kept) / (decay * step)
         now = level + (now - level) * kept
     return means
+
+
+def _friction_factor(truth: SyntheticYear, rows: int) -> NDArray[np.float64]:
+    """Friction of every row over that of the table [-]."""
+    days = np.arange(rows) / _ROWS_A_DAY
+    turns = days / _WANDER_DAYS + _WANDER_PHASE * truth.seed
+    factor = 1.0 + truth.wander * np.sin(2.0 * np.pi * turns)
+    factor[truth.more_from * _ROWS_A_DAY :] *= truth.more_friction
+    return factor

@@ -58,6 +58,20 @@ def column_names(path: Path, sheet: str | None = None) -> list[str]:
     return _opened(path, sheet, ()).names
 
 
+def sheet_names(path: Path) -> list[str]:
+    """Names of the sheets of an XLSX file; none of any other file."""
+    if not path.name.lower().endswith(".xlsx"):
+        return []
+    from openpyxl import load_workbook
+
+    with reading(path, _DAMAGED):
+        book = load_workbook(path, read_only=True)
+    try:
+        return list(book.sheetnames)
+    finally:
+        book.close()
+
+
 def pieces(path: Path, columns: Iterable[str], sheet: str | None = None) -> Iterator[pd.DataFrame]:
     """Columns of a table by their names, piece by piece in the order of its rows.
 

@@ -11,6 +11,7 @@ from macroslip.constants import YEAR
 from macroslip.errors import InputError
 from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
+from macroslip.study.over_temperature import MIXED
 from macroslip.study.weights import Binning, weighted
 
 #: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
@@ -36,6 +37,13 @@ def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     bin of some weight has no result; `runs` and `left_out` over (group, bin). Thresholds that all
     orbits exceed, and those that none does, are left out but for the nearest.
     """
+    if MIXED in study.attrs:
+        raise InputError(
+            "the weights mix temperatures of the oil, between which single orbits are not taken",
+            where="weights",
+            remedy="Look at the runs of one temperature, under weights without scada and "
+            "temperature.",
+        )
     missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
     if missing:
         fault = f"the results hold no {' and no '.join(missing)}"

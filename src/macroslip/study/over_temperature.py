@@ -22,6 +22,12 @@ from macroslip.errors import InputError
 from macroslip.study.temperature_shares import TemperatureShares
 from macroslip.study.weights import bin_numbers, stored_weighting
 
+#: Attribute of a study whose cases are means over temperatures of the oil, and what it then lacks.
+MIXED = "mixed_temperatures"
+NOT_MIXED = (
+    "The weights mix temperatures of the oil, between which single orbits and places of a surface "
+    "are not taken: exceedance, cycles of the load and maps are left out."
+)
 #: Label of the temperature of the oil at the inlets.
 LABEL = "lubricant.at"
 #: Fewest temperatures of a series.
@@ -151,7 +157,8 @@ class RunsOverTemperature:
             coordinates["key"] = ("case", empty, dict(self.study["key"].attrs))
         content = json.loads(self.study.attrs.get("study", "{}"))
         (content.get("variations") or {}).get("grid", {}).pop(LABEL, None)
-        return kept.assign_coords(coordinates).assign(data).assign_attrs(study=json.dumps(content))
+        attributes = {"study": json.dumps(content), MIXED: 1}
+        return kept.assign_coords(coordinates).assign(data).assign_attrs(attributes)
 
     def _shares(self, shares: TemperatureShares, field: str, width: float) -> np.ndarray:
         """Share of the time of each series at each temperature, shape (series, temperatures)."""
