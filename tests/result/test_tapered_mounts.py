@@ -5,11 +5,15 @@ import math
 import numpy as np
 import pytest
 
+from macroslip import Bearing, Case
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.errors import InputError
+from macroslip.loads import Drivetrain, support_loads
 from macroslip.loads.history import HubLoads
+from macroslip.loads.moment_bearing import shaft_load
 from macroslip.lubricant import Lubricant
 from macroslip.result.tapered import TaperedMount, TaperedState, tapered_history
+from macroslip.result.tapered_case import tapered_ring_motion
 from macroslip.ring.tapered import strip_loads, tapered_balance, tapered_ring, two_bearings
 
 MAIN = TaperedBearing.read("tdo-main-bearing")
@@ -127,3 +131,65 @@ def test_moments_on_rows_whose_load_centres_meet_are_refused():
 def test_an_unknown_line_law_is_refused():
     with pytest.raises(InputError, match="palmgren or plane-strain"):
         TaperedState(line_law="half-space")
+
+
+PAIR = {"mount": "two-bearings", "hub_to_bearing": 0.0, "front_to_rear": 0.12, "tilt": 0.0}
+
+
+def test_a_case_of_two_bearings_is_balanced_as_a_pair_on_one_shaft():
+    """Of the file the row counts, and the mount has the distance of both."""
+    loads = constant([3e3, 0.0, -10e3], [0.0, 0.06 * 10e3, 0.0])
+    pair = Case(
+        bearing=SMALL.replace(row_offset=0.03),
+        lubricant=Lubricant.read("vg460-pao"),
+        temperature=308.15,
+        loads=loads,
+        drivetrain=Drivetrain(**PAIR),
+        oil_supply="flooded",
+    )
+    outer = tapered_ring_motion(pair).balance.outer_load
+    induced = outer[0].reshape(2, -1).sum(axis=1) * math.sin(SMALL.outer_angle)
+    assert induced == pytest.approx((4543.0, 1543.0), rel=0.02)
+
+
+def test_force_and_moment_on_two_bearings_are_those_of_rotor_and_shaft_about_their_middle():
+    """A free body: moments of all forces about the middle between both bearings vanish."""
+    shaft = Drivetrain(
+        mount="two-bearings", hub_to_bearing=1.1, front_to_rear=1.6, tilt=0.0, shaft_mass=2e4,
+        shaft_mass_station=2.4,
+    )  # fmt: skip
+    loads = constant([700e3, 50e3, -1300e3], [0.0, -700e3, 200e3])
+    force, moment = shaft_load(loads, shaft)
+    weight = 2e4 * 9.81
+    assert force.force[0] == pytest.approx([50e3, -1300e3 - weight, 700e3], rel=1e-3)
+    # About X0 (horizontal): Z of the hub is −1.9 m, of the weight 2.4 − 1.9 m.
+    assert moment[0, 0] == pytest.approx(-700e3 + 1.9 * -1300e3 + 0.5 * weight, rel=1e-3)
+    assert moment[0, 1] == pytest.approx(200e3 - 1.9 * 50e3)
+
+
+@pytest.mark.parametrize(
+    ("change", "reported"),
+    [
+        ({"front_to_rear": None}, "two-bearings, and front_to_rear is missing"),
+        ({"locating": "rear"}, "the mount is two-bearings, which has no locating"),
+        ({"bearing_to_gearbox": 3.0}, "two-bearings, on which bearing_to_gearbox does not count"),
+    ],
+)
+def test_keys_of_other_mounts_are_refused(change, reported):
+    with pytest.raises(InputError) as caught:
+        Drivetrain(**PAIR | change)
+    assert reported in str(caught.value)
+
+
+def test_bearings_without_moments_are_refused_on_a_mount_of_two_that_carry_them():
+    loads = constant([700e3, 0.0, -1300e3])
+    with pytest.raises(InputError, match="the mount is two-bearings"):
+        support_loads(loads, Drivetrain(**PAIR))
+    with pytest.raises(InputError, match="carries no moment, and drivetrain.mount is two-bearings"):
+        Case(
+            bearing=Bearing.read("skf-240-600-bc"),
+            lubricant=Lubricant.read("vg460-pao"),
+            temperature=308.15,
+            loads=loads,
+            drivetrain=Drivetrain(**PAIR),
+        )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads, RollerLoads
+from macroslip.loads.statics import MOMENT_MOUNTS
 
 if TYPE_CHECKING:
     from macroslip.case.case import Case
@@ -38,9 +39,9 @@ def _of_tapered_bearings(case: Case) -> Iterator[InputError]:
         )
     if not isinstance(case.loads, HubLoads):
         return
-    if case.drivetrain.mount == "alone":
+    if case.drivetrain.mount in MOMENT_MOUNTS:
         yield InputError(
-            f"{kind} and carries no moment, and drivetrain.mount is alone",
+            f"{kind} and carries no moment, and drivetrain.mount is {case.drivetrain.mount}",
             where="drivetrain.mount",
             allowed="three-point or four-point",
             remedy="Choose a mount with two supports, or a tapered roller bearing.",
@@ -106,7 +107,7 @@ def _mount(case: Case) -> Iterator[InputError]:
             "two main bearings of which one is a tapered roller bearing are not computed: they share "
             "moments by their stiffness",
             where="drivetrain.mount",
-            allowed="alone, or three-point with gearbox_stiffness",
+            allowed="alone, two-bearings, or three-point with gearbox_stiffness",
             remedy="Choose one of these mounts, or give the force on the bearing.",
         )
     if case.drivetrain.mount == "three-point" and case.drivetrain.gearbox_stiffness is None:
@@ -114,6 +115,6 @@ def _mount(case: Case) -> Iterator[InputError]:
             f"{case.bearing.name} carries moments, so that what the gearbox takes of them hangs on "
             "the stiffness of its support, which is not given",
             where="drivetrain",
-            allowed="mount: alone; or three-point with gearbox_stiffness",
+            allowed="mount: alone, two-bearings, or three-point with gearbox_stiffness",
             remedy="Write drivetrain: {mount: alone}, or give gearbox_stiffness, such as 100 MN/m.",
         )

@@ -50,6 +50,8 @@ def shaft_load(
 ) -> tuple[BearingLoads, NDArray[np.float64]]:
     """Force and moment of rotor and shaft on the middle of a main bearing that carries moments.
 
+    Of two single-row bearings that is the middle between them.
+
     What a gearbox beside the bearing takes of them follows from the balance of the ring.
 
     Parameters
@@ -76,11 +78,14 @@ def shaft_load(
     >>> (force.force[0] / 1e3).round(1).tolist(), np.abs(moment[0]).round(6).tolist()
     ([0.0, -196.2, 0.0], [0.0, 0.0])
     """
-    force, moment = moment_bearing_load(hub_loads, drivetrain.hub_to_bearing)
+    middle = drivetrain.hub_to_bearing
+    if drivetrain.mount == "two-bearings":
+        middle += 0.5 * (drivetrain.front_to_rear or 0.0)
+    force, moment = moment_bearing_load(hub_loads, middle)
     weight = drivetrain.shaft_mass * GRAVITY
     across = weight * np.cos(drivetrain.tilt)
     force += np.array([0.0, -across, weight * np.sin(drivetrain.tilt)])
-    moment[:, 0] += (drivetrain.shaft_mass_station - drivetrain.hub_to_bearing) * across
+    moment[:, 0] += (drivetrain.shaft_mass_station - middle) * across
     source = f"main bearing under {hub_loads.source}"
     loads = BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, source, hub_loads.event)
     return loads, moment

@@ -18,7 +18,9 @@ from macroslip.input.units import ANGLE, LENGTH, MASS, NUMBER, STIFFNESS
 from macroslip.loads.history import BearingLoads, HubLoads
 from macroslip.loads.windio import windio_values
 
-MOUNTS = ("three-point", "four-point", "alone")
+MOUNTS = ("three-point", "four-point", "alone", "two-bearings")
+#: Mounts of main bearings that carry moments, on which statics do not give their loads.
+MOMENT_MOUNTS = ("alone", "two-bearings")
 BEARINGS = ("front", "rear")
 FRONTS = ("self-aligning", "moment-carrying")
 #: Default distance from the main bearing to the gearbox's support [m].
@@ -35,7 +37,7 @@ _FRONT_KEYS = ("front", "front_moment_share")
 
 def _end_of_shaft(drivetrain: Mapping[str, Any]) -> float:
     """Farthest station of the shaft's mass: gearbox support, or 10 m behind the rear bearing."""
-    if drivetrain.get("mount") == "four-point":
+    if drivetrain.get("mount") in ("four-point", "two-bearings"):
         return drivetrain["hub_to_bearing"] + (drivetrain.get("front_to_rear") or 0.0) + 10.0
     return drivetrain["hub_to_bearing"] + drivetrain["bearing_to_gearbox"]
 
@@ -47,16 +49,16 @@ class Drivetrain:
     Lengths are measured along the shaft, positive downwind. Valid for a rotor upwind of the tower.
     On a three-point mount one main bearing and the gearbox carry the shaft. On a four-point mount
     two main bearings carry it, and the gearbox takes nothing but torque. A main bearing that carries
-    moments may carry it alone. Raises InputError for a
-    value outside its range, for keys of a four-point mount that are missing there, or given on a
-    three-point mount.
+    moments may carry it alone, and two single-row tapered roller bearings together. Raises
+    InputError for a value outside its range, for keys of a mount that are missing there, or given
+    on another one.
 
     Parameters
     ----------
     mount : str
-        `three-point`, `four-point` or `alone`.
+        `three-point`, `four-point`, `alone` or `two-bearings`.
     hub_to_bearing : float [m]
-        Hub centre to main-bearing centre, on a four-point mount to the front one, 0 to 20 m. The
+        Hub centre to main-bearing centre, with two main bearings to the front one, 0 to 20 m. The
         default 1.26 m is an engineering estimate for the WindPACT 1.5 MW turbine, whose published
         model gives no bearing position.
     bearing_to_gearbox : float [m]
@@ -67,7 +69,7 @@ class Drivetrain:
         indeterminate: stiffness of the gearbox's support across the shaft, above 0 up to 1e11 N/m.
     front_to_rear : float [m]
         Four-point mount: centre of the front to centre of the rear main bearing, above 0 up to
-        20 m.
+        20 m. Two bearings: that of the middles of both rows' rollers.
     locating : str
         Four-point mount: which bearing carries all thrust, `front` or `rear`; the other one floats
         along the shaft.
@@ -175,6 +177,14 @@ class Drivetrain:
         required = [key for key in _FOUR_POINT_KEYS if getattr(self, key) is not None]
         excluded = required + [key for key in _FRONT_KEYS if getattr(self, key) is not None]
         missing = [key for key in _FOUR_POINT_KEYS if key not in required]
+        if self.mount == "two-bearings":
+            if self.front_to_rear is None:
+                raise InputError(
+                    "the mount is two-bearings, and front_to_rear is missing",
+                    allowed="the distance of the middles of both rows' rollers, a length",
+                    remedy="Add it.",
+                )
+            excluded.remove("front_to_rear")
         if self.mount == "four-point" and missing:
             are = "is" if len(missing) == 1 else "are"
             raise InputError(
@@ -273,9 +283,9 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     front [   0.  -473.4    0. ] kN
     rear [  0.  210.4 164.4] kN
     """
-    if drivetrain.mount == "alone":
+    if drivetrain.mount in MOMENT_MOUNTS:
         raise InputError(
-            "the mount is alone, on which one main bearing carries the rotor's moments",
+            f"the mount is {drivetrain.mount}, on which main bearings carry the rotor's moments",
             where="drivetrain.mount",
             allowed="three-point or four-point for bearings that carry no moment",
             remedy="Choose a mount with two supports, or a tapered roller bearing.",

@@ -25,8 +25,15 @@ if TYPE_CHECKING:
 
 
 def warm_bearing(case: Case) -> TaperedBearing:
-    """The bearing of a case with the preload that its temperature difference leaves."""
-    return warmed(case.bearing, case.temperature_difference)
+    """The bearing of a case with the preload that its temperature difference leaves.
+
+    Two single rows of its kind, at their distance, where the mount has them.
+    """
+    bearing = case.bearing
+    drivetrain = case.drivetrain
+    if isinstance(case.loads, HubLoads) and drivetrain.mount == "two-bearings":
+        bearing = bearing.replace(row_offset=0.5 * drivetrain.front_to_rear)
+    return warmed(bearing, case.temperature_difference)
 
 
 def tapered_ring_motion(case: Case) -> TaperedMotion:
