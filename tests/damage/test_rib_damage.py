@@ -100,3 +100,23 @@ def test_an_ellipse_that_is_wider_than_the_rib_contact_is_high_is_cut():
     force = np.array([[[100.0]], [[200e3]]])
     margin = rib_values(low, OIL, force, np.full(2, SPEED))["rib_ellipse_margin"][:, 0]
     assert margin[0] > 0.0 > margin[1]
+
+
+def test_friction_of_a_history_is_that_of_every_contact_by_itself():
+    """The spline over load and speed against the integral over every ellipse."""
+    rng = np.random.default_rng(3)
+    force = 20e3 * rng.uniform(0.0, 1.0, (12, 2, 5)) ** 2
+    force[:, :, 0] = 0.0
+    speed = SPEED * rng.uniform(0.5, 1.1, 12)
+    values = rib_values(MAIN, OIL, force, speed)
+    row = tapered_geometry(MAIN)
+    each = rib_state(
+        rib_contact(MAIN, OIL),
+        force,
+        row.rib_entrainment_speed(speed)[:, None, None],
+        row.rib_sliding_speed(speed)[:, None, None],
+    )
+    assert values["rib_power"] == pytest.approx(each.power.sum(axis=2), rel=1e-4)
+    assert values["rib_friction"] == pytest.approx(
+        (each.friction_coefficient * force).sum(axis=2) / force.sum(axis=2), rel=1e-4
+    )

@@ -177,7 +177,13 @@ def rib_asperity_share(film_ratio):
 
 
 def rib_state(
-    contact: RibContact, load, entrainment_speed, sliding_speed, laws: Laws | None = None
+    contact: RibContact,
+    load,
+    entrainment_speed,
+    sliding_speed,
+    laws: Laws | None = None,
+    *,
+    film_coefficient=None,
 ) -> RibState:
     """Pressure, film, friction and power of a rib contact.
 
@@ -190,6 +196,9 @@ def rib_state(
         Mean speed of both surfaces relative to the contact, and sliding speed [m/s], > 0.
     laws : Laws, optional
         Laws of the film's shear; `Laws.physical()` without them.
+    film_coefficient : array_like, optional
+        Friction of the film over its load µ_film [-], where it is known, as of a table; else the
+        integral of its shear over every ellipse.
 
     Returns
     -------
@@ -219,8 +228,9 @@ def rib_state(
     )
     ratio = film / contact.roughness
     share = rib_asperity_share(ratio)
-    film_only = film_friction(contact, carried, film, sliding_speed, laws) / carried
-    friction = share * contact.lubricant.boundary_friction + (1.0 - share) * film_only
+    if film_coefficient is None:
+        film_coefficient = film_friction(contact, carried, film, sliding_speed, laws) / carried
+    friction = share * contact.lubricant.boundary_friction + (1.0 - share) * film_coefficient
     root = np.cbrt(carried)
     return RibState(
         pressure=np.where(pressed, contact.hertz.pressure * root, 0.0),

@@ -5,14 +5,21 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.interpolate import RectBivariateSpline
 
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
-from macroslip.contact.rib import RibState, rib_contact, rib_state
+from macroslip.contact.rib import RibContact, RibState, rib_contact, rib_state
 from macroslip.damage.rib import pass_energy, rib_flash_temperature
 from macroslip.lubricant import Lubricant
 
 #: Surfaces that wear at the ribs.
 RIB_SURFACES = ("rib", "roller end")
+#: Loads and speeds of the spline of the films' friction, and their least parts of the largest ones.
+_KNOTS = (40, 10)
+_LOAD_RANGE = 1e-3
+_SPEED_RANGE = 1e-3
+#: Least load of a film [N].
+_LEAST_LOAD = 1e-3
 #: Least speed of a surface [m/s], in place of a shaft at rest.
 LEAST_SPEED = 1e-9
 
@@ -64,7 +71,9 @@ def rib_values(
     """
     speeds = _speeds(bearing, shaft_speed)
     entrainment = 0.5 * (speeds.rib + speeds.roller)
-    rib = rib_state(rib_contact(bearing, lubricant), rib_force, entrainment, speeds.sliding)
+    contact = rib_contact(bearing, lubricant)
+    coefficient = _film_coefficient(contact, rib_force, entrainment, speeds.sliding)
+    rib = rib_state(contact, rib_force, entrainment, speeds.sliding, film_coefficient=coefficient)
     pressed = rib.pressure > 0.0
     total = rib_force.sum(axis=2)
     friction = (rib.friction_coefficient * rib_force).sum(axis=2) / np.where(
@@ -82,6 +91,34 @@ def rib_values(
         "rib_sliding_speed": float(speeds.sliding.mean()),
         **_suffered(rib, speeds),
     }
+
+
+def _film_coefficient(
+    contact: RibContact, load: np.ndarray, entrainment: np.ndarray, sliding: np.ndarray
+) -> np.ndarray:
+    """Friction of the films over their loads [-], by a spline over load and speed.
+
+    Both speeds go with that of the shaft. Loads below a thousandth of the largest, whose friction
+    does not count, are taken as that.
+    """
+    largest = max(float(load.max()), _LEAST_LOAD)
+    loads = np.geomspace(_LOAD_RANGE * largest, largest, _KNOTS[0])
+    fastest = int(sliding.argmax())
+    slowest = float(sliding.min() / max(sliding.max(), LEAST_SPEED))
+    # A shaft of one speed needs knots as well.
+    parts = np.geomspace(max(0.999 * slowest, _SPEED_RANGE), 1.0, _KNOTS[1])
+    state = rib_state(
+        contact,
+        loads[:, None],
+        parts * max(entrainment.flat[fastest], LEAST_SPEED),
+        parts * max(sliding.flat[fastest], LEAST_SPEED),
+    )
+    boundary = contact.lubricant.boundary_friction * state.asperity_share
+    film = (state.friction_coefficient - boundary) / (1.0 - state.asperity_share)
+    spline = RectBivariateSpline(np.log(loads), np.log(parts), film)
+    part = np.clip(sliding / max(sliding.flat[fastest], LEAST_SPEED), parts[0], 1.0)
+    carried = np.clip(load, loads[0], loads[-1])
+    return spline.ev(np.log(carried), np.log(np.broadcast_to(part, load.shape)))
 
 
 def _suffered(rib: RibState, speeds: _Speeds) -> dict[str, np.ndarray]:
