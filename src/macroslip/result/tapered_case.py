@@ -32,7 +32,7 @@ def warm_bearing(case: Case) -> TaperedBearing:
     bearing = case.bearing
     drivetrain = case.drivetrain
     if isinstance(case.loads, HubLoads) and drivetrain.mount == "two-bearings":
-        bearing = bearing.replace(row_offset=0.5 * drivetrain.front_to_rear)
+        bearing = bearing.replace(row_offset=0.5 * (drivetrain.front_to_rear or 0.0))
     return warmed(bearing, case.temperature_difference)
 
 
