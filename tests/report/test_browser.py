@@ -177,7 +177,7 @@ def test_hovering_shows_values_with_units(opened, result):
     assert float(re.search(r"load ([\d.]+) kN", words).group(1)) == pytest.approx(
         load, rel=5e-3, abs=2e-3
     )
-    assert re.search(r"slip (below )?-?[\d.e-]+ mm/s", words)
+    assert re.search(r"slip (below )?−?[\d.e-]+ mm/s", words)
     assert re.search(r"frictional power (below )?[\d.e-]+ W", words)
     page.mouse.move(5, 5)
     assert tip.is_hidden()
