@@ -14,12 +14,10 @@ from macroslip.input.files import Source
 from macroslip.input.record import Record
 from macroslip.input.units import (
     ANGLE,
-    CONDUCTIVITY,
     FORCE,
     LENGTH,
     NUMBER,
     PRESSURE,
-    SPECIFIC_HEAT,
 )
 
 #: Relative difference allowed between given and computed positions of the roller centre: drawings
@@ -161,21 +159,13 @@ class Bearing(Record):
         float, Quantity("Poisson ratio of rollers and raceways", NUMBER, 0, 0.5, below=True)
     ]
     density: fields.RollerDensity
-    cage_youngs_modulus: Annotated[
-        float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)
-    ]
-    cage_poisson_ratio: Annotated[
-        float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)
-    ]
+    cage_youngs_modulus: fields.CageYoungsModulus
+    cage_poisson_ratio: fields.CagePoissonRatio
     composite_roughness: fields.CompositeRoughness
     hardness: fields.Hardness
 
-    thermal_conductivity: Annotated[
-        _Optional, Positive("thermal conductivity of rollers and raceways", CONDUCTIVITY, 1000)
-    ] = None
-    specific_heat: Annotated[
-        _Optional, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)
-    ] = None
+    thermal_conductivity: fields.ThermalConductivity = None
+    specific_heat: fields.SpecificHeat = None
 
     @property
     def kind(self) -> str:

@@ -3,7 +3,16 @@
 from typing import Annotated
 
 from macroslip.input.fields import Positive, Quantity, Text
-from macroslip.input.units import DENSITY, FORCE, LENGTH, MASS, NUMBER, PRESSURE
+from macroslip.input.units import (
+    CONDUCTIVITY,
+    DENSITY,
+    FORCE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    PRESSURE,
+    SPECIFIC_HEAT,
+)
 
 Name = Annotated[str, Text("short name of the bearing, used in results", line=True)]
 Title = Annotated[str, Text("one line that describes the bearing", may_be_empty=True, line=True)]
@@ -25,4 +34,14 @@ CompositeRoughness = Annotated[
 Hardness = Annotated[
     float,
     Quantity("Vickers hardness of the softer surface, as a pressure", PRESSURE, 1e8, 1e11),
+]
+CageYoungsModulus = Annotated[float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)]
+CagePoissonRatio = Annotated[
+    float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)
+]
+ThermalConductivity = Annotated[
+    float | None, Positive("thermal conductivity of rollers and raceways", CONDUCTIVITY, 1000)
+]
+SpecificHeat = Annotated[
+    float | None, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)
 ]

@@ -15,14 +15,10 @@ from macroslip.input.files import Source
 from macroslip.input.record import Record
 from macroslip.input.units import (
     ANGLE,
-    CONDUCTIVITY,
-    DENSITY,
     FORCE,
     LENGTH,
-    MASS,
     NUMBER,
     PRESSURE,
-    SPECIFIC_HEAT,
 )
 
 #: Arrangements of the two rows: O, the outer rings' back faces meet (large ends of the rollers away
@@ -85,7 +81,7 @@ class TaperedBearing(Record):
         _Optional, Positive("basic static radial load rating C0 of both rows", FORCE, 1e9)
     ] = None
     fatigue_load_limit: fields.FatigueLoadLimit = None
-    mass: Annotated[_Optional, Positive("mass of the bearing", MASS, 1e6)] = None
+    mass: fields.Mass = None
 
     rollers_per_row: fields.RollersPerRow
     roller_diameter: Annotated[float, Positive("diameter of a roller at its middle", LENGTH, 1)]
@@ -146,24 +142,16 @@ class TaperedBearing(Record):
     poisson_ratio: Annotated[
         float, Quantity("Poisson ratio of rollers and rings", NUMBER, 0, 0.5, below=True)
     ]
-    density: Annotated[float, Quantity("density of the rollers", DENSITY, 500, 25000)]
+    density: fields.RollerDensity
     composite_roughness: fields.CompositeRoughness
     hardness: fields.Hardness
     rib_roughness: Annotated[
         float, Positive("composite RMS roughness of the large end and the rib", LENGTH, 1e-4)
     ]
-    cage_youngs_modulus: Annotated[
-        float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)
-    ] = 210e9
-    cage_poisson_ratio: Annotated[
-        float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)
-    ] = 0.3
-    thermal_conductivity: Annotated[
-        _Optional, Positive("thermal conductivity of rollers and raceways", CONDUCTIVITY, 1000)
-    ] = None
-    specific_heat: Annotated[
-        _Optional, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)
-    ] = None
+    cage_youngs_modulus: fields.CageYoungsModulus = 210e9
+    cage_poisson_ratio: fields.CagePoissonRatio = 0.3
+    thermal_conductivity: fields.ThermalConductivity = None
+    specific_heat: fields.SpecificHeat = None
     #: Of other kinds of bearings, whose geometry this one shares at the rollers' middles.
     osculation_inner: ClassVar[None] = None
     osculation_outer: ClassVar[None] = None
