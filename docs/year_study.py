@@ -3,10 +3,13 @@
 macroslip study examples/year.yaml -o year
 macroslip study examples/year_variants.yaml -o variants
 python docs/year_study.py year variants
+macroslip study examples/year_balance.yaml -o own
+python docs/year_study.py own
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 
@@ -19,6 +22,8 @@ from matplotlib.figure import Figure
 from macroslip import open_study
 from macroslip.report.style import BLUE, GREEN, GREY, ORANGE, finish, log_ticks, new_figure
 from macroslip.study.aggregation import aggregation_in_use
+from macroslip.study.over_temperature import RunsOverTemperature, weighted_study
+from macroslip.study.weights import stored_weighting
 from macroslip.study.year import coverage, year
 
 #: Of energy and entries both rows count, of wear the row and place with most.
@@ -32,7 +37,51 @@ VARIANTS = [
     "oil at 25 °C",
     "oil at 50 °C",
 ]
+#: Mean temperature of three sound main bearings of La Haute Borne by wind speed, while they turn [degC].
+MEASURED = {4: 27.3, 6: 29.0, 8: 29.9, 10: 29.6, 12: 29.6, 14: 29.8, 16: 29.5, 18: 29.1, 20: 29.3}
+MEASURED |= {22: 30.0, 24: 30.0}
+#: Heat that a main bearing loses, by estimates of its conductance, to 20 degC.
+CONDUCTANCES = (40, 60, 80)
 MODELS = {"straight rollers": {"marker": "o", "mfc": "white"}, "skewed rollers": {"marker": "o"}}
+
+
+def own_temperatures(folder: str) -> None:
+    """Print a year of production at 35 degC, at measured temperatures and at those of its own friction."""
+    study = open_study(folder)
+    years = {"35 °C": {"by_wind": dict.fromkeys(MEASURED, "35 degC")}}
+    years["measured"] = {"by_wind": {wind: f"{at} degC" for wind, at in MEASURED.items()}}
+    for conductance in CONDUCTANCES:
+        loss = {"conductance": f"{conductance} W/K", "ambient": "20 degC"}
+        years[f"{conductance} W/K"] = {"balance": loss}
+    fixed = None
+    for name, temperature in years.items():
+        content = json.loads(study.attrs["study"])
+        content["weights"] = {"wind": {"weibull": "IEC II"}, "temperature": temperature}
+        known = study.assign_attrs(study=json.dumps(content))
+        if "balance" in temperature:
+            weighting = stored_weighting(known)
+            assert weighting is not None, "the weights were given above"
+            loss = weighting.balance
+            assert loss is not None, "as a balance"
+            balance = RunsOverTemperature.of(known).balance(loss, "wind_speed", 2.0)
+            print(name, {wind: round(at - 273.15, 1) for wind, at in balance.items()})
+        found = year(weighted_study(known), aggregation_in_use(known))
+        bins = xr.Dataset(
+            {
+                "energy": found.energy.sum("row"),
+                "wear": found.wear.isel(row=0),
+                "entries": found.entries.sum("row"),
+            }
+        ).isel(group=0)
+        fixed = bins.sum() if fixed is None else fixed
+        low = bins.sel(bin=bins.bin < 11.0)
+        print(name, {one: f"{float(bins[one].sum() / fixed[one]):.3g}" for one in bins})
+        print(
+            "  below 11 m/s",
+            {one: f"{float(low[one].sum() / bins[one].sum()):.3g}" for one in bins},
+        )
+        shares = 100.0 * bins / bins.sum()
+        print(shares.to_dataframe()[list(bins.data_vars)].round(1).T.to_string())
 
 
 def of_a_year(folder: str) -> tuple[xr.Dataset, xr.DataArray, np.ndarray]:
@@ -197,4 +246,4 @@ def main(base: str, variants: str) -> None:
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    (own_temperatures if len(sys.argv) == 2 else main)(*sys.argv[1:])

@@ -69,7 +69,7 @@ def own(case, key):
 def parts_of(key):
     return (
         key.replace("lubricant.at", "lubricant.inlet_temperature")
-        .replace("round.second", "round_second")
+        .replace("out_of_round.", "out_of_round_")
         .split(".")
     )
 

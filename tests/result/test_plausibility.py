@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from macroslip import (
     Bearing,
@@ -149,3 +150,9 @@ def test_films_that_carry_what_the_rings_do_not_know_are_told(load, doubted):
     assert everything.attrs["mean_elastic_load"] == pytest.approx(
         float(everything.roller_load.mean()), rel=1e-2
     )
+
+
+@pytest.mark.parametrize(("share", "told"), [(0.0, False), (0.005, False), (0.09, True)])
+def test_contacts_that_are_cut_off_at_the_ends_are_told(share, told):
+    doubts = doubtful_result(xr.Dataset(attrs={"truncated_share": share}))
+    assert any("is cut off there, with 9 % of its load" in one for one in doubts) == told

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.optimize import brentq
 
 from macroslip import InputError
 from macroslip.constants import YEAR, ZERO_CELSIUS
@@ -304,6 +305,66 @@ def test_a_temperature_outside_the_runs_is_an_error():
     weights["temperature"] = {"by_wind": {4: "20 degC", 8: "30 degC"}}
     with pytest.raises(InputError, match="no temperature is given for the bin at 12"):
         weighted_study(made_up_study(weights=weights))
+
+
+def with_friction(study, factor):
+    """Friction power [W] of the bearing in every run, times 1 + the clearance [mm] of its design."""
+    labels = zip(study["wind_speed"].values, study["lubricant.at"].values, strict=True)
+    powers = np.array([factor * power(wind, celsius, 0) for wind, celsius in labels])
+    if "bearing.diametral_clearance" in study.coords:
+        powers = powers * (1.0 + study["bearing.diametral_clearance"].values)
+    return study.assign(friction_power=("case", powers, {"units": "W"}))
+
+
+BALANCED = {
+    "width": 4.0,
+    "wind": {"weibull": {"scale": 9.0, "shape": 2.0}},
+    "temperature": {"balance": {"conductance": "20 W/K", "ambient": "10 degC"}},
+}
+
+
+def test_each_bin_of_each_design_has_the_temperature_of_its_balance():
+    study = with_friction(made_up_study(weights=BALANCED, clearances=(0.0, 0.5)), 100.0)
+    means = weighted_study(study)
+    assert means.sizes["case"] == 12
+    assert means["case"].values.tolist() == list(range(12))
+    winds = (4.0, 8.0, 12.0)
+    likely = np.array([Weibull(9.0, 2.0).probability(one, 4.0) for one in winds])
+    for clearance in (0.0, 0.5):
+        own = means.isel(
+            case=np.flatnonzero(means["bearing.diametral_clearance"].values == clearance)
+        )
+        wear = dict(zip(own.loads.values, own.wear_rate.sel(row="downwind").values, strict=True))
+        at = {
+            wind: brentq(
+                lambda t, wind=wind, more=clearance: (
+                    100.0 * (1.0 + more) * power(wind, t, 0) - 20.0 * (t - 10.0)
+                ),
+                5.0,
+                45.0,
+            )
+            for wind in winds
+        }
+        assert at[4.0] < at[8.0] < at[12.0]
+        for name, wind, number in (("4", 4.0, 0), ("8b", 8.0, 2), ("12", 12.0, 3)):
+            expected = (1.0 + clearance) * wear_rate(wind, at[wind], number)
+            assert wear[name] == pytest.approx(expected, rel=1e-6)
+        mean = likely @ list(at.values()) / likely.sum()
+        idle = (1.0 + clearance) * wear_rate(6.0, mean, 5)
+        assert wear["idle"] == pytest.approx(idle, rel=1e-6)
+
+
+def test_a_balance_outside_the_runs_or_beside_temperatures_is_an_error():
+    hot = with_friction(made_up_study(weights=BALANCED), 1e4)
+    with pytest.raises(InputError, match="the bin at 4 lies above the temperatures of the runs, 5"):
+        weighted_study(hot)
+    failed = with_friction(made_up_study(weights=BALANCED), np.nan)
+    with pytest.raises(InputError, match="a run of the bin at 4 has no friction power"):
+        weighted_study(failed)
+    both = BALANCED["temperature"] | {"by_wind": {4: "20 degC"}}
+    for given, said in ((both, "are given twice"), ({}, "is not given")):
+        with pytest.raises(InputError, match=said):
+            form_from(Weighting).read(BALANCED | {"temperature": given}, IN_FILE)
 
 
 def test_series_interpolate_logarithms_where_they_can():

@@ -2,10 +2,22 @@
 
 import pytest
 
-from macroslip import Bearing, Drivetrain, Lubricant, Turbine, bundled_cases
+from macroslip import (
+    Bearing,
+    Drivetrain,
+    HubLoads,
+    Laws,
+    Lubricant,
+    Turbine,
+    bundled_cases,
+    main_bearing_load,
+)
 from macroslip.case.case_file import read_case
+from macroslip.contact.interface import highest_load, truncated_share, truncation_load
 from macroslip.errors import InputError
 from macroslip.loads.bundled import bundled_case
+from macroslip.ring.motion import ring_motion
+from macroslip.roller.model import ring_geometry, roller_model
 
 NAMES = Turbine.catalogue()
 
@@ -79,3 +91,19 @@ def test_a_turbine_whose_mount_is_none():
     entries = Turbine.read("nrel5").as_dict() | {"mount": "four-point"}
     with pytest.raises(InputError, match="front_to_rear and locating and bearing are missing"):
         Turbine.from_dict(entries)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("loads", ["nrel5-24B", "nrel5-18A"])
+def test_the_rear_seat_carries_ten_minutes_of_its_hardest_loads(loads):
+    """What the contacts cut off at the rollers' ends stays below a tenth of the largest roller load."""
+    turbine = Turbine.read("nrel5-rear")
+    bearing = Bearing.read(turbine.bearing)
+    oil = Lubricant.read(turbine.lubricant)
+    laws = Laws.physical()
+    ring = ring_geometry(bearing, roller_model(bearing, oil, 1, tilt=turbine.drivetrain.tilt))
+    history = main_bearing_load(HubLoads.bundled(loads), turbine.drivetrain)
+    assert history.time[-1] - history.time[0] > 599.0
+    _, largest = ring_motion(history, bearing, ring, highest_load(bearing, oil, laws))
+    share = truncated_share(largest, truncation_load(bearing, oil))
+    assert 0.05 < share < 0.1

@@ -33,6 +33,8 @@ _PRESSURE = 4e9
 _SIDEWAYS = 0.2
 #: Share of the rollers' load that films may carry without the balance of the rings.
 _FILMS = 0.05
+#: Share of the most loaded roller's load beyond its ends from which on that is told.
+_CUT = 0.01
 #: Numbers of a rating that are judged.
 JUDGED = ("static_safety", "largest_pressure", "share_below_minimum_load")
 #: Share of the time, or of the loaded time, beyond which a range counts as left.
@@ -134,7 +136,8 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
     With those on its loads.
     """
     doubts = result.attrs.get("doubtful_loads", "").splitlines()
-    return doubts + _doubtful_rating(result) + _preload_by_heat(result) + _films_in_balance(result)
+    doubts += _doubtful_rating(result) + _preload_by_heat(result)
+    return doubts + _films_in_balance(result) + _cut_contacts(result)
 
 
 def _doubtful_rating(result: xr.Dataset) -> list[str]:
@@ -203,4 +206,17 @@ def _films_in_balance(result: xr.Dataset) -> list[str]:
         "of the rings does not know them: in oil so thick the rings stand further apart, and "
         "loads, energies and torque are less than computed; take a warmer or thinner oil, or a "
         "larger load."
+    ]
+
+
+def _cut_contacts(result: xr.Dataset) -> list[str]:
+    """Sentence on contacts that reach beyond the rollers' ends, where they are cut off."""
+    share = result.attrs.get("truncated_share", 0.0)
+    if not share > _CUT:
+        return []
+    return [
+        f"the contact of the most loaded roller would reach beyond its ends and is cut off there, "
+        f"with {100.0 * share:.2g} % of its load: the pressure at the edges, which a roller's profile "
+        "relieves, is not computed; check the loads, or give a closer osculation if the bearing has "
+        "one."
     ]

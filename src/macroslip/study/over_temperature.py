@@ -16,11 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from scipy.interpolate import PchipInterpolator
+from scipy.optimize import brentq
 
 from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.study.temperature_shares import TemperatureShares
-from macroslip.study.weights import bin_numbers, stored_weighting
+from macroslip.study.weights import LossOfHeat, Weighting, bin_numbers, binned, stored_weighting
 
 #: Attribute of a study whose cases are means over temperatures of the oil, and what it then lacks.
 MIXED = "mixed_temperatures"
@@ -113,6 +114,69 @@ class RunsOverTemperature:
             self.temperatures, known, held, by_factors=name.startswith(_BY_FACTORS)
         )
         return np.moveaxis(of_series, 0, 1)
+
+    def balance(self, loss: LossOfHeat, field: str, width: float) -> dict[float, float]:
+        """Temperature [K] of each bin of wind speed at which friction is the heat that is lost.
+
+        The mean friction power of the runs of the bin P(T) is G (T − T_ambient) there.
+
+        Parameters
+        ----------
+        loss : LossOfHeat
+            G [W/K] and T_ambient [K].
+        field : str
+            Label of the wind speed.
+        width : float
+            Width of a bin.
+
+        Returns
+        -------
+        dict
+            By the middle of the bin.
+
+        Raises
+        ------
+        InputError
+            If a balance lies outside the temperatures of the runs.
+        """
+        first = self.study.isel(case=self.runs[:, 0])
+        is_wind = np.full(self.runs.shape[0], fill_value=True)
+        if "event" in first.coords:
+            is_wind = first["event"].values.astype(str) == ""
+        centres = bin_numbers(first[field].values, width) * width
+        found = {}
+        for centre in np.unique(centres[is_wind]).tolist():
+            inside = is_wind & (centres == centre)
+            powers = self.study["friction_power"].values[self.runs[inside]].mean(axis=0)
+            found[centre] = self._balance_of(powers, loss, f"{centre:g}")
+        return found
+
+    def _balance_of(self, powers: np.ndarray, loss: LossOfHeat, centre: str) -> float:
+        """Temperature [K] of balance from friction powers [W] at those of the runs."""
+
+        def excess(at: float) -> float:
+            known = interpolated(self.temperatures, powers, np.array([at]), by_factors=True)
+            return float(known[0]) - loss.conductance * (at - loss.ambient)
+
+        low = float(self.temperatures[0])
+        high = float(self.temperatures[-1])
+        if not np.isfinite(powers).all():
+            raise InputError(
+                f"a run of the bin at {centre} has no friction power",
+                where="weights.temperature.balance",
+                allowed="runs without failure",
+            )
+        if not excess(low) >= 0.0 >= excess(high):
+            where = "below" if excess(low) < 0.0 else "above"
+            raise InputError(
+                f"the balance of the bin at {centre} lies {where} the temperatures of the runs, "
+                f"{_celsius(low)} to {_celsius(high)} degC",
+                where="weights.temperature.balance",
+                allowed="runs that span the balance of each bin",
+                remedy="Run the load cases at further temperatures, or check conductance and "
+                "ambient.",
+            )
+        return float(brentq(excess, low, high, xtol=1e-9))
 
     def mean(self, shares: TemperatureShares, field: str, width: float) -> xr.Dataset:
         """Means of the runs of each series over the time at each temperature, one case a series.
@@ -262,11 +326,27 @@ def weighted_study(study: xr.Dataset) -> xr.Dataset:
     Raises InputError if the weights need temperatures that the runs do not span.
     """
     stored = stored_weighting(study)
+    if stored is not None and stored.balance is not None:
+        return _at_balance(study, stored, stored.balance)
     if stored is None or stored.temperatures is None:
         return study
     runs = RunsOverTemperature.of(study)
     check_span(stored.temperatures, runs.temperatures)
     return runs.mean(stored.temperatures, stored.field, stored.width)
+
+
+def _at_balance(study: xr.Dataset, weighting: Weighting, loss: LossOfHeat) -> xr.Dataset:
+    """The study with each bin of each design at the temperature of its own balance of heat."""
+    designs = binned(study.drop_vars(LABEL, errors="ignore"), weighting.field, weighting.width)
+    means = []
+    for number in range(len(designs.groups)):
+        runs = RunsOverTemperature.of(study.isel(case=np.flatnonzero(designs.group == number)))
+        by_wind = runs.balance(loss, weighting.field, weighting.width)
+        shares = weighting.at_each_wind(by_wind)
+        means.append(runs.mean(shares, weighting.field, weighting.width))
+    together = xr.concat(means, "case", combine_attrs="override")
+    number_of_case = np.arange(together.sizes["case"])
+    return together.assign_coords(case=("case", number_of_case, dict(study["case"].attrs)))
 
 
 def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]:

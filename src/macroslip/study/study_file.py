@@ -534,12 +534,13 @@ def _content(data: Mapping[str, Any], weights: Weighting | None) -> dict[str, An
 
 def _check_temperatures(weights: Weighting, variations: Variations) -> None:
     """Check that the runs span the temperatures of the weights."""
-    if weights.temperatures is None:
+    if weights.temperatures is None and weights.balance is None:
         return
     settings: list[Setting] = (variations.grid or {}).get(LABEL, [])  # pyright: ignore[reportAssignmentType]
     at = [float(kelvin(np.array(setting.value), setting.unit)) for setting in settings]
     check_varied(len(at))
-    check_span(weights.temperatures, np.sort(at))
+    if weights.temperatures is not None:
+        check_span(weights.temperatures, np.sort(at))
 
 
 def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Case:

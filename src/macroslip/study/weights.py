@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike
 
 from macroslip.constants import YEAR
 from macroslip.errors import InputError
-from macroslip.input.fields import IN_FILE, Context, Form, Quantity, Text
+from macroslip.input.fields import IN_FILE, Context, Form, Positive, Quantity, Text
 from macroslip.input.section import MappingOf, form_from, input_section
-from macroslip.input.units import NUMBER
+from macroslip.input.units import CONDUCTANCE, NUMBER, TEMPERATURE
 from macroslip.result.variables import described
 from macroslip.scada.bins import JointShares
 from macroslip.scada.reader import Scada
@@ -192,13 +192,38 @@ _RATES = MappingOf(
 )
 
 
+@input_section("weights.temperature.balance", "how the bearing loses its heat, at each wind speed")
+class LossOfHeat:
+    """Loss of heat by which each bin of wind speed has a temperature, P(T) = G (T − T_ambient)."""
+
+    conductance: Annotated[float, Positive("heat flow to the surroundings per kelvin", CONDUCTANCE)]
+    ambient: Annotated[
+        float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15)
+    ]
+
+
 @input_section("weights.temperature", "temperature of the oil at each wind speed")
 class OilTemperature:
-    """Temperature of the oil in each bin of wind speed; of events it is the mean over the year."""
+    """Temperature of the oil in each bin of wind speed; of events it is the mean over the year.
+
+    It is given, or each design finds its own by the balance of its heat.
+    """
 
     by_wind: Annotated[
-        dict[float, float], ByWind("temperature of the oil by the middle of each bin")
-    ]
+        dict[float, float] | None, ByWind("temperature of the oil by the middle of each bin")
+    ] = None
+    balance: LossOfHeat | None = None
+
+    def __post_init__(self) -> None:
+        if (self.by_wind is None) == (self.balance is None):
+            raise InputError(
+                "temperatures of the oil are given twice"
+                if self.balance
+                else "the temperature of the oil is not given",
+                allowed="by_wind: {4: 27 degC, 6: 29 degC} or balance: {conductance: 60 W/K, "
+                "ambient: 20 degC}",
+                remedy="Give one of both.",
+            )
 
 
 @input_section(
@@ -262,14 +287,25 @@ class Weighting:
 
     @property
     def temperatures(self) -> TemperatureShares | None:
-        """Shares of time at each temperature of the oil; None where only runs have these."""
+        """Shares of time at each temperature of the oil; None where only runs have these.
+
+        So it is where each bin has the temperature of its balance.
+        """
         if isinstance(self.scada, JointShares):
             return TemperatureShares.measured(self.scada)
-        if self.temperature is None:
+        if self.temperature is None or self.temperature.by_wind is None:
             return None
-        of_wind = self.temperature.by_wind
-        likely = [self._wind.probability(centre, self.width) for centre in of_wind]
-        return TemperatureShares.from_wind(of_wind, likely)
+        return self.at_each_wind(self.temperature.by_wind)
+
+    def at_each_wind(self, by_wind: Mapping[float, float]) -> TemperatureShares:
+        """Shares of one temperature [K] for each bin; events have the mean of these."""
+        likely = [self._wind.probability(centre, self.width) for centre in by_wind]
+        return TemperatureShares.from_wind(by_wind, likely)
+
+    @property
+    def balance(self) -> LossOfHeat | None:
+        """Loss of heat that tells the temperature of each bin; None where something else does."""
+        return self.temperature.balance if self.temperature is not None else None
 
     def with_measured_year(self, loads: Sequence[Load], folder: Path) -> Weighting:
         """A copy with the means of the turbine read and sorted into the bins of the loads.
