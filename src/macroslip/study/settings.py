@@ -8,14 +8,20 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from os import PathLike
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import Bearing
+from macroslip.bearing.kinds import (
+    BEARING_KINDS,
+    bearing_catalogue,
+    bearing_from_dict,
+    read_bearing,
+)
 from macroslip.case.case import Case
 from macroslip.case.case_file import build_case
 from macroslip.case.load_source import FOR_HUB_FILES, LoadSource
@@ -34,13 +40,33 @@ from macroslip.input.section import (
     read_value,
     word_of,
 )
-from macroslip.input.units import NUMBER, NUMBER_PATTERN, is_finite_number
+from macroslip.input.units import NUMBER, NUMBER_PATTERN, Dimension, is_finite_number
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.result.variables import CONTACT_DETAILS
 
+
+class RecordKinds(NamedTuple):
+    """Classes of a kind of record, and how one is read whatever its class."""
+
+    classes: tuple[type[Record], ...]
+    catalogue: Callable[[], Sequence[str]]  #: Names of the shipped ones
+    read: Callable[[str | PathLike[str]], Record]  #: From a name or a file
+    from_dict: Callable[[Mapping[str, Any]], Record]  #: From the content of a file
+
+    @property
+    def dimensions(self) -> dict[str, Dimension]:
+        """Quantities of all classes by key."""
+        return {key: unit for kind in self.classes for key, unit in dimensions(kind).items()}
+
+
 #: Records with values of their own, each of which can be replaced.
-RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
+RECORDS: dict[str, RecordKinds] = {
+    "bearing": RecordKinds(BEARING_KINDS, bearing_catalogue, read_bearing, bearing_from_dict),
+    "lubricant": RecordKinds(
+        (Lubricant,), Lubricant.catalogue, Lubricant.read, Lubricant.from_dict
+    ),
+}
 #: Keys that change several values of a record together, with the quantity whose units they have.
 _TOGETHER = {"lubricant.at": "inlet_temperature"}
 #: Keys of a case that have a key of their own in a study.
@@ -94,7 +120,7 @@ class Setting:
         """
         head, *parts = self.key.split(".")
         if head in RECORDS and parts:
-            self._check_entry(RECORDS[head], ".".join(parts))
+            self._check_entry(head, ".".join(parts))
             return self
         if head in _ELSEWHERE:
             remedy = f"It has its own key in a study: {_ELSEWHERE[head]}."
@@ -103,7 +129,7 @@ class Setting:
         if not fields:
             others = (key for key in _settable() if key.partition(".")[0] not in _ELSEWHERE)
             records = (
-                f"{noun}.{key}" for noun, record in RECORDS.items() for key in dimensions(record)
+                f"{noun}.{key}" for noun, record in RECORDS.items() for key in record.dimensions
             )
             raise unknown_key(self.key, [*others, *records])
         problems = []
@@ -128,11 +154,11 @@ class Setting:
             raise InputError(f"it is {shown(self.value)}", allowed=word)
         read_value(field, self.text, FORM_ONLY)
 
-    def _check_entry(self, record: type[Record], key: str) -> None:
+    def _check_entry(self, noun: str, key: str) -> None:
         key = _TOGETHER.get(self.key, _field_key(key))
-        known = dimensions(record)
+        known = RECORDS[noun].dimensions
         if key not in known:
-            raise unknown_key(self.key, (f"{record.noun}.{name}" for name in known))
+            raise unknown_key(self.key, (f"{noun}.{name}" for name in known))
         if not is_finite_number(self.value):
             raise InputError(
                 f"it is {shown(self.value)}",
@@ -185,7 +211,8 @@ def replaced(record: Record, settings: Sequence[Setting]) -> Record:
     >>> bearing.diametral_clearance, bearing.provenance["diametral_clearance"].tag
     (0.0002, 'U')
     """
-    head = f"{record.noun}."
+    noun = "lubricant" if isinstance(record, Lubricant) else "bearing"
+    head = f"{noun}."
     own = [setting for setting in settings if setting.key.startswith(head)]
     entries = {
         _field_key(setting.key.removeprefix(head)): setting.entry
@@ -331,7 +358,7 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
                 remedy="Give low, high and unit.",
             )
         noun, _, name = key.partition(".")
-        known = dimensions(RECORDS[noun])
+        known = RECORDS[noun].dimensions
         if _field_key(name) not in known:
             raise unknown_key(key, (f"{noun}.{entry}" for entry in known))
         return None

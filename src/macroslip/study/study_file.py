@@ -33,7 +33,7 @@ from macroslip.result.variables import VARIABLES
 from macroslip.scada.bins import JointShares
 from macroslip.study.loads_list import Load, LoadList, load_list
 from macroslip.study.over_temperature import LABEL, check_span, check_varied, kelvin
-from macroslip.study.settings import RECORDS, Sample, Setting, read_loads, template
+from macroslip.study.settings import RECORDS, RecordKinds, Sample, Setting, read_loads, template
 from macroslip.study.weights import Weighting
 
 LOAD_SOURCES = ("files", "table", "bundled")
@@ -617,7 +617,7 @@ def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]
     return sample.with_ranges_of(owners)
 
 
-def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Record]:
+def _records(kind: RecordKinds, names: list[str], folder: Path) -> dict[str, Record]:
     catalogue = kind.catalogue()
     return {name: kind.read(name if name in catalogue else folder / name) for name in names}
 
