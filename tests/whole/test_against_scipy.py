@@ -45,7 +45,7 @@ def raceway(body, law, tables, load, speed, slip):
 @jit
 def roller_contacts(body, tables, load, depth, outward, inner, outer, push, sliding):
     """Spin force, pull [N] and power [W] of both raceways, given ring speeds and slips, and friction of the cage [N]."""
-    load += film_load(body, tables, load, depth, outward, outer[0])
+    load += film_load(body, tables, load, depth, outward, outer[0]).load
     at_inner = raceway(body, body.inner, tables, load + max(-outward, 0.0), inner[0], inner[1])
     at_outer = raceway(body, body.outer, tables, load + max(outward, 0.0), outer[0], outer[1])
     cage = cage_forces(body, tables, abs(push), -sliding, log_speed(sliding))

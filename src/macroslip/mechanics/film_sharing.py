@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.look_up import in_plane
+from macroslip.contact.look_up import in_plane, log_load
 
 #: Entrainment speed below which film formulas are not followed further [m/s].
 LOWEST_SPEED = 1e-6
 #: Film of the volume flow over the smallest gap of a rigid contact (Martin) [-].
 FLOW = 1.2257
-#: Film loads below this fraction of the elastic load are neglected (they enter as e^−30) [-].
-NEGLIGIBLE = 1.0 / 30.0
-#: Bounds of ln q [ln N].
-_LIGHTEST = math.log(1e-9)
+#: Film loads below this fraction of the elastic load are neglected [-]. They enter as e^−20, so that
+#: loads jump there by 1e-10 of themselves, far below what any tolerance sees.
+NEGLIGIBLE = 1.0 / 20.0
+#: Lightest load of the search for q [N], and bounds of ln q [ln N].
+_LIGHTEST_LOAD = 1e-9
+_LIGHTEST = math.log(_LIGHTEST_LOAD)
 _HEAVIEST = math.log(1e7)
 #: Most iterations of Newton's method; it takes about two.
 _ITERATIONS = 60
@@ -44,7 +47,98 @@ def _log_film_excess(body, tables, log_q, outward, play, log_u):
     return math.log(films / (FLOW * space)), slope
 
 
+class FilmLoad(NamedTuple):
+    """Load that the films on both raceways of a roller carry beside elastic load and body force."""
+
+    load: float  #: q ≥ 0 [N]
+    #: Load at which films and space are equal [N], where the search a moment later begins: q where
+    #: there is play, and that of closed play where the rings press on the roller
+    balance: float
+
+
 @jit
+def film_balance(body, tables, play, outward, ring_speed, guess):
+    """Load at which the films of a roller fill the space between the rings [N].
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    play : float
+        p ≥ 0 [m].
+    outward : float
+        Body force B along the contact normal, positive outward [N].
+    ring_speed : float
+        u2 [m/s]; below twice `LOWEST_SPEED` films are those of this speed.
+    guess : float
+        Load at which the search begins [N]; 1 N where it is 0.
+
+    Returns
+    -------
+    float
+        q of `shared_film_load` [N], to a relative error of 1e-9; 1e-9 N where the play is wider than
+        the oil reaches.
+    """
+    if play >= body.film_reach:
+        return math.exp(_LIGHTEST)
+    log_u = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
+    low = _LIGHTEST - 1.0
+    high = _HEAVIEST
+    log_q = math.log(guess) if guess > 0.0 else 0.0
+    for _ in range(_ITERATIONS):
+        excess, slope = _log_film_excess(body, tables, log_q, outward, play, log_u)
+        if excess > 0.0:
+            low = log_q
+        else:
+            high = log_q
+        step = -excess / slope if slope < 0.0 else math.inf
+        following = log_q + step
+        # A start at the root may leave the bounds by rounding.
+        if abs(step) >= _CONVERGED and not low < following < high:
+            # Films that the play is too wide for carry nothing, which the lightest load shows at
+            # once.
+            wide = low < _LIGHTEST and excess <= 0.0
+            following = _LIGHTEST if wide else 0.5 * (low + high)
+        change = abs(following - log_q)
+        log_q = following
+        if change < _CONVERGED:
+            break
+    return math.exp(log_q)
+
+
+@jit
+def film_reach(body, tables, outward, ring_speed):
+    """Play that films fill under the lightest load that the search for their load knows [m].
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    tables : int
+        Address of the flat array of tables.
+    outward : float
+        Body force B along the contact normal, positive outward [N].
+    ring_speed : float
+        u2 [m/s].
+
+    Returns
+    -------
+    float
+        The play [m], above which films carry nothing; it is less at lower speeds.
+    """
+    log_u = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
+    inner = in_plane(body.inner.oil, tables, log_load(_LIGHTEST_LOAD + max(-outward, 0.0)), log_u)
+    outer = in_plane(body.outer.oil, tables, log_load(_LIGHTEST_LOAD + max(outward, 0.0)), log_u)
+    return (math.exp(inner[0][2]) + math.exp(outer[0][2])) / FLOW
+
+
+@jit_inline
+def _at_speed(balance, ring_speed):
+    """Load of films at a ring speed [N]: in proportion to speed where it vanishes."""
+    return balance * min(1.0, 0.5 * abs(ring_speed) / LOWEST_SPEED)
+
+
+@jit_inline
 def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
     """Load q that the lighter of a roller's two raceway films carries [N].
 
@@ -75,31 +169,8 @@ def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
     float
         q [N], to a relative error of 1e-9.
     """
-    speed = 0.5 * abs(ring_speed)
-    log_u = math.log(max(speed, LOWEST_SPEED))
-    low = _LIGHTEST - 1.0
-    high = _HEAVIEST
-    log_q = math.log(guess) if guess > 0.0 else 0.0
-    for _ in range(_ITERATIONS):
-        excess, slope = _log_film_excess(body, tables, log_q, outward, play, log_u)
-        if excess > 0.0:
-            low = log_q
-        else:
-            high = log_q
-        step = -excess / slope if slope < 0.0 else math.inf
-        following = log_q + step
-        # A start at the root may leave the bounds by rounding.
-        if abs(step) >= _CONVERGED and not low < following < high:
-            # Films that the play is too wide for carry nothing, which the lightest load shows at
-            # once.
-            wide = low < _LIGHTEST and excess <= 0.0
-            following = _LIGHTEST if wide else 0.5 * (low + high)
-        change = abs(following - log_q)
-        log_q = following
-        if change < _CONVERGED:
-            break
-    # In proportion to speed where it vanishes.
-    return math.exp(log_q) * min(1.0, speed / LOWEST_SPEED)
+    balance = film_balance(body, tables, play, outward, ring_speed, guess)
+    return _at_speed(balance, ring_speed)
 
 
 @jit
@@ -129,7 +200,7 @@ def film_load_is_negligible(body, tables, load, outward, ring_speed):
 
 @jit_inline
 def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
-    """Load of the films on either raceway beside the elastic load and the body force [N].
+    """Load of the films on either raceway beside the elastic load and the body force.
 
     As the play vanishes q rises to a load q0 that films carry without play; a roller that the rings
     press with Q_e has q0 exp(−Q_e/q0) of it left, so that loads are continuous.
@@ -148,18 +219,19 @@ def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
     ring_speed : float
         u2 [m/s].
     guess : float
-        Film load at which the search begins [N], as of `shared_film_load`.
+        Load at which the search begins [N], such as the `balance` a moment before; 1 N where it
+        is 0.
 
     Returns
     -------
-    float
-        Load q of the films, ≥ 0 [N].
+    FilmLoad
     """
     if not body.oily or load >= body.faded_load:
-        return 0.0
+        return FilmLoad(0.0, guess)
+    balance = film_balance(body, tables, max(-approach, 0.0), outward, ring_speed, guess)
+    carried = _at_speed(balance, ring_speed)
     if load <= 0.0:
-        return shared_film_load(body, tables, -approach, outward, ring_speed, guess)
-    without_play = shared_film_load(body, tables, 0.0, outward, ring_speed, guess)
-    if without_play <= NEGLIGIBLE * load:
-        return 0.0
-    return without_play * math.exp(-load / without_play)
+        return FilmLoad(carried, balance)
+    if carried <= NEGLIGIBLE * load:
+        return FilmLoad(0.0, balance)
+    return FilmLoad(carried * math.exp(-load / carried), balance)

@@ -17,7 +17,7 @@ class RollerLoads(NamedTuple):
     #: Elastic approach δ of ring, roller and ring [m]; negative where there is play
     interference: float
     elastic_load: float  #: Load Q that the rings press on the roller [N]
-    film_load: float  #: Load of the films that share a roller's play [N]
+    film_balance: float  #: Where the next search for the films' load begins [N]
     inner_load: float  #: Normal load of the inner raceway, with body forces and films [N]
     outer_load: float  #: Normal load of the outer raceway, with body forces and films [N]
     tangential: float  #: F_g,x' + F_d,x', along +x' [N]
@@ -88,7 +88,8 @@ def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
     orbital_speed : float
         Ω [rad/s].
     guess : float
-        Film load at which the search for the films' load begins [N].
+        Load at which the search for the films' load begins [N], such as the `film_balance` of a
+        moment before; 1 N where it is 0.
 
     Returns
     -------
@@ -102,8 +103,8 @@ def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
     return RollerLoads(
         approach,
         pressed,
-        films,
-        pressed + films - min(outward, 0.0),
-        pressed + films + max(outward, 0.0),
+        films.balance,
+        pressed + films.load - min(outward, 0.0),
+        pressed + films.load + max(outward, 0.0),
         tangential_body_force(body, cosine, orbital_speed),
     )

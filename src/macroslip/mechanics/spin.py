@@ -33,8 +33,9 @@ STATION = np.dtype(
         ("outer_load", "f8"),
         # F_g,x' + F_d,x', along +x' [N].
         ("tangential", "f8"),
-        # Load of the films that share a roller's play [N], where the next search for it begins.
-        ("film_load", "f8"),
+        # Load at which films fill the space between the rings [N], where the next search for the
+        # films' load begins.
+        ("film_balance", "f8"),
         # Logarithms [ln N] and cube roots [N^(1/3)] of the normal loads.
         ("log_inner_load", "f8"),
         ("log_outer_load", "f8"),
@@ -98,11 +99,11 @@ def station(body, tables, start_angle, now, at):
     angle = start_angle + body.orbit_ratio * now.shaft_angle
     cosine = math.cos(angle)
     sine = math.sin(angle)
-    loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.film_load)
+    loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.film_balance)
     at.ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
     at.interference = loads.interference
     at.elastic_load = loads.elastic_load
-    at.film_load = loads.film_load
+    at.film_balance = loads.film_balance
     at.inner_load = loads.inner_load
     at.outer_load = loads.outer_load
     at.tangential = loads.tangential

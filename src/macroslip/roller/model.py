@@ -28,7 +28,7 @@ from macroslip.contact.table import (
     write_traction,
 )
 from macroslip.lubricant import Lubricant
-from macroslip.mechanics.film_sharing import film_load_is_negligible
+from macroslip.mechanics.film_sharing import film_load_is_negligible, film_reach
 from macroslip.ring.balance import RingGeometry
 
 #: Least load of planes [N], and least speed of oil's as part of the fastest.
@@ -77,6 +77,7 @@ BODY = np.dtype(
         # K^(−2/3): elastic approach over load^(2/3) [m/N^(2/3)]
         ("compliance", "f8"),
         ("faded_load", "f8"),  # elastic load from which on the films' load is negligible [N]
+        ("film_reach", "f8"),  # play from which on films carry nothing at any speed [m]
         ("highest_load", "f8"),  # of the tables [N]
         ("highest_speed", "f8"),  # of the tables, w [m/s]
         ("inner", CONTACT),
@@ -281,8 +282,10 @@ def with_tables(
         found[row] = Roller(body, flat)
     if body[0]["oily"]:
         load = _faded_load(found, model, box)
-        for one in found.values():
-            one.body[0]["faded_load"] = load
+        reach = _film_reach(found, model, box)
+        for roller in found.values():
+            roller.body[0]["faded_load"] = load
+            roller.body[0]["film_reach"] = reach
     typical = max((error.typical for error in errors), default=0.0)
     worst = max((error.worst for error in errors), default=0.0)
     return found, TableReport(typical, worst, flat.nbytes)
@@ -344,6 +347,7 @@ def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
     body["oily"] = laws.inner.rolling is not None
     body["compliance"] = model.stiffness ** (-2.0 / 3.0)
     body["faded_load"] = math.inf
+    body["film_reach"] = math.inf
     body["highest_load"] = box.load
     body["highest_speed"] = box.fastest
     for name in ("inner", "outer"):
@@ -354,18 +358,34 @@ def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
             body[name]["traction"]["side"] = math.copysign(1.0, shape.spin_ratio)
 
 
+def _body_forces(model: RollerModel, box: Box) -> tuple[float, float, float]:
+    """Body force along the contact normal [N] at its least, where it vanishes and at its most."""
+    most = body_force(model, box.fastest / (model.orbit_ratio * model.outer_radius))
+    return -most, 0.0, most
+
+
 def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
     """Elastic load [N] from which on films carry nothing beside it in the box.
 
     Films grow with speed, and carry more the less the body force presses on one of them.
     """
-    shaft_speed = box.fastest / (model.orbit_ratio * model.outer_radius)
-    most = body_force(model, shaft_speed)
     roller = next(iter(rollers.values()))
     load = 1.0
     while not all(
-        film_load_is_negligible(roller.body[0], roller.tables.ctypes.data, load, one, box.fastest)
-        for one in (-most, 0.0, most)
+        film_load_is_negligible(
+            roller.body[0], roller.tables.ctypes.data, load, outward, box.fastest
+        )
+        for outward in _body_forces(model, box)
     ):
         load *= 1.1
     return load
+
+
+def _film_reach(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
+    """Play [m] from which on films carry nothing in the box; films grow with speed."""
+    roller = next(iter(rollers.values()))
+    body = roller.body[0]
+    tables = roller.tables.ctypes.data
+    return max(
+        film_reach(body, tables, outward, box.fastest) for outward in _body_forces(model, box)
+    )

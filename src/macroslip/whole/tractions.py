@@ -85,7 +85,7 @@ MOMENT = np.dtype(
             "inner_speed",  # speed u2 of the inner raceway past its centre [m/s]
             "outer_speed",  # speed u2 of the outer raceway past its centre [m/s]
             "ring",  # speed Ω_in r~_in of the inner ring's surface [m/s]
-            "film_load",  # load that films carry beside the rings' load [N]
+            "film_balance",  # where the next search for the films' load begins [N]
             "spin_inner",  # S_i [N]
             "spin_outer",  # S_o [N]
             "pull_inner",  # P_i [N]
@@ -141,7 +141,7 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
     cages : ndarray of `macroslip.whole.stage.CAGE`, shape (c,)
         Lags and displacements [m].
     moments : ndarray of `MOMENT`, shape (n,)
-        Filled with angles, loads [N] and speeds [m/s]; the `film_load` there is its first guess.
+        Filled with angles, loads [N] and speeds [m/s]; the `film_balance` there is where the search for the films' load begins.
     turn : ndarray, shape (2,)
         Filled with the angles by which the cages' pockets have turned [rad].
     """
@@ -171,9 +171,9 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
             x, y = cosine * half - sine * ahead, sine * half + cosine * ahead
             ring = now.shaft_speed * place.inner_radius
             orbit = 0.5 * (own[0] - own[1] + ring) / pitch
-            loads = roller_loads(body, tables, x, y, now, orbit, at.film_load)
+            loads = roller_loads(body, tables, x, y, now, orbit, at.film_balance)
             at.ring = ring
-            at.film_load = loads.film_load
+            at.film_balance = loads.film_balance
             at.elastic_load = loads.elastic_load
             at.inner_load = loads.inner_load
             at.outer_load = loads.outer_load
