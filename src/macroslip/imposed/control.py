@@ -29,6 +29,26 @@ _THIRD = np.linalg.solve(
 #: Weights of (third-order rule with weight 1/EIGENVALUE at the start) − (Radau rule), at nodes 0,
 #: c1, c2, 1.
 EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
+#: Coefficients of x, x² and x³ of the cubics that are 1 at one of the nodes 0, c1, c2, 1 of a step
+#: and 0 at the others.
+_TERMS = tuple(
+    tuple(float(x) for x in row)
+    for row in np.linalg.inv(np.vander([0.0, *NODES], 4, increasing=True))[1:]
+)
+#: Most iterations of the search for a zero of such a cubic, and the change of the part of a step
+#: after which it ends.
+_ITERATIONS = 50
+_CONVERGED = 1e-12
+
+
+@jit_inline
+def _cubic_terms(g0, g1, g2, g3):
+    """Coefficients of x, x² and x³ of the cubic through the values at the nodes of a step."""
+    return (
+        _TERMS[0][0] * g0 + _TERMS[0][1] * g1 + _TERMS[0][2] * g2 + _TERMS[0][3] * g3,
+        _TERMS[1][0] * g0 + _TERMS[1][1] * g1 + _TERMS[1][2] * g2 + _TERMS[1][3] * g3,
+        _TERMS[2][0] * g0 + _TERMS[2][1] * g1 + _TERMS[2][2] * g2 + _TERMS[2][3] * g3,
+    )
 
 
 @jit_inline
@@ -46,15 +66,14 @@ def cubic(x, g0, g1, g2, g3):
     -------
     float
         Value at x, of the same unit.
+
+    Examples
+    --------
+    >>> float(round(cubic(0.5, 1.0, 1.0 + NODES[0] ** 3, 1.0 + NODES[1] ** 3, 2.0), 12))
+    1.125
     """
-    a = NODES[0]
-    b = NODES[1]
-    return (
-        g0 * (x - a) * (x - b) * (x - 1.0) / (-a * b)
-        + g1 * x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
-        + g2 * x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
-        + g3 * x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
-    )
+    first, second, third = _cubic_terms(g0, g1, g2, g3)
+    return g0 + x * (first + x * (second + x * third))
 
 
 @jit_inline
@@ -74,7 +93,7 @@ def crossing(g0, g1, g2, g3):
 
     Examples
     --------
-    >>> round(crossing(-0.5, NODES[0] - 0.5, NODES[1] - 0.5, 0.5), 12)
+    >>> float(round(crossing(-0.5, NODES[0] - 0.5, NODES[1] - 0.5, 0.5), 12))
     0.5
     >>> crossing(1.0, 2.0, 3.0, 4.0)
     1.0
@@ -83,23 +102,37 @@ def crossing(g0, g1, g2, g3):
         low = 0.0
         high = NODES[0]
         below = g0
+        above = g1
     elif g1 * g2 < 0.0:
         low = NODES[0]
         high = NODES[1]
         below = g1
+        above = g2
     elif g2 * g3 < 0.0:
         low = NODES[1]
         high = 1.0
         below = g2
+        above = g3
     else:
         return 1.0
-    for _ in range(40):
-        middle = 0.5 * (low + high)
-        if cubic(middle, g0, g1, g2, g3) * below > 0.0:
-            low = middle
+    first, second, third = _cubic_terms(g0, g1, g2, g3)
+    part = low + (high - low) * below / (below - above)
+    # Newton's method, held between parts with values of either sign.
+    for _ in range(_ITERATIONS):
+        value = g0 + part * (first + part * (second + part * third))
+        slope = first + part * (2.0 * second + part * 3.0 * third)
+        if value * below > 0.0:
+            low = part
         else:
-            high = middle
-    return high if tuning.AT_END < high < 1.0 - tuning.AT_END else 1.0
+            high = part
+        following = part - value / slope if slope != 0.0 else low
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        change = abs(following - part)
+        part = following
+        if change < _CONVERGED:
+            break
+    return part if tuning.AT_END < part < 1.0 - tuning.AT_END else 1.0
 
 
 @jit_inline

@@ -150,20 +150,21 @@ def newton_update(scale, d1, d2, d3, residual):
     tuple of float
         Changes Δ of slip at the stages [m/s].
     """
-    m11 = scale * A11 + d1
+    # Reciprocals are taken once: divisions would be most of the time.
+    per_first = 1.0 / (scale * A11 + d1)
     m12 = scale * A12
     m13 = scale * A13
-    q2 = scale * A21 / m11
-    q3 = scale * A31 / m11
-    m22 = scale * A22 + d2 - q2 * m12
+    q2 = scale * A21 * per_first
+    q3 = scale * A31 * per_first
+    per_second = 1.0 / (scale * A22 + d2 - q2 * m12)
     m23 = scale * A23 - q2 * m13
     r2 = -residual[1] + q2 * residual[0]
-    p3 = (scale * A32 - q3 * m12) / m22
+    p3 = (scale * A32 - q3 * m12) * per_second
     m33 = scale * A33 + d3 - q3 * m13 - p3 * m23
     r3 = -residual[2] + q3 * residual[0] - p3 * r2
     x3 = r3 / m33
-    x2 = (r2 - m23 * x3) / m22
-    return (-residual[0] - m12 * x2 - m13 * x3) / m11, x2, x3
+    x2 = (r2 - m23 * x3) * per_second
+    return (-residual[0] - m12 * x2 - m13 * x3) * per_first, x2, x3
 
 
 @jit_inline
