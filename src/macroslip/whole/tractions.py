@@ -141,7 +141,8 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
     cages : ndarray of `macroslip.whole.stage.CAGE`, shape (c,)
         Lags and displacements [m].
     moments : ndarray of `MOMENT`, shape (n,)
-        Filled with angles, loads [N] and speeds [m/s]; the `film_balance` there is where the search for the films' load begins.
+        Filled with angles, loads [N] and speeds [m/s]; the search for the films' load begins with
+        the `film_balance` there.
     turn : ndarray, shape (2,)
         Filled with the angles by which the cages' pockets have turned [rad].
     """
