@@ -126,9 +126,10 @@ def crossing(g0, g1, g2, g3):
         else:
             high = part
         following = part - value / slope if slope != 0.0 else low
-        if not low < following < high:
-            following = 0.5 * (low + high)
         change = abs(following - part)
+        # A start at the zero may leave the bounds by rounding.
+        if change >= _CONVERGED and not low < following < high:
+            following = 0.5 * (low + high)
         part = following
         if change < _CONVERGED:
             break
