@@ -444,6 +444,24 @@ def test_starved_films_carry_nothing_where_the_play_is_wider_than_the_oil_reache
     assert within > 0.1 and beyond < 1e-8
 
 
+@pytest.mark.parametrize("supply", [2e-5, 2e-4])
+def test_a_play_beyond_the_reach_of_films_is_one_at_which_the_search_finds_none(supply):
+    roller = rollers(models(Laws.physical(), OIL.supplied(supply)))["downwind"]
+    searched = roller.body.copy()
+    searched["film_reach"] = math.inf
+    reach = float(roller.body["film_reach"][0])
+    assert 0.0 < reach < 1e-2
+    for share in (0.5, 0.9, 1.0, 1.01, 2.0):
+        for outward in (-30.0, 0.0, 30.0):
+            for speed in (0.1 * RING_SPEED, RING_SPEED):
+                alone, found = (
+                    shared_film_load(body[0], roller.tables, share * reach, outward, speed)
+                    for body in (searched, roller.body)
+                )
+                assert found == pytest.approx(alone, rel=1e-9)
+                assert share < 1.0 or found == pytest.approx(1e-9)
+
+
 def test_an_idle_roller_lies_between_two_films(physical, dry):
     top, bottom = (
         station_of(physical["downwind"], angle, now(2.14)) for angle in (math.pi / 2, -math.pi / 2)
