@@ -148,7 +148,9 @@ def slip_forces(body, tables, at, slip, forces):
     push = cage_load(at.tangential, inner.pull, outer.pull)
     push_by_slip = inner.pull_by_slip - outer.pull_by_slip
     if body.ribbed:
-        push += _add_rib(body.rib, tables, at, slip, inner, outer, forces)
+        push += _add_rib(
+            body.rib, tables, at, slip, inner.friction_by_slip, outer.friction_by_slip, forces
+        )
     cage = cage_forces(body, tables, abs(push), surface, log_speed(surface))
     cage_by_push = cage.friction_by_load + cage.resistance_by_load
     cage_by_push = cage_by_push if push >= 0.0 else -cage_by_push
@@ -180,18 +182,18 @@ def slip_forces(body, tables, at, slip, forces):
     forces.rough[2] = cage.asperity_power
 
 
-@jit_inline
-def _add_rib(law, tables, at, slip, inner, outer, forces):
+@jit
+def _add_rib(law, tables, at, slip, near, far, forces):
     """Write the friction of the rib; returns what the cage is spared of the raceways' pulls [N].
 
-    The raceways pass e F_f on, at a common slip in the ratio of their slopes a and b. On an orbit of
-    its own a gripped roller shares it evenly: no cage holds what is left, e F_f (a − b)/(a + b).
+    The raceways pass e F_f on, at a common slip in the ratio of their slopes a and b, `near` and
+    `far` [N s/m]. On an orbit of its own a gripped roller shares it evenly: no cage holds what is
+    left, e F_f (a − b)/(a + b). It is a function of its own, which rollers without a rib never
+    enter: copied into `slip_forces` its table look-up would slow them too.
     """
     rib = NO_RIB_FORCES
     if at.elastic_load > 0.0:
         rib = rib_forces(law, tables, at.elastic_load, at.ring_speed, slip)
-    near = inner.friction_by_slip
-    far = outer.friction_by_slip
     spared = 0.0
     if near > 0.0 and far > 0.0:
         spared = law.arm * rib.friction * (near - far) / (near + far)
