@@ -499,9 +499,9 @@ def _assemble(assembly, stage, k, size, space):
         _add_to_border(bearing, stage, at, met, block, borders[c])
     for c in range(cages.size):
         for i in range(size):
-            size = abs(borders[c].residual[i])
-            worst = max(worst, size)
-            finite = finite and size < math.inf
+            unbalanced = abs(borders[c].residual[i])
+            worst = max(worst, unbalanced)
+            finite = finite and unbalanced < math.inf
     return worst if finite else math.inf
 
 
