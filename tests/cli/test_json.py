@@ -6,18 +6,25 @@ import pytest
 import xarray as xr
 
 from macroslip import Bearing, Lubricant
+from macroslip.bearing.kinds import bearing_catalogue, read_bearing
 
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize(("noun", "kind"), [("bearing", Bearing), ("lubricant", Lubricant)])
-def test_catalogue(macroslip, noun, kind):
-    listed = json.loads(macroslip(noun, "list", "--json").out)
-    assert [one["name"] for one in listed] == kind.catalogue()
-    for one in listed:
-        shown = json.loads(macroslip(noun, "show", one["name"], "--json").out)
-        assert shown["name"] == one["name"]
-        for key, origin in kind.read(one["name"]).provenance.items():
+@pytest.mark.parametrize(
+    ("noun", "catalogue", "read"),
+    [
+        ("bearing", bearing_catalogue, read_bearing),
+        ("lubricant", Lubricant.catalogue, Lubricant.read),
+    ],
+)
+def test_catalogue(macroslip, noun, catalogue, read):
+    listed = [record["name"] for record in json.loads(macroslip(noun, "list", "--json").out)]
+    assert listed == catalogue()
+    for name in listed:
+        shown = json.loads(macroslip(noun, "show", name, "--json").out)
+        assert shown["name"] == name
+        for key, origin in read(name).provenance.items():
             assert (
                 shown["values"][key]["value"] == origin.value
                 and shown["values"][key]["tag"] == origin.tag
