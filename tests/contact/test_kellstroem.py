@@ -97,7 +97,7 @@ def test_asperities_have_their_share_beside_it():
 
 
 def test_the_cage_keeps_its_film():
-    inner, outer, cage = prepare(LAWS.but(traction_limit_outer=0.04), BEARING, OIL, 1)
+    inner, outer, cage, _ = prepare(LAWS.but(traction_limit_outer=0.04), BEARING, OIL, 1)
     assert inner.friction == (0.05, 0.01) and outer.friction == (0.04, 0.01)
     assert cage.friction is None and cage.fluid is not None and inner.fluid is None
     film = prepare(LAWS.but(traction="mechanisms"), BEARING, OIL, 1).cage

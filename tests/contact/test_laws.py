@@ -253,7 +253,7 @@ def test_film_has_its_corrections_and_a_floor_of_speed(laws):
 
 
 def test_contacts_of_the_papers_model():
-    inner, outer, cage = prepare(Laws.paper(), BEARING, OIL, 1)
+    inner, outer, cage, _ = prepare(Laws.paper(), BEARING, OIL, 1)
     assert (inner.name, outer.name, cage.name) == ("inner", "outer", "cage")
     for one in (inner, outer, cage):
         assert (
