@@ -77,7 +77,7 @@ def raceway_curvatures(row: TaperedGeometry) -> tuple[float, float]:
     --------
     >>> row = tapered_geometry(TaperedBearing.read("tdo-main-bearing"))
     >>> [round(one, 2) for one in raceway_curvatures(row)]
-    [34.78, 30.17]
+    [34.78, 30.16]
     """
     inner = 1.0 / row.roller_radius + math.cos(row.inner_angle) / row.inner_radius
     outer = 1.0 / row.roller_radius - math.cos(row.outer_angle) / row.outer_radius

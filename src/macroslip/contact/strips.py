@@ -151,7 +151,7 @@ def load_at_pressure(strips: Strips, pressure: float) -> float:
     >>> from macroslip.contact.line import palmgren_coefficient
     >>> line = Strips(0.107, 2.17e-5, palmgren_coefficient(0.107), 10 / 9, 34.8, 230.8e9, 0.031, 1.23)
     >>> round(load_at_pressure(line, 1.637e9) / 1e3)
-    104
+    174
     """
     per_length = 2.0 * math.pi * pressure**2 / (strips.curvature * strips.modulus)
     approach = (per_length / strips.coefficient) ** (1.0 / strips.exponent)

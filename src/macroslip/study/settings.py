@@ -207,6 +207,7 @@ def replaced(record: Record, settings: Sequence[Setting]) -> Record:
 
     Examples
     --------
+    >>> from macroslip import Bearing
     >>> bearing = replaced(Bearing.read("skf-240-600-bc"), [Setting("bearing.diametral_clearance", 0.2, "mm")])
     >>> bearing.diametral_clearance, bearing.provenance["diametral_clearance"].tag
     (0.0002, 'U')
