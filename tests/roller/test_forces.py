@@ -13,9 +13,10 @@ from scipy.optimize import brentq
 
 from macroslip import Laws
 from macroslip.bearing import geometry
+from macroslip.compiled import jit
 from macroslip.contact.interface import interfaces
 from macroslip.contact.rolling import light_contact
-from macroslip.mechanics.film_sharing import shared_film_load
+from macroslip.mechanics.film_sharing import film_load
 from macroslip.ring.orbit import Instant
 from tests.one_roller import (
     BEARING,
@@ -370,6 +371,12 @@ def test_what_the_rings_give_heats_the_contacts_or_drives_the_spin(
     rough = forces["rough"]
     assert (rough >= -1e-9 * size).all() and rough.sum() <= spent + 1e-9 * size
     assert (forces["rolling"] >= 0.0).all()
+
+
+@jit
+def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
+    """Load of the films on a roller that the rings do not press and that has a play [N]."""
+    return film_load(body, tables, 0.0, -play, outward, ring_speed, guess).load
 
 
 # --- Oil -------------------------------------------------------------------------------------------------------------

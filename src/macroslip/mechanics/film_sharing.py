@@ -58,7 +58,15 @@ class FilmLoad(NamedTuple):
 
 @jit
 def film_balance(body, tables, play, outward, ring_speed, guess):
-    """Load at which the films of a roller fill the space between the rings [N].
+    """Load q of the lighter of a roller's two raceway films that fill the space between rings [N].
+
+    A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the
+    body force,
+
+        [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
+
+    h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without
+    load turns slowly; one that grips has left its play, where q counts for little.
 
     Parameters
     ----------
@@ -72,13 +80,12 @@ def film_balance(body, tables, play, outward, ring_speed, guess):
     ring_speed : float
         u2 [m/s]; below twice `LOWEST_SPEED` films are those of this speed.
     guess : float
-        Load at which the search begins [N]; 1 N where it is 0.
+        Load at which the search begins [N], such as the load a moment before; 1 N where it is 0.
 
     Returns
     -------
     float
-        q of `shared_film_load` [N], to a relative error of 1e-9; 1e-9 N where the play is wider than
-        the oil reaches.
+        q [N], to a relative error of 1e-9; 1e-9 N where the play is wider than the oil reaches.
     """
     if play >= body.film_reach:
         return math.exp(_LIGHTEST)
@@ -130,47 +137,6 @@ def film_reach(body, tables, outward, ring_speed):
     inner = in_plane(body.inner.oil, tables, log_load(_LIGHTEST_LOAD + max(-outward, 0.0)), log_u)
     outer = in_plane(body.outer.oil, tables, log_load(_LIGHTEST_LOAD + max(outward, 0.0)), log_u)
     return (math.exp(inner[0][2]) + math.exp(outer[0][2])) / FLOW
-
-
-@jit_inline
-def _at_speed(balance, ring_speed):
-    """Load of films at a ring speed [N]: in proportion to speed where it vanishes."""
-    return balance * min(1.0, 0.5 * abs(ring_speed) / LOWEST_SPEED)
-
-
-@jit_inline
-def shared_film_load(body, tables, play, outward, ring_speed, guess=0.0):
-    """Load q that the lighter of a roller's two raceway films carries [N].
-
-    A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the
-    body force,
-
-        [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
-
-    h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without
-    load turns slowly; one that grips has left its play, where q counts for little.
-
-    Parameters
-    ----------
-    body : record of `macroslip.roller.model.BODY`
-    tables : int
-        Address of the flat array of tables.
-    play : float
-        p ≥ 0 [m].
-    outward : float
-        Body force B along the contact normal, positive outward [N].
-    ring_speed : float
-        u2 [m/s].
-    guess : float
-        Load at which the search begins [N], such as the load a moment before; 1 N where it is 0.
-
-    Returns
-    -------
-    float
-        q [N], to a relative error of 1e-9.
-    """
-    balance = film_balance(body, tables, play, outward, ring_speed, guess)
-    return _at_speed(balance, ring_speed)
 
 
 @jit
@@ -229,7 +195,8 @@ def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
     if not body.oily or load >= body.faded_load:
         return FilmLoad(0.0, guess)
     balance = film_balance(body, tables, max(-approach, 0.0), outward, ring_speed, guess)
-    carried = _at_speed(balance, ring_speed)
+    # Films vanish in proportion to speed below the lowest one that the formulas are used at.
+    carried = balance * min(1.0, 0.5 * abs(ring_speed) / LOWEST_SPEED)
     if load <= 0.0:
         return FilmLoad(carried, balance)
     if carried <= NEGLIGIBLE * load:
