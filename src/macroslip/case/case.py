@@ -19,7 +19,11 @@ from macroslip.case.kinds import check_kind
 from macroslip.case.load_source import LoadSource
 from macroslip.case.oil_supply import OilSupply, check_supply, inlet_supply, oil_gap
 from macroslip.case.parts import (
+    BALANCE,
+    DYNAMICS,
+    IMPOSED_ORBIT,
     INTEGRATORS,
+    WHOLE_BEARING,
     BackwardEuler,
     ExplicitEuler,
     Heat,
@@ -42,17 +46,8 @@ from macroslip.lubricant import Lubricant
 from macroslip.overview import html_overview
 from macroslip.whole.cage import SKEW_KEYS, Cage
 
-#: Whether orbits are imposed, or rollers and cages move together.
-IMPOSED_ORBIT, WHOLE_BEARING = DYNAMICS = ("imposed-orbit", "whole-bearing")
-
-#: Highest speed of a shaft on spherical roller bearings [rad/s].
-_FASTEST_ROTOR = 100.0
-#: Axial part of a load that counts as none.
-_NO_THRUST = 1e-9
 #: Keys of a drivetrain that are told only where they are given.
 _RARE_KEYS = ("windio", "gearbox_stiffness")
-#: The word for a temperature that follows from friction and the loss of heat.
-BALANCE = "balance"
 
 
 @dataclass(frozen=True)
@@ -235,7 +230,7 @@ class Case:
             *_temperature(self),
             *_raised(check_supply, self.oil_supply, self.bearing, self.laws),
             *_dynamics(self),
-            *_kind_of_bearing(self),
+            *check_kind(self),
             *_times_and_rollers(self),
         ]
         if problems:
@@ -455,59 +450,6 @@ def _dynamics(case: Case) -> Iterator[InputError]:
             remedy="Choose integrator.method: radau; its tolerance serves the whole bearing too.",
         )
     yield from _raised(case.cage.check_fit, case.bearing)
-
-
-def _kind_of_bearing(case: Case) -> Iterator[InputError]:
-    """Yield what the kind of bearing cannot have.
-
-    A spherical roller bearing no speed beyond rotors', a cylindrical one no axial load, loads at
-    the hub, skew or second cage, a tapered one what `check_tapered` names.
-    """
-    yield from check_kind(case)
-    if case.bearing.kind == "tapered":
-        return
-    if case.bearing.kind == "spherical":
-        if (fastest := float(np.abs(case.loads.shaft_speed).max())) > _FASTEST_ROTOR:
-            yield InputError(
-                f"the shaft turns at up to {fastest:.4g} rad/s, beyond any rotor",
-                where="loads",
-                allowed=f"up to {_FASTEST_ROTOR:g} rad/s on a double-row spherical roller bearing",
-                remedy="Check the unit. Is it in rpm, or the speed of the generator?",
-            )
-        return
-    if not isinstance(case.loads, BearingLoads):
-        yield InputError(
-            f"{case.bearing.name} is a cylindrical roller bearing, and loads are given at the hub "
-            "or for rollers of two rows",
-            where="loads",
-            allowed="the force on the bearing: loads.main_bearing or loads.bearing_file",
-            remedy="Give the radial force on its inner ring over time, with the speed of its "
-            "shaft.",
-        )
-    elif np.abs(case.loads.force[:, 2]).max() > _NO_THRUST * np.abs(case.loads.force).max():
-        yield InputError(
-            f"the load has an axial part of up to {np.abs(case.loads.force[:, 2]).max():.4g} N, "
-            "and rollers without contact angle carry none",
-            where="loads",
-            allowed="F_Z0 = 0 for a cylindrical roller bearing",
-            remedy="Set it to 0: another bearing, or flanges that are not modelled, carry the "
-            "thrust.",
-        )
-    if case.laws.skew != "none":
-        yield InputError(
-            "skew is computed for spherical rollers, which their raceways' spheres hold; a "
-            "cylindrical one is held by flanges",
-            where="laws.skew",
-            allowed="none, in a cylindrical roller bearing",
-            remedy="Set laws.skew: none.",
-        )
-    if case.cage.arrangement != "one":
-        yield InputError(
-            f"arrangement is {case.cage.arrangement} in a bearing of one row",
-            where="cage.arrangement",
-            allowed="one",
-            remedy="Remove it.",
-        )
 
 
 def _times_and_rollers(case: Case) -> Iterator[InputError]:

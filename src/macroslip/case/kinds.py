@@ -1,29 +1,110 @@
-"""What a case of a tapered roller bearing needs and cannot have, and what it alone can have."""
+"""What a case of each kind of bearing needs, and what it cannot have."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from macroslip.case.parts import BALANCE, WHOLE_BEARING
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
-from macroslip.loads import HubLoads, RollerLoads
+from macroslip.loads import BearingLoads, HubLoads, RollerLoads
 from macroslip.loads.statics import MOMENT_MOUNTS
 
 if TYPE_CHECKING:
     from macroslip.case.case import Case
 
-_WHOLE_BEARING = "whole-bearing"
-_BALANCE = "balance"
+#: Highest speed of a shaft on spherical roller bearings [rad/s].
+_FASTEST_ROTOR = 100.0
+#: Axial part of a load that counts as none.
+_NO_THRUST = 1e-9
 
 
 def check_kind(case: Case) -> Iterator[InputError]:
-    """Yield what the case of a tapered roller bearing, or of another one, cannot have."""
+    """Yield what a case with its kind of bearing cannot have.
+
+    Parameters
+    ----------
+    case : Case
+
+    Yields
+    ------
+    InputError
+        Speeds beyond any rotor's on spherical roller bearings; loads at the hub, thrust, skew and a
+        second cage in cylindrical ones; dynamics, laws and mounts that are not computed for tapered
+        ones; and in the others keys that tapered ones alone have.
+    """
     if case.bearing.kind == "tapered":
         yield from _mechanisms(case)
         yield from _mount(case)
+        return
+    yield from _of_tapered_bearings(case)
+    if case.bearing.kind == "spherical":
+        yield from _fastest(case)
     else:
-        yield from _of_tapered_bearings(case)
+        yield from _of_one_row(case)
+
+
+def _fastest(case: Case) -> Iterator[InputError]:
+    """Yield a speed that no rotor on a spherical roller bearing has."""
+    fastest = float(np.abs(case.loads.shaft_speed).max())
+    if fastest > _FASTEST_ROTOR:
+        yield InputError(
+            f"the shaft turns at up to {fastest:.4g} rad/s, beyond any rotor",
+            where="loads",
+            allowed=f"up to {_FASTEST_ROTOR:g} rad/s on a double-row spherical roller bearing",
+            remedy="Check the unit. Is it in rpm, or the speed of the generator?",
+        )
+
+
+def _of_one_row(case: Case) -> Iterator[InputError]:
+    """Yield loads, skew and cages that a cylindrical roller bearing, of one row, cannot have."""
+    if not isinstance(case.loads, BearingLoads):
+        yield InputError(
+            f"{case.bearing.name} is a cylindrical roller bearing, and loads are given at the hub "
+            "or for rollers of two rows",
+            where="loads",
+            allowed="the force on the bearing: loads.main_bearing or loads.bearing_file",
+            remedy="Give the radial force on its inner ring over time, with the speed of its "
+            "shaft.",
+        )
+    else:
+        yield from _no_thrust(case.loads)
+    yield from _no_skew(case, "a cylindrical one is held by flanges")
+    if case.cage.arrangement != "one":
+        yield InputError(
+            f"arrangement is {case.cage.arrangement} in a bearing of one row",
+            where="cage.arrangement",
+            allowed="one",
+            remedy="Remove it.",
+        )
+
+
+def _no_thrust(loads: BearingLoads) -> Iterator[InputError]:
+    """Yield an axial load, which rollers without contact angle do not carry."""
+    axial = np.abs(loads.force[:, 2]).max()
+    if axial > _NO_THRUST * np.abs(loads.force).max():
+        yield InputError(
+            f"the load has an axial part of up to {axial:.4g} N, "
+            "and rollers without contact angle carry none",
+            where="loads",
+            allowed="F_Z0 = 0 for a cylindrical roller bearing",
+            remedy="Set it to 0: another bearing, or flanges that are not modelled, carry the "
+            "thrust.",
+        )
+
+
+def _no_skew(case: Case, guidance: str) -> Iterator[InputError]:
+    """Yield skew in a kind of bearing whose rollers are guided otherwise than spherical ones."""
+    if case.laws.skew != "none":
+        yield InputError(
+            f"skew is computed for spherical rollers, which their raceways' spheres hold; {guidance}",
+            where="laws.skew",
+            allowed=f"none, in a {case.bearing.kind} roller bearing",
+            remedy="Set laws.skew: none.",
+        )
 
 
 def _of_tapered_bearings(case: Case) -> Iterator[InputError]:
@@ -57,21 +138,14 @@ def _of_tapered_bearings(case: Case) -> Iterator[InputError]:
 
 def _mechanisms(case: Case) -> Iterator[InputError]:
     """Yield dynamics, laws and temperatures that are not computed for tapered roller bearings."""
-    if case.dynamics == _WHOLE_BEARING:
+    if case.dynamics == WHOLE_BEARING:
         yield InputError(
             "rollers on free orbits are not computed for tapered roller bearings",
             where="dynamics",
             allowed="imposed-orbit",
             remedy="Set dynamics: imposed-orbit.",
         )
-    if case.laws.skew != "none":
-        yield InputError(
-            "skew is computed for spherical rollers, which their raceways' spheres hold; the rib "
-            "guides a tapered one",
-            where="laws.skew",
-            allowed="none, in a tapered roller bearing",
-            remedy="Set laws.skew: none.",
-        )
+    yield from _no_skew(case, "the rib guides a tapered one")
     if case.laws.traction != MECHANISMS:
         yield InputError(
             f"the traction law '{case.laws.traction}' is one of an elliptical contact, and a tapered "
@@ -80,7 +154,7 @@ def _mechanisms(case: Case) -> Iterator[InputError]:
             allowed=f"{MECHANISMS}, in a tapered roller bearing",
             remedy=f"Set laws.traction: {MECHANISMS}.",
         )
-    if case.temperature == _BALANCE:
+    if case.temperature == BALANCE:
         yield InputError(
             "the balance of heat is not computed for tapered roller bearings, whose preload hangs on "
             "the difference of their rings' temperatures",

@@ -1,4 +1,7 @@
-"""Sections of a case beside its loads: integrators, window, traces and loss of heat."""
+"""Sections of a case beside its loads, and the words of its choices.
+
+The sections are integrators, window, traces and loss of heat.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,13 @@ from macroslip.errors import InputError
 from macroslip.input.fields import Positive, Quantity, Whole
 from macroslip.input.section import input_section
 from macroslip.input.units import CONDUCTANCE, MASS, NUMBER, TEMPERATURE, TIME
+
+#: Whether orbits are imposed, or rollers and cages move together.
+IMPOSED_ORBIT = "imposed-orbit"
+WHOLE_BEARING = "whole-bearing"
+DYNAMICS = (IMPOSED_ORBIT, WHOLE_BEARING)
+#: The word for a temperature that follows from friction and the loss of heat.
+BALANCE = "balance"
 
 _Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0)]
 
