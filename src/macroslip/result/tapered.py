@@ -97,8 +97,6 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     ),
     "failed": ((), "1", "samples whose ring balance was not found"),
 }
-#: Part of the load and least force [N] up to which a balance counts as found.
-_FOUND = (1e-5, 1.0)
 
 
 @dataclass(frozen=True)
@@ -330,8 +328,7 @@ def tapered_history(
     check_preload(warm, ring)
     check_moment(warm, ring, moment)
     balance = tapered_balance(ring, angle, force, moment)
-    size = np.linalg.norm(force, axis=1) + np.linalg.norm(moment, axis=1) / ring.pitch_radius
-    is_found = balance.unbalanced <= _FOUND[0] * size + _FOUND[1]
+    is_converged = balance.is_converged(ring, force, moment)
     solved = _Solved(warm, lubricant, ring, balance, angle, np.abs(hub_loads.shaft_speed), state)
     values = {**_ring_values(solved), **_raceway_values(solved)}
     values |= rib_values(warm, lubricant, solved.by_row(balance.rib_force), solved.speed)
@@ -339,10 +336,10 @@ def tapered_history(
     for name, numbers in values.items():
         if np.ndim(numbers):
             shape = (-1, *(1,) * (np.ndim(numbers) - 1))
-            values[name] = np.where(is_found.reshape(shape), numbers, np.nan)
+            values[name] = np.where(is_converged.reshape(shape), numbers, np.nan)
     values["preload"] = warm.preload
     values["preload_change"] = warm.preload - bearing.preload
-    values["failed"] = int((~is_found).sum())
+    values["failed"] = int((~is_converged).sum())
     values["other_line_law"] = _other_line_law(solved, mount, force, moment)
     return xr.Dataset(
         {

@@ -45,6 +45,8 @@ STRIPS = 41
 #: Unbalanced force at which a balance has converged: part of the load, and least [N].
 _RELATIVE_UNBALANCE = 1e-7
 _LEAST_UNBALANCE = 1e-4
+#: Unbalanced force up to which a balance may be used: relative to the load, and in addition [N].
+_USABLE = (1e-5, 1.0)
 
 
 class TaperedRing(NamedTuple):
@@ -84,6 +86,31 @@ class TaperedBalance(NamedTuple):
     roller_motion: np.ndarray
     unbalanced: np.ndarray  #: Shape (n,). Force left unbalanced [N]
     iterations: np.ndarray  #: Shape (n,). Newton steps
+
+    def is_converged(self, ring: TaperedRing, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
+        """Samples whose unbalanced force is within 1e-5 of the load plus 1 N, so that they count.
+
+        Parameters
+        ----------
+        ring : TaperedRing
+            That of the balance.
+        force : ndarray, shape (n, 3)
+            Forces on the inner ring [N].
+        moment : ndarray, shape (n, 2)
+            Moments on the inner ring [N m].
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+            False where a number of the balance is NaN.
+        """
+        relative, least = _USABLE
+        return self.unbalanced <= relative * _load_size(ring, force, moment) + least
+
+
+def _load_size(ring: TaperedRing, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
+    """Size of forces, and of moments as forces at the pitch radius [N], shape (n,)."""
+    return np.linalg.norm(force, axis=1) + np.linalg.norm(moment, axis=1) / ring.pitch_radius
 
 
 def _arms(
@@ -239,8 +266,8 @@ def tapered_balance(
     Returns
     -------
     TaperedBalance
-        Where `unbalanced` exceeds 1e-7 of the load and 1e-4 N the balance was not found, and the
-        sample's numbers must not be used.
+        The search ends where `unbalanced` is below 1e-7 of the load plus 1e-4 N. Samples that are
+        not `is_converged` must not be used.
 
     Examples
     --------
@@ -266,8 +293,7 @@ def tapered_balance(
         np.zeros(count, dtype=np.int64),
     )
     loads = np.concatenate([force, moment], axis=1).astype(float)
-    size = np.linalg.norm(force, axis=1) + np.linalg.norm(moment, axis=1) / ring.pitch_radius
-    tolerance = _RELATIVE_UNBALANCE * size + _LEAST_UNBALANCE
+    tolerance = _RELATIVE_UNBALANCE * _load_size(ring, force, moment) + _LEAST_UNBALANCE
     solve_series(ring, np.asarray(shaft_angle, dtype=float), loads, tolerance, results)
     return results
 

@@ -19,9 +19,6 @@ from macroslip.ring.motion import finely_sampled
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.ring.tapered import TaperedBalance, TaperedRing, ring_at_rollers, tapered_balance
 
-#: Part of the load and least force [N] up to which a balance counts as found.
-FOUND = (1e-5, 1.0)
-
 
 class TaperedMotion(NamedTuple):
     """Motion of the ring and loads of all rollers of both rows at its samples."""
@@ -61,10 +58,9 @@ def tapered_motion(loads: BearingLoads, moment: np.ndarray, ring: TaperedRing) -
         for values in (loads.force, moment)
     )
     balance = tapered_balance(ring, angle, force, moment)
-    size = np.linalg.norm(force, axis=1) + np.linalg.norm(moment, axis=1) / ring.pitch_radius
-    missing = np.flatnonzero(~(balance.unbalanced <= FOUND[0] * size + FOUND[1]))
-    if missing.size:
-        worst = int(missing[0])
+    failed = np.flatnonzero(~balance.is_converged(ring, force, moment))
+    if failed.size:
+        worst = int(failed[0])
         raise MacroslipError(
             f"{loads.source}, t = {time[worst]:g} s: the ring balance left "
             f"{balance.unbalanced[worst]:g} N of the load {force[worst]} N unbalanced. This is a "
