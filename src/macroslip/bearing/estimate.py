@@ -34,6 +34,7 @@ from macroslip.bearing.sampled import (
     SAMPLES,
     Accepted,
     entry,
+    fitting,
     short_number,
     within,
 )
@@ -310,21 +311,16 @@ def _fitting(
         # Number and diameter are known; then they decide on spacing and ring.
         passed["spacing of the rollers"] = spacing > 1.0
         passed["inner ring under the rollers"] = wall > 0.0
-    kept = np.logical_and.reduce(list(passed.values()))
-    if np.count_nonzero(kept) < 100:
-        values_checked = (
-            "the overrolling frequencies" if page.bpfo is not None else "shoulder and groove"
-        )
-        worst = min(passed, key=lambda check: np.count_nonzero(passed[check]))
-        raise InputError(
-            f"no bearing of usual proportions fits these values: of {SAMPLES} tried, "
-            f"{np.count_nonzero(kept)} did, and {np.count_nonzero(passed[worst])} passed the check "
-            f"of the {worst}",
-            allowed="the published values of one double-row spherical roller bearing",
-            remedy="Check the values and their units, static load rating and e above all; try "
-            f"without {values_checked}.",
-        )
-    return {key: values[kept] for key, values in drawn.items()}
+    values_checked = (
+        "the overrolling frequencies" if page.bpfo is not None else "shoulder and groove"
+    )
+    return fitting(
+        drawn,
+        passed,
+        allowed="the published values of one double-row spherical roller bearing",
+        remedy="Check the values and their units, static load rating and e above all; try "
+        f"without {values_checked}.",
+    )
 
 
 def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: str) -> Bearing:

@@ -34,6 +34,7 @@ from macroslip.bearing.sampled import (
     SAMPLES,
     Accepted,
     entry,
+    fitting,
     short_number,
     within,
 )
@@ -338,18 +339,13 @@ def _fitting(
             passed["rib beside the large ends"] = within(rib / half, RIB)
         if page.rows == 2:
             passed["rollers within the width"] &= drawn["row_offset"] + reach < half
-    kept = np.logical_and.reduce(list(passed.values()))
-    if np.count_nonzero(kept) < 100:
-        worst = min(passed, key=lambda what: np.count_nonzero(passed[what]))
-        raise InputError(
-            f"no bearing of usual proportions fits these values: of {SAMPLES} tried, "
-            f"{np.count_nonzero(kept)} did, and {np.count_nonzero(passed[worst])} passed the check "
-            f"of the {worst}",
-            allowed="the published values of one tapered roller bearing, single-row or double-row",
-            remedy="Check the values and their units, static load rating, number of rows and axial "
-            "factor above all.",
-        )
-    return {key: values[kept] for key, values in drawn.items()}
+    return fitting(
+        drawn,
+        passed,
+        allowed="the published values of one tapered roller bearing, single-row or double-row",
+        remedy="Check the values and their units, static load rating, number of rows and axial "
+        "factor above all.",
+    )
 
 
 def _record(
