@@ -9,13 +9,13 @@ import sys
 from dataclasses import replace
 
 from macroslip import Case, HubLoads, Laws, simulate
-from macroslip.contact.laws import RollerLaws, prepare
+from macroslip.contact.laws import PreparedLaws, prepare
 from macroslip.contact.rolling import light_contact, replenishment
 
 LOADED, IDLE = (2.3e4, 0.4), (10.0, 0.2)
 
 
-def contacts(case: Case) -> RollerLaws:
+def contacts(case: Case) -> PreparedLaws:
     """The contacts of a case's downwind rollers."""
     return prepare(case.laws, case.bearing, case.oil, 1)
 

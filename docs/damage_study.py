@@ -36,7 +36,7 @@ def main(temperature: float, oil_supply: str | float = "skf", *, skew: bool = Fa
         found = damage(simulate(case))
         values.append(found.value.values)
         entries.append((found.entry_rate * YEAR).values)
-        wear.append((found.wear_time.sel(depth=1e-5) / YEAR).min(("row", "place")).values)
+        wear.append((found.wear_time.sel(depth=1e-5) / YEAR).min(("row", "surface")).values)
         print(
             name,
             *(f"{one}={value:.3g}" for one, value in zip(names, values[-1], strict=True)),

@@ -80,7 +80,7 @@ def quantities(name: str, shape: Shape) -> dict[str, float]:
     raceways = ["inner", "outer"]
     energy = result.energy.sel(row="downwind", interface=raceways)
     film = result.min_film_ratio.sel(row="downwind", interface="inner")
-    wear = found.wear_time.sel(depth=1e-5).min(("row", "place"))
+    wear = found.wear_time.sel(depth=1e-5).min(("row", "surface"))
     return {
         "energy": float(energy.sum()),
         "peak": float(result.window_peak_power.sel(interface=raceways).max()),

@@ -269,8 +269,8 @@ def damage(names: list[str]) -> None:
                 for one in ("pressure_slip_rate", "asperity_work_rate")
             ]
             least = [
-                told.asperity_work_rate.sel(row="downwind", place=one)[10:14].min()
-                / worst[1].sel(place=one)
+                told.asperity_work_rate.sel(row="downwind", surface=one)[10:14].min()
+                / worst[1].sel(surface=one)
                 for one in ("inner", "outer")
             ]
             values = [

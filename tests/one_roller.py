@@ -59,7 +59,7 @@ def a_station(
     """A station made up [N], [m/s]."""
     found = np.zeros(1, STATION)
     found["ring_speed"] = ring_speed
-    found["interference"] = 1e-5
+    found["approach"] = 1e-5
     found["elastic_load"] = load
     found["inner_load"] = load
     found["outer_load"] = load + extra_outer

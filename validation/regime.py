@@ -15,7 +15,7 @@ import numpy as np
 from macroslip import Bearing, Case, HubLoads, Laws, main_bearing_load
 from macroslip.bearing import geometry
 from macroslip.constants import ZERO_CELSIUS
-from macroslip.contact.laws import ContactLaws, prepare
+from macroslip.contact.laws import PreparedContact, prepare
 from macroslip.result.rating import roller_load_series
 from validation.comparison import Comparison, Range
 
@@ -42,7 +42,7 @@ def states(case: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 @lru_cache
-def inner_raceway(case: str, celsius: float, supply: float) -> ContactLaws:
+def inner_raceway(case: str, celsius: float, supply: float) -> PreparedContact:
     """The laws of the inner raceway in a load case as the program has them, with its oil supply."""
     whole = Case(
         loads=HubLoads.bundled(case),

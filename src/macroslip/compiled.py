@@ -28,7 +28,7 @@ _ABOUT = {"imposed": 150, "whole": 190}
 
 
 class _Compiling(event.Listener):
-    """Tells how many of the program's functions this process has compiled.
+    """Counts how many of the program's functions this process has compiled.
 
     The collector of garbage rests meanwhile: it would go through all of the compiler's objects again
     and again, a twelfth of the work, and hardly find any that are left.

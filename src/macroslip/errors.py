@@ -1,4 +1,4 @@
-"""Errors written for the user: the fault, its place, allowed values, a remedy."""
+"""Errors written for the user: the fault, its location, allowed values, a remedy."""
 
 from __future__ import annotations
 
@@ -66,17 +66,17 @@ class InputError(MacroslipError, ValueError):
 
     #: Letters of each part; content of a file or a name may be of any length.
     longest: ClassVar[int] = 1500
-    #: The same of the place.
-    longest_place: ClassVar[int] = 400
-    #: Whether `where` is the place in the user's input, and not a reader's name for it without the
+    #: The same of the location.
+    longest_where: ClassVar[int] = 400
+    #: Whether `where` is the location in the user's input, and not a reader's name for it without the
     #: file.
-    is_placed: bool = False
+    is_located: bool = False
 
     def __init__(self, fault: str, *, where: str = "", allowed: str = "", remedy: str = ""):
         fault = legible(fault, self.longest)
         allowed = legible(allowed, self.longest)
         remedy = legible(remedy, self.longest)
-        where = legible(where, self.longest_place)
+        where = legible(where, self.longest_where)
         self.fault = fault
         self.where = where
         self.allowed = allowed

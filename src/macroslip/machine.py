@@ -16,7 +16,7 @@ _PACKAGES = ("macroslip", "numba", "llvmlite", "numpy", "scipy", "numbalsoda", "
 
 
 def machine() -> dict[str, str | int | None]:
-    """Processor, usable cores, system, and versions of Python and of what takes part.
+    """Processor, usable cores, system, and versions of Python and of the libraries.
 
     None stands for a package that is not installed.
     """

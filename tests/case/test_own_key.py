@@ -6,7 +6,7 @@ import pytest
 
 from macroslip import InputError
 from macroslip.input.fields import Positive
-from macroslip.input.files import Place, parse
+from macroslip.input.files import Location, parse
 from macroslip.input.messages import together
 from macroslip.input.section import input_section, json_schema, read_fields
 from macroslip.input.units import FORCE, TIME
@@ -22,7 +22,7 @@ class Brake:
 
 def read(text: str) -> Brake:
     data, source = parse(text, "brake.yaml")
-    values, problems = read_fields(Brake, data, Place(source))
+    values, problems = read_fields(Brake, data, Location(source))
     if problems:
         raise together(problems)
     return Brake(**values)

@@ -75,7 +75,7 @@ def test_a_straight_roller_has_the_tractions_without_skew(ring, saturation, slip
     pull, lag, skew, rough = tractions(contact, LOADS, np.full(3, SPEED), np.full(3, slip))
     reach = contact.interface.hertz.semi_axis_across * np.cbrt(LOADS)
     # Slip within the contact's width, which spin changes, is new in the skewed contact.
-    assert (np.abs(found.spin - (pull - lag)) < 2e-5 * LOADS).all()
+    assert (np.abs(found.turning - (pull - lag)) < 2e-5 * LOADS).all()
     side = -1 if ring == "inner" else 1
     assert (np.abs(-side * found.moment - skew) < 2e-5 * LOADS * reach).all()
     assert not rough.any()

@@ -37,7 +37,7 @@ def test_a_straight_roller_has_the_tractions_without_skew(ring, laws, slip):
     # Net forces and moments are differences of what films of .04 Q pull either way. Their stress is tabulated to 1e-3 in places,
     # and spin within the contact's width is new here.
     friction, reach = 0.04 * LOADS, one.laws.interface.hertz.semi_axis_across * np.cbrt(LOADS)
-    assert (np.abs(found.spin - (pull - lag)) < 5e-4 * friction).all()
+    assert (np.abs(found.turning - (pull - lag)) < 5e-4 * friction).all()
     assert (np.abs(-one.side * found.moment - skew) < 5e-4 * friction * reach).all()
     assert found.axial == pytest.approx(0.0, abs=1e-9)
     assert found.pressure_moment == pytest.approx(0.0, abs=1e-9)
@@ -106,7 +106,7 @@ def test_power_is_the_sum_of_torques_times_speeds(ring):
     found = resultants(one, LOADS, SPEED, slip, 5e-3, one.side * 4e-4, tilt)
     ring_rate, spin = one.side * SPEED / one.raceway_radius, (SPEED - slip) / one.roller_radius
     # The ring feels the opposite of the roller.
-    delivered = -(found.ring_torque * ring_rate + found.spin * one.roller_radius * spin)
+    delivered = -(found.ring_torque * ring_rate + found.turning * one.roller_radius * spin)
     assert found.power == pytest.approx(delivered, rel=1e-10)
 
 

@@ -13,7 +13,7 @@ from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.gap import film_at_load
 from macroslip.contact.laws import prepare
 from macroslip.contact.line_rolling import line_contacts, line_traction
-from macroslip.contact.strips import StripLaws, strip_approach
+from macroslip.contact.strips import PreparedStrips, strip_approach
 from macroslip.contact.traction import chord_stress
 
 MAIN = TaperedBearing.read("tdo-main-bearing")
@@ -54,7 +54,7 @@ def test_uniform_line_is_the_limit_without_profile_and_taper():
     pull = law.tractions(loads, np.full(3, SPEED), slip).pull
     per_length = loads / MAIN.roller_length
     film = law._as_ellipse(per_length)
-    height = super(StripLaws, law).film_thickness(film, SPEED - 0.5 * slip)
+    height = super(PreparedStrips, law).film_thickness(film, SPEED - 0.5 * slip)
     expected = line_traction(inner, loads, height, slip, laws())
     assert pull == pytest.approx(expected, rel=1e-3)
 
@@ -74,7 +74,7 @@ def test_traction_of_a_tapered_line_by_quadrature(load, slip):
         local = slip * (growth - 0.5 * drop / strips.radius)
         local += 0.5 * SPEED * strips.curvature * drop
         ellipse = np.array(law._as_ellipse(per_length))
-        film = super(StripLaws, law).film_thickness(ellipse, (SPEED - 0.5 * slip) * growth)
+        film = super(PreparedStrips, law).film_thickness(ellipse, (SPEED - 0.5 * slip) * growth)
         pressure = math.sqrt(per_length * strips.curvature * strips.modulus / (2.0 * math.pi))
         width = math.sqrt(8.0 * per_length / (math.pi * strips.modulus * strips.curvature))
         stress = chord_stress(law.fluid, pressure, film, max(abs(local), 1e-30))

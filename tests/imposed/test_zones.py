@@ -18,7 +18,7 @@ from macroslip.imposed.zones import (
     FREE,
     classify,
     edge_time,
-    firm_interference,
+    firm_approach,
     relaxation_rate,
 )
 from tests.one_roller import models, motion_of, rollers
@@ -166,7 +166,7 @@ def test_a_firm_roller_relaxes_at_the_firm_rate(laws, rate):
     def at(load, speed=RATED_SURFACE_SPEED):
         return relaxation_rate(body, tables, float(load), float(speed))
 
-    load = float(body["stiffness"]) * firm_interference(body, tables, RATED_SURFACE_SPEED) ** 1.5
+    load = float(body["stiffness"]) * firm_approach(body, tables, RATED_SURFACE_SPEED) ** 1.5
     assert at(load) == pytest.approx(rate, rel=1e-9)
     for more in (1.05, 2.0, 5.0):
         assert at(more * load) > rate > at(load / more)

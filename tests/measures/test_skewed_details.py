@@ -207,7 +207,7 @@ def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
     )
     skewed, held = damage(stopped), damage(straight)
     for name in ("pressure_slip_rate", "asperity_work_rate"):
-        ratio = (skewed[name] / held[name]).sel(row="downwind", place="inner").values
+        ratio = (skewed[name] / held[name]).sel(row="downwind", surface="inner").values
         assert np.nanmax(ratio) > 2.0 and skewed[name].sum() > held[name].sum()
     # The window has no complete orbit, so that no time of wear is given: the place that wears most decides it.
     assert "wear_time" not in skewed and "wear_time" not in held

@@ -13,7 +13,7 @@ from macroslip import Bearing, BearingLoads, Case, HubLoads, InputError, Laws, W
 from macroslip.bearing import geometry
 from macroslip.constants import YEAR
 from macroslip.result.criteria.criterion import Threshold
-from macroslip.result.criteria.evaluation import PLACES
+from macroslip.result.criteria.evaluation import SURFACES
 from macroslip.result.damage import damage, lines
 from macroslip.result.stored import to_netcdf
 from macroslip.result.surface_maps import energy_density
@@ -67,17 +67,17 @@ def test_pressure_times_slip_of_a_pass(load, inner, outer):
     )
     assert passes[2] == pytest.approx(2.0 * spin / (2.0 * math.pi), rel=1e-6)
     inner_pass = (
-        float(found.pressure_slip_rate.sel(row="downwind", place="inner").max()) / passes[0]
+        float(found.pressure_slip_rate.sel(row="downwind", surface="inner").max()) / passes[0]
     )
     outer_pass = (
-        float(found.pressure_slip_rate.sel(row="downwind", place="outer").max()) / passes[1]
+        float(found.pressure_slip_rate.sel(row="downwind", surface="outer").max()) / passes[1]
     )
     # Stations of 4.4 mm do not catch the very top.
     assert [inner_pass, outer_pass] == pytest.approx([inner, outer], rel=0.025)
     where = (
         1e3
         * result.station.values[
-            found.pressure_slip_rate.sel(row="downwind", place="inner").argmax("station")
+            found.pressure_slip_rate.sel(row="downwind", surface="inner").argmax("station")
         ]
     )
     assert 15.0 < abs(where) < 25.0
@@ -85,7 +85,7 @@ def test_pressure_times_slip_of_a_pass(load, inner, outer):
         load, rel=1e-6
     )
     # Full contact at k = 1e-17 m²/N for a year: 9.8, 18.9, 28.7 µm.
-    full = 1e-17 * YEAR * float(found.pressure_slip_rate.sel(row="downwind", place="inner").max())
+    full = 1e-17 * YEAR * float(found.pressure_slip_rate.sel(row="downwind", surface="inner").max())
     assert 1e6 * full == pytest.approx({20e3: 9.8, 35e3: 18.9, 50e3: 28.7}[load], rel=0.025)
 
 
@@ -101,7 +101,7 @@ def test_a_sector_that_is_passed_once_more_is_no_worse_than_the_others(orbits, r
     period = 2.0 * math.pi / (RATED * geometry.orbit_ratio(BEARING))
     loads = BearingLoads.constant(case.loads.force[0], RATED, orbits * period)
     result = simulate(replace(case, loads=loads, rollers=rollers, window=Window(start=0.0)))
-    found = damage(result).sel(row="downwind", place="outer")
+    found = damage(result).sel(row="downwind", surface="outer")
     assert float(found.pressure_slip_rate.max()) == pytest.approx(0.0405e6, rel=1e-3)
     assert float(found.pressure_slip_rate.max()) == pytest.approx(0.93e4 * 4.33, rel=0.01)
     # The sum over all sectors does not know how often each was passed.
@@ -139,7 +139,7 @@ def test_two_rollers_tell_what_all_of_them_do(name, within):
     every, some = (damage(simulate(replace(case, rollers=one))) for one in ("all", [0, 14]))
     for rate in ("pressure_slip_rate", "asperity_work_rate"):
         ratio = some[rate].max("station") / every[rate].max("station")
-        outer = ratio.sel(row="downwind", place="outer")
+        outer = ratio.sel(row="downwind", surface="outer")
         assert float(outer) == pytest.approx(1.0, rel=within)
     assert "in an event" not in every.attrs["not_kept"]
     assert ("in an event" in some.attrs["not_kept"]) == (name == "idle-6")
@@ -206,7 +206,7 @@ def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
     friction = settings["lubricant"]["boundary_friction"]["value"]
     seconds = result.attrs["window_end"] - result.attrs["window_start"]
     area = result.cell_area.sel(raceway="inner") * result.sizes["angle"]
-    volume = (found.asperity_work_rate.sel(place="inner", drop=True) * area).sum("station")
+    volume = (found.asperity_work_rate.sel(surface="inner", drop=True) * area).sum("station")
     energy = result.asperity_energy.sel(interface="inner").sum("roller") * (
         28 / result.sizes["roller"]
     )
@@ -227,7 +227,7 @@ def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
     year = found.asperity_work_rate * 1e-17 * YEAR
     worn = found.worn_depth.isel(age=0).sum("station") / year.sum("station")
     np.testing.assert_allclose(worn.sel(row="downwind").values, 1.0, rtol=1e-3)
-    assert list(found.place.values) == list(PLACES)
+    assert list(found.surface.values) == list(SURFACES)
 
 
 @pytest.mark.slow

@@ -119,7 +119,7 @@ def test_elastic_load_by_hand(paper, angle, row):
     ]
     approach = float(np.array(n) @ d) - 1e-4 * math.cos(ALPHA)
     load = paper[row].body[0]["stiffness"] * max(approach, 0.0) ** 1.5
-    assert found["interference"] == pytest.approx(approach, abs=1e-18)
+    assert found["approach"] == pytest.approx(approach, abs=1e-18)
     assert found["elastic_load"] == pytest.approx(load, rel=1e-12)
     # Body forces add to what the rings press, at the side they point to.
     bare = station_of(paper[row], angle, now(RATED))
@@ -165,7 +165,7 @@ def test_a_shaft_that_turns_back_is_the_mirror_image(request, kind, angle, dx, d
     ):
         assert there[name] == pytest.approx(sign * here[name], rel=1e-9, abs=1e-6)
     there["ring_speed"], there["tangential"] = -here["ring_speed"], -here["tangential"]
-    for name in ("interference", "elastic_load", "inner_load", "outer_load"):
+    for name in ("approach", "elastic_load", "inner_load", "outer_load"):
         there[name] = here[name]
     ahead, back = forces_of(roller, here, slip), forces_of(roller, there, -slip)
     for name in ahead.dtype.names:
@@ -409,8 +409,8 @@ def test_loads_are_continuous_where_play_ends_and_films_fade(physical):
     roller = physical["downwind"]
     dx = np.linspace(-3e-6, 4e-5, 1000) + 1e-4
     found = np.array([station_of(roller, 0.0, now(RATED, (one, 0.0, 0.0))).tolist() for one in dx])
-    interference, elastic, inner = found[:, 1], found[:, 2], found[:, 3]
-    assert (np.diff(inner) > 0.0).all() and interference[0] < 0.0 < interference[-1]
+    approach, elastic, inner = found[:, 1], found[:, 2], found[:, 3]
+    assert (np.diff(inner) > 0.0).all() and approach[0] < 0.0 < approach[-1]
     # The steepest change is that of the elastic load; where play ends nothing jumps.
     assert np.diff(inner).max() < 1.05 * np.diff(elastic).max()
     faded = elastic > float(roller.body[0]["faded_load"])

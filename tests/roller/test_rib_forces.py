@@ -10,7 +10,7 @@ from macroslip import Laws, Lubricant
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.compiled import jit
 from macroslip.contact.rib import rib_contact, rib_state
-from macroslip.contact.strips import StripLaws, strip_approach
+from macroslip.contact.strips import PreparedStrips, strip_approach
 from macroslip.contact.table import table_box
 from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces
 from macroslip.roller.model import roller_model, with_tables
@@ -76,7 +76,7 @@ def test_slope_of_all_forces_by_slip(made):
 def station(load):
     at = np.zeros(1, STATION)
     at["ring_speed"] = RING_SPEED
-    at["interference"] = 1e-5
+    at["approach"] = 1e-5
     for name in ("elastic_load", "inner_load", "outer_load"):
         at[name] = load
     for name in ("inner", "outer"):
@@ -131,7 +131,7 @@ def newtonian_slope(load):
             drop = float(strips.profile(station))
             per_length = strips.coefficient * max(approach - drop, 1e-15) ** strips.exponent
             ellipse = np.array(law._as_ellipse(per_length))
-            film = float(super(StripLaws, law).film_thickness(ellipse, abs(RING_SPEED)))
+            film = float(super(PreparedStrips, law).film_thickness(ellipse, abs(RING_SPEED)))
             pressure = math.sqrt(per_length * strips.curvature * strips.modulus / (2.0 * math.pi))
             width = math.sqrt(8.0 * per_length / (math.pi * strips.modulus * strips.curvature))
             chord = quad(

@@ -200,7 +200,7 @@ def test_rates_of_a_run_are_those_of_its_damage():
     np.testing.assert_allclose(found["mixed_film_time"], mixed, rtol=1e-12)
     assert float(found["mixed_film_time"].max()) > 0.01
     # The first micrometre wears at about this rate: its growth follows a profile of slip that is fitted to the maps.
-    first = criteria.wear_time.sel(depth=1e-6, wear_coefficient=1e-17).min("place")
+    first = criteria.wear_time.sel(depth=1e-6, wear_coefficient=1e-17).min("surface")
     worn = (found["wear_rate"] * first / 1e-6).sel(row="downwind")
     assert float(worn) == pytest.approx(1.0, abs=0.2)
     # Without details nothing is known, and nothing is zero.

@@ -37,7 +37,9 @@ def raceway(body, law, tables, load, speed, slip):
     found = raceway_forces(body, law, tables, contact_load(load), speed, slip, log_mean)
     spin = found.friction + found.shear
     pull = found.pull
-    power = found.friction * slip + speed * (law.curvature * found.lag - law.spin * found.skew)
+    power = found.friction * slip + speed * (
+        law.curvature * found.lag - law.spin_ratio * found.skew
+    )
     power += found.rolling_power
     return spin, pull, power
 

@@ -72,7 +72,7 @@ def test_slopes_of_a_raceway(assembly, raceway, load, direction):
         ("speed", 2e-6, [(load, speed + step, slip) for step in (1e-6, -1e-6)]),
     ):
         more, less = (linearisations_at(assembly, *way)[raceway] for way in ways)
-        for force in ("spin", "pull", "shear"):
+        for force in ("turning", "pull", "shear"):
             slope = (more[force] - less[force]) / width
             size = abs(linear["pull"]) / {"slip": SLIP, "load": load, "speed": abs(SPEED)}[name]
             assert linear[f"{force}_by_{name}"] == pytest.approx(slope, rel=1e-3, abs=1e-5 * size)
@@ -85,7 +85,9 @@ def test_between_evaluations_forces_follow_the_slopes(assembly):
     place = (3.003e4, 1.001 * SPEED, 1.001 * SLIP)
     found = linearisations_at(assembly, *place)["inner"]
     linear = SimpleNamespace(**{name: linear[name] for name in LINEARISATION.names or ()})
-    assert raceway_from(linear, *place) == pytest.approx((found["spin"], found["pull"]), rel=1e-4)
+    assert raceway_from(linear, *place) == pytest.approx(
+        (found["turning"], found["pull"]), rel=1e-4
+    )
     assert shear_from(linear, *place) == pytest.approx(found["shear"], rel=1e-4)
     assert raceway_from(linear, 0.0, SPEED, SLIP) == (0.0, 0.0)
 

@@ -1,4 +1,4 @@
-"""Bearings of every kind, from the catalogues or from files: the key `kind` of a file tells which."""
+"""Bearings of every kind, from the catalogues or from files, whose key `kind` names the kind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rollers that cannot be: no rollers by their shape, or more than fit round the circumference."""
+"""Checks of the rollers: their proportions, and whether they fit round the circumference."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ from macroslip.constants import TIME_ROUNDING
 from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Context, Flag, Form, Quantity, Text
-from macroslip.input.files import Place, Source
+from macroslip.input.files import Location, Source
 from macroslip.input.messages import shown, together
 from macroslip.input.section import Made, OrWord, Variants, form_from, input_section
 from macroslip.input.units import TEMPERATURE, TEMPERATURE_DIFFERENCE
@@ -46,7 +46,7 @@ from macroslip.lubricant import Lubricant
 from macroslip.overview import html_overview
 from macroslip.whole.cage import SKEW_KEYS, Cage
 
-#: Keys of a drivetrain that are told only where they are given.
+#: Keys of a drivetrain that `as_dict` has only where they are given.
 _RARE_KEYS = ("windio", "gearbox_stiffness")
 
 
@@ -259,7 +259,7 @@ class Case:
 
     @property
     def inlet_supply(self) -> str | float:
-        """Oil supply that counts: `oil_supply`, or its default where that is None.
+        """Oil supply in effect: `oil_supply`, or its default where that is None.
 
         That is "skf" with laws that have a starved film or rolling resistance, and "flooded" with
         others.
@@ -398,7 +398,7 @@ def _temperature(case: Case) -> Iterator[InputError]:
         )
     if isinstance(case.temperature, float):
         for problem in _raised(case.lubricant.at, case.temperature):
-            yield Place(Source(), ("temperature",)).blamed(problem)
+            yield Location(Source(), ("temperature",)).blamed(problem)
 
 
 def _raised(check: Callable[..., Any], *values: Any) -> Iterator[InputError]:

@@ -15,7 +15,7 @@ from macroslip.case.case import BALANCE, Case
 from macroslip.case.load_source import LoadSource
 from macroslip.contact.mechanisms import check_lubricant
 from macroslip.errors import InputError
-from macroslip.input.files import Place, Source, parse, read_text
+from macroslip.input.files import Location, Source, parse, read_text
 from macroslip.input.messages import nearest, parts_of, shown, together
 from macroslip.input.record import Record
 from macroslip.input.section import fields_of, json_schema, read_fields
@@ -50,7 +50,7 @@ def read_case(path: str | PathLike[str], *, bearing: str = "") -> Case:
     if (
         case.heat is not None and case.temperature != BALANCE
     ):  # a case of a balance that was found keeps its heat
-        raise Place(source, ("heat",)).problem(
+        raise Location(source, ("heat",)).problem(
             "only a balance of heat uses it",
             allowed="with temperature: balance",
             remedy="Set temperature: balance, or remove heat.",
@@ -96,9 +96,9 @@ def bearings_in(path: Path) -> tuple[str, ...]:
 
 
 def load_source(path: Path) -> LoadSource:
-    """The section `loads` of a case file that is right."""
+    """The section `loads` of a valid case file."""
     data, source = _content(path)
-    values, _ = read_fields(Case, {"loads": data["loads"]}, Place(source))
+    values, _ = read_fields(Case, {"loads": data["loads"]}, Location(source))
     return values["loads"]
 
 
@@ -154,11 +154,11 @@ def build_case(
     InputError
         If anything is wrong, with all that is.
     """
-    place = Place(source)
+    location = Location(source)
     known = records or {}
     parts = {}
-    data, unread = _with_windio(data, place, folder)
-    values, problems = read_fields(Case, data, place)
+    data, unread = _with_windio(data, location, folder)
+    values, problems = read_fields(Case, data, location)
     problems += unread
     for key, value in values.items():
         inner = (key, value.key) if isinstance(value, LoadSource) else (key,)
@@ -172,7 +172,7 @@ def build_case(
             else:
                 parts[key] = value
         except InputError as problem:
-            problems.append(place.inside(*inner).blamed(problem))
+            problems.append(location.inside(*inner).blamed(problem))
     wrong = {
         key for key in fields_of(Case).keys() & data.keys() if key != "forces" and key not in parts
     }
@@ -183,7 +183,9 @@ def build_case(
         except InputError as failure:
             located = ((part, part.where.split(".")) for part in parts_of(failure))
             problems += [
-                place.inside(*keys).blamed(part) for part, keys in located if keys[0] not in wrong
+                location.inside(*keys).blamed(part)
+                for part, keys in located
+                if keys[0] not in wrong
             ]
     if problems or case is None:
         raise together(problems)
@@ -192,7 +194,7 @@ def build_case(
 
 
 def _with_windio(
-    data: Mapping[str, Any], place: Place, folder: Path
+    data: Mapping[str, Any], location: Location, folder: Path
 ) -> tuple[Mapping[str, Any], list[InputError]]:
     """Content of a case with the values of the windIO file that its drivetrain names.
 
@@ -206,7 +208,7 @@ def _with_windio(
         values = windio_values(folder / name, drivetrain)
     except InputError as problem:
         without = {key: value for key, value in data.items() if key != "drivetrain"}
-        return without, [place.inside("drivetrain", "windio").blamed(problem)]
+        return without, [location.inside("drivetrain", "windio").blamed(problem)]
     written = {
         key: f"{value!r} {'rad' if key == 'tilt' else 'm'}" if isinstance(value, float) else value
         for key, value in values.items()

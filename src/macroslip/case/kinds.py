@@ -1,4 +1,4 @@
-"""What a case of each kind of bearing needs, and what it cannot have."""
+"""Checks of a case against its kind of bearing: loads, mount, laws and dynamics."""
 
 from __future__ import annotations
 

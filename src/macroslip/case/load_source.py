@@ -1,4 +1,4 @@
-"""The section `loads` of a case file: where the loads come from, and what to read of them."""
+"""The section `loads` of a case file: source of the loads, and the part of it to read."""
 
 from __future__ import annotations
 

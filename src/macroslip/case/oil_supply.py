@@ -61,7 +61,7 @@ class OilSupply(Form):
 
 
 def inlet_supply(supply: str | float | None, laws: Laws) -> str | float:
-    """The supply that counts: what a case gives.
+    """Oil supply in effect: that of the case.
 
     Otherwise SKF's replenishment where a mechanism depends on it.
     """
@@ -192,8 +192,8 @@ def _inner_raceway(
     angle = np.zeros(1)
     if bearing.kind == "tapered":
         # Moments hardly change the mean load of the rollers.
-        found = tapered_balance(tapered_ring(bearing), angle, np.array([force]), np.zeros((1, 2)))
-        loads = found.outer_load[0]
+        result = tapered_balance(tapered_ring(bearing), angle, np.array([force]), np.zeros((1, 2)))
+        loads = result.outer_load[0]
     else:
         ring = ring_geometry(bearing, model)
         displacement, _ = balance(ring, angle, np.array([force]), np.zeros((1, 3)))

@@ -133,7 +133,7 @@ class _Rows(NamedTuple):
 
 
 def _show(record: Record, more: _Rows | None, as_json: bool) -> None:
-    """Print a record, and what there is to say of it beside its quantities."""
+    """Print a record, and notes beside its quantities."""
     from dataclasses import asdict
 
     from macroslip.input.record import TAGS
@@ -387,7 +387,7 @@ def _estimate(
 def _tell_estimate(
     estimate: EstimatedBearing | EstimatedTaperedBearing, output: Path, as_json: bool
 ) -> None:
-    """Print medians and ranges of an estimate, and how it compares with what is known."""
+    """Print medians and ranges of an estimate, and compare it with published values."""
     numbers = _numbers(estimate)
     if as_json:
         print_json(numbers | {"written": str(output)})

@@ -80,13 +80,13 @@ def damage(
                 *(_range_of_years(line.min(), line.max()) for line in years[i, j]),
             ]
             for i, row in enumerate(criteria.row.values.tolist())
-            for j, surface in enumerate(criteria.place.values.tolist())
+            for j, surface in enumerate(criteria.surface.values.tolist())
         ]
         coefficients = ", ".join(f"{k:.2g}" for k in criteria.wear_coefficient.values[::-1])
         title = f"years of wear at k = {coefficients} m²/N"
         headings = [
             ("row", False),
-            ("place", False),
+            ("surface", False),
             *((f"{1e6 * worn:g} µm", True) for worn in criteria.depth.values),
         ]
         print_table(title, headings, rows)
@@ -126,7 +126,7 @@ def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: st
 
 
 def _wear(criteria: xr.Dataset) -> list[dict[str, Any]]:
-    """Years to each depth by row and place, over the coefficients of wear."""
+    """Years to each depth by row and surface, over the coefficients of wear."""
     if "wear_time" not in criteria:
         return []
     from macroslip.constants import YEAR
@@ -134,15 +134,15 @@ def _wear(criteria: xr.Dataset) -> list[dict[str, Any]]:
     return [
         {
             "row": row,
-            "place": surface,
+            "surface": surface,
             "depth [m]": depth,
             "wear coefficients [m2/N]": criteria.wear_coefficient.values.tolist(),
             "years": (
-                criteria.wear_time.sel(row=row, place=surface, depth=depth).values / YEAR
+                criteria.wear_time.sel(row=row, surface=surface, depth=depth).values / YEAR
             ).tolist(),
         }
         for row in criteria.row.values.tolist()
-        for surface in criteria.place.values.tolist()
+        for surface in criteria.surface.values.tolist()
         for depth in criteria.depth.values.tolist()
     ]  # fmt: skip
 

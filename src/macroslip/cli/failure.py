@@ -94,7 +94,7 @@ def _code_and_message(error: BaseException, *, quiet: bool) -> tuple[int, str]:
 
 def _of_the_system(error: OSError) -> str:
     """Paragraph on an error of the operating system."""
-    where = legible(f"{error.filename}: ", InputError.longest_place) if error.filename else ""
+    where = legible(f"{error.filename}: ", InputError.longest_where) if error.filename else ""
     remedy = "Check the path, the rights to it and the free space on the disk."
     if error.errno == errno.ENAMETOOLONG:
         remedy = SHORTER

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 DELAY = 1.0
 """Work that is done within this time [s] shows no bar."""
 LINE_AFTER = 10.0
-"""A stage that is done within this time [s] is not told where there is no terminal."""
+"""Without a terminal a stage is named only if it takes longer than this [s]."""
 
 
 @contextmanager
@@ -44,7 +44,7 @@ def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None]
 
 @contextmanager
 def _bar(console: Console) -> Iterator[Callable[[str, int, int], None]]:
-    """A bar for every stage, after a moment; what is waited for goes when work goes on."""
+    """A progress bar for every stage, after a moment."""
     from macroslip.progress import PREPARING, bar_with_time_left
     from macroslip.storage.waiting import COMPILING, TABLES
 

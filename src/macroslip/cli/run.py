@@ -110,7 +110,7 @@ def run(
 
 
 def _of_bearing(path: Path, bearing: str) -> Path:
-    """Path of an output for one of both main bearings; of a single one the path itself."""
+    """Path of an output: with the bearing's name where a case has both main bearings."""
     return path.parent / f"{path.stem}-{bearing}{path.suffix}" if bearing else path
 
 
@@ -250,7 +250,7 @@ def _print_rating(dataset: xr.Dataset) -> None:
 
 
 def _print_doubts(dataset: xr.Dataset, quiet: bool) -> bool:
-    """Print what is doubtful, and how every roller failed that did; True if there is one."""
+    """Print doubts and failures of rollers; True if a roller failed."""
     from macroslip.report.result_numbers import failures
     from macroslip.result.plausibility import doubtful_result
 

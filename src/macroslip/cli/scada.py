@@ -1,4 +1,4 @@
-"""`macroslip scada`: ten-minute means of a turbine, and what they say of its main bearing."""
+"""`macroslip scada`: ten-minute means of a turbine, and the heat and year of its main bearing."""
 
 from __future__ import annotations
 

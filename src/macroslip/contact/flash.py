@@ -117,8 +117,8 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
 #: 0.652; and the rule for what has come in on the way there.
 _PLACES = np.array([-0.3, 0.0, 0.3, 0.5, 0.652, 0.8, 0.95])
 _NODES, _WEIGHTS = (
-    0.5 * (one + shift)
-    for one, shift in zip(np.polynomial.legendre.leggauss(20), (1.0, 0.0), strict=True)
+    0.5 * (part + shift)
+    for part, shift in zip(np.polynomial.legendre.leggauss(20), (1.0, 0.0), strict=True)
 )
 
 

@@ -30,7 +30,7 @@ from scipy.optimize import brentq
 #: Martin's rigid, isoviscous, flooded line contact: in x = √(2 R h0) t the gap is h0 (1 + t²), and
 #: the pressure that vanishes far upstream and ends with zero slope at t_e is dp/dt = 12 η0 u √(2 R
 #: h0)/h0² (t² − t_e²)/(1 + t²)³. Martin, Engineering (London) 102 (1916) 119; the coefficients are
-#: computed from this equation. Place of the film's end t_e:
+#: computed from this equation. Location of the film's end t_e:
 EXIT = 0.475129920093054
 #: Load per length times h0 over η0 u R: h0 = 4.895 η0 u R/w. Rigid where M is below about 0.3.
 LOAD = 4.894968493913377

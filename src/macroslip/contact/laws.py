@@ -38,8 +38,8 @@ _SPAR_END = 7.0
 
 
 @dataclass(frozen=True)
-class ContactLaws:
-    """The chosen laws of one contact, with the numbers of its bearing and oil."""
+class PreparedContact:
+    """One contact with the laws chosen by `Laws`, and the numbers of its bearing and oil."""
 
     name: str  #: `inner`, `outer` or `cage`
     interface: Interface
@@ -85,7 +85,7 @@ class ContactLaws:
         """Gap where the inlet begins to be full [m], of film or rolling; infinite where flooded."""
         return self.oil_gap if self.rolling is None else min(self.oil_gap, self.rolling.oil_gap)
 
-    def at_gap(self, oil_gap: float) -> ContactLaws:
+    def at_gap(self, oil_gap: float) -> PreparedContact:
         """The same raceway with inlets full from another gap on [m], where they are not flooded."""
         rolling = self.rolling
         if rolling is not None and math.isfinite(rolling.oil_gap):
@@ -145,19 +145,19 @@ class ContactLaws:
         return FILM_LAWS.named(self.film_name).source + own
 
 
-class RollerLaws(NamedTuple):
-    """The chosen laws of a roller's contacts, with the numbers of its bearing and oil.
+class PreparedLaws(NamedTuple):
+    """A roller's contacts with the laws chosen by `Laws`, and the numbers of its bearing and oil.
 
     Three contacts of every roller, and the rib of a tapered one.
     """
 
-    inner: ContactLaws
-    outer: ContactLaws
-    cage: ContactLaws
-    rib: ContactLaws | None = None
+    inner: PreparedContact
+    outer: PreparedContact
+    cage: PreparedContact
+    rib: PreparedContact | None = None
 
 
-def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int) -> RollerLaws:
+def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int) -> PreparedLaws:
     """Laws of the three contacts of a roller, from the choice of mechanisms.
 
     Parameters
@@ -173,7 +173,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
 
     Returns
     -------
-    RollerLaws
+    PreparedLaws
         The laws of the contacts with inner raceway, outer raceway and cage.
 
     Raises
@@ -214,7 +214,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
         friction = _raceway_friction(laws, interface.name)
         gap = GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length)
         contacts.append(
-            ContactLaws(
+            PreparedContact(
                 name=interface.name,
                 interface=interface,
                 shape=contact_shape(bearing, interface, axial_sign, microslip=laws.microslip),
@@ -249,8 +249,8 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     if bearing.kind == "tapered":
         from macroslip.contact.tapered import tapered_laws
 
-        return tapered_laws(RollerLaws(*contacts), laws, bearing, lubricant)
-    return RollerLaws(*contacts)
+        return tapered_laws(PreparedLaws(*contacts), laws, bearing, lubricant)
+    return PreparedLaws(*contacts)
 
 
 def _raceway_friction(laws: Laws, interface: str) -> SaturatingFriction | None:
@@ -263,18 +263,18 @@ def _raceway_friction(laws: Laws, interface: str) -> SaturatingFriction | None:
 
 def references(laws: Laws) -> list[str]:
     """Works to cite for the chosen mechanisms."""
-    found = [FILM_LAWS.named(laws.film).reference]
+    works = [FILM_LAWS.named(laws.film).reference]
     if laws.inlet_heating:
-        found.append(film.INLET_HEATING_REFERENCE)
+        works.append(film.INLET_HEATING_REFERENCE)
     if laws.traction == KELLSTROEM:
-        found.append(kellstroem.REFERENCE)
+        works.append(kellstroem.REFERENCE)
     elif laws.traction != MECHANISMS:
-        found.append(TRACTION_LAWS.named(laws.traction).reference)
+        works.append(TRACTION_LAWS.named(laws.traction).reference)
     else:
         chosen = (laws.viscosity, laws.rheology, "heating" if laws.heating else "")
-        found += [traction.REFERENCES[name] for name in chosen if name in traction.REFERENCES]
+        works += [traction.REFERENCES[name] for name in chosen if name in traction.REFERENCES]
     if laws.asperities != "none":
-        found.append(asperities.REFERENCES[laws.asperities])
+        works.append(asperities.REFERENCES[laws.asperities])
     if laws.rolling != "none":
-        found.append(rolling.REFERENCES[laws.rolling])
-    return found
+        works.append(rolling.REFERENCES[laws.rolling])
+    return works

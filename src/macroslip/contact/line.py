@@ -175,12 +175,12 @@ def plane_strain_law(
     return float(np.exp(log_coefficient)), float(exponent)
 
 
-def logarithmic_profile(place, roller_length: float, roller_diameter: float):
+def logarithmic_profile(station, roller_length: float, roller_diameter: float):
     """Drop of a roller's contour towards its ends, per contact [m].
 
     Parameters
     ----------
-    place : array_like
+    station : array_like
         Coordinate ζ along the roller from its middle [m], |ζ| < L/2.
     roller_length : float
         Effective length L [m], at most 2.5 Dw.
@@ -201,7 +201,7 @@ def logarithmic_profile(place, roller_length: float, roller_diameter: float):
     >>> round(1e6 * float(logarithmic_profile(0.8 * 0.107 / 2, 0.107, 0.062)), 2)
     22.17
     """
-    relative = 2.0 * np.asarray(place) / roller_length
+    relative = 2.0 * np.asarray(station) / roller_length
     return -profile_depth(roller_diameter) * np.log1p(-relative * relative)
 
 

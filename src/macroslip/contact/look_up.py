@@ -69,7 +69,7 @@ TRACTION = np.dtype(
 
 
 class ContactLoad(NamedTuple):
-    """Normal load of a contact, with what tables and formulas take of it."""
+    """Normal load of a contact, with its logarithm and cube root."""
 
     load: float  #: Q [N]
     logarithm: float  #: ln Q [ln N]
@@ -96,20 +96,20 @@ class Traction(NamedTuple):
 
 @jit_evaluation
 def cell_of(axis, coordinate):
-    """Cell of a coordinate, the place in it, and its derivative by the coordinate.
+    """Cell of a coordinate, the position in it from 0 to 1, and its derivative by the coordinate.
 
-    Beyond the ends the place stays at the end, and the derivative is 0.
+    Beyond the ends the position stays at the end, and the derivative is 0.
     """
     first = axis.first * axis.per_spacing
-    place = coordinate * axis.per_spacing
-    if place <= first:
+    position = coordinate * axis.per_spacing
+    if position <= first:
         return 0, 0.0, 0.0
-    if place >= first + axis.cells:
+    if position >= first + axis.cells:
         return axis.cells - 1, 1.0, 0.0
-    cell = int(place - first)
-    # Exact near 0, so that slips are told apart that are tiny beside the axis: cold oil may grip at
+    cell = int(position - first)
+    # Exact near 0, so that slips that are tiny beside the axis stay different: cold oil may grip at
     # 1e-19 of the rings' speed.
-    return cell, place - (first + cell), axis.per_spacing
+    return cell, position - (first + cell), axis.per_spacing
 
 
 @jit_evaluation
@@ -302,5 +302,5 @@ def rising_slip(table, tables, load, speed):
     ln_load = log_load(load)
     i, t, _ = cell_of(table.load, ln_load + table.stretch * math.exp(ln_load * (1.0 / 3.0)))
     k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(speed)))
-    place = (i + (1 if t > 0.5 else 0)) * (table.speed.cells + 1) + k + (1 if s > 0.5 else 0)
-    return tables[table.rising + place] * speed
+    corner = (i + (1 if t > 0.5 else 0)) * (table.speed.cells + 1) + k + (1 if s > 0.5 else 0)
+    return tables[table.rising + corner] * speed

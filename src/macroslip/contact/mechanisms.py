@@ -241,7 +241,7 @@ class Laws:
 _REPLACED = ("viscosity", "rheology", "heating", "microslip")
 #: Numbers of Kellström's friction.
 _KELLSTROEM_KEYS = ("traction_limit_inner", "traction_limit_outer", "traction_saturation")
-_DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
+_DEFAULTS: dict[str, Any] = {member.name: member.default for member in fields(Laws)}
 SKEWS = ("none", "quasi-static")
 VISCOSITY_LAWS = ("barus", "roelands")
 #: Choices of each named set that differ from the defaults.

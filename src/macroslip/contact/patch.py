@@ -36,7 +36,7 @@ from macroslip.contact.traction import (
 )
 
 if TYPE_CHECKING:
-    from macroslip.contact.laws import ContactLaws
+    from macroslip.contact.laws import PreparedContact
 
 _asperity_patch = jit(asperity_patch)
 #: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below
@@ -66,7 +66,7 @@ class Patch(NamedTuple):
     full_slip: float
 
 
-def patch_of(contact: ContactLaws) -> Patch:
+def patch_of(contact: PreparedContact) -> Patch:
     """Geometry of a contact, its roller's axis tilted to the positive side."""
     shape = contact.shape
     hertz = contact.interface.hertz
@@ -95,7 +95,7 @@ _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
 
 @jit_inline
 def _node(count, coordinate):
-    """Cell of a coordinate counted in nodes, kept within the spline, and the place in the cell."""
+    """Cell of a coordinate counted in nodes, kept within the spline, and the position in the cell."""
     inside = min(max(coordinate, 0.0), count - 3.0)
     cell = min(int(inside), count - 4)
     return cell, inside - cell
@@ -121,12 +121,12 @@ class FilmNode(NamedTuple):
     film: float  #: h [m]
     logarithm: float
     cell: int
-    place: float  #: In the cell
+    position: float  #: In the cell, 0 to 1
 
 
 @jit_inline
 def film_node(chords, film):
-    """Place of a film h [m] in the table of chords.
+    """Position of a film h [m] in the table of chords.
 
     For `chord_stress_at`, once for all chords of a contact.
     """
@@ -144,7 +144,7 @@ def chord_stress_at(chords, node, pressure, slip):
     chords : ChordTable
         Table of the oil.
     node : FilmNode
-        The film's place in the table, by `film_node`.
+        The film's position in the table, by `film_node`.
     pressure : float
         Largest pressure on the chord p1 [Pa]; kept within 10 Pa and 4 GPa.
     slip : float
@@ -173,7 +173,7 @@ def chord_stress_at(chords, node, pressure, slip):
     log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
     j, u = _node(slips, log_slip / chords.slip_spacing)
     start = (i * films + node.cell) * slips + j
-    value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.place, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.position, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     # Below the first slip of the table stress is in proportion to slip.
     stress = unit * math.exp(
         value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0)

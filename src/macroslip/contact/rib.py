@@ -38,7 +38,7 @@ class RibContact(NamedTuple):
 
 
 class RibState(NamedTuple):
-    """What a rib contact does under loads and at a speed; arrays of the shape of the loads."""
+    """State of a rib contact under loads and at a speed; arrays of the shape of the loads."""
 
     pressure: np.ndarray  #: Largest Hertzian pressure p0 [Pa]
     half_along: np.ndarray  #: Semi-axis of the ellipse along rolling [m]

@@ -436,7 +436,9 @@ def contact_at_gap(numbers: RollingNumbers, gap):
     speed, sliding force over slip, and F_R over the mean speed.
     """
     log_load, log_rolling, log_shear = film_at_gap(numbers.gap, np.log(gap))
-    return tuple(numbers.viscosity * np.exp(one) for one in (log_load, log_shear, log_rolling))
+    return tuple(
+        numbers.viscosity * np.exp(logarithm) for logarithm in (log_load, log_shear, log_rolling)
+    )
 
 
 def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):

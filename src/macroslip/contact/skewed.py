@@ -33,7 +33,7 @@ from macroslip.bearing import Bearing, geometry
 from macroslip.contact.asperities import FULL_SLIP
 from macroslip.contact.interface import common_contour_radius
 from macroslip.contact.kellstroem import SaturatingFriction, saturating_stress
-from macroslip.contact.laws import ContactLaws
+from macroslip.contact.laws import PreparedContact
 from macroslip.contact.patch import graded_rule
 from macroslip.contact.traction import Fluid, local_stress
 
@@ -55,7 +55,7 @@ _NO_PRESSURE = 1.0
 class SkewedContact(NamedTuple):
     """A raceway contact of a roller that may be skewed."""
 
-    laws: ContactLaws  #: For film and asperities
+    laws: PreparedContact  #: For film and asperities
     shear: Shear  #: The stress, see `Shear`
     #: Slide-roll ratio at which the stress has a corner [-]; 0 if it has none.
     corner: float
@@ -99,7 +99,7 @@ class Resultants(NamedTuple):
 
     #: Moment of the tractions about the roller's axis over r [N]; positive where it drives the spin
     #: up.
-    spin: np.ndarray
+    turning: np.ndarray
     pull: np.ndarray  #: Force of the tractions along −k x [N], with the sign of the slip
     axial: np.ndarray  #: Force of the tractions along z' [N]
     moment: np.ndarray  #: Moment of the tractions about +y' [N m]
@@ -147,13 +147,13 @@ def saturating_shear(friction: SaturatingFriction) -> Shear:
 
 
 def skewed_contact(
-    laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None
+    laws: PreparedContact, bearing: Bearing, axial_sign: int, shear: Shear | None = None
 ) -> SkewedContact:
     """Raceway contact of a roller that may be skewed.
 
     Parameters
     ----------
-    laws : ContactLaws
+    laws : PreparedContact
         Laws of the inner or the outer raceway, with a sheared film or Kellström's friction.
     bearing : Bearing
         Its dimensions.

@@ -132,7 +132,7 @@ class _Vectors:
         return self.builder.call(function, [factor, other, added])
 
     def polynomial(self, terms: list[list[float]], position: Any) -> Any:
-        """The four weights of a cell at a place in it."""
+        """The four weights of a cell at a position in it."""
         at = self.splat(position)
         total = ir.Constant(_VECTOR, terms[-1])
         for term in terms[-2::-1]:
@@ -140,7 +140,7 @@ class _Vectors:
         return total
 
     def weights(self, terms: list[list[float]], position: Any) -> list[Any]:
-        """The four weights of a cell at a place in it, each in all lanes."""
+        """The four weights of a cell at a position in it, each in all lanes."""
         return [self.splat(lane) for lane in self.lanes(self.polynomial(terms, position))]
 
     def sum(self, weights: list[Any], vectors: list[Any]) -> Any:

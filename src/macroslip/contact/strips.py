@@ -29,7 +29,7 @@ from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.bearing.tapered.geometry import profile_depth
 from macroslip.compiled import jit
 from macroslip.contact.hertz import HertzContact, effective_modulus
-from macroslip.contact.laws import ContactLaws
+from macroslip.contact.laws import PreparedContact
 from macroslip.contact.line import (
     PALMGREN_EXPONENT,
     half_width,
@@ -169,7 +169,7 @@ class StripTraction(NamedTuple):
 
 
 @dataclass(frozen=True)
-class StripLaws(ContactLaws):
+class PreparedStrips(PreparedContact):
     """The laws of a line contact of a roller with a raceway."""
 
     strips: Strips
@@ -217,7 +217,7 @@ class StripLaws(ContactLaws):
         width = half_width(per_length, strips.curvature, strips.modulus)
         pressure = line_pressure(per_length, strips.curvature, strips.modulus)
         stress = _stresses(
-            chord_table(self.fluid), *(one.ravel() for one in (pressure, film, np.abs(local)))
+            chord_table(self.fluid), *(values.ravel() for values in (pressure, film, np.abs(local)))
         ).reshape(local.shape)
         carried = self.boundary_friction * share * per_length
         rough = carried * np.clip(local / self.full_slip, -1.0, 1.0) * weight
@@ -256,12 +256,12 @@ class StripLaws(ContactLaws):
         if self.shape.microslip:
             rolling = 0.5 * strips.curvature * np.asarray(ring_speed, dtype=float)
             ratio = np.asarray(slip) / np.where(rolling == 0.0, 1e-30, rolling)
-            for place, side in ((1, -1.0), (2, 1.0)):
+            for corner, side in ((1, -1.0), (2, 1.0)):
                 station = np.zeros_like(reach)
                 for _ in range(_ITERATIONS):
                     drop = np.maximum(-ratio * (1.0 + station * strips.taper), 0.0)
                     station = side * np.minimum(strips.reach(drop), reach)
-                edges[place] = station
+                edges[corner] = station
         corners = np.stack(edges, axis=-1)
         lengths = np.diff(corners, axis=-1)[..., None]
         return corners[..., :-1, None] + lengths * _NODES, lengths * _WEIGHTS
@@ -309,8 +309,8 @@ class StripLaws(ContactLaws):
 @jit
 def _stresses(chords: ChordTable, pressure, film, slip):
     """Mean stress along chords [Pa], arrays of one length."""
-    found = np.empty(pressure.size)
+    stress = np.empty(pressure.size)
     for n in range(pressure.size):
         node = film_node(chords, film[n])
-        found[n] = chord_stress_at(chords, node, pressure[n], slip[n])
-    return found
+        stress[n] = chord_stress_at(chords, node, pressure[n], slip[n])
+    return stress

@@ -16,13 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.contact.kellstroem import SaturatingFriction, saturating_patch
-from macroslip.contact.laws import ContactLaws
+from macroslip.contact.laws import PreparedContact
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.patch import Patch, patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.starvation import shared_gaps
-from macroslip.contact.strips import StripLaws
+from macroslip.contact.strips import PreparedStrips
 from macroslip.contact.traction import chord_table
 from macroslip.storage.tables import remembered, stored, table_key
 from macroslip.storage.waiting import TABLES, tell
@@ -119,7 +119,7 @@ def table_box(
 
 
 def larger(box: Box) -> Box:
-    """A box for a state that has left this one."""
+    """A larger box, for a state outside this one."""
     return box._replace(load=2.0 * box.load, slowest=0.0, fastest=1.5 * box.fastest)
 
 
@@ -139,15 +139,15 @@ class Tables:
 
     def flat(self) -> np.ndarray:
         """All numbers, read-only."""
-        found = np.concatenate(self._parts) if self._parts else np.zeros(1)
-        found.flags.writeable = False
-        return found
+        numbers = np.concatenate(self._parts) if self._parts else np.zeros(1)
+        numbers.flags.writeable = False
+        return numbers
 
 
 def write_plane(
     record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box
 ) -> None:
-    """Make a plane over ln Q and ln u and write where it stands.
+    """Make a table over ln Q and ln u and write its address.
 
     Parameters
     ----------
@@ -168,27 +168,29 @@ def write_plane(
     speed = axis(math.log(slowest), math.log(2.0 * box.fastest), _PLANE_SPEED * box.fineness)
     states = np.meshgrid(np.exp(load.nodes), np.exp(speed.nodes), indexing="ij")
     nodes = np.zeros((*states[0].shape, CHANNELS))
-    for channel, one in enumerate(values(*states)):
-        nodes[..., channel] = one
+    for channel, numbers in enumerate(values(*states)):
+        nodes[..., channel] = numbers
     record["start"] = tables.add(spline_coefficients(nodes, 2))
     record["load"] = tuple(load)
     record["speed"] = tuple(speed)
 
 
 def film_values(
-    contact: ContactLaws, load: np.ndarray, speed: np.ndarray
+    contact: PreparedContact, load: np.ndarray, speed: np.ndarray
 ) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of a contact's film: ln h and the asperities' share of the load."""
     film = contact.film_thickness(load, speed)
     return np.log(film), contact.asperity_share(load, speed, film)
 
 
-def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
+def oil_values(
+    contact: PreparedContact, load: np.ndarray, speed: np.ndarray
+) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of a raceway's oil at loads Q [N] and speeds [m/s].
 
     Sliding per slip, rolling resistance, and ln of the volume flow's film.
     """
-    if isinstance(contact, StripLaws):
+    if isinstance(contact, PreparedStrips):
         conductance, resistance, film = contact.light(load, speed)
     else:
         conductance, resistance, film = light_contact(contact.rolling, load, speed)
@@ -196,13 +198,13 @@ def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tup
 
 
 def cage_values(
-    contact: ContactLaws, pocket_gap: float, load: np.ndarray, speed: np.ndarray
+    contact: PreparedContact, pocket_gap: float, load: np.ndarray, speed: np.ndarray
 ) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of the cage's contact.
 
     Parameters
     ----------
-    contact : ContactLaws
+    contact : PreparedContact
         Laws of the contact.
     pocket_gap : float
         Largest gap between roller and spar [m], > 0.
@@ -230,13 +232,13 @@ def cage_values(
 
 
 def tractions(
-    contact: ContactLaws, load: np.ndarray, ring_speed: np.ndarray, slip: np.ndarray
+    contact: PreparedContact, load: np.ndarray, ring_speed: np.ndarray, slip: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Traction of a contact by its laws, the roller's axis tilted to the positive side.
 
     Parameters
     ----------
-    contact : ContactLaws
+    contact : PreparedContact
         Laws of the contact.
     load : ndarray
         Q [N], > 0.
@@ -252,7 +254,7 @@ def tractions(
     asperity_power : ndarray
         Power of asperities [W].
     """
-    if isinstance(contact, StripLaws):
+    if isinstance(contact, PreparedStrips):
         return contact.tractions(load, ring_speed, slip)
     entrainment = np.maximum(np.abs(ring_speed - 0.5 * slip), REST_SPEED)
     film = contact.film_thickness(load, entrainment)
@@ -323,7 +325,7 @@ class _Grid(NamedTuple):
         return np.arcsinh((ratio - self.middle) / self.scale)
 
 
-def _grid(contact: ContactLaws, box: Box) -> _Grid:
+def _grid(contact: PreparedContact, box: Box) -> _Grid:
     shape = contact.shape
     hertz = contact.interface.hertz
     # A law of one's own may rise with the oil's viscosity.
@@ -335,7 +337,7 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     stretch = _STRETCH * per_pressure * hertz.pressure
     if shape.microslip:
         middle = shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio)
-        scale = _LITTLE_MICROSLIP if isinstance(contact, StripLaws) else _MICROSLIP
+        scale = _LITTLE_MICROSLIP if isinstance(contact, PreparedStrips) else _MICROSLIP
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
@@ -364,7 +366,7 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     )
 
 
-def _bent_ratio(contact: ContactLaws, box: Box) -> float:
+def _bent_ratio(contact: PreparedContact, box: Box) -> float:
     """Slip ratio from which traction bends at the highest load, with one slip all over."""
     ratio = np.geomspace(1e-16, 1.0, 200)
     load = np.full_like(ratio, box.load)
@@ -374,7 +376,7 @@ def _bent_ratio(contact: ContactLaws, box: Box) -> float:
     return float(min(ratio[np.argmax(bent)] if bent.any() else 1.0, _MICROSLIP))
 
 
-def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
+def _sheet(contact: PreparedContact, grid: _Grid, speed: float) -> np.ndarray:
     """Quantities at all loads and slip ratios at one speed w [m/s]."""
     load, slip = np.meshgrid(
         grid.loads(grid.load.nodes), grid.slips(grid.ratio.nodes), indexing="ij"
@@ -389,16 +391,16 @@ def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
     )
 
 
-def contact_parts(contact: ContactLaws) -> tuple:
+def contact_parts(contact: PreparedContact) -> tuple:
     """Numbers and laws on which a contact's traction depends, for the key of its table."""
-    one = contact.interface
+    interface = contact.interface
     oil = contact.interface.lubricant
     sources = contact.own_sources
     return (
         contact.film_name, contact.oil_gap, contact.thermal_loading, contact.fluid, contact.traction_name,
-        contact.friction, contact.asperity_name, tuple(patch_of(contact)), one.rolling_radius, one.modulus, one.roughness, one.hardness,
+        contact.friction, contact.asperity_name, tuple(patch_of(contact)), interface.rolling_radius, interface.modulus, interface.roughness, interface.hardness,
         oil.viscosity, oil.pressure_viscosity, sources, repr(oil) if sources else "",
-        contact.strips if isinstance(contact, StripLaws) else None,
+        contact.strips if isinstance(contact, PreparedStrips) else None,
     )  # fmt: skip
 
 
@@ -409,7 +411,7 @@ class TableErrors(NamedTuple):
     worst: float
 
 
-def table_gaps(contact: ContactLaws, box: Box) -> tuple[tuple[float, float], ...]:
+def table_gaps(contact: PreparedContact, box: Box) -> tuple[tuple[float, float], ...]:
     """Gaps at which a raceway's tables are made, with weights that make its own table of theirs.
 
     See `macroslip.contact.starvation.shared_gaps`.
@@ -423,8 +425,10 @@ class _Made(NamedTuple):
     rising: np.ndarray
 
 
-def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> TableErrors:
-    """Make the table of a raceway's traction, or find it in store, and write where it stands.
+def write_traction(
+    record: np.void, tables: Tables, contact: PreparedContact, box: Box
+) -> TableErrors:
+    """Make the table of a raceway's traction, or take it from the cache, and write its address.
 
     Parameters
     ----------
@@ -432,7 +436,7 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
         Written.
     tables : Tables
         The tables to which its coefficients are added.
-    contact : ContactLaws
+    contact : PreparedContact
         Laws of the raceway.
     box : Box
         States that the table holds.
@@ -462,13 +466,13 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
     return _errors(contact, grid, coefficients, box)
 
 
-def _nodes(contact: ContactLaws, grid: _Grid) -> _Made:
+def _nodes(contact: PreparedContact, grid: _Grid) -> _Made:
     """Traction at the nodes of a grid, made or from store."""
     key = table_key("traction", *contact_parts(contact))
     return remembered(table_key(key, grid), lambda: _traction(contact, grid, key))
 
 
-def _traction(contact: ContactLaws, grid: _Grid, key: str) -> _Made:
+def _traction(contact: PreparedContact, grid: _Grid, key: str) -> _Made:
     sheets = []
     for node in grid.speed.nodes:
         # Grids that begin elsewhere have the same speeds but for rounding. A sheet is made at the
@@ -506,7 +510,9 @@ def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
     return minimum_filter(np.minimum(up, down), size=3)
 
 
-def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Box) -> TableErrors:
+def _errors(
+    contact: PreparedContact, grid: _Grid, coefficients: np.ndarray, box: Box
+) -> TableErrors:
     """Errors at random states, even in the logarithms of load and speed.
 
     Rollers with more than 20 kN slip up to .6 % of the ring's speed, lighter ones up to all of it
@@ -568,7 +574,7 @@ def _interpolated(grid: _Grid, coefficients: np.ndarray, state: _States) -> list
 
 
 def _spin_and_power(
-    contact: ContactLaws,
+    contact: PreparedContact,
     along: np.ndarray,
     slip: np.ndarray,
     channels: list[np.ndarray] | tuple[np.ndarray, ...],

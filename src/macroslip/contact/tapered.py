@@ -12,17 +12,17 @@ from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.gap import GapShape
 from macroslip.contact.hertz import effective_modulus, elliptical_contact
 from macroslip.contact.interface import ContactShape
-from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED, ContactLaws, RollerLaws
+from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED, PreparedContact, PreparedLaws
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.rib import chittenden_thickness, rib_asperity_share
 from macroslip.contact.rolling import prepare_rolling
-from macroslip.contact.strips import StripLaws, Strips, equivalent_ellipse, strips_of
+from macroslip.contact.strips import PreparedStrips, Strips, equivalent_ellipse, strips_of
 from macroslip.contact.traction import prepare_fluid
 from macroslip.lubricant import Lubricant
 
 
 @dataclass(frozen=True)
-class RibLaws(ContactLaws):
+class PreparedRib(PreparedContact):
     """The laws of a roller's large end on the rib of the inner ring, which slip alike all over."""
 
     lateral_radius: float  #: Relative radius of curvature across rolling [m]
@@ -30,14 +30,14 @@ class RibLaws(ContactLaws):
 
     def film_thickness(self, load, entrainment_speed) -> np.ndarray:
         """Film thickness [m] at F > 0 [N] and the mean speed of both surfaces [m/s]."""
-        one = self.interface
+        interface = self.interface
         return self.oil_supply * chittenden_thickness(
             load,
             np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED),
-            one.rolling_radius,
+            interface.rolling_radius,
             self.lateral_radius,
-            one.modulus,
-            one.lubricant,
+            interface.modulus,
+            interface.lubricant,
         )
 
     def asperity_share(self, load, entrainment_speed, film_thickness) -> np.ndarray:
@@ -54,13 +54,13 @@ class RibLaws(ContactLaws):
 
 
 def tapered_laws(
-    ellipses: RollerLaws, laws: Laws, bearing: TaperedBearing, lubricant: Lubricant
-) -> RollerLaws:
+    ellipses: PreparedLaws, laws: Laws, bearing: TaperedBearing, lubricant: Lubricant
+) -> PreparedLaws:
     """Laws of raceways, cage and rib, from those of a roller with a crown in place of its profile.
 
     Parameters
     ----------
-    ellipses : RollerLaws
+    ellipses : PreparedLaws
         Laws of the contacts as ellipses, whose choices of film, oil and asperities are kept.
     laws : Laws
         The chosen mechanisms.
@@ -70,7 +70,7 @@ def tapered_laws(
 
     Returns
     -------
-    RollerLaws
+    PreparedLaws
         With a rib. No contact has a closed form: the paper's film is sheared strip by strip.
     """
     fluid = prepare_fluid(laws, lubricant)
@@ -80,16 +80,16 @@ def tapered_laws(
         for law, strips in zip((ellipses.inner, ellipses.outer), strips_of(bearing), strict=True)
     )
     rib = _rib(ellipses.inner, bearing, sheared)
-    return RollerLaws(inner, outer, replace(ellipses.cage, **sheared), rib)
+    return PreparedLaws(inner, outer, replace(ellipses.cage, **sheared), rib)
 
 
 def _raceway(
-    law: ContactLaws,
+    law: PreparedContact,
     strips: Strips,
     laws: Laws,
     bearing: TaperedBearing,
     sheared: dict[str, Any],
-) -> StripLaws:
+) -> PreparedStrips:
     """Laws of a raceway by strips."""
     row = tapered_geometry(bearing)
     length = bearing.roller_length
@@ -115,12 +115,12 @@ def _raceway(
         oil_gap=interface.lubricant.oil_gap if law.rolling is None else law.rolling.oil_gap,
         heating=laws.inlet_heating,
     )
-    values = {one.name: getattr(law, one.name) for one in fields(law)}
+    values = {member.name: getattr(law, member.name) for member in fields(law)}
     values |= {"interface": interface, "shape": shape, "rolling": rolling}
-    return StripLaws(**(values | sheared), strips=strips)
+    return PreparedStrips(**(values | sheared), strips=strips)
 
 
-def _rib(law: ContactLaws, bearing: TaperedBearing, sheared: dict[str, Any]) -> RibLaws:
+def _rib(law: PreparedContact, bearing: TaperedBearing, sheared: dict[str, Any]) -> PreparedRib:
     """Laws of the rib, whose film and asperities are its own."""
     row = tapered_geometry(bearing)
     modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
@@ -130,7 +130,7 @@ def _rib(law: ContactLaws, bearing: TaperedBearing, sheared: dict[str, Any]) -> 
         rolling_radius=1.0 / row.rib_rolling_curvature,
         roughness=bearing.rib_roughness,
     )
-    values = {one.name: getattr(law, one.name) for one in fields(law)}
+    values = {member.name: getattr(law, member.name) for member in fields(law)}
     values |= {
         "name": "rib",
         "interface": interface,
@@ -141,7 +141,7 @@ def _rib(law: ContactLaws, bearing: TaperedBearing, sheared: dict[str, Any]) -> 
         "thermal_loading": 0.0,
         "rolling": None,
     }
-    return RibLaws(
+    return PreparedRib(
         **(values | sheared),
         lateral_radius=1.0 / row.rib_lateral_curvature,
         oil_supply=bearing.rib_oil_supply,

@@ -64,7 +64,7 @@ class ThrustTest:
     def power(
         self, profile: str = "uniform", slices: int = 200
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Places along the roller [m], outwards, and e_a of a washer there [W/m²].
+        """Stations along the roller [m], outwards, and e_a of a washer there [W/m²].
 
         The load is even along the roller (`uniform`), or that of ISO/TS 16281's `logarithmic`
         profile, 0.00035 D ln

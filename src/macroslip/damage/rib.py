@@ -24,7 +24,7 @@ STEEL_EFFUSIVITY = float(effusivity(46.0, 7850.0, 460.0))
 def pass_energy(
     pressure: ArrayLike, half_along: ArrayLike, sliding: ArrayLike, speed: ArrayLike
 ) -> _Array:
-    """Pressure times slip that a place of a surface gets in one pass of the contact [J/m²].
+    """Pressure times slip at a point of a surface in one pass of the contact [J/m²].
 
     It is p0 v_f 2a/u. Times a coefficient of friction it is the friction energy per area, times the
     asperities' share and a wear coefficient [m²/N] the depth that wears (Archard).

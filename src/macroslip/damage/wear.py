@@ -12,7 +12,7 @@ REFERENCE = "Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448"
 #: Wear of steel in a lubricated contact per work of asperities' pressure times slip [m²/N]: the
 #: range over which rigs scatter.
 COEFFICIENTS = (1e-18, 1e-17, 1e-16)
-#: Depths whose time is told, and the depth after which the pressure is found anew [m].
+#: Depths to which times are computed, and depth after which the pressure is computed anew [m].
 DEPTHS = (1e-6, 1e-5, 1e-4)
 STEP = 1e-6
 #: Steps after which bodies that hardly wear are given up.
@@ -123,14 +123,14 @@ class Worn(NamedTuple):
         return np.array([np.interp(depth, body, self.work, right=math.inf) for body in deepest.T])
 
     def depth_at(self, work: float) -> _Array:
-        """Depth [m] of each body by slice at a k t; NaN beyond what was followed."""
+        """Depth [m] of each body by slice at a k t; NaN beyond the time that was computed."""
         slices = self.depth.reshape(self.work.size, -1).T
         depths = [np.interp(work, self.work, depth, right=math.nan) for depth in slices]
         return np.reshape(depths, self.depth.shape[1:])
 
 
 def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DEPTHS[-1]) -> Worn:
-    """Wear of both raceways and the roller, with the pressure found anew after every `STEP`.
+    """Wear of both raceways and the roller, with the pressure computed anew after every `STEP`.
 
     dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves
     the lines of pure rolling, it does not follow. The roller wears in both contacts, and its worn

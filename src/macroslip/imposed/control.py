@@ -335,10 +335,13 @@ def energy_error(path, now, zone, attempt, sample, sums):
 def held_energy_error(energy, length, before, after):
     """Error estimate of the energy of a held step, from the trapezoidal and Simpson's rule.
 
-    Simpson's rule is off in proportion to the fourth power of the step, the trapezoidal rule to the
-    second; the square of twice what they differ by relatively has the order of the one, and for a
-    power that grows as an exponential eighty times its error. Errors of a rising and of a falling
-    power are of one sign and add up, hence the margin.
+    With E_S by Simpson's and E_T by the trapezoidal rule the estimate is
+
+        4 (E_S − E_T)²/|E_S|.
+
+    It is of the fourth order in the step, as the error of E_S is, and 80 times that error for a power
+    that grows exponentially. Errors of a rising and of a falling power have one sign and add up,
+    which the margin is for.
 
     Parameters
     ----------
@@ -360,5 +363,5 @@ def held_energy_error(energy, length, before, after):
 
 @jit_inline
 def step_factor(error):
-    """Factor on the step by its error over what is allowed; the estimates are of third order."""
+    """Factor on the step from error / tolerance; the estimates are of third order."""
     return tuning.SAFETY / math.sqrt(math.sqrt(max(error, 1e-8)))

@@ -1,4 +1,4 @@
-"""Whether the stages of a step are the root that is continuous with the slip before it."""
+"""Check that the stages of a step are the root that is continuous with the slip before it."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from macroslip.imposed.root import surely_rising
 from macroslip.imposed.solve import integrate
 from macroslip.imposed.state import LIMITS, WORK, Path
 from macroslip.imposed.status import UNDER_WAY
-from macroslip.imposed.zones import classify, firm_interference
+from macroslip.imposed.zones import classify, firm_approach
 from macroslip.ring.orbit import Motion
 from macroslip.roller.model import Roller
 from macroslip.roller.step import new_steps
@@ -90,13 +90,13 @@ def radau_limits(
     # in every step.
     ring = 0.0 if body["closed_form"] else speed
     cold = surely_rising(body, tables, heaviest, heaviest, ring) if heaviest > 0.0 else np.inf
-    firm = firm_interference(body, tables.ctypes.data, speed)
+    firm = firm_approach(body, tables.ctypes.data, speed)
     energy = speed**2 / body["mobility"]
     grain = 0.0
     if not body["closed_form"]:
         # A film without heating may hold a roller at a slip of 1e-13 of the rings' speed.
         contacts = (body[name]["traction"] for name in ("inner", "outer"))
-        widest = max(one["scale"] / one["ratio"]["per_spacing"] for one in contacts)
+        widest = max(contact["scale"] / contact["ratio"]["per_spacing"] for contact in contacts)
         grain = tuning.PLACE_ROUNDING * widest * speed
     return np.array(
         [(tolerance, max_steps, speed, energy, longest, cold, firm, window, grain)], LIMITS

@@ -55,7 +55,7 @@ def _follows_acceleration(now):
 def _rebalance(path, now, sums, forces):
     """Take a firmly held roller to just after a sample, where the shaft's acceleration jumps.
 
-    The transition takes the relaxation time, for which `firm_interference` gives a bound; here it
+    The transition takes the relaxation time, for which `firm_approach` gives a bound; here it
     takes none. A roller that still skids, or has not settled yet, is left as it is. `forces` is
     room for the search.
     """
@@ -115,7 +115,7 @@ def _next_stretch(path, stops, classes, work):
             # of the instant.
             last -= 1
     stretch.barrier = min(motion.time[last + 1], stop)
-    if jumps and now.at.interference > path.limits.firm and time == motion.time[interval]:
+    if jumps and now.at.approach > path.limits.firm and time == motion.time[interval]:
         _rebalance(path, now, work.sums, work.sample.forces)
     if zone == EDGE:
         stretch.barrier = edge_time(

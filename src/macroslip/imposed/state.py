@@ -13,7 +13,7 @@ from macroslip.roller.step import write_stage
 
 
 class Path(NamedTuple):
-    """The way of one roller and how it is to be integrated."""
+    """Motion of one roller on its orbit, and the settings of its integration."""
 
     body: Any  #: Record of a roller
     #: Address of the flat array of its tables: an array would be counted at every look-up
@@ -39,7 +39,7 @@ LIMITS = np.dtype(
         ("longest_step", "f8"),
         # Slip below which traction rises with slip at every load of the history [m/s].
         ("cold_slip", "f8"),
-        # Interference from which on the roller is firmly held [m].
+        # Elastic approach from which on the roller is firmly held [m].
         ("firm", "f8"),
         # Start of the window [s].
         ("window", "f8"),

@@ -1,4 +1,4 @@
-"""Numbers that steer the integrator, in one place, each with what chose it.
+"""Numbers that steer the integrator, each with the reason for its value.
 
 None is physics: every result converges to the same value as the tolerance falls, whatever they are.
 "Bundled histories" are 21 cases × 2 rows of 600 s, measured by `make bench`

@@ -14,7 +14,7 @@ import math
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import contact_load, log_speed
 from macroslip.imposed import tuning
-from macroslip.mechanics.loads import interference
+from macroslip.mechanics.loads import elastic_approach
 from macroslip.mechanics.raceway import raceway_traction
 from macroslip.ring.orbit import instant
 
@@ -75,8 +75,8 @@ def relaxation_rate(body, tables, load, ring_speed):
 
 
 @jit
-def firm_interference(body, tables, ring_speed):
-    """Interference [m] above which a roller is firmly held.
+def firm_approach(body, tables, ring_speed):
+    """Elastic approach [m] above which a roller is firmly held.
 
     It holds for raceway speeds up to `ring_speed` [m/s]. Infinite if no load of the tables holds it
     firmly (a law with bounded slope): then no interval is `FIRM`.
@@ -119,7 +119,7 @@ def interference_at(body, motion, start_angle, interval, time):
     """
     now = instant(motion, interval, time)
     angle = start_angle + body.orbit_ratio * now.shaft_angle
-    return interference(body, math.cos(angle), math.sin(angle), now)
+    return elastic_approach(body, math.cos(angle), math.sin(angle), now)
 
 
 @jit
@@ -138,7 +138,7 @@ def classify(body, motion, start_angle, firm, classes):
     start_angle : float
         Position φ at the first sample [rad].
     firm : float
-        Interference from which on the roller is firmly held [m].
+        Elastic approach from which on the roller is firmly held [m].
     classes : ndarray of int8, shape (n − 1,)
         Is written: `FREE`, `EDGE` or `FIRM` by interval.
     """
@@ -168,7 +168,7 @@ def classify(body, motion, start_angle, firm, classes):
 
 @jit
 def edge_time(body, motion, start_angle, interval, start, end):
-    """Time just after the interference changes sign within a sample interval.
+    """Time just after the elastic approach changes sign within a sample interval.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from macroslip.errors import InputError
-from macroslip.input.files import Place, Source
+from macroslip.input.files import Location, Source
 from macroslip.input.messages import shown, unknown_name
 from macroslip.input.units import (
     ANGLE,
@@ -47,7 +47,7 @@ _REMINDERS = {
 class Context:
     """Context in which a value is read: where it stands, and how it is written."""
 
-    place: Place = field(default_factory=lambda: Place(Source()))
+    location: Location = field(default_factory=lambda: Location(Source()))
     #: Whether it is written as in a file; otherwise a quantity is a number in SI units.
     in_file: bool = False
     #: Whether ranges are checked, beside the form.
@@ -61,7 +61,7 @@ class Context:
     def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Context:
         """The same of a value further in."""
         return Context(
-            self.place.inside(key), self.in_file, self.ranges, before or {}, self.written
+            self.location.inside(key), self.in_file, self.ranges, before or {}, self.written
         )
 
 
@@ -86,7 +86,7 @@ class Form:
         return {"type": "object"}
 
     def wrong(self, value: Any, remedy: str = "", allowed: str = "") -> InputError:
-        """The error for a value that is none of the form."""
+        """The error for a value of another form."""
         return InputError(f"it is {shown(value)}", allowed=allowed or self.form, remedy=remedy)
 
 
@@ -130,7 +130,9 @@ class Quantity(Form):
             written = str(value)
         else:
             si_value = self._number(value, context)
-            written, unit = (context.written or {}).get(context.place.key, (f"{si_value!r}", unit))
+            written, unit = (context.written or {}).get(
+                context.location.key, (f"{si_value!r}", unit)
+            )
         if context.ranges:
             self._check_range(si_value, context, written, unit)
         return si_value

@@ -49,15 +49,15 @@ class Source:
 
 
 @dataclass(frozen=True)
-class Place:
-    """The place of a value in a file: its source, and its keys from the outermost inwards."""
+class Location:
+    """The location of a value in a file: its source, and its keys from the outermost inwards."""
 
     source: Source
     keys: tuple[str, ...] = ()
 
-    def inside(self, *keys: str) -> Place:
-        """The place of a value further in."""
-        return Place(self.source, self.keys + keys)
+    def inside(self, *keys: str) -> Location:
+        """The location of a value further in."""
+        return Location(self.source, self.keys + keys)
 
     @property
     def key(self) -> str:
@@ -70,14 +70,14 @@ class Place:
         return ", ".join(part for part in (self.source.where(*self.keys), self.key) if part)
 
     def problem(self, fault: str, allowed: str = "", remedy: str = "") -> InputError:
-        """An error at this place."""
-        found = InputError(fault, where=self.where, allowed=allowed, remedy=remedy)
-        found.is_placed = bool(found.where)
-        return found
+        """An error at this location."""
+        error = InputError(fault, where=self.where, allowed=allowed, remedy=remedy)
+        error.is_located = bool(error.where)
+        return error
 
     def blamed(self, problem: InputError) -> InputError:
-        """The same error with this place in front, unless it has one already."""
-        if problem.is_placed:
+        """The same error with this location in front, unless it has one already."""
+        if problem.is_located:
             return problem
         # A reader that was given the value without its file can name the key only.
         if self.key and problem.where.startswith(f"{self.key}."):

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Self, get_type_hints
 
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Context, Form, Quantity, Text
-from macroslip.input.files import Place, Source, parse, read_text, yaml_text
+from macroslip.input.files import Location, Source, parse, read_text, yaml_text
 from macroslip.input.messages import shown, together
 from macroslip.input.section import (
     Field,
@@ -80,6 +80,11 @@ class Provenance:
         return with_unit(self.value, self.unit)
 
 
+def _as_written(number: Any) -> float:
+    """A number as an integer where it was written as one."""
+    return int(number) if hasattr(number, "__index__") else float(number)
+
+
 @dataclass(frozen=True)
 class _Number(Form):
     form = "a finite number, without its unit"
@@ -88,7 +93,7 @@ class _Number(Form):
     def read(self, value: Any, context: Context) -> float:
         if not is_finite_number(value):
             raise self.wrong(value, "The unit goes into its own key.")
-        return int(value) if hasattr(value, "__index__") else float(value)
+        return _as_written(value)
 
     def json(self) -> dict[str, Any]:
         return {"type": "integer" if self.whole else "number"}
@@ -108,7 +113,8 @@ class _Range(Form):
         good = pair and all(map(is_finite_number, pair))
         if not good or not (middle is None or pair[0] <= middle <= pair[1]):
             raise self.wrong(value, "Leave it out if nothing is known of the scatter.")
-        return tuple(int(one) if hasattr(one, "__index__") else float(one) for one in pair)  # pyright: ignore[reportReturnType]
+        lowest, highest = pair
+        return _as_written(lowest), _as_written(highest)
 
     def json(self) -> dict[str, Any]:
         return {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
@@ -156,7 +162,7 @@ class _Entry(Form):
 
     def read(self, value: Any, context: Context) -> Provenance:
         dimension = self.quantity.dimension
-        key = context.place.keys[-1]
+        key = context.location.keys[-1]
         if isinstance(value, str):
             return Provenance(*parse_quantity(value, dimension))
         if dimension is NUMBER and is_finite_number(value):
@@ -208,7 +214,7 @@ def read_entry(
         If the entry is no quantity of this dimension.
     """
     field = Field(_Entry("", Quantity("", dimension)), True, False)
-    origin = read_value(field, entry, Context(Place(source, (key,)), in_file=True))
+    origin = read_value(field, entry, Context(Location(source, (key,)), in_file=True))
     return dimension.to_si(origin.value, origin.unit), origin
 
 
@@ -250,17 +256,17 @@ class Record:
         written |= {key: (origin.written, origin.unit) for key, origin in provenance.items()}
         # An entry may have several lines; what is wrong with its value is in the line of the value.
         lines = {keys[:1]: line for keys, line in source.lines.items() if keys[1:] == ("value",)}
-        place = Place(Source(source.file, {**source.lines, **lines}))
-        found, problems = read_keys(fields, values, Context(place, written=written))
+        location = Location(Source(source.file, {**source.lines, **lines}))
+        checked, problems = read_keys(fields, values, Context(location, written=written))
         if problems:
             raise together(problems)
-        found = {key: found.get(key, one.default) for key, one in fields.items()}
-        known = {
-            key: provenance.get(key) or Provenance(found[key], kind.si_unit)
-            for key, kind in kinds.items()
-        }
-        given = tuple(one for one in known.items() if found[one[0]] is not None)
-        vars(self).update(found, _provenance=given, _derived=derived)
+        own = {key: checked.get(key, member.default) for key, member in fields.items()}
+        origins = tuple(
+            (key, provenance.get(key) or Provenance(own[key], dimension.si_unit))
+            for key, dimension in kinds.items()
+            if own[key] is not None
+        )
+        vars(self).update(own, _provenance=origins, _derived=derived)
         problems = [*self._wide_ranges(source), *self._inconsistencies(source)]
         if problems:
             raise together(problems)
@@ -270,7 +276,7 @@ class Record:
             quantity = quantities(type(self))[key]
             for limit in origin.range or ():
                 if not quantity.holds(quantity.dimension.to_si(limit, origin.unit)):
-                    yield Place(source, (key, "range")).problem(
+                    yield Location(source, (key, "range")).problem(
                         f"it goes to {shown(limit)}",
                         quantity.range_text(origin.unit),
                         "Give a range in which every value is possible.",
@@ -362,29 +368,35 @@ class Record:
                 allowed=", ".join(fields),
                 remedy=f"Name a {cls.noun} file.",
             )
-        # What is missing is told later: it may follow from what is there.
-        optional = {key: one._replace(is_required=False) for key, one in fields.items()}
-        found, problems = read_keys(optional, entries, Context(Place(source), in_file=True))
+        # A missing value is reported later: it may follow from others.
+        optional = {key: member._replace(is_required=False) for key, member in fields.items()}
+        entries_read, problems = read_keys(
+            optional, entries, Context(Location(source), in_file=True)
+        )
         for part in problems:
-            part.is_placed = (
-                False  # in the record's own file; a case file that names it adds its own place
+            part.is_located = (
+                False  # in the record's own file; a case file that names it adds its own location
             )
         if problems:
             raise together(problems)
-        for section in cls.sections.keys() & found.keys():
-            found |= {f"{section}_{key}": value for key, value in found.pop(section).items()}
+        for section in cls.sections.keys() & entries_read.keys():
+            inside = entries_read.pop(section)
+            entries_read |= {f"{section}_{key}": value for key, value in inside.items()}
         lines = {
             (f"{keys[0]}_{keys[1]}", *keys[2:])
             if keys[0] in cls.sections and keys[1:]
             else keys: line
             for keys, line in source.lines.items()
         }
-        origins = {key: one for key, one in found.items() if isinstance(one, Provenance)}
+        origins = {
+            key: entry for key, entry in entries_read.items() if isinstance(entry, Provenance)
+        }
+        units = dimensions(cls)
         values = {
-            key: dimensions(cls)[key].to_si(one.value, one.unit) for key, one in origins.items()
+            key: units[key].to_si(origin.value, origin.unit) for key, origin in origins.items()
         }
         record = cls.__new__(cls)
-        record._fill(found | values, origins, Source(source.file, lines))
+        record._fill(entries_read | values, origins, Source(source.file, lines))
         return record
 
     def require(self, *keys: str, purpose: str) -> None:
@@ -424,23 +436,23 @@ class Record:
         """
         origins = self.provenance
         kinds = dimensions(type(self))
-        given = [key for key in fields_of(type(self)) if key in origins or key not in kinds]
-        given = [key for key in given if key not in self._derived]
+        keys = [key for key in fields_of(type(self)) if key in origins or key not in kinds]
+        keys = [key for key in keys if key not in self._derived]
         return self._nested(
             {
                 key: origins[key].as_entry() if key in origins else getattr(self, key)
-                for key in given
+                for key in keys
             },
             {},
         )
 
-    def _nested(self, entries: Mapping[str, Any], found: dict[str, Any]) -> dict[str, Any]:
+    def _nested(self, entries: Mapping[str, Any], content: dict[str, Any]) -> dict[str, Any]:
         """Put entries by field into the content of a file, those of a section inside it."""
         for key, entry in entries.items():
-            section = next((one for one in self.sections if key.startswith(f"{one}_")), "")
-            inside = found.setdefault(section, {}) if section else found
+            section = next((name for name in self.sections if key.startswith(f"{name}_")), "")
+            inside = content.setdefault(section, {}) if section else content
             inside[key.removeprefix(f"{section}_") if section else key] = entry
-        return found
+        return content
 
     def with_entries(self, entries: Mapping[str, Any]) -> Self:
         """Copy the record with other entries, by field, as a catalogue file has them."""
@@ -448,19 +460,16 @@ class Record:
 
     def as_yaml(self) -> str:
         """Text of a catalogue file with every key explained; `read` gives the record back."""
-        explained = {key: one.form.about for key, one in fields_of(type(self)).items()} | dict(
-            self.sections
-        )
+        explained = {key: member.form.about for key, member in fields_of(type(self)).items()}
+        explained |= self.sections
         return yaml_text(self.as_dict(), _HEADER.format(self.noun), explained)
 
     def replace(self, **values: Any) -> Self:
         """Copy the record with other values [SI], which are checked and get the tag U."""
         kept = {key: origin for key, origin in self._provenance if key not in values}
-        given = {
-            key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived
-        }
+        own = {key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived}
         record = type(self).__new__(type(self))
-        record._fill(given | values, kept, Source())
+        record._fill(own | values, kept, Source())
         return record
 
     def model_dump(self) -> dict[str, Any]:
@@ -480,7 +489,7 @@ class Record:
 @functools.cache
 def fields_of(record: type[Record]) -> Fields:
     """Fields of a record class by key."""
-    found = {}
+    fields = {}
     for key, hint in get_type_hints(record, include_extras=True).items():
         if hasattr(hint, "__metadata__"):
             required = not hasattr(record, key)
@@ -490,22 +499,22 @@ def fields_of(record: type[Record]) -> Fields:
                 if others
                 else "Add it."
             )
-            found[key] = Field(
+            fields[key] = Field(
                 form_from(hint), required, not required, getattr(record, key, None), remedy
             )
-    return found
+    return fields
 
 
 @functools.cache
 def _in_file(record: type[Record]) -> Fields:
     """Fields as a file has them: quantities as entries, and sections; derived may be missing."""
     fields = {}
-    for key, one in fields_of(record).items():
-        form = one.form
+    for key, member in fields_of(record).items():
+        form = member.form
         if isinstance(form, Quantity):
             form = _Entry(f"{form.about}: {form.range_text()}", form)
-        fields[key] = one._replace(
-            form=form, is_required=one.is_required and key not in record.sources
+        fields[key] = member._replace(
+            form=form, is_required=member.is_required and key not in record.sources
         )
     keys = {
         name: tuple(key for key in fields if key.startswith(f"{name}_")) for name in record.sections
@@ -516,7 +525,7 @@ def _in_file(record: type[Record]) -> Fields:
 @functools.cache
 def quantities(record: type[Record]) -> Mapping[str, Quantity]:
     """Quantities of a record class by key; fields of plain text have none."""
-    forms = {key: one.form for key, one in fields_of(record).items()}
+    forms = {key: member.form for key, member in fields_of(record).items()}
     return {key: form for key, form in forms.items() if isinstance(form, Quantity)}
 
 

@@ -27,7 +27,7 @@ from typing import (
 
 from macroslip.errors import InputError
 from macroslip.input.fields import IN_FILE, PYTHON, Choice, Context, Form
-from macroslip.input.files import Place, Source
+from macroslip.input.files import Location, Source
 from macroslip.input.messages import nearest, parts_of, together, unknown_key
 from macroslip.storage.files import check_no_zero_byte
 
@@ -52,7 +52,7 @@ class OrWord(NamedTuple):
 
 
 class _Declared(NamedTuple):
-    """What `input_section` was told of a class."""
+    """Arguments of `input_section` for a class."""
 
     about: str
     fields: Fields  #: Keys in Python
@@ -94,7 +94,7 @@ def input_section(
         Decorator of the class.
     """
     keys = tuple(noun.split(".")) if noun else ()
-    context = dataclasses.replace(PYTHON, place=Place(Source(), keys))
+    context = dataclasses.replace(PYTHON, location=Location(Source(), keys))
 
     def decorate(kind: type[Kind]) -> type[Kind]:
         made: Any = dataclass(frozen=True, slots=True, kw_only=not positional)(kind)
@@ -184,9 +184,9 @@ def _fill(
             )
         declared.fill(made, **checked)
     except InputError as problem:
-        if not context.place.keys:  # a class without a place names the places itself
+        if not context.location.keys:  # a class without a location names the locations itself
             raise
-        raise together(context.place.blamed(part) for part in parts_of(problem)) from None
+        raise together(context.location.blamed(part) for part in parts_of(problem)) from None
 
 
 def read_keys(
@@ -201,7 +201,7 @@ def read_keys(
     data : mapping
         Its content.
     context : Context
-        Place of the section, and how its values are given.
+        Location of the section, and how its values are given.
     other_keys : tuple of str
         Keys that the section may have as well, for the message about an unknown one.
 
@@ -210,14 +210,14 @@ def read_keys(
     tuple
         Values by key, and everything that is wrong.
     """
-    place = context.place
+    location = context.location
     values: dict[str, Any] = {}
     problems: list[InputError] = []
     unknown = [key for key in data if key not in fields]
     for key in unknown:
-        where = place.source.where(*place.keys, key)
-        problem = unknown_key(key, [*other_keys, *fields], where=where, inside=place.key)
-        problem.is_placed = True
+        where = location.source.where(*location.keys, key)
+        problem = unknown_key(key, [*other_keys, *fields], where=where, inside=location.key)
+        problem.is_located = True
         problems.append(problem)
     meant = {nearest(key, fields) for key in unknown}  # a misspelled key is not missing as well
     before = {
@@ -237,30 +237,30 @@ def read_keys(
                 problems += parts_of(problem)
         elif member.is_required and key not in meant:
             fault = f"'{key}' is missing ({member.form.about})"
-            problems.append(place.problem(fault, member.form.form, member.remedy))
+            problems.append(location.problem(fault, member.form.form, member.remedy))
     return values, problems
 
 
 def read_value(member: Field, value: Any, context: Context) -> Any:
-    """Read the value of a key; all that is wrong inside is raised with its place."""
+    """Read the value of a key; all that is wrong inside is raised with its location."""
     try:
         return member.form.read(value, context)
     except InputError as problem:
-        raise together(context.place.blamed(part) for part in parts_of(problem)) from None
+        raise together(context.location.blamed(part) for part in parts_of(problem)) from None
 
 
 def read_fields(
-    kind: type, data: Mapping[str, Any], place: Place
+    kind: type, data: Mapping[str, Any], location: Location
 ) -> tuple[dict[str, Any], list[InputError]]:
     """Read a whole file as far as it is right, as `read_keys` does; `kind` is its section class."""
-    return read_keys(fields_of(kind), data, dataclasses.replace(IN_FILE, place=place))
+    return read_keys(fields_of(kind), data, dataclasses.replace(IN_FILE, location=location))
 
 
 @dataclass(frozen=True)
 class Section(Form):
     """Section of keys: an object of a class, or a mapping where it has no class.
 
-    In Python an object of the class stands in its place. A word in its place switches it off.
+    In Python an object of the class stands for it. A word instead of it switches it off.
     """
 
     fields: Fields = field(default_factory=dict)
@@ -343,7 +343,7 @@ class Variants(Form):
         try:
             Choice(self.about, lambda: list(self.sections)).read(name, context)
         except InputError as problem:
-            problems.append(context.place.inside(self.key).blamed(problem))
+            problems.append(context.location.inside(self.key).blamed(problem))
             if len(kinds) > 1:
                 raise problems[0] from None
             name = self.default
@@ -430,7 +430,7 @@ class MappingOf(Form):
 def read_all(
     items: Iterable[tuple[str, Any]], read: Callable[[str, Any, Context], Any], context: Context
 ) -> list[Any]:
-    """Read values by their keys; all that is wrong is raised together, each with its place."""
+    """Read values by their keys; all that is wrong is raised together, each with its location."""
     values = []
     problems: list[InputError] = []
     for key, item in items:
@@ -438,7 +438,7 @@ def read_all(
         try:
             values.append(read(key, item, inner))
         except InputError as problem:
-            problems += [inner.place.blamed(part) for part in parts_of(problem)]
+            problems += [inner.location.blamed(part) for part in parts_of(problem)]
     if problems:
         raise together(problems)
     return values

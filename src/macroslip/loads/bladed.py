@@ -259,7 +259,7 @@ def _check_means(group: _Group, samples: Samples, data: Path) -> None:
     """InputError if a channel's mean is not the one that the header states."""
     mean = samples.values.mean(axis=0, dtype=np.float64)
     largest = np.maximum(np.abs(samples.values).max(axis=0), 1e-30)
-    # What is not finite is told of the channels that are taken, and of no others.
+    # Values that are not finite matter in the channels that are used, and in no others.
     difference = np.nan_to_num(np.abs(mean - group.mean) / largest, posinf=0.0)
     worst = int(difference.argmax())
     if difference[worst] > _SAME_MEAN:

@@ -1,4 +1,4 @@
-"""The load cases that come with the package: names, files, and what is known of each."""
+"""The load cases that come with the package: names, files, and their conditions."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ def windio_values(path: str | os.PathLike[str], own: Mapping[str, Any]) -> dict[
 
 
 def read_windio(path: str | os.PathLike[str]) -> WindioShaft:
-    """Read what a turbine file of windIO, version 2, tells of the shaft.
+    """Read the shaft's values of a turbine file of windIO, version 2.
 
     Raises InputError if it cannot be read, is of another version, or has a value that is no number.
     """

@@ -13,7 +13,7 @@ from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 
 if TYPE_CHECKING:
-    from macroslip.contact.laws import ContactLaws, RollerLaws
+    from macroslip.contact.laws import PreparedContact, PreparedLaws
 
 #: Stations along the roller's length.
 STATIONS = 24
@@ -59,10 +59,10 @@ class Contact(NamedTuple):
     effusivity: float  #: Thermal effusivity of its steel [J/(m² K s^½)]
 
 
-def contacts_of(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
+def contacts_of(laws: PreparedLaws) -> tuple[Contact, Contact, Contact]:
     """Inner, outer and cage contact of a roller."""
 
-    def contact(law: ContactLaws) -> Contact:
+    def contact(law: PreparedContact) -> Contact:
         # Tables are made for one side; here the row's own tilt counts.
         patch = patch_of(law)._replace(spin_ratio=law.shape.spin_ratio)
         limit, saturation = law.friction or (0.0, 1.0)
@@ -121,7 +121,7 @@ def _covered(k, width, half_length, middle, across):
 
 @jit
 def power_along(maps, interface, contact, state, sample, passes, along):
-    """Find how power lies along the roller at a loaded raceway, and the station that is hottest.
+    """Distribution of power along the roller at a loaded raceway, and its hottest station.
 
     Parameters
     ----------

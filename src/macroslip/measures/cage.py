@@ -18,7 +18,7 @@ class CageMeasures:
     """Measures of pockets and cages."""
 
     def __init__(self, bearing: WholeBearing, wanted: Wanted, times: np.ndarray):
-        count = bearing.places.size
+        count = bearing.positions.size
         cages = bearing.cages
         self._bearing = bearing
         self._window = wanted.edges[0]
@@ -58,9 +58,9 @@ class CageMeasures:
         for k in range(2):
             push = steps["cage_load"][..., k]
             weight = steps["weight"][..., k]
-            turn = whole["turn"][:, k][:, self._bearing.places["cage"]]
+            turn = whole["turn"][:, k][:, self._bearing.positions["cage"]]
             sector = (
-                (turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * SECTORS
+                (turn + self._bearing.positions["angle"]) / (2.0 * np.pi) % 1.0 * SECTORS
             ).astype(int) % SECTORS
             for side, here in enumerate((push < 0.0, push > 0.0)):
                 size = np.where(here, np.abs(push), 0.0)
@@ -106,6 +106,6 @@ class CageMeasures:
         self.offset[places] = part.offset[rows]
         inner = steps["inner_slip"][every, :, last]
         outer = steps["outer_slip"][every, :, last]
-        ring = speed[:, None] * (bearing.places["inner_radius"] - 0.5 * bearing.inner_radius)
-        ring -= 0.5 * speed[:, None] * bearing.places["inner_radius"]
+        ring = speed[:, None] * (bearing.positions["inner_radius"] - 0.5 * bearing.inner_radius)
+        ring -= 0.5 * speed[:, None] * bearing.positions["inner_radius"]
         self.deviation[places] = (0.5 * (inner - outer) + ring) / bearing.pitch_radius

@@ -27,7 +27,7 @@ from macroslip.ring.orbit import angle_at
 from macroslip.roller.step import STEP
 
 if TYPE_CHECKING:
-    from macroslip.contact.laws import ContactLaws, RollerLaws
+    from macroslip.contact.laws import PreparedContact, PreparedLaws
     from macroslip.measures.skew import SkewMeasures
     from macroslip.ring.orbit import Motion
     from macroslip.roller.model import Roller
@@ -45,7 +45,7 @@ class Wanted:
     highest_speed: float  #: Largest raceway speed of the history [m/s]
     #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
     trace_time: np.ndarray
-    details: bool  #: Whether contacts are evaluated station by station
+    details: bool  #: Whether contacts are sampled by station
     spacing: float = 1.0  #: Changes between samples, over those of a roller on an imposed orbit
 
 
@@ -173,7 +173,7 @@ class ContactSampler:
         self,
         wanted: Wanted,
         roller: Roller,
-        laws: RollerLaws,
+        laws: PreparedLaws,
         contacts: Any,
         motion: Motion,
         start_angle: float,
@@ -204,7 +204,7 @@ class ContactSampler:
         )
 
     def finish(self) -> None:
-        """Spread what has been kept since the last sample."""
+        """Distribute energies that have been kept since the last sample."""
         memory = self.details.memory[0]
         last = self._last[0]
         if memory["time"] < last["end"]:
@@ -273,10 +273,10 @@ class ContactSampler:
         heat_entries(rows, self._contacts[0].effusivity, self.details.entry_extreme)
 
     def _check_quadrature(self, samples: np.ndarray) -> None:
-        """Find power by the rule in use and by a much finer one, now and then."""
+        """Compare power by the quadrature in use with a much finer one, in some of the samples."""
         for sample in samples[samples["number"] % _FINE == 0]:
             for i, name in enumerate(RACEWAYS):
-                law: ContactLaws = getattr(self._laws, name)
+                law: PreparedContact = getattr(self._laws, name)
                 load, ring_speed, slip = (
                     float(sample["at"][f"{name}_{field}"]) for field in ("load", "speed", "slip")
                 )

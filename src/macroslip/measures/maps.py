@@ -69,7 +69,7 @@ def _share(way, sector, mean_time):
 
 @jit
 def spread(maps, interface, way, mean_time, spent, before, after):
-    """Give energies to the stations, and to the places of the raceway that were passed.
+    """Distribute energies over the stations, and over the sectors of the raceway that were passed.
 
     They are spread as power lay at the sample before and as it lies now. Along the roller they are
     in proportion to the powers; along the way, from one sector to another, they are linear, with

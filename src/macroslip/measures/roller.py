@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from macroslip.constants import SECTORS
-from macroslip.contact.laws import RollerLaws
+from macroslip.contact.laws import PreparedLaws
 from macroslip.measures.along import contacts_of
 from macroslip.measures.details import ContactSampler, Details, Wanted
 from macroslip.measures.skew import Skewing, SkewMeasures
@@ -100,14 +100,14 @@ class RollerMeasures:
         self.law_times += law_times(states, self.row.model.laws)
 
     def finish(self) -> None:
-        """Take up what is left in batches, and spread what is kept since the last sample."""
+        """Add the batches that are left, and distribute energies kept since the last sample."""
         self._last = self._last.copy()
         self._states.empty(self._add_law_times)
         if self.sampler:
             self.sampler.finish()
 
     def _add_sectors(self, steps: np.ndarray, largest: np.ndarray) -> None:
-        """Raise the largest powers of the places on the orbit that the roller passes."""
+        """Raise the largest powers of the orbit's sectors that the roller passes."""
         counted = np.arange(steps["time"].shape[1]) < steps["stages"][:, None]
         np.maximum.at(largest, self._places(steps)[counted], steps["power"][counted])
 
@@ -169,7 +169,7 @@ class RollerMeasures:
         }
 
 
-def _films(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
+def _films(at: np.ndarray, laws: PreparedLaws) -> np.ndarray:
     """Film thickness by interface [m]; NaN without load."""
     thickness = np.full((at.size, len(INTERFACES)), np.nan)
     for i, (law, load, speed) in enumerate(loaded_contacts(at, laws)):
@@ -179,7 +179,7 @@ def _films(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
     return thickness
 
 
-def _skew_moments(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
+def _skew_moments(at: np.ndarray, laws: PreparedLaws) -> np.ndarray:
     """Skew moments of both raceways [N m]; NaN at standstill.
 
     They follow from their power, which is −u2 s times them. A traction that drives the spin up acts

@@ -1,6 +1,6 @@
 """Samples of the contacts of a roller: their times, and the record of one.
 
-A contact is evaluated station by station, which is called a sample, where its power has changed, a
+A sample is an evaluation of a contact by station. It is taken where its power has changed, a
 value is a new highest one, or some way has been travelled: at every step it would cost more than
 the forces. Between two samples the energies of the raceways are kept, and when they were spent.
 """
@@ -246,7 +246,7 @@ def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
 
 @jit
 def begin(sample, memory, step):
-    """Begin a sample at the end of a step: what was kept since the one before, and the state."""
+    """Begin a sample at the end of a step: energies since the one before, and the state."""
     sample.since = memory.time
     sample.time = step.end
     sample.entry = memory.entry

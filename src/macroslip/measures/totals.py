@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.laws import ContactLaws, RollerLaws
+from macroslip.contact.laws import PreparedContact, PreparedLaws
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 from macroslip.ring.orbit import last_before
 
@@ -133,8 +133,8 @@ class Batch:
 
 
 def loaded_contacts(
-    at: np.ndarray, laws: RollerLaws
-) -> list[tuple[ContactLaws, np.ndarray, np.ndarray]]:
+    at: np.ndarray, laws: PreparedLaws
+) -> list[tuple[PreparedContact, np.ndarray, np.ndarray]]:
     """Laws, load [N] and entrainment speed [m/s] of every interface.
 
     Loads are not negative, and speeds are from `LOWEST_SPEED` on.
@@ -344,7 +344,7 @@ def book(steps, j, totals, states):
             totals.spin_ratio[2] = way
 
 
-def law_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
+def law_times(states: np.ndarray, laws: PreparedLaws) -> np.ndarray:
     """Time with load, and its parts outside the ranges of the laws [s], over (3, interface).
 
     The laws are those of the film and of the asperities.

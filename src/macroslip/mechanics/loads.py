@@ -11,11 +11,11 @@ from macroslip.mechanics.speeds import outer_ring_speed
 from macroslip.ring.balance import radial_clearance
 
 
-class RollerLoads(NamedTuple):
-    """Loads on a roller at one place and time."""
+class OrbitLoads(NamedTuple):
+    """Loads on a roller at one position and time."""
 
     #: Elastic approach δ of ring, roller and ring [m]; negative where there is play
-    interference: float
+    approach: float
     elastic_load: float  #: Load Q that the rings press on the roller [N]
     film_balance: float  #: Where the next search for the films' load begins [N]
     inner_load: float  #: Normal load of the inner raceway, with body forces and films [N]
@@ -24,7 +24,7 @@ class RollerLoads(NamedTuple):
 
 
 @jit_evaluation
-def interference(body, cosine, sine, now):
+def elastic_approach(body, cosine, sine, now):
     """Elastic approach δ = (dX cos φ + dY sin φ − c(φ)) cos α + s dZ sin α of a roller [m].
 
     Parameters
@@ -93,14 +93,14 @@ def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
 
     Returns
     -------
-    RollerLoads
+    OrbitLoads
     """
-    approach = interference(body, cosine, sine, now)
+    approach = elastic_approach(body, cosine, sine, now)
     pressed = elastic_load(body, approach)
     outward = normal_body_force(body, sine, orbital_speed)
     ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
     films = film_load(body, tables, pressed, approach, outward, ring_speed, guess)
-    return RollerLoads(
+    return OrbitLoads(
         approach,
         pressed,
         films.balance,

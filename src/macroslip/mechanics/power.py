@@ -12,7 +12,8 @@ class RacewayPower(NamedTuple):
 
     slip: float  #: Slip of the middle
     curvature: float  #: Slip that varies with the roller's radius along the contact
-    spin: float  #: Slip by the contact angle
+    #: Slip by the turn about the contact normal, which the contact angle makes
+    contact_spin: float
 
 
 @jit_evaluation
@@ -40,5 +41,5 @@ def raceway_power(law, slip, ring_speed, friction, lag, skew):
     return RacewayPower(
         slip * friction,
         ring_speed * law.curvature * lag,
-        -ring_speed * law.spin * skew,
+        -ring_speed * law.spin_ratio * skew,
     )

@@ -47,10 +47,11 @@ def rib_forces(rib, tables, elastic_load, ring_speed, slip):
     """
     surface = rib.speed * ring_speed
     sliding = surface - rib.arm * (ring_speed - slip)
-    found = traction(rib.traction, tables, contact_load(rib.share * elastic_load), surface, sliding)
+    load = contact_load(rib.share * elastic_load)
+    friction = traction(rib.traction, tables, load, surface, sliding)
     return RibForces(
-        found.pull,
-        rib.arm * found.pull_by_slip,
-        found.pull * sliding,
-        found.asperity_power,
+        friction.pull,
+        rib.arm * friction.pull_by_slip,
+        friction.pull * sliding,
+        friction.asperity_power,
     )

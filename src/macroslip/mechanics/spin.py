@@ -25,7 +25,7 @@ STATION = np.dtype(
         # u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s].
         ("ring_speed", "f8"),
         # Elastic approach δ of ring, roller and ring [m]; negative where there is play.
-        ("interference", "f8"),
+        ("approach", "f8"),
         # Load Q that the rings press on the roller [N].
         ("elastic_load", "f8"),
         # Normal loads with body forces, and those of films that share a roller's play [N].
@@ -101,7 +101,7 @@ def station(body, tables, start_angle, now, at):
     sine = math.sin(angle)
     loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.film_balance)
     at.ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
-    at.interference = loads.interference
+    at.approach = loads.approach
     at.elastic_load = loads.elastic_load
     at.film_balance = loads.film_balance
     at.inner_load = loads.inner_load
@@ -240,7 +240,7 @@ def powers(body, at, forces, slip, power):
     ring_speed = at.ring_speed
     inner = raceway_power(body.inner, slip, ring_speed, forces.inner, forces.lag[0], forces.skew[0])
     outer = raceway_power(body.outer, slip, ring_speed, forces.outer, forces.lag[1], forces.skew[1])
-    power[0] = inner.slip + inner.curvature + inner.spin
-    power[1] = outer.slip + outer.curvature + outer.spin
+    power[0] = inner.slip + inner.curvature + inner.contact_spin
+    power[1] = outer.slip + outer.curvature + outer.contact_spin
     power[2] = abs(forces.cage * surface_speed(ring_speed, slip))
     return power[0] + power[1] + power[2]

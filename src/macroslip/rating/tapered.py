@@ -215,7 +215,7 @@ def tapered_reference_life(
 
 
 class StripRating(NamedTuple):
-    """What the strips of all rollers tell of a load history."""
+    """Damage and largest pressures of the raceways over a load history, from the loads of strips."""
 
     damage: NDArray[np.float64]  #: (Q_e/Q_c)^(9/2) over (row, raceway, sample)
     pressure: NDArray[np.float64]  #: Largest pressure [Pa] over (row, raceway)

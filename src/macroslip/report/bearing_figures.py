@@ -345,7 +345,7 @@ def raceways(values: xr.DataArray) -> dict[str, xr.DataArray]:
 def plot_map(
     axes: Axes, values: xr.DataArray, units: str, title: str, *, difference: bool = False
 ) -> Axes:
-    """A raceway unrolled: place along the roller over the angle from the bottom.
+    """A raceway unrolled: station along the roller over the angle from the bottom.
 
     Parameters
     ----------
@@ -443,7 +443,7 @@ def plot_load_duration(axes: Axes, result: xr.Dataset) -> Axes:
 
 
 def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> PolarAxes:
-    """Largest force of a spar [N] by place on the orbit, looking downwind; logarithmic.
+    """Largest force of a spar [N] by position on the orbit, looking downwind; logarithmic.
 
     Takes a result of a whole bearing.
     """
@@ -577,13 +577,13 @@ def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
     if "worn_depth" not in damage:
         raise InputError("there is no wear", remedy=damage.attrs["not_kept"])
     depth = 1e6 * damage.worn_depth.sel(row=row)
-    for name in depth.place.values.tolist():
+    for name in depth.surface.values.tolist():
         style = INTERFACE.get(name, {"color": GREEN, "linestyle": "-."})
         for k, age in enumerate(depth.age.values):
             label = name if k == depth.age.size - 1 else None
             axes.plot(
                 1e3 * depth.station,
-                depth.sel(place=name, age=age),
+                depth.sel(surface=name, age=age),
                 linewidth=0.7 + 0.5 * k,
                 label=label,
                 **style,

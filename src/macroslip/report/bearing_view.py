@@ -113,7 +113,7 @@ def _text(content: bytes) -> str:
 
 
 def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
-    """Places of the rollers in their pockets, enlarged so that pockets do not meet."""
+    """Offsets of the rollers in their pockets, enlarged so that pockets do not meet."""
     offsets = 1e3 * scene.pocket_offset.transpose("row", "roller", "time").values.astype(float)
     reach = float(np.nanmax(np.abs(offsets), initial=1e-6))
     free = 1e3 * (

@@ -1,4 +1,4 @@
-"""The page on the heat of a main bearing: what was fitted, how rivals do, and its index in time."""
+"""The page on the heat of a main bearing: fit, rival models, and index over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which design dissipates least, by how much, and which designs are not told apart."""
+"""Which design dissipates least, by how much, and which designs cannot be distinguished."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def _better_design(quantity: str, numbers: pd.DataFrame, best: str) -> str:
 
 
 def _order(ranked: pd.DataFrame) -> str:
-    """The best design with its energy, and what the others have more."""
+    """The best design with its energy, and the excess of the others."""
     best = ranked.iloc[0]
     factor, units = scaled(best["value"], best["units"])
     parts = [f"{best['design']} dissipates least, {factor * best['value']:.4g} {units} ({ENERGY})"]

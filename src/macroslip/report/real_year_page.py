@@ -28,7 +28,7 @@ _SHARED = {"share": "time", "energy [J]": "energy", "wear [m]": "wear"}
 
 
 def verdict(real_year: RealYear) -> list[str]:
-    """What a reader has to know first, in sentences.
+    """The main findings, in sentences.
 
     How much the mean temperature decides, and how much the place of the sensor.
     """

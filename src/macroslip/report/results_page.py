@@ -50,7 +50,7 @@ _EXTREMES = (
 
 @dataclass(frozen=True, slots=True)
 class ShownResult:
-    """A result with what its page draws from it."""
+    """A result with the numbers and curves of its page."""
 
     result: xr.Dataset
     profile: Mapping[str, xr.Dataset] | None  #: From `orbit_profile`; None without traces

@@ -143,7 +143,7 @@ def new_figure(
 
 
 def finish(axes: Axes, x_label: str, y_label: str, title: str = "") -> Axes:
-    """Label the axes and take away what carries no information.
+    """Label the axes and remove lines that carry no information.
 
     Parameters
     ----------

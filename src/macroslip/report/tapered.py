@@ -1,4 +1,4 @@
-"""What a page and a command say of a tapered roller bearing beside its rows."""
+"""Sentences and tables on a tapered roller bearing for pages and commands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Criteria of damage of a result: rates per second by row and place, and one line a criterion."""
+"""Criteria of damage of a result: rates per second by row and surface, and one line a criterion."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from macroslip.errors import InputError
 from macroslip.measures.along import FILM_EDGES
 from macroslip.result.criteria import CRITERIA
 from macroslip.result.criteria.criterion import Threshold, Variables
-from macroslip.result.criteria.evaluation import PLACES, Evaluation
+from macroslip.result.criteria.evaluation import SURFACES, Evaluation
 from macroslip.result.criteria.friction_energy import LARGEST_POWER, LEAST_POWER
 from macroslip.result.criteria.wear import AGES
 from macroslip.result.run_input import run_input, stored_settings
@@ -79,7 +79,7 @@ def damage(
     Returns
     -------
     xarray.Dataset
-        Rates per second over row, place and station; over `criterion` the worst `value`, its
+        Rates per second over row, surface and station; over `criterion` the worst `value`, its
         `reference` and `ratio`, and
         as coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is
         missing, and why.
@@ -168,7 +168,7 @@ def _coefficients(
 
 
 def _few_rollers(evaluation: Evaluation) -> list[str]:
-    """A sentence where the simulated rollers do not stand for all at the outer raceway."""
+    """A note where the simulated rollers do not represent all at the outer raceway."""
     simulated = evaluation.result.sizes["roller"]
     every = evaluation.bearing.rollers_per_row
     outer_passes = evaluation.result.surface_passes.sel(raceway="outer")
@@ -227,7 +227,7 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
     rig = smearing.RIG_SLIDE_ROLL_RATIO
     return {
         "row": result.row,
-        "place": list(PLACES),
+        "surface": list(SURFACES),
         "raceway": result.raceway,
         "station": result.station,
         "film_ratio": (

@@ -240,7 +240,7 @@ def _traces(table: Table) -> dict[str, np.ndarray]:
 
 
 def _peaks_by_position(table: Table) -> np.ndarray:
-    """Largest power of all rollers over row, interface and place on the orbit [W]."""
+    """Largest power of all rollers over row, interface and position on the orbit [W]."""
     sectors = np.array([[roller.measures.sector_power for roller in line] for line in table])
     sectors[_failed(table)] = np.nan
     return np.swapaxes(sectors.max(axis=1), 1, 2)

@@ -1,4 +1,4 @@
-"""Load, slip and energy of rollers by their place on the orbit, from a run's traces.
+"""Load, slip and energy of rollers by their position on the orbit, from a run's traces.
 
 Angles count from the bottom along the orbit of a shaft that turns forward; 180 degrees is the top.
 All functions need

@@ -33,7 +33,7 @@ _PRESSURE = 4e9
 _SIDEWAYS = 0.2
 #: Share of the rollers' load that films may carry without the balance of the rings.
 _FILMS = 0.05
-#: Share of the most loaded roller's load beyond its ends from which on that is told.
+#: Share of the most loaded roller's load beyond its ends from which on a note says so.
 _CUT = 0.01
 #: Numbers of a rating that are judged.
 JUDGED = ("static_safety", "largest_pressure", "share_below_minimum_load")
@@ -104,7 +104,7 @@ def _loads_that_turn(loads: HubLoads) -> list[str]:
 
 
 def _doubtful_weight(loads: HubLoads, bearing: Bearing | None) -> list[str]:
-    """Sentence on a mean vertical force that is no weight of a rotor on this bearing."""
+    """Note on a mean vertical force that cannot be the weight of a rotor on this bearing."""
     lift = float(loads.force[:, 2].mean())
     if lift > 0.0:
         return [

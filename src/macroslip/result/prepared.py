@@ -83,7 +83,7 @@ class Prepared:
             pressed = elastic_loads(case.ring_loads, ring_geometry(case.bearing, self.model), few)
             beyond = truncated_share(self.largest, truncation_load(case.bearing, case.oil))
         laws = self.model.laws
-        contacts = tuple(one.interface for one in (laws.inner, laws.outer, laws.cage))
+        contacts = tuple(law.interface for law in (laws.inner, laws.outer, laws.cage))
         return {
             "film_range_notes": "\n".join(film_range_notes(case.laws.film, contacts)),
             "mean_elastic_load": float(pressed.mean()),

@@ -46,21 +46,25 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     >>> round(float(rating.static_safety), 2)
     30.64
     """
-    loads, found, strips = _load_history(case)
-    return rate(case.bearing, case.oil, loads, found, contamination=contamination, strips=strips)
+    loads, roller_loads, strips = _load_history(case)
+    return rate(
+        case.bearing, case.oil, loads, roller_loads, contamination=contamination, strips=strips
+    )
 
 
 def _load_history(case: Case) -> tuple[BearingLoads, NDArray[np.float64], StripRating | None]:
     """Loads at the samples of the ring's balance, those of all rollers, and of tapered strips."""
     if case.bearing.kind != "tapered":
         return *roller_load_history(case.bearing, case.oil, case.ring_loads), None
-    found = tapered_ring_motion(case)
-    motion = found.motion
+    ring_motion = tapered_ring_motion(case)
+    motion = ring_motion.motion
     known = case.ring_loads
-    force = np.column_stack([np.interp(motion.time, known.time, one) for one in known.force.T])
+    force = np.column_stack(
+        [np.interp(motion.time, known.time, component) for component in known.force.T]
+    )
     loads = BearingLoads(motion.time, motion.shaft_speed, force, known.source)
-    pressed = np.moveaxis(found.balance.outer_load, 0, -1)
-    strips = strip_rating(case.bearing, found.ring, found.balance, motion.shaft_angle)
+    pressed = np.moveaxis(ring_motion.balance.outer_load, 0, -1)
+    strips = strip_rating(case.bearing, ring_motion.ring, ring_motion.balance, motion.shaft_angle)
     return loads, pressed.reshape(case.bearing.rows, case.bearing.rollers_per_row, -1), strips
 
 

@@ -148,7 +148,7 @@ def _imposed_orbits(
 
 
 def _finished(pending: set, progress: Callable | None, done: int, total: int):
-    """Futures as they finish; twice a second progress is told."""
+    """Futures as they finish; listeners hear the progress twice a second."""
     while pending:
         # On Windows an interrupt is noticed only when a wait ends.
         finished, pending = wait(pending, timeout=0.5, return_when=FIRST_COMPLETED)

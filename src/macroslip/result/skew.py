@@ -16,14 +16,14 @@ from macroslip.roller.thrust import thrust
 
 if TYPE_CHECKING:
     from macroslip.case.case import Case
-    from macroslip.contact.laws import RollerLaws
+    from macroslip.contact.laws import PreparedLaws
     from macroslip.contact.table import Box
     from macroslip.measures.skew import SkewMeasures
     from macroslip.ring.balance import RingGeometry
     from macroslip.roller.model import RollerModel
 
 
-def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
+def skewing(case: Case, laws: PreparedLaws, box: Box) -> dict[str, Skewing]:
     """Skew of the rollers of both rows; empty without skew. `laws` are the downwind row's."""
     if case.laws.skew == "none":
         return {}

@@ -42,7 +42,7 @@ def to_netcdf(result: xr.Dataset) -> bytes:
 
 
 def check_result(result: xr.Dataset, where: str) -> None:
-    """Refuse a dataset that is no result, or not whole, or holds what none can hold.
+    """Refuse a dataset that is no result, is incomplete, or holds impossible values.
 
     Raises InputError naming the variable or attribute. The result is as read from the file `where`:
     of a run, or of a

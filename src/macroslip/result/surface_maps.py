@@ -1,4 +1,4 @@
-"""Maps of the raceways: where energy is dissipated, over angle and place along the roller.
+"""Maps of the raceways: energy dissipated over angle and station along the roller.
 
 The maps belong to the bearing, not to a roller: what all simulated rollers of a row leave at a
 place of the raceway. The
@@ -57,7 +57,7 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
 
 
 def coordinates(bearing: Bearing) -> dict[str, Any]:
-    """Angles, areas of the places, and names of what energy is split by."""
+    """Angles, areas of the cells, and names of the parts of the energy."""
     angle = (np.arange(SECTORS) + 0.5) * (2.0 * math.pi / SECTORS)
     about = {
         "units": "rad",

@@ -368,7 +368,7 @@ def _coordinates(
 
 
 class _Solved(NamedTuple):
-    """A balance over a load history with all that belongs to it."""
+    """A balance over a load history, with bearing, oil, ring and speed."""
 
     bearing: TaperedBearing
     lubricant: Lubricant

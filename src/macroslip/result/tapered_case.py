@@ -1,4 +1,4 @@
-"""What a case of a tapered roller bearing adds to a result: preload, balance of its ring, ribs."""
+"""Parts of a result that tapered roller bearings alone have: preload, ring balance, ribs."""
 
 from __future__ import annotations
 
@@ -63,22 +63,22 @@ def tapered_ring_motion(case: Case) -> TaperedMotion:
     ring = tapered_ring(warm, support=support)
     check_preload(warm, ring)
     check_moment(warm, ring, case.ring_moments)
-    found = tapered_motion(case.ring_loads, case.ring_moments, ring)
-    _refuse(case, found)
-    return found
+    ring_motion = tapered_motion(case.ring_loads, case.ring_moments, ring)
+    _refuse(case, ring_motion)
+    return ring_motion
 
 
-def _refuse(case: Case, found: TaperedMotion) -> None:
+def _refuse(case: Case, ring_motion: TaperedMotion) -> None:
     """InputError for a load of a roller that no bearing steel carries."""
-    largest = float(found.balance.outer_load.max())
+    largest = float(ring_motion.balance.outer_load.max())
     inner, _ = strips_of(case.bearing)
     limit = load_at_pressure(inner, HIGHEST_PRESSURE)
     if largest <= limit:
         return
-    sample = int(found.balance.outer_load.max(axis=1).argmax())
+    sample = int(ring_motion.balance.outer_load.max(axis=1).argmax())
     raise InputError(
         f"a roller carries {largest / 1e3:.4g} kN, with a pressure above {HIGHEST_PRESSURE / 1e9:g} GPa",
-        where=f"{case.loads.source}, t = {found.motion.time[sample]:g} s",
+        where=f"{case.loads.source}, t = {ring_motion.motion.time[sample]:g} s",
         allowed=f"roller loads up to {limit / 1e3:.4g} kN for {case.bearing.name}",
         remedy="Check units and signs of the loads, the preload with temperature_difference, and the "
         "bearing's size.",

@@ -12,12 +12,12 @@ from macroslip.contact.line import line_pressure, strip_places
 from macroslip.contact.line_rolling import LineContact
 from macroslip.ring.tapered import TaperedBalance, TaperedRing, strip_loads
 
-#: Part of a roller's length at each end whose load is told.
+#: Part of a roller's length at each end whose load is a result.
 EDGE = 0.1
 
 
 class RacewayStrips(NamedTuple):
-    """What the strips of the inner raceway tell, at every sample and row."""
+    """Pressures and microslip of the inner raceway's strips, by sample and row."""
 
     pressure: np.ndarray  #: Shape (time, row). Largest pressure [Pa]
     edge_pressure: np.ndarray  #: Shape (time, row). Largest one in the outer tenths [Pa]

@@ -52,7 +52,7 @@ def _speeds(bearing: TaperedBearing, shaft_speed: np.ndarray) -> _Speeds:
 def rib_values(
     bearing: TaperedBearing, lubricant: Lubricant, rib_force: np.ndarray, shaft_speed: np.ndarray
 ) -> dict[str, Any]:
-    """What the ribs do and suffer, by the name of the variable of `tapered_history`.
+    """Friction, pressure and flash temperature of the ribs, by variable of `tapered_history`.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class RingGeometry(NamedTuple):
 
 @jit_inline
 def radial_clearance(ring, cosine, sine):
-    """Radial clearance [m] at the place cos φ, sin φ of a ring or of a roller's record.
+    """Radial clearance [m] at the position cos φ, sin φ of a ring or of a roller's record.
 
     Examples
     --------

@@ -47,7 +47,7 @@ def ring_motion(
     highest_load: float,
     more: np.ndarray | None = None,
 ) -> tuple[Motion, float]:
-    """Ring displacement at every load sample, by the balance with the rollers at their places.
+    """Ring displacement at every load sample, by the balance with the rollers at their positions.
 
     With loads of the rollers the ring is left in the middle.
 
@@ -79,9 +79,9 @@ def ring_motion(
     angle = shaft_angle(time, speed)
     if isinstance(loads, RollerLoads):
         motion = Motion(time, speed, angle, np.zeros((time.size, 3)))
-        given = elastic_loads(loads, ring, motion)
-        largest = float(given.max())
-        sample = int(given.max(axis=1).argmax())
+        elastic = elastic_loads(loads, ring, motion)
+        largest = float(elastic.max())
+        sample = int(elastic.max(axis=1).argmax())
         _refuse(largest, highest_load, f"{loads.source}, t = {time[sample]:g} s", bearing)
         return motion, largest
     force = np.column_stack([np.interp(time, loads.time, component) for component in loads.force.T])
@@ -95,10 +95,10 @@ def ring_motion(
     for start in range(0, time.size, _SAMPLES_AT_A_TIME):
         piece = slice(start, start + _SAMPLES_AT_A_TIME)
         displacement[piece], unbalanced[piece] = balance_series(ring, angle[piece], force[piece])
-        load, place = largest_load(ring, angle[piece], displacement[piece])
+        load, sample_in_piece = largest_load(ring, angle[piece], displacement[piece])
         if load > largest:
             largest = load
-            sample = start + place
+            sample = start + sample_in_piece
     excess = unbalanced - _BALANCE_TOLERANCE * np.linalg.norm(force, axis=1) - _NEGLIGIBLE_FORCE
     worst = int(np.argmax(excess))
     if not excess[worst] <= 0.0:
@@ -138,23 +138,23 @@ def elastic_loads(
 
 
 def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[Motion]:
-    """Motions that give every roller of both rows the loads of its places.
+    """Motions that give every roller of both rows the loads of its positions.
 
     They take the place of the motion of `ring_motion`.
     """
     approach = _given_approach(loads, ring, motion)
     start = np.arctan2(ring.sine, ring.cosine)
-    found = []
+    motions = []
     for roller in range(start.size):
         angle = start[roller] + ring.orbit_ratio * motion.shaft_angle
         cosine, sine = np.cos(angle), np.sin(angle)
         reach = approach[:, roller] / ring.cos_contact_angle + radial_clearance(ring, cosine, sine)
-        found.append(
+        motions.append(
             motion._replace(
                 displacement=np.column_stack([reach * cosine, reach * sine, np.zeros(sine.size)])
             )
         )
-    return found
+    return motions
 
 
 def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> np.ndarray:
@@ -170,8 +170,8 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
     )
     share = (motion.time - loads.time[before]) / (loads.time[before + 1] - loads.time[before])
     start = np.arctan2(ring.sine, ring.cosine)
-    found = np.empty((motion.time.size, 2 * count))
-    for k, (line, at, part) in enumerate(zip(found, before, share, strict=True)):
+    approach = np.empty((motion.time.size, 2 * count))
+    for k, (line, at, part) in enumerate(zip(approach, before, share, strict=True)):
         angles = start + ring.orbit_ratio * motion.shaft_angle[k]
         for row in range(2):
             here = slice(row * count, (row + 1) * count)
@@ -180,7 +180,7 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
                 for i in (at, at + 1)
             )
             line[here] = near + part * (far - near)
-    return found
+    return approach
 
 
 def finely_sampled(

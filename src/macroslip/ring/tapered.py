@@ -344,7 +344,9 @@ def ring_at_rollers(ring: TaperedRing, displacement: np.ndarray, shaft_angle) ->
         Radial and axial motion with the preload [m], and tilt [rad].
     """
     angle = ring.angle + ring.orbit_ratio * np.asarray(shaft_angle)[..., None]
-    dx, dy, dz, turn_x, turn_y = (one[..., None] for one in np.moveaxis(displacement, -1, 0))
+    dx, dy, dz, turn_x, turn_y = (
+        component[..., None] for component in np.moveaxis(displacement, -1, 0)
+    )
     tilt = turn_y * np.cos(angle) - turn_x * np.sin(angle)
     return np.stack(
         [

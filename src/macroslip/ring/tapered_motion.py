@@ -54,7 +54,7 @@ def tapered_motion(loads: BearingLoads, moment: np.ndarray, ring: TaperedRing) -
     time, speed = finely_sampled(loads, ring.orbit_ratio, ring.sign.size // 2)
     angle = shaft_angle(time, speed)
     force, moment = (
-        np.column_stack([np.interp(time, loads.time, one) for one in values.T])
+        np.column_stack([np.interp(time, loads.time, component) for component in values.T])
         for values in (loads.force, moment)
     )
     balance = tapered_balance(ring, angle, force, moment)
@@ -73,12 +73,14 @@ def tapered_motion(loads: BearingLoads, moment: np.ndarray, ring: TaperedRing) -
     return TaperedMotion(middle, balance, play, ring)
 
 
-def tapered_own_motions(found: TaperedMotion, stiffness: float, axis_angle: float) -> list[Motion]:
+def tapered_own_motions(
+    tapered: TaperedMotion, stiffness: float, axis_angle: float
+) -> list[Motion]:
     """Motions of the ring along Z0 that give every roller of both rows its own load or play.
 
     Parameters
     ----------
-    found : TaperedMotion
+    tapered : TaperedMotion
     stiffness : float
         K of Q = K δ^1.5 [N/m^1.5], as the solver of slip has it.
     axis_angle : float
@@ -89,12 +91,12 @@ def tapered_own_motions(found: TaperedMotion, stiffness: float, axis_angle: floa
     list of Motion
         By row and number of the roller.
     """
-    approach = (found.balance.outer_load / stiffness) ** (2.0 / 3.0) - found.play
-    along = approach / (found.ring.sign * math.sin(axis_angle))
+    approach = (tapered.balance.outer_load / stiffness) ** (2.0 / 3.0) - tapered.play
+    along = approach / (tapered.ring.sign * math.sin(axis_angle))
     motions = []
     for displacement in along.T:
         none = np.zeros(displacement.size)
         motions.append(
-            found.motion._replace(displacement=np.column_stack([none, none, displacement]))
+            tapered.motion._replace(displacement=np.column_stack([none, none, displacement]))
         )
     return motions

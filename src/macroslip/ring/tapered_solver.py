@@ -277,7 +277,7 @@ def _eliminate(ring, j, state):
 
 @jit_inline
 def _add_roller(motion, j, state, matrix, right):
-    """Add to the ring's stiffness and load what a roller leaves and passes on."""
+    """Add a roller's condensed stiffness and load to those of the ring."""
     inner = state.inner_stiffness[j]
     for a in range(3):
         pushed = 0.0
@@ -318,7 +318,7 @@ def _step(ring, motions, state, gradient, damping, d, d_step):
 
 @jit_inline
 def _turn_on(ring, motions, d, state):
-    """Let rollers that have moved on take part in the ring's motion at their new places."""
+    """Let rollers that have moved on take part in the ring's motion at their new positions."""
     w = np.empty(3)
     for j in range(ring.sign.size):
         _move_ring(ring, motions[j], d, w)

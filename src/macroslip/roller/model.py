@@ -14,7 +14,7 @@ from macroslip.bearing.geometry import AXIAL_SIGNS, initial_angles, row_names
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
-from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
+from macroslip.contact.laws import POCKET_GAP, PreparedContact, PreparedLaws, prepare
 from macroslip.contact.look_up import PLANE, REST_SPEED, TRACTION
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import (
@@ -49,7 +49,7 @@ CONTACT = np.dtype(
         ("full_slip", "f8"),  # slip from which on asperities slide [m/s]
         ("push", "f8"),  # part of rolling resistance's shear along the ring's motion [-]
         ("curvature", "f8"),  # κ r/u2 [-]: power by the lag, over lag and ring speed
-        ("spin", "f8"),  # s/u2 [1/m]: −power by the skew moment, over moment and ring speed
+        ("spin_ratio", "f8"),  # s/u2 [1/m]: −power by the skew moment, over moment and ring speed
     ]
 )  # fmt: skip
 #: The contact of a tapered roller with its rib.
@@ -122,7 +122,7 @@ class RollerModel:
     second_y: float
     third_x: float
     third_y: float
-    laws: RollerLaws  #: Of the three contacts
+    laws: PreparedLaws  #: Of the three contacts
     rib: RibNumbers | None = None  #: Of a tapered roller
 
     @property
@@ -267,7 +267,7 @@ def with_tables(
     and its spar [m].
     """
     tables = Tables()
-    found = {}
+    rollers = {}
     errors = []
     first = np.zeros(1, BODY)
     model = next(iter(models.values()))
@@ -276,23 +276,23 @@ def with_tables(
     if model.rib and model.laws.rib:
         errors.append(_write_rib(first[0], tables, model.laws.rib, model.rib, box))
     flat = tables.flat()
-    for row, one in models.items():
+    for row, row_model in models.items():
         body = first.copy()
-        _write_numbers(body[0], one, box)
-        found[row] = Roller(body, flat)
+        _write_numbers(body[0], row_model, box)
+        rollers[row] = Roller(body, flat)
     if body[0]["oily"]:
-        load = _faded_load(found, model, box)
-        reach = _film_reach(found, model, box)
-        for roller in found.values():
+        load = _faded_load(rollers, model, box)
+        reach = _film_reach(rollers, model, box)
+        for roller in rollers.values():
             roller.body[0]["faded_load"] = load
             roller.body[0]["film_reach"] = reach
     typical = max((error.typical for error in errors), default=0.0)
     worst = max((error.worst for error in errors), default=0.0)
-    return found, TableReport(typical, worst, flat.nbytes)
+    return rollers, TableReport(typical, worst, flat.nbytes)
 
 
 def _write_rib(
-    body: np.void, tables: Tables, law: ContactLaws, rib: RibNumbers, box: Box
+    body: np.void, tables: Tables, law: PreparedContact, rib: RibNumbers, box: Box
 ) -> TableErrors:
     """Write table and numbers of a tapered roller's rib; the errors of its table."""
     body["ribbed"] = 1
@@ -307,7 +307,7 @@ def _write_rib(
 
 
 def _write_contact(
-    record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float
+    record: np.void, tables: Tables, contact: PreparedContact, box: Box, pocket_gap: float
 ) -> list[TableErrors]:
     """Write tables and numbers of one contact; the errors of its traction's table, if any."""
     errors = []
@@ -354,7 +354,7 @@ def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
         shape = getattr(laws, name).shape
         if shape.microslip:
             body[name]["curvature"] = shape.curvature_ratio * shape.roller_radius
-            body[name]["spin"] = shape.spin_ratio
+            body[name]["spin_ratio"] = shape.spin_ratio
             body[name]["traction"]["side"] = math.copysign(1.0, shape.spin_ratio)
 
 
@@ -365,7 +365,7 @@ def _body_forces(model: RollerModel, box: Box) -> tuple[float, float, float]:
 
 
 def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
-    """Elastic load [N] from which on films carry nothing beside it in the box.
+    """Elastic load [N] from which on the film load is negligible, for all states of the box.
 
     Films grow with speed, and carry more the less the body force presses on one of them.
     """
@@ -382,7 +382,7 @@ def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> flo
 
 
 def _film_reach(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
-    """Play [m] from which on films carry nothing in the box; films grow with speed."""
+    """Play [m] from which on films carry no load, for all states of the box: films grow with speed."""
     roller = next(iter(rollers.values()))
     body = roller.body[0]
     tables = roller.tables.ctypes.data

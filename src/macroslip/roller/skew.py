@@ -26,7 +26,7 @@ from macroslip.contact.skewed import Resultants, SkewedContact, resultants, skew
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
-    from macroslip.contact.laws import RollerLaws
+    from macroslip.contact.laws import PreparedLaws
     from macroslip.contact.skewed import Shear
 
 #: Longest step of the slip over the speed of the rings, and what may be left of the spin moment
@@ -78,13 +78,13 @@ class Pair(NamedTuple):
 
 
 def raceways(
-    laws: RollerLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None
+    laws: PreparedLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None
 ) -> Pair:
     """Raceway contacts of a roller that may be skewed.
 
     Parameters
     ----------
-    laws : RollerLaws
+    laws : PreparedLaws
         Laws of the roller's contacts, with a sheared film.
     bearing : Bearing
         Its dimensions.
@@ -104,7 +104,7 @@ def raceways(
     return Pair(inner, outer)
 
 
-def _resistance_on(laws: RollerLaws, load, speed) -> tuple[np.ndarray, np.ndarray]:
+def _resistance_on(laws: PreparedLaws, load, speed) -> tuple[np.ndarray, np.ndarray]:
     """Rolling resistance of both raceways [N]: in the spin equation, and along +x.
 
     In the spin equation it acts against the spin's own sign.
@@ -192,7 +192,7 @@ class _SlipSearch:
     def __init__(self, slip: np.ndarray, longest: np.ndarray):
         self.slip = slip  #: Shape (n,) [m/s]
         self._longest = longest  # steps [m/s]
-        self._spin = np.zeros(slip.size)  # the last moments over radius [N]
+        self._turning = np.zeros(slip.size)  # the last moments over radius [N]
         self._taken = np.zeros(slip.size)  # the last steps [m/s]
         self._below = np.full(slip.size, -np.inf)  # slips at which moments last were < 0 [m/s]
         self._above = np.full(slip.size, np.inf)  # the same, > 0 [m/s]
@@ -200,7 +200,7 @@ class _SlipSearch:
     def advance(
         self,
         going: np.ndarray,
-        spin: np.ndarray,
+        turning: np.ndarray,
         slope: np.ndarray,
         moving: np.ndarray,
         iteration: int,
@@ -211,7 +211,7 @@ class _SlipSearch:
         ----------
         going : ndarray of int
             Numbers of the states that take part.
-        spin, slope : ndarray
+        turning, slope : ndarray
             Their moments over radius [N], and the slopes of these by slip [N s/m].
         moving : ndarray of bool
             Whether their slips change.
@@ -220,21 +220,23 @@ class _SlipSearch:
         """
         here = self.slip[going]
         longest = self._longest[going]
-        back = spin * self._spin[going] < 0.0
+        back = turning * self._turning[going] < 0.0
         most = np.where(back, 0.5 * np.abs(self._taken[going]), longest)
-        change = np.clip(spin / np.maximum(slope, np.abs(spin) / longest), -most, most)
+        change = np.clip(turning / np.maximum(slope, np.abs(turning) / longest), -most, most)
         following = here - change
         if iteration >= _BRACKETED:
-            following = self._bracketed(going, spin, following)
-        self._spin[going] = spin
+            following = self._bracketed(going, turning, following)
+        self._turning[going] = turning
         self._taken[going] = here - following
         self.slip[going] = np.where(moving, following, here)
 
-    def _bracketed(self, going: np.ndarray, spin: np.ndarray, following: np.ndarray) -> np.ndarray:
+    def _bracketed(
+        self, going: np.ndarray, turning: np.ndarray, following: np.ndarray
+    ) -> np.ndarray:
         """The following slips, or the middles of their brackets where they lie outside."""
         here = self.slip[going]
-        self._below[going] = np.where(spin < 0.0, here, self._below[going])
-        self._above[going] = np.where(spin > 0.0, here, self._above[going])
+        self._below[going] = np.where(turning < 0.0, here, self._below[going])
+        self._above[going] = np.where(turning > 0.0, here, self._above[going])
         below = self._below[going]
         above = self._above[going]
         outside = (following <= below) | (following >= above)
@@ -255,13 +257,13 @@ def _contacts_at(
         resultants(contact, load, ring_speed, slips, skew, np.tile(middle, 2), tilts)
         for contact, middle in zip(pair, middles, strict=True)
     ]
-    spin, more = np.split(both[0].spin + both[1].spin, 2)
+    turning, more = np.split(both[0].turning + both[1].turning, 2)
     first = [Resultants(*(values[: slip.size] for values in contact)) for contact in both]
-    return first, (more - spin) / step
+    return first, (more - turning) / step
 
 
 def _known_at(both: list[Resultants], tilt: np.ndarray, shift: np.ndarray) -> np.ndarray:
-    """Records of `_KNOWN` with what both raceways do to rollers at a tilt [rad] and a shift [m]."""
+    """Records of `_KNOWN` with forces and moments of both raceways at a tilt [rad] and a shift [m]."""
     known = np.zeros(tilt.size, _KNOWN)
     known["tilt"] = tilt
     known["shift"] = shift
@@ -281,7 +283,7 @@ def _fields(known: np.ndarray, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
 
 
 def equilibrium(
-    pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equilibrium | None = None
+    pair: Pair, laws: PreparedLaws, load, ring_speed, skew, start: Equilibrium | None = None
 ) -> Equilibrium:
     """The slip, tilt and shift of a roller at a given skew.
 
@@ -289,7 +291,7 @@ def equilibrium(
     ----------
     pair : Pair
         Both raceway contacts.
-    laws : RollerLaws
+    laws : PreparedLaws
         For rolling resistance.
     load : array_like
         Q > 0 [N], the same at both raceways.
@@ -326,7 +328,7 @@ def equilibrium(
         tilt, shift, middles = placed(pair, here.load, axial[:, going])
         both, slope = _contacts_at(pair, here, search.slip[going], tilt, middles)
         inner, outer = both
-        spin = inner.spin + outer.spin + resistance[going]
+        turning = inner.turning + outer.turning + resistance[going]
         tractions = np.stack([inner.axial, outer.axial])
         change = np.abs(tractions - axial[:, going]).max(axis=0)
         if iteration >= _DAMPED:
@@ -338,10 +340,10 @@ def equilibrium(
         now["axial"] *= here.load * pair.inner.along
         now["axial"] -= inner.axial
         now["push"] = push[going] + inner.pull - outer.pull
-        now["unbalanced"] = np.abs(spin) / here.load
+        now["unbalanced"] = np.abs(turning) / here.load
         known[going] = now
         moving = (now["unbalanced"] >= _LEFT) | (change >= _STILL * here.load)
-        search.advance(going, spin, slope, moving, iteration)
+        search.advance(going, turning, slope, moving, iteration)
         going = going[moving]
         if not going.size:
             break

@@ -29,7 +29,7 @@ from macroslip.storage.waiting import TABLES, tell
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
-    from macroslip.contact.laws import RollerLaws
+    from macroslip.contact.laws import PreparedLaws
 
 #: Lightest load [N], distances between nodes of ln Q, u^¼ [(m/s)^¼] and asinh(ψ/ψ0), and ψ0 [rad].
 _LIGHTEST = 2e3
@@ -67,7 +67,7 @@ class Guide(NamedTuple):
 
 
 class Turned(NamedTuple):
-    """A roller at its rest."""
+    """A roller at its equilibrium skew, or against a stop."""
 
     skew: float  #: ψ [rad]
     held: float  #: Moment about +y' that its stop carries [N m]; 0 away from it
@@ -87,14 +87,14 @@ class Turned(NamedTuple):
     outer_rough: float
 
 
-def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
+def skew_table(laws: PreparedLaws, bearing: Bearing, box: Box) -> SkewTable:
     """The table of a bearing's rollers, made or from store.
 
     Raises MacroslipError where no equilibrium was found.
 
     Parameters
     ----------
-    laws : RollerLaws
+    laws : PreparedLaws
         Of the downwind row.
     box : Box
         States that it holds; loads below 2 kN have the forces and powers of 2 kN in proportion to
@@ -116,7 +116,7 @@ def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
 
 
 def _cubes(
-    laws: RollerLaws, oil_gap: float, bearing: Bearing, axes: tuple[Axis, Axis, Axis]
+    laws: PreparedLaws, oil_gap: float, bearing: Bearing, axes: tuple[Axis, Axis, Axis]
 ) -> np.ndarray:
     """Coefficients of three cubes with inlets full from a gap on [m], shape (3, coefficients).
 
@@ -146,7 +146,9 @@ def _cubes(
     return remembered(table_key(key, speed), make)
 
 
-def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: float) -> np.ndarray:
+def _sheet(
+    laws: PreparedLaws, bearing: Bearing, load: Axis, skew: Axis, speed: float
+) -> np.ndarray:
     """Quantities at all loads and skews at one speed [m/s], shape (loads, skews, 12)."""
     loads = np.exp(load.nodes)
     angles = _SCALE * np.sinh(skew.nodes[skew.cells // 2 :])
@@ -184,7 +186,7 @@ def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: flo
 
 @jit_inline
 def _at(table, part, load, speed, coordinate):
-    """Four quantities of a cube at the places of load and speed, and at a coordinate of skew."""
+    """Four quantities of a cube at positions of load and speed, and at a coordinate of skew."""
     j, u, _ = cell_of(table.skew, coordinate)
     inner = CHANNELS * (table.skew.cells + 3)
     outer = inner * (table.speed.cells + 3)

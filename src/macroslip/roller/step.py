@@ -115,5 +115,5 @@ def write_stage(row, k, body, at, forces, slip, power):
     outer = raceway_power(body.outer, slip, speed, forces.outer, forces.lag[1], forces.skew[1])
     row.lag_power[k, 0] = inner.curvature
     row.lag_power[k, 1] = outer.curvature
-    row.skew_power[k, 0] = inner.spin
-    row.skew_power[k, 1] = outer.spin
+    row.skew_power[k, 0] = inner.contact_spin
+    row.skew_power[k, 1] = outer.contact_spin

@@ -24,7 +24,7 @@ class Times(NamedTuple):
 
     utc: pd.DatetimeIndex  #: Start of the mean; NaT where it is not known
     is_repeated: np.ndarray  #: True in an hour that the clock shows twice, where `utc` is in doubt
-    has_offset: bool  #: True if the texts told their offset
+    has_offset: bool  #: True if the texts have their offset from UTC
 
 
 def consecutive_times(count: int, first: int, step: float) -> Times:

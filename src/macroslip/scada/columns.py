@@ -1,4 +1,4 @@
-"""Names that exports of turbines have for what is needed, as far as public files show them.
+"""Column names of public turbine exports, by quantity.
 
 Names are patterns over the name in lower case without its unit. Where the names come from:
 

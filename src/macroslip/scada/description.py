@@ -15,7 +15,7 @@ import pandas as pd
 
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Context, Form, Positive, Quantity, Text, Texts
-from macroslip.input.files import Place, parse, read_text
+from macroslip.input.files import Location, parse, read_text
 from macroslip.input.section import form_from, input_section
 from macroslip.input.units import (
     MASS,
@@ -353,4 +353,4 @@ class ScadaDescription:
         path = Path(path)
         text = read_text(path, "the description cannot be read", where=str(path), remedy=_REMEDY)
         data, source = parse(text, str(path), _REMEDY)
-        return form_from(cls).read(data, Context(Place(source), in_file=True))
+        return form_from(cls).read(data, Context(Location(source), in_file=True))

@@ -157,7 +157,7 @@ def _largest(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> st
 
 
 def _unknown(quantity: str) -> str:
-    """What is said of a quantity without a column."""
+    """Line of a quantity without a column."""
     is_needed = quantity in _NEEDED
     return f"not recognized{'; it is needed: write its column into the file' if is_needed else ''}"
 

@@ -59,7 +59,7 @@ def filtered(
     Returns
     -------
     ndarray of int, shape (rows,)
-        Place in `FILTERS`, or -1 where no filter drops the row.
+        Index in `FILTERS`, or -1 where no filter drops the row.
     """
     turning = values["rotor_speed"] > TURNING * described.rated.rotor_speed
     dropped = {

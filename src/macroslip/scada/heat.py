@@ -42,7 +42,7 @@ INDEX_COLUMNS = (
 
 
 class Indexed(NamedTuple):
-    """A model with what it measures and expects in each window in which the rotor turns."""
+    """A model with its measured and expected heat in each window in which the rotor turns."""
 
     model: str
     supply: str
@@ -177,7 +177,7 @@ def _in_reference(start: pd.DatetimeIndex, period: tuple | None) -> NDArray[np.b
 def _check_windows(
     reference: NDArray[np.bool_], idle: NDArray[np.bool_], kelvin: NDArray[np.float64]
 ) -> None:
-    """Refuse a reference from which the balance cannot be told."""
+    """Refuse a reference from which the balance cannot be fitted."""
     count = int(reference.sum())
     standing = int((reference & idle).sum())
     where = "reference"
@@ -219,7 +219,7 @@ def _chosen(fits: Sequence[HeatFit], analysed: _Analysed) -> HeatFit:
 
 
 def _marks(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
-    """What is doubtful about a fit, a sentence each."""
+    """Doubts about a fit, a sentence each."""
     of = f"{fit.model.name}, {fit.model.supply}" if fit.model.supply else fit.model.name
     marks = []
     if fit.model.has_capacity and not fit.values["capacity"] > 0.0:
@@ -267,7 +267,7 @@ def _change_of_halves(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
 
 
 def _notes(scada: Scada) -> Iterator[str]:
-    """What a reader has to know of the reference."""
+    """Notes on the reference."""
     if scada.description.reference is None:
         yield (
             "No reference is given, so the whole record is its own: an index of 1 is its mean, and "

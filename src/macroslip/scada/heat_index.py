@@ -21,7 +21,7 @@ def index_over(
     expected: NDArray[np.float64],
     period: str,
 ) -> pd.DataFrame:
-    """Index of each period: sum of what was measured over the sum of what was expected.
+    """Index of each period: sum of the measured over the sum of the expected heat.
 
     Parameters
     ----------

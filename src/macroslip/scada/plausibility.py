@@ -26,7 +26,7 @@ _NORMALISED = 1.5
 
 
 def check_quantities(values: Quantities, described: ScadaDescription) -> None:
-    """Refuse columns that cannot be what they are called.
+    """Refuse columns whose values are impossible for their quantity.
 
     Raises InputError, all problems together: for medians of temperatures that no bearing, nacelle
     or site has, for values that were scaled to a range of 1, for a rotor far from its rated speed,
@@ -133,7 +133,7 @@ def _same_sensors(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> 
 
 
 def doubts(values: Quantities, described: ScadaDescription) -> list[str]:
-    """Sentences on what makes results of the columns less certain."""
+    """Sentences on properties of the columns that make results less certain."""
     column = described.columns.bearing_temperature
     resolution = sensor_resolution(values["bearing_temperature"])
     if resolution < COARSE:

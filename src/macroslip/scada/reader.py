@@ -1,4 +1,4 @@
-"""Reader of ten-minute means: from files to one table in UTC and SI, with what was dropped, and why."""
+"""Reader of ten-minute means: from files to one table in UTC and SI, with the rows that were dropped and why."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ QUANTITIES = {
     "nacelle_temperature": "K",
     "ambient_temperature": "K",
 }
-#: What can become of a row, in the order in which it is told.
+#: Outcomes of a row, in the order of the messages.
 FATES = ("no time", "repeated hour", "duplicate", *FILTERS, "kept", "jump", "absent")
 #: Values that a message about a turbine lists.
 _LISTED = 10
@@ -200,7 +200,7 @@ def _numbers(column: pd.Series) -> np.ndarray:
 def _order(
     record: _Record, description: ScadaDescription
 ) -> tuple[np.ndarray, list[tuple[str, str, int]], list[str]]:
-    """Rows that have a time of their own, in the order of time; what became of others; notes."""
+    """Rows with a time of their own, in the order of time; outcomes of the others; notes."""
     utc = record.times.utc
     notes = []
     fates = {"repeated hour": record.times.is_repeated}
@@ -241,7 +241,7 @@ def _repeated_hours(
 
 
 def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) -> pd.DataFrame:
-    """Rows by month and what became of them."""
+    """Rows by month and outcome."""
     months = np.asarray(data.index.strftime("%Y-%m"), dtype=object)
     kept = (data["filter"] == "").to_numpy()
     sorted_out = dict(dropped_by_filter(data["filter"].cat.codes.to_numpy() - 1))

@@ -27,7 +27,7 @@ _FLOODED = "flooded"
 
 
 def speed_exponents(supplies: Iterable[str]) -> tuple[dict[str, pd.Series], tuple[str, ...]]:
-    """Exponents of the speed over the temperature [K] by supply, and what is assumed.
+    """Exponents of the speed over the temperature [K] by supply, and the assumptions.
 
     Parameters
     ----------

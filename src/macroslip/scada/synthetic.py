@@ -60,7 +60,7 @@ _BEYOND = 20.0
 
 @dataclass(frozen=True)
 class SyntheticYear:
-    """What a synthetic year is made with."""
+    """Settings of a synthetic year."""
 
     capacity: float = 3.0e6  #: C, heat capacity of what warms with the bearing [J/K]
     to_nacelle: float = 0.079  #: k_n, conductance to the nacelle over C [1/h]
@@ -218,7 +218,7 @@ def _air(
 
 
 def _smoothed(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What follows the values with a delay of two hours."""
+    """The values with a delay of two hours (first order)."""
     kept = np.exp(-1.0 / _LAG_ROWS)
     return lfilter([1.0 - kept], [1.0, -kept], values, zi=[kept * values[0]])[0]
 

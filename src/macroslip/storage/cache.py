@@ -1,4 +1,4 @@
-"""The folder of caches: what can be made again.
+"""The folder of caches: tables and kernels that can be made again.
 
 The name of each file tells all it depends on.
 
@@ -67,7 +67,7 @@ def _candidates() -> Iterator[Path]:
 
 
 def read_cache(name: str) -> bytes | None:
-    """Content of a cached file; None if there is none, or it is not what was written."""
+    """Content of a cached file; None if there is none, or it has been damaged."""
     folder = cache_folder()
     path = folder / f"{name}{_ENDING}" if folder else None
     if path is None or not path.is_file():

@@ -84,7 +84,7 @@ def is_special(path: Path) -> bool:
 
 
 def check_regular(path: Path, remedy: str) -> None:
-    """Refuse a pipe, a socket or a device in the place of a file, before it is opened.
+    """Refuse a pipe, a socket or a device instead of a file, before it is opened.
 
     A missing file and a folder pass: their reader reports them.
     """

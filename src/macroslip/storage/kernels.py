@@ -58,7 +58,7 @@ class _ProcessFolder:
         }
 
     def remove(self) -> None:
-        """Put what was compiled into the archive, and remove the folder."""
+        """Add the compiled kernels to the archive, and remove the folder."""
         if os.getpid() == self.process:
             # At exit a Ctrl-C would only lose the kernels and leave the folder behind.
             with contextlib.suppress(ValueError):  # not in the main thread
@@ -98,7 +98,7 @@ def _process_folder() -> _ProcessFolder | None:
 
 
 def keep_kernels() -> None:
-    """Put what this process has compiled into the archive, if that is anything."""
+    """Add the kernels that this process has compiled to the archive."""
     folder = _process_folder()
     if folder is None:
         return

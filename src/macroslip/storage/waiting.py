@@ -19,7 +19,7 @@ _listeners: list[Listener] = []
 
 @contextmanager
 def heard_by(listener: Listener) -> Iterator[None]:
-    """Tell a listener what this process waits for while the block runs.
+    """Register a listener of what this process waits for while the block runs.
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ def _cell(value: Any) -> Any:
 
 
 def _finish(sheet: Any) -> None:
-    """Text that looks like a formula stays text; columns are as wide as what stands in them."""
+    """Text that looks like a formula stays text; columns are as wide as their content."""
     for column in sheet.iter_cols():
         width = _NARROWEST
         for cell in column:

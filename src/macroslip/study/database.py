@@ -167,7 +167,7 @@ class Database:
         return row[0] if row else None
 
     def record(self, entries: Iterable[Mapping[str, Any]]) -> None:
-        """Record what runs ended with, in one transaction: when this returns it is on the disk.
+        """Record the outcomes of runs in one transaction: when this returns they are on the disk.
 
         Entries are as from `macroslip.study.work.work`; without `outcome` a run has the result of
         its key, which is there. If the system refuses, none of them is recorded, and sqlite3.Error
@@ -206,12 +206,12 @@ def _row(entry: Mapping[str, Any]) -> tuple[Any, ...]:
 
 
 def _decoded(content: bytes) -> str:
-    """A text of the database; one that was damaged is another text, which its checksum tells."""
+    """A text of the database, decoded; a damaged one differs, which its checksum shows."""
     return content.decode(errors="replace")
 
 
 def _crc(texts: Sequence[str], numbers: Sequence[float] = ()) -> int:
-    """Checksum of a row, by which one that was changed on the disk is found."""
+    """Checksum of a row, which detects changes on the disk."""
     return zlib.crc32("\0".join(texts).encode() + struct.pack(f"<{len(numbers)}d", *numbers))
 
 

@@ -93,7 +93,7 @@ class _Counted(NamedTuple):
 
 
 def _counted(study: xr.Dataset, bins: Binning) -> _Counted:
-    """Count the orbits of each run by what they exceed."""
+    """Count the orbits of each run by the energy or power that they exceed."""
     cells = (len(bins.groups), bins.centres.size)
     rows = study.sizes["row"]
     counted = _Counted(

@@ -233,7 +233,7 @@ def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
 
 
 def _area(study: xr.Dataset) -> xr.DataArray:
-    """Areas of the places, which all bearings of the study have to share."""
+    """Areas of the cells of a map, which all bearings of the study have to share."""
     area = study.cell_area
     if "case" not in area.dims:
         return area

@@ -350,7 +350,7 @@ def _at_balance(study: xr.Dataset, weighting: Weighting, loss: LossOfHeat) -> xr
 
 
 def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]:
-    """Check that runs at temperatures [K] span those of the weights, and tell what is held.
+    """Check that runs at temperatures [K] span those of the weights, and note which are held at an end.
 
     Temperatures of a measured year may lie up to `MOST_BEYOND` outside, where the nearest run holds, and
     one thousandth of the time anywhere; given temperatures may not.

@@ -1,4 +1,4 @@
-"""Counts of a study under way, and how long the rest takes."""
+"""Counts of a study under way, and the time that remains."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Progress:
 
     @property
     def rate(self) -> float:
-        """Runs computed a second; those that were there already tell nothing of the rest."""
+        """Runs computed a second; those that were there already do not count."""
         return (self.computed + self.failed) / max(self.seconds, 1e-9)
 
     @property

@@ -36,7 +36,7 @@ FIXED = ZERO_CELSIUS + 35.0
 OFFSET = 5.0
 #: Least length of a record that stands for a year [h].
 _SHORT = 30.0 * 24.0
-#: Number of a run behind a number of a design whose scatter between seeds is told.
+#: Number of a run behind a number of a design whose scatter between seeds is known.
 _RATES = {"wear": "wear_rate", "entries": "entry_rate", "pressure_slip": "pressure_slip_rate"}
 
 
@@ -48,7 +48,7 @@ class RealYear:
     #: temperature, the mean one), `fixed` (35 degC), the ratios `real_over_fixed` and
     #: `real_over_at_mean`, `oil_cooler` and `oil_warmer` (the oil 5 K below and above what the
     #: sensor tells), `seeds [%]` (standard error by the scatter of runs that share a bin; NaN
-    #: where none do) and `factor`, within which the criterion is known (NaN: not told).
+    #: where none do) and `factor`, within which the criterion is known (NaN: not known).
     table: pd.DataFrame
     #: A line for each design, state, bin of wind speed and of temperature of the oil: `design`,
     #: `state`, `wind_speed [m/s]`, `oil_temperature [degC]`, `share` of the time, `hours [h]` a

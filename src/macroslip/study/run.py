@@ -272,7 +272,7 @@ class Session:
                 yield pool, each
 
     def go(self, pool: Workers, threads: int | None, strict: bool) -> None:
-        """Hand out the runs and record what comes back."""
+        """Submit the runs and record their outcomes."""
         while True:
             tasks = self._tasks(pool.free_places(), threads)
             if tasks:
@@ -331,7 +331,7 @@ class Session:
         self._again.extend(self._waiting.pop(key, []))
 
     def _check(self, result: dict[str, Any]) -> None:
-        """Stop at what concerns the study and not the run."""
+        """Stop at a failure that concerns the study and not one run."""
         if "stop" in result:
             raise MacroslipError(f"{result['stop']} {_KEPT} Mend it, and go on with --resume.")
         if result.get("program", program()) != program():
@@ -392,7 +392,7 @@ class Session:
         return False
 
     def _words(self, run: Run, result: dict[str, Any]) -> Iterator[str]:
-        """Lines of the log on what became of a run, before it is in the database."""
+        """Lines of the log on the outcome of a run, before it is in the database."""
         name = self._name(run)
         outcome = result["outcome"]
         before = self.database.key(run.name)

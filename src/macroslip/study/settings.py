@@ -1,4 +1,4 @@
-"""Values that runs of a study have in place of the base case's, and the case they make.
+"""Values by which runs of a study differ from the base case, and the case they make.
 
 They are given one by one, in grids and in samples.
 """
@@ -82,7 +82,7 @@ _MOST_POINTS = 10_000_000
 
 @dataclass(frozen=True)
 class Setting:
-    """One value in place of the base case's."""
+    """One value that replaces the base case's."""
 
     #: Key of the case file, as `drivetrain.tilt`, or `bearing.` or `lubricant.` and the key of one
     #: of its values.

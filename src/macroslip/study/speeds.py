@@ -14,7 +14,7 @@ from macroslip.scada.reader import Scada
 from macroslip.study.reader import open_study
 from macroslip.study.weights import Weighting, bin_numbers, stored_weighting
 
-#: Difference from which on it is told.
+#: Difference from which on a note says so.
 _MOST = 0.1
 #: Columns of `speeds_beside`.
 WIND = "wind_speed [m/s]"

@@ -24,7 +24,7 @@ from macroslip.case.load_source import CUT_KEYS
 from macroslip.case.parts import Heat
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Form, Text, Texts
-from macroslip.input.files import Place, Source, parse, read_text
+from macroslip.input.files import Location, Source, parse, read_text
 from macroslip.input.messages import shown, together
 from macroslip.input.record import Record
 from macroslip.input.section import MappingOf, input_section, read_all, read_fields
@@ -227,7 +227,7 @@ class BaseCase(Form):
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         remedy = "The study's own section loads names where the loads come from."
         problems = [
-            context.place.inside("loads", str(key)).problem(
+            context.location.inside("loads", str(key)).problem(
                 f"the key '{key}' cannot stand here", ", ".join(CUT_KEYS), remedy
             )
             for key in loads
@@ -240,7 +240,7 @@ class BaseCase(Form):
 
 @dataclass(frozen=True)
 class Settings(Form):
-    """Values in place of the base case's: keys with dots, values as in a case file."""
+    """Values that replace the base case's: keys with dots, values as in a case file."""
 
     form = "a section such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
@@ -448,8 +448,8 @@ def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> S
 
 
 def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
-    place = Place(source)
-    values, problems = read_fields(StudyFile, data, place)
+    location = Location(source)
+    values, problems = read_fields(StudyFile, data, location)
 
     def attempt(key: str, build: Any) -> Any:
         try:
@@ -457,7 +457,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         except InputError as problem:
             for part in getattr(problem, "parts", [problem]):
                 located = part.where.startswith(f"{source.file}, ") if source.file else False
-                problems.append(part if located else place.inside(key).blamed(part))
+                problems.append(part if located else location.inside(key).blamed(part))
             return None
 
     mapping = values.get("case", {})
@@ -477,7 +477,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     kinds = sorted({bearing.kind for bearing in (records.get("bearing") or {}).values()})
     if len(kinds) > 1:
         problems.append(
-            place.inside("bearings").problem(
+            location.inside("bearings").problem(
                 f"there are {' and '.join(kinds)} roller bearings, whose rows of rollers differ",
                 "bearings of one kind",
                 "Make a study of each kind.",

@@ -131,7 +131,7 @@ def _number(key: object) -> float:
 
 @dataclass(frozen=True)
 class MeasuredYear(Form):
-    """A file that describes the means of a turbine, or what a study keeps of them."""
+    """A file that describes the means of a turbine, or the shares that a study keeps of them."""
 
     form = "a file, such as scada.yaml, that macroslip scada init writes"
 

@@ -304,7 +304,7 @@ class Weighting:
 
     @property
     def balance(self) -> LossOfHeat | None:
-        """Loss of heat that tells the temperature of each bin; None where something else does."""
+        """Loss of heat from which the temperature of each bin follows; None where it is given."""
         return self.temperature.balance if self.temperature is not None else None
 
     def with_measured_year(self, loads: Sequence[Load], folder: Path) -> Weighting:
@@ -637,7 +637,7 @@ def binned(
 
 
 def is_parameter(study: xr.Dataset, label: str) -> bool:
-    """True if the study varies what a label names, such as `drivetrain.tilt` or `oil_supply`.
+    """True if the study varies the key that a label names, such as `drivetrain.tilt` or `oil_supply`.
 
     Fields of loads have no dot.
     """

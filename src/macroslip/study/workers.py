@@ -152,7 +152,7 @@ class Processes:
             self._under_way[future] = seat, task
 
     def wait(self) -> Done:
-        """Wait until something is done; another process takes the place of one that has died."""
+        """Wait until something is done; a process that has died is replaced."""
         finished: Done = []
         while self._under_way and not finished:
             done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)

@@ -169,7 +169,7 @@ def _lives(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any
 
 
 def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
-    """The designs of `year` side by side, the least energy first, and what is not known.
+    """The designs of `year` side by side, the least energy first, and sentences on missing numbers.
 
     The table has a line a group, with its number as index: its labels, the columns of
     `DESIGN_COLUMNS` and the lives [h]. Energy and entries are of both rows, the others of the worse
@@ -262,7 +262,7 @@ def _follows_model(dataset: xr.Dataset | xr.DataArray, texts: list[str]) -> bool
 
 
 def file_names(paths: list[str]) -> list[str]:
-    """Names of bearing or lubricant files without folder and ending, where that tells them apart.
+    """Names of bearing or lubricant files without folder and ending, where these differ.
 
     Examples
     --------

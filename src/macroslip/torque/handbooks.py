@@ -260,7 +260,7 @@ def palmgren_torque(
 
 @dataclass(frozen=True, slots=True)
 class OilBath:
-    """The oil in which the lowest rollers stand.
+    """Oil bath of the lowest rollers.
 
     InputError for a value outside its range.
     """

@@ -1,4 +1,4 @@
-"""Named turbines: a main bearing with its mount, loads and oil, and what is assumed of each."""
+"""Named turbines: a main bearing with its mount, loads and oil, and the assumptions of each."""
 
 from macroslip.turbine.turbine import Turbine
 

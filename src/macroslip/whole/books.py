@@ -71,28 +71,28 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
         Impulses [N m s] and energies [J], by `FLOWS`, to which those of the stage are added.
     """
     bearing = assembly.bearing[0]
-    places = assembly.places
+    positions = assembly.positions
     rollers = space.rollers
     cages = space.cages
     moments = space.moments[k]
     pitch = bearing.pitch_radius
     arm = bearing.lever * pitch
-    for j in range(places.size):
-        place = places[j]
+    for j in range(positions.size):
+        position = positions[j]
         at = moments[j]
         own = rollers[j].y[FIRST + k]
         orbital = 0.5 * (own[0] - own[1] + at.ring)
-        lag_in = at.pull_inner - at.spin_inner
-        lag_out = at.pull_outer - at.spin_outer
-        cage = cages[place.cage].y[FIRST + k]
-        flows[0] -= span * (pitch * at.pull_inner - arm * at.spin_inner)
-        flows[1] += span * (pitch * at.pull_outer + arm * at.spin_outer)
+        lag_in = at.pull_inner - at.turning_inner
+        lag_out = at.pull_outer - at.turning_outer
+        cage = cages[position.cage].y[FIRST + k]
+        flows[0] -= span * (pitch * at.pull_inner - arm * at.turning_inner)
+        flows[1] += span * (pitch * at.pull_outer + arm * at.turning_outer)
         flows[2] -= span * pitch * at.tangential
         flows[4] += span * at.push * (cage[4] * at.cosine + cage[5] * at.sine)
-        flows[5] -= span * shaft_speed * (place.inner_radius * at.spin_inner + pitch * lag_in)
+        flows[5] -= span * shaft_speed * (position.inner_radius * at.turning_inner + pitch * lag_in)
         flows[6] -= span * at.tangential * orbital
-        loss = at.spin_inner * own[0] - lag_in * (shaft_speed * pitch - orbital)
-        loss += at.spin_outer * own[1] - lag_out * orbital
+        loss = at.turning_inner * own[0] - lag_in * (shaft_speed * pitch - orbital)
+        loss += at.turning_outer * own[1] - lag_out * orbital
         flows[8] += span * loss
         flows[9] += span * at.friction * at.sliding
         flows[11] -= span * at.push * at.pocket_speed
@@ -189,7 +189,7 @@ def _stocks(bearing: WholeBearing, part: Part, rows: np.ndarray) -> np.ndarray:
     slip_in = steps["inner_slip"][every, :, last]
     slip_out = steps["outer_slip"][every, :, last]
     shaft_speed = whole["shaft_speed"][every, last][:, None]
-    ring = shaft_speed * bearing.places["inner_radius"]
+    ring = shaft_speed * bearing.positions["inner_radius"]
     orbital = 0.5 * (slip_in - slip_out + ring)
     spinning = -0.5 * (slip_in + slip_out + ring)
     cages = whole["cages"][:, : bearing.cages]

@@ -1,4 +1,4 @@
-"""The cage: as a user describes it, and rollers off their nominal place and size."""
+"""The cage as a user describes it, and rollers off their nominal position and size."""
 
 from __future__ import annotations
 
@@ -253,7 +253,7 @@ class Cage:
 def inner_radii(bearing: Bearing, diameter_deviation: np.ndarray) -> np.ndarray:
     """Effective inner contact radius r~_in of rollers whose diameter deviates [m].
 
-    A thicker roller touches the outer raceway's sphere at the same place, has its centre further in
+    A thicker roller touches the outer raceway's sphere at the same point, has its centre further in
     and touches an inner ring of smaller radius; pure rolling then has
     δΩ/Ω = −(r cos α/r~_in)(r~_out/r~) δr/r, −0.11 δr/r for the base bearing. The model gives the
     roller the inner contact radius that turns it at this orbit speed and leaves all else.

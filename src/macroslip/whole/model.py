@@ -36,7 +36,7 @@ BEARING = np.dtype(
     ]
 )
 #: Numbers that differ between rollers.
-PLACE = np.dtype(
+POSITION = np.dtype(
     [
         ("row", "i8"),  # index of its row
         ("cage", "i8"),  # index of its cage
@@ -53,7 +53,7 @@ class WholeBearing:
     """All rollers, pockets and cages."""
 
     models: dict[str, RollerModel]  #: By row
-    places: np.ndarray  #: Shape (n,). Rollers, downwind row first.
+    positions: np.ndarray  #: Shape (n,). Rollers, downwind row first.
     pocket: Pocket
     roller_mass: float  #: m [kg]
     radius: float  #: r [m]
@@ -80,7 +80,7 @@ class Assembly(NamedTuple):
     bearing: np.ndarray  #: shape (1,)
     bodies: np.ndarray  #: Shape (rows,). A roller of each row.
     tables: np.ndarray  #: The flat array of their tables
-    places: np.ndarray  #: shape (n,)
+    positions: np.ndarray  #: shape (n,)
 
 
 def whole_bearing(
@@ -131,17 +131,17 @@ def whole_bearing(
     model = models[names[0]]
     cages = len(names) if cage.arrangement == "per-row" else 1
     weighs = gravity and cage.weight
-    places = np.zeros(len(names) * count, PLACE)
-    places["row"] = np.repeat(np.arange(len(names)), count)
-    places["cage"] = places["row"] if cages > 1 else 0
-    places["angle"] = np.concatenate([initial_angles(row, count) for row in names])
-    places["cosine"], places["sine"] = np.cos(places["angle"]), np.sin(places["angle"])
-    places["inner_radius"] = inner_radii(
+    positions = np.zeros(len(names) * count, POSITION)
+    positions["row"] = np.repeat(np.arange(len(names)), count)
+    positions["cage"] = positions["row"] if cages > 1 else 0
+    positions["angle"] = np.concatenate([initial_angles(row, count) for row in names])
+    positions["cosine"], positions["sine"] = np.cos(positions["angle"]), np.sin(positions["angle"])
+    positions["inner_radius"] = inner_radii(
         bearing, cage.diameter_deviations(len(names), count).ravel()
     )
     return WholeBearing(
         models=models,
-        places=places,
+        positions=positions,
         pocket=prepare_pocket(cage, bearing, lubricant, model.laws.cage.interface.hertz.stiffness),
         roller_mass=2.0 / model.mobility,
         radius=model.radius,
@@ -180,4 +180,4 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
         numbers[name] = getattr(bearing, name)
     numbers["pocket"] = tuple(pocket)
     bodies = np.concatenate([roller.body for roller in rollers.values()])
-    return Assembly(numbers, bodies, next(iter(rollers.values())).tables, bearing.places), report
+    return Assembly(numbers, bodies, next(iter(rollers.values())).tables, bearing.positions), report

@@ -171,7 +171,7 @@ class Part(NamedTuple):
 
 def pure_rolling(bearing: WholeBearing, cage: Cage) -> Start:
     """All rollers in pure rolling at their initial offsets, cages with them."""
-    count = bearing.places.size
+    count = bearing.positions.size
     offset = cage.start_offsets(count)
     return Start(offset, np.zeros(count), np.zeros(count), np.zeros(bearing.cages))
 
@@ -230,7 +230,7 @@ def steps_of(
     limits = _limits(assembly, motion, float(stops[-1]), tolerance)
     limits["max_steps"] = max_steps
     limits["extrapolates"] = extrapolates
-    count = assembly.places.size
+    count = assembly.positions.size
     rows = max(_BUFFER // (STEP.itemsize * count), 16)
     steps = np.zeros((rows, count), STEP)
     whole = np.zeros(rows, BEARING_STEP)
@@ -307,7 +307,7 @@ def _write_stage(assembly, k, time, weight, space, row):
     rollers = space.rollers
     for j in range(row.size):
         step = row[j]
-        body = assembly.bodies[assembly.places[j].row]
+        body = assembly.bodies[assembly.positions[j].row]
         at = moments[j]
         linear = linearisations[j]
         own = rollers[j].y[FIRST + k]
@@ -317,10 +317,10 @@ def _write_stage(assembly, k, time, weight, space, row):
         shear_out = shear_from(linear.outer, *at_outer)
         shear_cage = cage_shear_from(linear.cage, at.push, at.sliding)
         inner, rolling_in, rough_in = extrapolated_power(
-            linear.inner, body.inner, at.spin_inner, at.pull_inner, shear_in, *at_inner
+            linear.inner, body.inner, at.turning_inner, at.pull_inner, shear_in, *at_inner
         )
         outer, rolling_out, rough_out = extrapolated_power(
-            linear.outer, body.outer, at.spin_outer, at.pull_outer, shear_out, *at_outer
+            linear.outer, body.outer, at.turning_outer, at.pull_outer, shear_out, *at_outer
         )
         step.time[k] = time
         step.weight[k] = weight
@@ -334,11 +334,11 @@ def _write_stage(assembly, k, time, weight, space, row):
         rolling = step.rolling[k]
         rough = step.rough[k]
         # Without rolling resistance, as on an imposed orbit.
-        force[0] = at.spin_inner - shear_in
-        force[1] = at.spin_outer - shear_out
+        force[0] = at.turning_inner - shear_in
+        force[1] = at.turning_outer - shear_out
         force[2] = at.friction - shear_cage
-        power[0] = inner.slip + inner.curvature + inner.spin
-        power[1] = outer.slip + outer.curvature + outer.spin
+        power[0] = inner.slip + inner.curvature + inner.contact_spin
+        power[1] = outer.slip + outer.curvature + outer.contact_spin
         power[2] = force[2] * at.sliding
         rolling[0] = rolling_in
         rolling[1] = rolling_out
@@ -350,8 +350,8 @@ def _write_stage(assembly, k, time, weight, space, row):
         )
         step.lag_power[k, 0] = inner.curvature
         step.lag_power[k, 1] = outer.curvature
-        step.skew_power[k, 0] = inner.spin
-        step.skew_power[k, 1] = outer.spin
+        step.skew_power[k, 0] = inner.contact_spin
+        step.skew_power[k, 1] = outer.contact_spin
 
 
 @jit_inline
@@ -402,7 +402,9 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
             span = k * (1.0 - GAMMA) * h
             change = now.shaft_speed - start.shaft_speed
             for j in range(schedules.size):
-                _guess(space.rollers[j].y, k, step, span, assembly.places[j].inner_radius * change)
+                _guess(
+                    space.rollers[j].y, k, step, span, assembly.positions[j].inner_radius * change
+                )
             for c in range(space.cages.size):
                 _guess(
                     space.cages[c].y, k, step, span, 0.5 * assembly.bearing[0].inner_radius * change
@@ -439,7 +441,7 @@ def _off(y, i):
 
 @jit_inline
 def _step_error(assembly, limits, h, space):
-    """Error of a solved step of `h` [s] over what is allowed."""
+    """Error / tolerance of a solved step of `h` [s]."""
     bearing = assembly.bearing[0]
     allowed = limits.allowed_speed
     worst = 0.0
@@ -459,7 +461,7 @@ def _step_error(assembly, limits, h, space):
         for i in range(3):
             residual[i] = bearing.cage_mass / GAMMA * _off(y, 0 if i == 0 else i + 1)
     size = 3 if bearing.translates else 1
-    solve(assembly.places, size, blocks, borders)
+    solve(assembly.positions, size, blocks, borders)
     for j in range(rollers.size):
         residual = blocks[j].residual
         worst = max(worst, abs(residual[0]) / allowed, abs(residual[1]) / allowed)
@@ -471,7 +473,7 @@ def _step_error(assembly, limits, h, space):
 
 @jit_inline
 def _contact_off(known, linear, law, mass, limits, span, power_scale):
-    """Error of extrapolated forces and powers of a raceway contact over what is allowed.
+    """Error / tolerance of extrapolated forces and powers of a raceway contact.
 
     They are extrapolated from `known` to the new evaluation `linear`, `span` [s] later; `law` is the
     raceway's record of `CONTACT`, `mass` a roller's [kg].
@@ -479,13 +481,15 @@ def _contact_off(known, linear, law, mass, limits, span, power_scale):
     load = linear.load
     speed = linear.speed
     slip = linear.slip
-    spin, pull = raceway_from(known, load, speed, slip)
-    off = max(abs(spin - linear.spin), abs(pull - linear.pull))
-    drift = off / (mass / max(span, 1e-9) + max(linear.spin_by_slip, linear.pull_by_slip, 0.0))
+    turning, pull = raceway_from(known, load, speed, slip)
+    off = max(abs(turning - linear.turning), abs(pull - linear.pull))
+    drift = off / (mass / max(span, 1e-9) + max(linear.turning_by_slip, linear.pull_by_slip, 0.0))
     shear = shear_from(known, load, speed, slip)
-    guess, rolling_guess, _ = extrapolated_power(known, law, spin, pull, shear, load, speed, slip)
+    guess, rolling_guess, _ = extrapolated_power(
+        known, law, turning, pull, shear, load, speed, slip
+    )
     friction, rolling, _ = extrapolated_power(
-        linear, law, linear.spin, linear.pull, linear.shear, load, speed, slip
+        linear, law, linear.turning, linear.pull, linear.shear, load, speed, slip
     )
     wrong = rolling_guess - rolling
     power = abs(rolling)
@@ -523,7 +527,7 @@ def _refresh(assembly, limits, time, space, power_scale):
     good = True
     for j in range(schedules.size):
         schedule = schedules[j]
-        body = assembly.bodies[assembly.places[j].row]
+        body = assembly.bodies[assembly.positions[j].row]
         new = linearisations[j]
         old = known[j]
         if schedule.due:
@@ -628,7 +632,7 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     """Write the records' parts on a whole step and its end; a step without length is the start."""
     bearing = assembly.bearing[0]
     memory = space.memory[0]
-    places = assembly.places
+    positions = assembly.positions
     begins = end.time == start.time
     last = 0 if begins else 1
     rollers = space.rollers
@@ -661,11 +665,11 @@ def _write_end(assembly, start, end, space, row, whole, offset):
             step.power_before[i] = step.power[0, i] if begins else own.power[i]
             own.power[i] = step.power[last, i]
         offset[j] = own.y[FIRST + last, 2]
-        cage = cages[places[j].cage].y[FIRST + last]
+        cage = cages[positions[j].cage].y[FIRST + last]
         step.ahead = (
             offset[j] + cage[1] - cage[4] * at.sine + cage[5] * at.cosine
         ) / bearing.pitch_radius
-        whole.torque[places[j].cage] -= bearing.pitch_radius * (
+        whole.torque[positions[j].cage] -= bearing.pitch_radius * (
             at.push + bearing.lever * at.friction
         )
 

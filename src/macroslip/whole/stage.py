@@ -56,7 +56,7 @@ CAGE = np.dtype(
 SCHEDULE = np.dtype(
     [
         ("interval", "f8"),  # time for which the tractions that were kept serve [s]
-        ("ratio", "f8"),  # error of the last predicted values over what is allowed [-]
+        ("ratio", "f8"),  # error / tolerance of the last predicted values [-]
         ("fresh", "?"),  # true if it is evaluated in every iteration
         ("settled", "?"),  # true if it needs no further evaluation in this stage
         ("marked", "?"),  # true if it is evaluated now
@@ -103,7 +103,7 @@ class Space(NamedTuple):
 
 def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     """State and work space for a bearing; `memory` is the integrator's."""
-    count = assembly.places.size
+    count = assembly.positions.size
     cages = int(assembly.bearing[0]["cages"])
     return Space(
         np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), MOMENT), *new_linearisations(count), np.zeros(count, SCHEDULE),
@@ -199,23 +199,23 @@ def _write_block(inertia, at, linear, met, block):
     block.give = met.give
     block.by_sliding = met.by_sliding
     block.by_push = met.by_push
-    spin_in = 0.0
+    turning_in = 0.0
     pull_in = 0.0
-    spin_out = 0.0
+    turning_out = 0.0
     pull_out = 0.0
     if at.inner_load > 0.0:
-        spin_in = linear.inner.spin_by_slip
+        turning_in = linear.inner.turning_by_slip
         pull_in = linear.inner.pull_by_slip
     if at.outer_load > 0.0:
-        spin_out = linear.outer.spin_by_slip
+        turning_out = linear.outer.turning_by_slip
         pull_out = linear.outer.pull_by_slip
     # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
     shared = met.by_sliding
     tilted = met.by_push * met.give
-    j11 = inertia + pull_in + 2.0 * spin_in + shared + tilted - 0.5 * met.give
-    j12 = -pull_out + 2.0 * spin_out + shared - tilted + 0.5 * met.give
-    j21 = -pull_in + 2.0 * spin_in + shared + tilted + 0.5 * met.give
-    j22 = inertia + pull_out + 2.0 * spin_out + shared - tilted - 0.5 * met.give
+    j11 = inertia + pull_in + 2.0 * turning_in + shared + tilted - 0.5 * met.give
+    j12 = -pull_out + 2.0 * turning_out + shared - tilted + 0.5 * met.give
+    j21 = -pull_in + 2.0 * turning_in + shared + tilted + 0.5 * met.give
+    j22 = inertia + pull_out + 2.0 * turning_out + shared - tilted - 0.5 * met.give
     part = 1.0 / (j11 * j22 - j12 * j21)
     inverse = block.inverse
     inverse[0] = j22 * part
@@ -265,22 +265,22 @@ def _add_to_border(bearing, stage, at, met, block, border):
 
 
 @jit_inline
-def eliminate(places, size, blocks, borders):
+def eliminate(positions, size, blocks, borders):
     """Eliminate the rollers from the cages' equations: block elimination by Schur complements.
 
     It is done once for all right-hand sides.
 
     Parameters
     ----------
-    places : ndarray of `macroslip.whole.model.PLACE`, shape (n,)
+    positions : ndarray of `macroslip.whole.model.POSITION`, shape (n,)
     size : int
         Unknowns of a cage: one, or three where it translates.
     blocks : ndarray of `BLOCK`, shape (n,)
     borders : ndarray of `BORDER`, shape (c,)
         Each `matrix` becomes the Schur complement of its cage.
     """
-    for j in range(places.size):
-        matrix = borders[places[j].cage].matrix
+    for j in range(positions.size):
+        matrix = borders[positions[j].cage].matrix
         inverse = blocks[j].inverse
         column = blocks[j].column
         row = blocks[j].row
@@ -334,12 +334,12 @@ def _solve_border(matrix, residual, size):
 
 
 @jit_inline
-def solve(places, size, blocks, borders):
+def solve(positions, size, blocks, borders):
     """Solve the linear system that `eliminate` has prepared, in place.
 
     Parameters
     ----------
-    places : ndarray of `macroslip.whole.model.PLACE`, shape (n,)
+    positions : ndarray of `macroslip.whole.model.POSITION`, shape (n,)
     size : int
         Unknowns of a cage: one, or three where it translates.
     blocks : ndarray of `BLOCK`, shape (n,)
@@ -347,7 +347,7 @@ def solve(places, size, blocks, borders):
     borders : ndarray of `BORDER`, shape (c,)
         `residual` of each: right-hand side [N], replaced by the solution w, p, q [m/s].
     """
-    for j in range(places.size):
+    for j in range(positions.size):
         inverse = blocks[j].inverse
         residual = blocks[j].residual
         row = blocks[j].row
@@ -355,16 +355,16 @@ def solve(places, size, blocks, borders):
         second = inverse[2] * residual[0] + inverse[3] * residual[1]
         residual[0] = first
         residual[1] = second
-        border_residual = borders[places[j].cage].residual
+        border_residual = borders[positions[j].cage].residual
         for i in range(size):
             border_residual[i] -= row[0, i] * first + row[1, i] * second
     for c in range(borders.size):
         _solve_border(borders[c].matrix, borders[c].residual, size)
-    for j in range(places.size):
+    for j in range(positions.size):
         inverse = blocks[j].inverse
         residual = blocks[j].residual
         column = blocks[j].column
-        change = borders[places[j].cage].residual
+        change = borders[positions[j].cage].residual
         first = 0.0
         second = 0.0
         for k in range(size):
@@ -416,10 +416,10 @@ def _raceway_forces(assembly, stage, k, moments, rollers, schedules, linearisati
         at = moments[j]
         linear = linearisations[j]
         own = rollers[j].y[FIRST + k]
-        at.spin_inner, at.pull_inner = raceway_from(
+        at.turning_inner, at.pull_inner = raceway_from(
             linear.inner, at.inner_load, at.inner_speed, own[0]
         )
-        at.spin_outer, at.pull_outer = raceway_from(
+        at.turning_outer, at.pull_outer = raceway_from(
             linear.outer, at.outer_load, at.outer_speed, own[1]
         )
         if not schedule.fresh and is_out_of_reach(linear, at, own, stage.slip_reach):
@@ -433,13 +433,13 @@ def _raceway_forces(assembly, stage, k, moments, rollers, schedules, linearisati
             at = moments[j]
             inner = linearisations[j].inner
             outer = linearisations[j].outer
-            off = abs(at.spin_inner - inner.spin) + abs(at.pull_inner - inner.pull)
-            off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
+            off = abs(at.turning_inner - inner.turning) + abs(at.pull_inner - inner.pull)
+            off += abs(at.turning_outer - outer.turning) + abs(at.pull_outer - outer.pull)
             # Slopes that predicted the force well enough serve until the stage is solved.
             schedules[j].settled = off <= tuning.PREDICTED * stage.tolerance
-            at.spin_inner = inner.spin
+            at.turning_inner = inner.turning
             at.pull_inner = inner.pull
-            at.spin_outer = outer.spin
+            at.turning_outer = outer.turning
             at.pull_outer = outer.pull
     return evaluations
 
@@ -462,7 +462,7 @@ def _assemble(assembly, stage, k, size, space):
     cages = space.cages
     moments = space.moments[k]
     linearisations = space.linearisations[0]
-    places = assembly.places
+    positions = assembly.positions
     blocks = space.blocks
     borders = space.borders
     bearing = assembly.bearing[0]
@@ -479,14 +479,14 @@ def _assemble(assembly, stage, k, size, space):
     worst = 0.0
     finite = True
     for j in range(moments.size):
-        c = places[j].cage
+        c = positions[j].cage
         at = moments[j]
         linear = linearisations[j]
         block = blocks[j]
         own = rollers[j].y[FIRST + k]
         star = rollers[j].y[STAR]
         met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], linear)
-        friction = at.spin_inner + at.spin_outer + met.friction
+        friction = at.turning_inner + at.turning_outer + met.friction
         drive = slip_drive(friction, at.pull_inner, at.pull_outer, met.push, at.tangential)
         residual_in = inertia * (own[0] - star[0]) + drive.turning - drive.driving
         residual_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
@@ -528,9 +528,9 @@ def _update(k, size, space):
 
 @jit_inline
 def _follow(assembly, stage, k, space):
-    """Update forces and places of the rollers of stage `k` to first order in that of speeds."""
+    """Update forces and positions of the rollers of stage `k` to first order in their speeds."""
     bearing = assembly.bearing[0]
-    places = assembly.places
+    positions = assembly.positions
     rollers = space.rollers
     cages = space.cages
     moments = space.moments[k]
@@ -538,7 +538,7 @@ def _follow(assembly, stage, k, space):
     blocks = space.blocks
     borders = space.borders
     for j in range(blocks.size):
-        c = places[j].cage
+        c = positions[j].cage
         at = moments[j]
         linear = linearisations[j]
         block = blocks[j]
@@ -547,10 +547,10 @@ def _follow(assembly, stage, k, space):
         v_in = -block.residual[0]
         v_out = -block.residual[1]
         if at.inner_load > 0.0:
-            at.spin_inner += linear.inner.spin_by_slip * v_in
+            at.turning_inner += linear.inner.turning_by_slip * v_in
             at.pull_inner += linear.inner.pull_by_slip * v_in
         if at.outer_load > 0.0:
-            at.spin_outer += linear.outer.spin_by_slip * v_out
+            at.turning_outer += linear.outer.turning_by_slip * v_out
             at.pull_outer += linear.outer.pull_by_slip * v_out
         speed = 0.5 * (v_in - v_out) + border[0]
         if bearing.translates:
@@ -593,7 +593,7 @@ def solve_stage(assembly, stage, k, space):
         The largest residual, or the part that the last update is predicted to leave of it [N].
         Above the tolerance or not finite where the stage is not solved.
     """
-    places = assembly.places
+    positions = assembly.positions
     blocks = space.blocks
     borders = space.borders
     schedules = space.schedules
@@ -604,10 +604,10 @@ def solve_stage(assembly, stage, k, space):
         schedules[j].settled = False
     for _ in range(tuning.ITERATIONS):
         worst = _assemble(assembly, stage, k, size, space)
-        eliminate(places, size, blocks, borders)
+        eliminate(positions, size, blocks, borders)
         if worst <= stage.tolerance or not worst < math.inf:
             break
-        solve(places, size, blocks, borders)
+        solve(positions, size, blocks, borders)
         _update(k, size, space)
         predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_RESIDUAL)
         if predicted <= stage.tolerance:

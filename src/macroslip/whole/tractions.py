@@ -28,13 +28,13 @@ LINEARISATION = np.dtype(
             "slip",  # Δu of the evaluation [m/s]
             "load",  # normal load Q of the evaluation [N]
             "speed",  # ring speed u2 of the evaluation [m/s]
-            "spin",  # force that turns the roller, S_i or S_o [N]
+            "turning",  # force that turns the roller, S_i or S_o [N]
             "pull",  # force that moves the roller's centre, P_i or P_o [N]
-            "spin_by_slip",  # [N s/m]
+            "turning_by_slip",  # [N s/m]
             "pull_by_slip",  # [N s/m]
-            "spin_by_load",  # [-]
+            "turning_by_load",  # [-]
             "pull_by_load",  # [-]
-            "spin_by_speed",  # [N s/m]
+            "turning_by_speed",  # [N s/m]
             "pull_by_speed",  # [N s/m]
             "skew",  # skew moment ∫τ ζ dA [N m]
             "shear",  # rolling resistance, which both forces hold [N]
@@ -86,8 +86,8 @@ MOMENT = np.dtype(
             "outer_speed",  # speed u2 of the outer raceway past its centre [m/s]
             "ring",  # speed Ω_in r~_in of the inner ring's surface [m/s]
             "film_balance",  # where the next search for the films' load begins [N]
-            "spin_inner",  # S_i [N]
-            "spin_outer",  # S_o [N]
+            "turning_inner",  # S_i [N]
+            "turning_outer",  # S_o [N]
             "pull_inner",  # P_i [N]
             "pull_outer",  # P_o [N]
             "friction",  # F_c of its pocket [N]
@@ -148,7 +148,7 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
     """
     bearing = assembly.bearing[0]
     bodies = assembly.bodies
-    places = assembly.places
+    positions = assembly.positions
     tables = address(assembly)
     pitch = bearing.pitch_radius
     for c in range(bearing.cages):
@@ -158,19 +158,19 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
         a = cage[4]
         b = cage[5]
         for j in range(moments.size):
-            place = places[j]
+            position = positions[j]
             at = moments[j]
-            if place.cage != c:
+            if position.cage != c:
                 continue
-            body = bodies[place.row]
+            body = bodies[position.row]
             own = rollers[j].y[which]
-            cosine = place.cosine * turn_cosine - place.sine * turn_sine
-            sine = place.sine * turn_cosine + place.cosine * turn_sine
+            cosine = position.cosine * turn_cosine - position.sine * turn_sine
+            sine = position.sine * turn_cosine + position.cosine * turn_sine
             at.cosine, at.sine = cosine, sine
             ahead = (own[2] - a * sine + b * cosine) / pitch
             half = 1.0 - 0.5 * ahead * ahead
             x, y = cosine * half - sine * ahead, sine * half + cosine * ahead
-            ring = now.shaft_speed * place.inner_radius
+            ring = now.shaft_speed * position.inner_radius
             orbit = 0.5 * (own[0] - own[1] + ring) / pitch
             loads = roller_loads(body, tables, x, y, now, orbit, at.film_balance)
             at.ring = ring
@@ -179,7 +179,7 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
             at.inner_load = loads.inner_load
             at.outer_load = loads.outer_load
             at.tangential = loads.tangential
-            at.inner_speed = inner_ring_speed(now.shaft_speed, orbit, place.inner_radius)
+            at.inner_speed = inner_ring_speed(now.shaft_speed, orbit, position.inner_radius)
             at.outer_speed = outer_ring_speed(orbit, bearing.outer_radius)
 
 
@@ -193,16 +193,16 @@ def _evaluate(body, law, tables, load, speed, slip, linear):
     linear.slip = slip
     linear.load = load
     linear.speed = speed
-    linear.spin = forces.friction + forces.shear
+    linear.turning = forces.friction + forces.shear
     linear.pull = forces.pull
     linear.shear = forces.shear
-    linear.spin_by_slip = forces.friction_by_slip + forces.shear_by_slip
+    linear.turning_by_slip = forces.friction_by_slip + forces.shear_by_slip
     linear.pull_by_slip = forces.pull_by_slip
     linear.shear_by_slip = forces.shear_by_slip
-    linear.spin_by_load = forces.friction_by_load + forces.shear_by_load
+    linear.turning_by_load = forces.friction_by_load + forces.shear_by_load
     linear.pull_by_load = forces.pull_by_load
     linear.shear_by_load = forces.shear_by_load
-    linear.spin_by_speed = forces.friction_by_speed + forces.shear_by_speed
+    linear.turning_by_speed = forces.friction_by_speed + forces.shear_by_speed
     linear.pull_by_speed = forces.pull_by_speed
     linear.shear_by_speed = forces.shear_by_speed
     linear.skew = forces.skew
@@ -235,12 +235,12 @@ def evaluate_marked(assembly, time, moments, rollers, which, schedules, linearis
         Evaluations of a raceway contact, two a marked roller.
     """
     bodies = assembly.bodies
-    places = assembly.places
+    positions = assembly.positions
     tables = address(assembly)
     evaluations = 0
     for j in range(schedules.size):
         if schedules[j].marked:
-            body = bodies[places[j].row]
+            body = bodies[positions[j].row]
             at = moments[j]
             linear = linearisations[j]
             own = rollers[j].y[which]
@@ -268,7 +268,7 @@ def raceway_from(linear, load, speed, slip):
 
     Returns
     -------
-    spin, pull : float
+    turning, pull : float
         Forces S and P that turn and move the roller [N].
     """
     if load <= 0.0:
@@ -276,11 +276,11 @@ def raceway_from(linear, load, speed, slip):
     dv = slip - linear.slip
     dq = load - linear.load
     du = speed - linear.speed
-    spin = (
-        linear.spin
-        + linear.spin_by_slip * dv
-        + linear.spin_by_load * dq
-        + linear.spin_by_speed * du
+    turning = (
+        linear.turning
+        + linear.turning_by_slip * dv
+        + linear.turning_by_load * dq
+        + linear.turning_by_speed * du
     )
     pull = (
         linear.pull
@@ -288,7 +288,7 @@ def raceway_from(linear, load, speed, slip):
         + linear.pull_by_load * dq
         + linear.pull_by_speed * du
     )
-    return spin, pull
+    return turning, pull
 
 
 @jit_inline
@@ -309,7 +309,7 @@ def shear_from(linear, load, speed, slip):
     Returns
     -------
     float
-        Rolling resistance in the spin force [N].
+        Rolling resistance in S [N].
     """
     if load <= 0.0:
         return 0.0
@@ -362,7 +362,7 @@ def is_out_of_reach(linear, at, slips, slip_reach):
 
 
 @jit_inline
-def extrapolated_power(linear, law, spin, pull, shear, load, speed, slip):
+def extrapolated_power(linear, law, turning, pull, shear, load, speed, slip):
     """Frictional power of a raceway contact, extrapolated between evaluations.
 
     The skew moment grows with load to the power 3/2, the power of asperities in proportion to it.
@@ -373,7 +373,7 @@ def extrapolated_power(linear, law, spin, pull, shear, load, speed, slip):
         Tractions at the last evaluation.
     law : record of `macroslip.roller.model.CONTACT`
         Of the raceway.
-    spin, pull, shear : float
+    turning, pull, shear : float
         S, P and rolling resistance of the stage [N].
     load : float
         Normal load Q [N]; all powers of a contact without load are zero.
@@ -392,10 +392,10 @@ def extrapolated_power(linear, law, spin, pull, shear, load, speed, slip):
     if load <= 0.0 or linear.load <= 0.0:
         return RacewayPower(0.0, 0.0, 0.0), 0.0, 0.0
     growth = (load - linear.load) / linear.load
-    lag = pull - spin + (1.0 - law.push) * shear
+    lag = pull - turning + (1.0 - law.push) * shear
     skew = linear.skew * (1.0 + 1.5 * growth)
     return (
-        raceway_power(law, slip, speed, spin - shear, lag, skew),
+        raceway_power(law, slip, speed, turning - shear, lag, skew),
         -shear * (2.0 * speed - slip),
         linear.rough * (1.0 + growth),
     )

@@ -1,4 +1,4 @@
-"""Numbers that steer the integration of the whole bearing, in one place, each with what chose it.
+"""Numbers that steer the integration of the whole bearing, each with the reason for its value.
 
 None is physics: every result converges to the same value as the tolerance falls, whatever they are.
 "The page's cases" are those of docs/notes/whole-bearing.md, whose tables `docs/whole_bearing.py`
@@ -51,7 +51,7 @@ GRIPPED_DRY = 1.0 / 4.0
 #: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale.
 #: Judgement.
 LEAST_SPEED = 1e-3
-#: Time [s] in which an error of speed becomes one of place. Judgement.
+#: Time [s] in which an error of speed becomes one of position. Judgement.
 PLACE_TIME = 0.02
 
 # --- Stage equations ------------------------------------------------------------------------------

@@ -234,7 +234,7 @@ def estimate_tapered_bearing(
 
 
 def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:
-    """Sample what the page leaves open; number and size of the rollers follow from it."""
+    """Sample dimensions that the page leaves open; number and size of the rollers follow."""
 
     def between(accepted: Accepted) -> NDArray[np.float64]:
         return rng.uniform(*accepted, SAMPLES)
@@ -270,7 +270,7 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, NDArray[np.f
 
 
 def _angles(page: TaperedPage, rounding: NDArray) -> NDArray[np.float64]:
-    """Angle of the outer raceway [rad] by the axial factor, with what its rounding left."""
+    """Angle of the outer raceway [rad] from the axial factor, within its rounding."""
     if page.axial_factor_e is not None:
         return np.arctan((page.axial_factor_e + rounding) / 1.5)
     assert page.axial_factor_y is not None, "a page has e or Y"
@@ -371,7 +371,7 @@ def _record(
 
 
 def _published(page: TaperedPage) -> dict[str, dict]:
-    """Entries of what the page has; ratings of a pair are those of two single rows together."""
+    """Entries of the page's own values; ratings of a pair are those of both rows together."""
     scales = {"mm": 1e3, "kN": 1e-3, "kg": 1.0}
     values = {
         "bore_diameter": (page.bore, "mm", "V", "maker's page, d"),

@@ -112,21 +112,21 @@ class TaperedGeometry:
         """Turning rate of a roller relative to the outer ring over the speed of the inner ring [-]."""
         return math.sin(self.inner_angle) / math.sin(2.0 * self.half_cone_angle)
 
-    def radius_at(self, place):
+    def radius_at(self, station):
         """Radius of the roller [m] at ζ [m], (A + ζ) tan β."""
-        return (self.apex_distance + place) * math.tan(self.half_cone_angle)
+        return (self.apex_distance + station) * math.tan(self.half_cone_angle)
 
-    def surface_speed(self, shaft_speed, place=0.0):
+    def surface_speed(self, shaft_speed, station=0.0):
         """Speed of the roller's surface past the contacts in pure rolling [m/s], at ζ [m].
 
         Parameters
         ----------
         shaft_speed : array_like
             Speed of the inner ring Ω_in [rad/s], not negative.
-        place : array_like, optional
+        station : array_like, optional
             Coordinate ζ [m] along the roller's axis.
         """
-        return self.spin_ratio * shaft_speed * self.radius_at(place)
+        return self.spin_ratio * shaft_speed * self.radius_at(station)
 
     def rib_sliding_speed(self, shaft_speed):
         """Sliding speed at the rib in pure rolling [m/s], w_i h_f.

@@ -25,7 +25,7 @@ class Threshold(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Yearly:
-    """A number that a study keeps of either row of a run, and what a year makes of it."""
+    """A number that a study keeps of either row of a run, and its value over a year."""
 
     run_name: str  #: Name in a study
     run_unit: str

@@ -1,4 +1,4 @@
-"""A result as criteria see it: rates per second of a bearing with all its rollers, by place."""
+"""A result as criteria see it: rates per second of a bearing with all its rollers, by surface."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from macroslip.measures.along import STATIONS
 from macroslip.result.criteria.criterion import Criterion, Threshold
 from macroslip.result.run_input import RunInput
 
-#: Places whose damage is told.
-PLACES = ("inner", "outer", "roller")
+#: Surfaces whose damage is computed.
+SURFACES = ("inner", "outer", "roller")
 
 
 class Evaluation:
@@ -70,7 +70,7 @@ class Evaluation:
         return self.result.sizes["orbit"] > 0 or self.run_input.is_event
 
     def reference(self, criterion: Criterion) -> float:
-        """What a criterion is compared with [unit], one's own threshold or its reference."""
+        """The value with which a criterion is compared [unit]: a user's threshold, or its reference."""
         own = self.thresholds.get(criterion.name)
         return criterion.reference if own is None else own.value
 
@@ -82,7 +82,7 @@ class Evaluation:
         return energy.values * (self.all_rollers / self.seconds)
 
     def profile(self, name: str) -> np.ndarray:
-        """Power per area [W/m²] of a map over row, place and station.
+        """Power per area [W/m²] of a map over row, surface and station.
 
         The inner ring turns, so that of its sectors the mean counts. Of the outer ring it is the
         sector with the largest
@@ -91,7 +91,7 @@ class Evaluation:
         pass some sectors more often than others.
         """
         density = self.powers(name) / self._cell_area[:, :, None]
-        profile = np.empty((density.shape[0], len(PLACES), STATIONS))
+        profile = np.empty((density.shape[0], len(SURFACES), STATIONS))
         profile[:, 0] = density[:, 0].mean(axis=1)
         for row, sectors in enumerate(density[:, 1] * self._evenness()[..., None]):
             worst = int(np.argmax(np.nan_to_num(sectors).max(axis=-1)))
@@ -112,7 +112,7 @@ class Evaluation:
         return self.powers(name).sum(axis=2) / (self.bearing.rollers_per_row * area)
 
     def pass_rates(self) -> np.ndarray:
-        """Passes a second over a place of rings and roller [1/s]; NaN without an orbit."""
+        """Passes a second over a point of rings and roller [1/s]; NaN without an orbit."""
         orbits = self.result.sizes["orbit"]
         rate = orbits / self.orbit_time() if orbits else math.nan
         outer_radius = geometry.outer_contact_radius(self.bearing)

@@ -13,13 +13,13 @@ _TEST = friction_energy.ThrustTest()
 #: compared.
 LEAST_POWER, LARGEST_POWER = _TEST.range()
 REFERENCE_POWER = 0.5 * (LEAST_POWER + LARGEST_POWER)
-_OVER = ("row", "place", "station")
+_OVER = ("row", "surface", "station")
 
 
 def _rates(evaluation: Evaluation) -> Variables:
     return {
         "pass_rate": (
-            ("place",),
+            ("surface",),
             evaluation.pass_rates(),
             described("1/s", "passes over a place that is loaded all round"),
         ),
@@ -63,7 +63,7 @@ CRITERIA = (
                 run_unit="W/m2",
                 run_meaning="mean of pressure times slip over time, e_a, at the place with most",
                 of_run=lambda criteria, _: criteria.pressure_slip_rate.max(
-                    ["place", "station"], skipna=False
+                    ["surface", "station"], skipna=False
                 ),
                 name="pressure_slip",
                 drawn="max",

@@ -1,4 +1,4 @@
-"""Criterion of wear: how long it takes until the deepest place has worn by 10 µm."""
+"""Criterion of wear: time until the deepest point has worn by 10 µm."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from macroslip.damage import wear
 from macroslip.errors import InputError
 from macroslip.measures.along import STATIONS
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly
-from macroslip.result.criteria.evaluation import PLACES, Evaluation
+from macroslip.result.criteria.evaluation import SURFACES, Evaluation
 from macroslip.result.variables import described
 
 #: Time for which turbines are designed [years], IEC 61400-1.
 DESIGN_LIFE = 20.0
-#: Ages for which the worn profile is told [years].
+#: Ages for which the worn profile is computed [years].
 AGES = (1.0, 5.0, 20.0)
 #: Slips in the middle that are tried, in parts of the largest microslip, to find the profile of
 #: slip.
@@ -56,14 +56,14 @@ def _variables(evaluation: Evaluation) -> Variables:
     )
     on_roller = np.maximum(evaluation.roller_share("surface_asperity_energy"), 0.0) / friction
     meaning = "asperities' pressure times slip, mean over time: depth of wear a second over k"
-    rate = (("row", "place", "station"), work, described("W/m2", meaning))
+    rate = (("row", "surface", "station"), work, described("W/m2", meaning))
     if not evaluation.tells_of_year:
         return {"asperity_work_rate": rate}
     coefficients = np.array(evaluation.wear_coefficients)
     middle = coefficients[len(coefficients) // 2]
     rows = evaluation.run_input.models
-    times = np.full((len(rows), len(PLACES), len(wear.DEPTHS)), math.inf)
-    depths = np.zeros((len(rows), len(PLACES), len(AGES), STATIONS))
+    times = np.full((len(rows), len(SURFACES), len(wear.DEPTHS)), math.inf)
+    depths = np.zeros((len(rows), len(SURFACES), len(AGES), STATIONS))
     for r, row in enumerate(rows):
         if np.isnan(work[r]).any():
             times[r] = math.nan
@@ -72,17 +72,17 @@ def _variables(evaluation: Evaluation) -> Variables:
         worn = _grown(evaluation, row, work[r], on_roller[r])
         times[r] = np.stack([worn.work_at(depth) for depth in wear.DEPTHS], axis=-1)
         for a, age in enumerate(AGES):
-            slices = worn.depth_at(middle * age * YEAR).reshape(len(PLACES), STATIONS, _SLICES)
+            slices = worn.depth_at(middle * age * YEAR).reshape(len(SURFACES), STATIONS, _SLICES)
             depths[r, :, a] = slices.mean(axis=-1)
     return {
         "asperity_work_rate": rate,
         "wear_time": (
-            ("row", "place", "depth", "wear_coefficient"),
+            ("row", "surface", "depth", "wear_coefficient"),
             times[..., None] / coefficients,
             described("s", "time like this window until the deepest place has worn by depth"),
         ),
         "worn_depth": (
-            ("row", "place", "age", "station"),
+            ("row", "surface", "age", "station"),
             depths,
             described("m", f"depth of wear at k = {middle:g} m2/N"),
         ),
@@ -90,9 +90,9 @@ def _variables(evaluation: Evaluation) -> Variables:
 
 
 def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.ndarray) -> wear.Worn:
-    """Wear of a row at the load that stands for it, in the mean as deep as its maps have it.
+    """Wear of a row at a representative load, with the mean depth of its maps.
 
-    `work` and `on_roller` are depth a second over k [W/m²] over place and station, and the roller's
+    `work` and `on_roller` are depth a second over k [W/m²] over surface and station, and the roller's
     over raceway and
     station.
     """
@@ -199,7 +199,7 @@ def _missing(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> lis
 def _wear_rate(criteria: xr.Dataset, _: xr.Dataset) -> xr.DataArray | None:
     if "asperity_work_rate" not in criteria:
         return None
-    work = criteria.asperity_work_rate.max(["place", "station"], skipna=False)
+    work = criteria.asperity_work_rate.max(["surface", "station"], skipna=False)
     return _MIDDLE_COEFFICIENT * work
 
 
