@@ -95,12 +95,6 @@ def test_what_a_user_is_reported(reported, text, message):
     assert reported(text) == message
 
 
-def test_a_law_of_an_earlier_version_is_refused_with_what_to_change(reported):
-    told = reported("from macroslip.film import film_law\n")
-    assert "my_laws.py, line 1: the file uses laws with derivatives" in told
-    assert "macroslip.register_film" in told
-
-
 def test_a_file_that_was_wrong_can_be_mended_and_read_again(reported, tmp_path):
     reported(FILM + "\n1 / 0\n")
     (tmp_path / "my_laws.py").write_text(FILM, encoding="utf-8")

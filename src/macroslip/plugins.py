@@ -120,28 +120,18 @@ def _import(path: Path, name: str) -> None:
     try:
         loader.exec_module(module)
     except InputError as problem:
-        where = ", ".join(part for part in (_place(path, problem), problem.where) if part)
+        where = ", ".join(part for part in (_where(path, problem), problem.where) if part)
         raise InputError(
             problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
         ) from None
     except (Exception, SystemExit) as error:
-        if isinstance(error, ImportError) and str(error.name).startswith("macroslip."):
-            raise InputError(
-                "the file uses laws with derivatives and compiled functions, as an earlier version "
-                "had them",
-                where=_place(path, error),
-                allowed="functions of NumPy arrays that give values",
-                remedy="Write film(interface, load, speed) or traction(interface, load, film, "
-                "slip) and call macroslip.register_film or macroslip.register_traction, as "
-                "macroslip init --example laws shows.",
-            ) from None
         reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
         fault = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
         remedy = f"Mend it; python {path} shows where the error comes from."
-        raise InputError(fault, where=_place(path, error), remedy=remedy) from None
+        raise InputError(fault, where=_where(path, error), remedy=remedy) from None
 
 
-def _place(path: Path, error: BaseException) -> str:
+def _where(path: Path, error: BaseException) -> str:
     own = str(path.resolve())
     if isinstance(error, SyntaxError) and error.filename == own:
         return f"{path}, line {error.lineno}"

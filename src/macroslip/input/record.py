@@ -472,10 +472,6 @@ class Record:
         record._fill(own | values, kept, Source())
         return record
 
-    def model_dump(self) -> dict[str, Any]:
-        """Values [SI] by key."""
-        return {key: getattr(self, key) for key in fields_of(type(self))}
-
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """JSON Schema (2020-12) of the file format, for editors and programs."""

@@ -57,13 +57,11 @@ def test_nothing_slides_anywhere_on_the_lines_of_contact(bearing):
 
 
 @BEARINGS
-def test_turning_rates_about_the_lines_are_those_of_the_relative_angular_velocities(bearing):
+def test_the_turning_rate_about_the_inner_line_is_that_of_the_relative_angular_velocity(bearing):
     bodies = Vectors(bearing)
     speed = bodies.ring_speed
     inner = np.linalg.norm(bodies.roller - bodies.ring)
-    outer = np.linalg.norm(bodies.roller)
     assert inner == pytest.approx(bodies.row.inner_rolling_ratio * speed, rel=1e-12)
-    assert outer == pytest.approx(bodies.row.outer_rolling_ratio * speed, rel=1e-12)
 
 
 @BEARINGS

@@ -84,11 +84,6 @@ class TaperedGeometry:
         return math.sin(2.0 * self.half_cone_angle) / opening
 
     @property
-    def inner_share(self) -> float:
-        """Load of the inner raceway over that of the outer one [-], 1 − F_f/Q_o sin ε/cos β."""
-        return 1.0 - self.rib_share * math.sin(self.rib_angle) / math.cos(self.half_cone_angle)
-
-    @property
     def orbit_ratio(self) -> float:
         """Orbital speed of the rollers over the speed of the inner ring in pure rolling [-]."""
         inner = math.sin(self.inner_angle)
@@ -106,11 +101,6 @@ class TaperedGeometry:
         It turns about their common line through the apex.
         """
         return math.sin(self.outer_angle) / math.sin(2.0 * self.half_cone_angle)
-
-    @property
-    def outer_rolling_ratio(self) -> float:
-        """Turning rate of a roller relative to the outer ring over the speed of the inner ring [-]."""
-        return math.sin(self.inner_angle) / math.sin(2.0 * self.half_cone_angle)
 
     def radius_at(self, station):
         """Radius of the roller [m] at ζ [m], (A + ζ) tan β."""
