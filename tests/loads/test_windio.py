@@ -97,6 +97,14 @@ def test_what_is_wrong_is_named(turbine, changes, message):
         Drivetrain.from_windio(turbine(*changes), bearing="rear")
 
 
+def test_nothing_in_the_file_is_executed(turbine, tmp_path):
+    """The loader makes numbers, text, lists and mappings; a call of Python in YAML is refused."""
+    call = f"!!python/object/apply:os.mkdir ['{tmp_path / 'made'}']"
+    with pytest.raises(InputError, match="damaged"):
+        Drivetrain.from_windio(turbine(("uptilt: 6.0", f"uptilt: {call}")), bearing="rear")
+    assert not (tmp_path / "made").exists()
+
+
 def test_no_file(tmp_path):
     with pytest.raises(InputError, match="no such turbine file"):
         Drivetrain.from_windio(tmp_path / "none.yaml", bearing="rear")

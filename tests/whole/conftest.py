@@ -132,7 +132,7 @@ def run(bearing, lubricant):
 
 def gather(prepared, assembly, motion, begin, times, **choices) -> Simulated:
     """Integrate, and put all parts together."""
-    books, count = Books(prepared, times), prepared.places.size
+    books, count = Books(prepared, times), prepared.positions.size
     steps, whole, offset = (
         [np.zeros((0, count), STEP)],
         [np.zeros(0, BEARING_STEP)],

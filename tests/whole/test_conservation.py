@@ -130,7 +130,7 @@ def test_renumbering_changes_nothing(run):
     order = np.concatenate([np.arange(27, -1, -1), np.arange(55, 27, -1)])
 
     def renumber(prepared):
-        return replace(prepared, places=prepared.places[order])
+        return replace(prepared, positions=prepared.positions[order])
 
     found = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5)
     other = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5, change=renumber)
@@ -188,7 +188,7 @@ def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
     found = run(cage, THRUST, 2.143, 1.0)
     nominal = 2.143 * 0.5 * found.bearing.inner_radius
     expected = (
-        0.5 * 2.143 * (found.bearing.places["inner_radius"][:28] - found.bearing.inner_radius)
+        0.5 * 2.143 * (found.bearing.positions["inner_radius"][:28] - found.bearing.inner_radius)
     )
     drift = found.offset[-1, :28] - found.offset[-1, :28].mean()
     assert np.abs(expected).max() > 1e-6 * nominal

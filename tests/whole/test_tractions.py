@@ -42,7 +42,7 @@ def assembly(request, bearing, lubricant):
 
 def linearisations_at(assembly, load, speed, slip):
     """The linearised tractions of a roller whose both raceways are at this load [N], ring speed and slip [m/s]."""
-    count = assembly.places.size
+    count = assembly.positions.size
     moments, (linearisations, _), schedules = (
         np.zeros((2, count), MOMENT),
         new_linearisations(count),

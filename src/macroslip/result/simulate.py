@@ -212,7 +212,7 @@ def _whole_bearing(
     ready: Prepared, wanted: Wanted, threads: int, progress: Callable | None, stop: threading.Event
 ) -> xr.Dataset:
     bearing = bearing_of(ready.case)
-    count = bearing.places.size
+    count = bearing.positions.size
     # All rollers are done together.
     together = progress and (lambda done, total: progress(done * count, total * count))
     with ThreadPoolExecutor(1) as pool:
@@ -252,7 +252,7 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     chosen = [(row, number) for row in names for number in case.roller_numbers]
     places = [names.index(row) * count + number for row, number in chosen]
     measures = [
-        RollerMeasures(rows[row], float(bearing.places["angle"][index]))
+        RollerMeasures(rows[row], float(bearing.positions["angle"][index]))
         for (row, _), index in zip(chosen, places, strict=True)
     ]
     start = float(motion.time[0])

@@ -20,7 +20,7 @@ from macroslip.storage.files import check_regular, reading
 PIECE = 200_000
 #: Lines at the beginning of a file among which the line of names is looked for.
 _HEAD = 60
-#: First bytes of a text by its encoding.
+#: Bytes at the beginning of a text from which its encoding is detected.
 _SAMPLE = 1 << 20
 SUFFIXES = (".csv", ".csv.gz", ".parquet", ".xlsx")
 _DAMAGED = "Export it anew."
