@@ -101,6 +101,15 @@ def test_the_speed_may_be_given(tmp_path, truth):
     assert (read.shaft_speed == 2.1).all()
 
 
+def test_a_group_with_the_speed_does_not_matter_where_the_speed_is_given(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    (tmp_path / "demo.$05").unlink()
+    _message(header, "there is no demo.$05")
+    read = HubLoads.read(header, shaft_speed=2.1)
+    assert (read.shaft_speed == 2.1).all()
+    assert not any("demo.%05" in line for line in read.reading)
+
+
 def test_a_case_and_a_study_may_give_the_speed(tmp_path, truth):
     header = _run(tmp_path, truth, with_speed=False)
     case = tmp_path / "case.yaml"

@@ -172,6 +172,22 @@ def test_channels_that_are_missing(tmp_path, truth, absent, words):
         assert (HubLoads.read(path, shaft_speed=2.0).shaft_speed == 2.0).all()
 
 
+def test_channels_of_the_speed_do_not_matter_where_the_speed_is_given(tmp_path, truth):
+    columns = _channels(truth)
+    del columns["bea1 angle_speed"]
+    unit_and_text = ("rad/s", "Rotor speed")
+    for name in ("Omega a", "Omega b"):
+        columns[name] = (*unit_and_text, np.ones(truth.time.size))
+    columns["Omega b"] = ("rad/s", "Rotor speed, low-speed side", np.ones(truth.time.size))
+    path = _write_sel(tmp_path, columns, binary=False)
+    _message(path, "2 channels may be the speed of the shaft")
+    read = HubLoads.read(path, shaft_speed=2.0)
+    assert (read.shaft_speed == 2.0).all()
+    assert [line for line in read.reading if line.startswith("shaft speed")] == [
+        "shaft speed: given, 2 rad/s"
+    ]
+
+
 def test_axes_in_which_the_weight_does_not_point_down(tmp_path, truth):
     columns = _channels(truth, start=0.7)
     unit, text, angle = columns["bea1 angle"]

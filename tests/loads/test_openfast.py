@@ -362,6 +362,30 @@ def test_what_is_no_number_matters_in_channels_that_are_taken(tmp_path, sample_o
     _message(path, f"channel LSSTipMys holds '{word}' (line 13)", "wider format")
 
 
+def test_a_channel_of_the_speed_does_not_matter_where_the_speed_is_given(tmp_path, sample_out):
+    head, names, units, rows = _selection(sample_out, lambda name: True, rows=20)
+    rows[4][names.index("RotSpeed")] = "**********"
+    path = _write_text(tmp_path / "a.out", head, names, units, rows)
+    _message(path, "channel RotSpeed holds '**********'")
+    read = HubLoads.read(path, shaft_speed=1.25)
+    assert (read.shaft_speed == 1.25).all()
+    assert [line for line in read.reading if "speed" in line.lower()] == [
+        "shaft speed: given, 1.25 rad/s"
+    ]
+
+
+def test_a_description_in_an_encoding_of_east_asia(tmp_path, sample_out):
+    """Bytes of GBK, Shift-JIS and Big5 hold 0x85 and the like, at which text may seem to end a line."""
+    plain = HubLoads.read(sample_out)
+    lines = sample_out.read_bytes().split(b"\n")
+    for encoding, words in (("gbk", "\u5426\u5426"), ("shift-jis", "\u8868"), ("big5", "\u529f")):
+        text = f"Description: {words}".encode(encoding)
+        lines[4] = text + b" \x85\x0b\x1c\x85 end"
+        path = tmp_path / f"{encoding}.out"
+        path.write_bytes(b"\n".join(lines))
+        assert np.array_equal(HubLoads.read(path).force, plain.force)
+
+
 @pytest.mark.parametrize(
     ("word", "value"), [("1.250-101", 1.25e-101), ("-1.25D+02", -125.0), ("1.25+002", 125.0)]
 )

@@ -1,6 +1,7 @@
 """Tables: the spellings of their columns, and their time axes."""
 
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -41,6 +42,7 @@ def _message(path, *words, reader=HubLoads.read):
     with pytest.raises(InputError) as caught:
         reader(path)
     assert [word for word in (str(path), *words) if word not in str(caught.value)] == []
+    return str(caught.value)
 
 
 @pytest.mark.parametrize("extension", [".csv", ".parquet"])
@@ -360,6 +362,14 @@ _THOUSANDS = "\n".join([_NAMES, "0;12;420;6;-1.020;900;650;-240", "1;12;423;6;-9
         (_THOUSANDS.replace("-1.020", "-1,020"), ["'-1,020' beside '-975'", "the comma may"]),
         (_THOUSANDS.replace("-1.020;900", "1;2.888.888"), ["'2.888.888'", "its point twice"]),
         (_THOUSANDS.replace(";12;", ";12,5;"), ["'-1.020' with a point", "'12,5' with a comma"]),
+        (
+            _THOUSANDS.replace("-1.020", "-1'020.5"),
+            ["""column fz_kN holds "-1'020.5", not a""", """write loads: {thousands: "'"}"""],
+        ),
+        (
+            _THOUSANDS.replace("-1.020", "-1\u202f020"),
+            ["020', not a number", 'write loads: {thousands: " "}'],
+        ),
         (_THOUSANDS.replace("-1.020", "0xA0"), ["column fz_kN holds '0xA0', not a number"]),
         (_THOUSANDS.replace("-1.020", "-********"), ["'-********'", "did not fit into its field"]),
         (_THOUSANDS.replace("-1.020", "\u22121020"), ["minus sign U+2212"]),
@@ -389,11 +399,37 @@ def test_marks_that_are_given(tmp_path, options, fz):
         assert _read_text(path, _THOUSANDS, **options).force[0, 2] == pytest.approx(fz)
 
 
+@pytest.mark.parametrize(
+    ("numbers", "advice"),
+    [
+        # 280.000 and 1,020 mean 280 and 1020: with the other marks 12.5 would be no number.
+        (
+            {"-1.020": "-1,020", ";12;": ";12.5;", "650": "280.000"},
+            ('decimal: ".", thousands: ","',),
+        ),
+        ({"-1.020": "-1.020", ";12;": ";12,5;"}, ('decimal: ",", thousands: "."',)),
+        (
+            {"-1.020": "-1,020", "650": "280.000"},
+            ('decimal: ".", thousands: ","', 'decimal: ",", thousands: "."'),
+        ),
+        ({"-1.020": "-1,02", ";12;": ";12.5;"}, ("the same mark before the decimals",)),
+    ],
+)
+def test_only_marks_with_which_every_number_can_be_read_are_advised(tmp_path, numbers, advice):
+    text = _THOUSANDS
+    for plain, marked in numbers.items():
+        text = text.replace(plain, marked)
+    (tmp_path / "a.csv").write_text(text)
+    message = _message(tmp_path / "a.csv", "with a point and", "with a comma", *advice)
+    assert message.count("{decimal: ") == sum("decimal: " in words for words in advice)
+
+
 def test_every_mark_of_thousands(tmp_path):
-    for mark in (".", ",", "'", " ", "\u00a0", "\u202f"):
+    for mark in (".", ",", "'", "\u2019", " ", "\u00a0", "\u202f"):
         decimal = "," if mark == "." else "."
         text = _THOUSANDS.replace("-1.020", f"-1{mark}020{decimal}5")
-        given = "thousands", " " if mark in "\u00a0\u202f" else mark
+        plain = {"\u2019": "'", "\u00a0": " ", "\u202f": " "}
+        given = "thousands", plain.get(mark, mark)
         hub = _read_text(tmp_path / "a.csv", text, decimal=decimal, **dict([given]))
         assert hub.force[:, 2].tolist() == [-1020.5e3, -975e3]
 
@@ -462,3 +498,53 @@ def test_marks_for_a_file_without_text(tmp_path):
         HubLoads.read(_write(tmp_path / "a.csv", HUB), decimal=";")
     with pytest.raises(InputError, match="both"):
         HubLoads.read(tmp_path / "a.csv", decimal=",", thousands=",")
+
+
+@pytest.mark.parametrize("separator", [";", "\t", "|"])
+def test_the_separator_that_the_first_line_says(tmp_path, separator):
+    text = f"sep={separator}\n" + _grouped(fx="420.5", separator=separator)
+    assert _read_text(tmp_path / "a.csv", text).force[0, :2].tolist() == [420.5e3, 6e3]
+
+
+@pytest.mark.parametrize("name", ["rotor_speed_rpm", "rotor_speed_hz", "RotSpeed_[rpm]"])
+def test_a_column_of_the_speed_does_not_matter_where_the_speed_is_given(tmp_path, name):
+    path = tmp_path / "a.csv"
+    text = _grouped(fx="420.5", speed="****").replace("rotor_speed_rpm", name)
+    if name.startswith("Rot"):
+        components = [f"LSShft{axes}" for axes in ("Fxa", "Fys", "Fzs", "Mxa")]
+        components += ["LSSTipMys", "LSSTipMzs"]
+        units = ["kN", "kN", "kN", "kN-m", "kN-m", "kN-m"]
+        channels = [f"{channel}_[{unit}]" for channel, unit in zip(components, units, strict=True)]
+        text = "\n".join([";".join(["Time_[s]", name, *channels]), *text.split("\n")[1:]])
+    path.write_text(text)
+    _message(path, name.partition("_[")[0], "rotor_speed" if name.endswith("hz") else "'****'")
+    read = HubLoads.read(path, shaft_speed=1.25)
+    assert read.shaft_speed.tolist() == [1.25, 1.25]
+    assert read.force[0, 0] == 420.5e3
+    assert [line for line in read.reading if "speed" in line.lower()] == [
+        "shaft speed: given, 1.25 rad/s"
+    ]
+
+
+def _export(frame, path):
+    writers = {".csv": frame.to_csv, ".parquet": frame.to_parquet, ".xlsx": frame.to_excel}
+    writers[path.suffix](path, index=False)
+
+
+@pytest.mark.parametrize("extension", ["csv", "parquet", "xlsx"])
+def test_text_matters_in_the_channels_of_openfast_that_are_taken(tmp_path, extension):
+    names = ["Time", "RotSpeed", "LSShftFxa", "LSShftFys", "LSShftFzs", "LSShftMxa"]
+    names = [*names, "LSSTipMys", "LSSTipMzs", "LSSGagMys"]
+    units = ["s", "rpm", "kN", "kN", "kN", "kN-m", "kN-m", "kN-m", "kN-m"]
+    frame = pd.DataFrame(
+        [[0.0, 12.0, 420.0, 6.0, -1020.0, 900.0, 650.0, -240.0, "****"]] * 2,
+        columns=[f"{name}_[{unit}]" for name, unit in zip(names, units, strict=True)],
+    )
+    frame.loc[1, "Time_[s]"] = 1.0
+    path = tmp_path / f"a.{extension}"
+    _export(frame, path)
+    read = HubLoads.read(path)
+    assert read.force[0].tolist() == [420e3, 6e3, -1020e3]
+    frame = frame.rename(columns={"LSSTipMys_[kN-m]": "a", "LSSGagMys_[kN-m]": "LSSTipMys_[kN-m]"})
+    _export(frame, path)
+    _message(path, "channel LSSTipMys holds '****' (row 1 of the data)", "as numbers")

@@ -87,10 +87,10 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
     """Hub loads of a Bladed run, any file of which may be named.
 
     Returns time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and
-    `reading`, their channels. Without a channel for it, `shaft_speed` is left out unless it is
-    needed. Raises InputError if a group is absent, cut off, or does not fit its header.
+    `reading`, their channels. `shaft_speed` is left out unless it is needed. Raises InputError if
+    a group is absent, cut off, or does not fit its header.
     """
-    groups = _groups(path, (*_LOADS, _SPEED))
+    groups = _groups(path, (*_LOADS, _SPEED) if speed_needed else _LOADS)
     loads = [group for group in groups if group.has(_LOADS)]
     if not loads:
         remedy = "Switch on the output of the hub loads in the fixed frame, and run Bladed again."
@@ -101,15 +101,17 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
     reading = [
         f"force and moment: Stationary hub Fx … Mz of {hub.header.name}, axes as in the file"
     ]
+    if not speed_needed:
+        return result | {"reading": tuple(reading)}
     drives = [group for group in groups if group.has((_SPEED,))]
-    if speed_needed and not drives:
+    if not drives:
         remedy = f"Switch on the output of the drive train variables, or {_SAY_THE_SPEED}"
         raise _missing((_SPEED,), groups, path, remedy)
     sampled = [group for group in drives if group.is_sampled_as(hub)]
     if sampled:
         result["shaft_speed"] = _columns(sampled[0], (_SPEED,))[:, 0]
         reading.append(f"shaft speed: {_SPEED} of {sampled[0].header.name}")
-    elif speed_needed:
+    else:
         names = ", ".join(group.header.name for group in drives)
         raise InputError(
             f"{hub.header.name} and the groups with the rotor's speed, {names}, have different "

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 DECIMAL_MARKS = (".", ",")
 THOUSANDS_MARKS = (".", ",", "'", " ")
 _MARK_NAMES = {".": "point", ",": "comma", "'": "apostrophe", " ": "space"}
+#: Other characters that stand for a mark of thousands.
+_OTHER_FORMS = {"'": "\u2019", " ": "\u00a0\u2009\u202f"}
 _SEPARATORS = ",;\t"
 _COMMENT = re.compile(r"^[ \t]*[#%].*\n?", re.MULTILINE)
 _SEPARATOR_LINE = re.compile(r'"?sep=(.)"?', re.IGNORECASE)
@@ -63,6 +65,15 @@ class NumberFormat:
                 remedy="Correct one of them, or leave one out.",
             )
 
+    @property
+    def pattern(self) -> str:
+        """Pattern of a number with these marks, of which `decimal` must be known."""
+        mark = re.escape(self.decimal)
+        integer = r"\d+"
+        if self.thousands:
+            integer = rf"(\d+|\d{{1,3}}({re.escape(self.thousands)}\d{{3}})+)"
+        return rf"[+-]?({integer}({mark}\d*)?|{mark}\d+){_EXPONENT}"
+
 
 def csv_number_format(path: Path, decimal: str, thousands: str) -> NumberFormat | None:
     """Number format of a CSV file, None if no mark is given; other files have no such marks."""
@@ -91,11 +102,16 @@ class CsvTable:
         """Cells of a column."""
         return self._column(index).to_pylist()
 
-    def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
-        """Values of columns; NaN where a cell is empty."""
+    def numbers(
+        self, indices: Sequence[int], *, text_allowed: bool = False
+    ) -> list[NDArray[np.float64]]:
+        """Values of columns; NaN where a cell is empty or, if that is allowed, no number."""
         columns = {index: self._column(index) for index in indices}
         decimal = self._decimal_mark(columns)
-        return [self._parsed(self.names[index], columns[index], decimal) for index in indices]
+        return [
+            self._parsed(self.names[index], columns[index], decimal, text_allowed=text_allowed)
+            for index in indices
+        ]
 
     def _column(self, index: int) -> pa.ChunkedArray:
         """Text of a column without surrounding blanks, null where a cell is empty."""
@@ -123,8 +139,7 @@ class CsvTable:
             raise self._ambiguous(
                 f"column {name} holds '{cell}' with a point and "
                 f"column {other_name} holds '{other_cell}' with a comma",
-                "Say which separates decimals and which thousands, "
-                'such as loads: {decimal: ",", thousands: "."}',
+                self._advice_for_both(list(columns.values())),
             )
         mark = next(iter(examples), ".")
         tells = any(
@@ -134,6 +149,19 @@ class CsvTable:
         for index, column in columns.items():
             self._refuse_thousands(self.names[index], column, mark, decimals_elsewhere=tells)
         return mark
+
+    def _advice_for_both(self, columns: Sequence[pa.ChunkedArray]) -> str:
+        """Which of point and comma separates decimals, where all numbers can be read so."""
+        keys = [
+            f'loads: {{decimal: "{known.decimal}", thousands: "{known.thousands}"}}'
+            for known in (NumberFormat(".", ","), NumberFormat(",", "."))
+            if all(_first(column, known.pattern, matches=False) is None for column in columns)
+        ]
+        if not keys:
+            return "Write all numbers with the same mark before the decimals"
+        if len(keys) == 1:
+            return f"Write {keys[0]}"
+        return f"Say which separates decimals and which thousands: {' or '.join(keys)}"
 
     def _shows_decimals(self, name: str, column: pa.ChunkedArray, mark: str) -> bool:
         """True if a number of the column has the mark where none can separate thousands.
@@ -188,19 +216,21 @@ class CsvTable:
             "--thousands.",
         )
 
-    def _parsed(self, name: str, column: pa.ChunkedArray, decimal: str) -> NDArray[np.float64]:
+    def _parsed(
+        self, name: str, column: pa.ChunkedArray, decimal: str, *, text_allowed: bool
+    ) -> NDArray[np.float64]:
         import pyarrow as pa
         import pyarrow.compute as pc
 
-        d = re.escape(decimal)
-        if self.number_format.thousands == " ":
-            column = pc.replace_substring_regex(column, "[\u00a0\u2009\u202f]", " ")
-        integer = r"\d+"
-        if thousands := self.number_format.thousands:
-            integer = rf"(\d+|\d{{1,3}}({re.escape(thousands)}\d{{3}})+)"
-        number = rf"[+-]?({integer}({d}\d*)?|{d}\d+){_EXPONENT}"
+        thousands = self.number_format.thousands
+        if thousands in _OTHER_FORMS:
+            column = pc.replace_substring_regex(column, f"[{_OTHER_FORMS[thousands]}]", thousands)
+        number = NumberFormat(decimal, thousands).pattern
         wrong = _first(column, number, matches=False)
-        if wrong is not None:
+        if wrong is not None and text_allowed:
+            is_number = pc.match_substring_regex(column, f"^(?:{number})$")
+            column = pc.if_else(is_number, column, None)
+        elif wrong is not None:
             row = pc.index(column, wrong).as_py() + 1
             raise InputError(
                 f"column {name} holds {shown(wrong)}, not a number, in row {row} of the data",
@@ -222,6 +252,9 @@ def _grouped(mark: str) -> str:
 
 
 def _remedy(wrong: str) -> str:
+    for mark, forms in _OTHER_FORMS.items():
+        if re.match(rf"[+-]?\d{{1,3}}([{mark}{forms}]\d{{3}})+(?!\d)", wrong):
+            return f'Its thousands are separated; write loads: {{thousands: "{mark}"}}.'
     if _DATE.match(wrong):
         return "This is a date or a time of day; write seconds from the start of the record."
     if "\u2212" in wrong:
@@ -250,7 +283,7 @@ def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
         text = _COMMENT.sub("", text)
     body = text.lstrip("\n")
     first_line, _, below = body.partition("\n")
-    separator_line = _SEPARATOR_LINE.fullmatch(first_line.strip())
+    separator_line = _SEPARATOR_LINE.fullmatch(first_line.strip(" "))
     if separator_line:
         body = below.lstrip("\n")
     header, _, rows = body.partition("\n")

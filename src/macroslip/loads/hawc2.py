@@ -132,14 +132,14 @@ def read_hawc2(path: Path, *, speed_needed: bool = True, at_hub: bool = True) ->
     path : Path
         File ``.sel``, ``.dat`` or ``.hdf5``.
     speed_needed : bool
-        Whether a file without a channel for the shaft's speed is refused.
+        Whether the shaft's speed is read; a file without a channel for it is then refused.
     at_hub : bool
         Whether the loads must be those at the hub; otherwise any node of the shaft will do.
 
     Returns
     -------
     dict
-        `time` (n,) [s], `shaft_speed` (n,) [rad/s] if there is one, `force` (n, 3) [N], `moment`
+        `time` (n,) [s], `shaft_speed` (n,) [rad/s] if it is needed, `force` (n, 3) [N], `moment`
         (n, 3) [N m] and `reading`, the channels they are from.
 
     Raises
@@ -165,18 +165,19 @@ def read_hawc2(path: Path, *, speed_needed: bool = True, at_hub: bool = True) ->
         f"{angle.text}, sign {turned[1]} by the rotor's weight"
     ]
     result = {"time": output.time, "force": force, "moment": moment}
+    if not speed_needed:
+        return result | {"reading": tuple(reading)}
     speed = _shaft_speed(output, angle)
-    if speed is None and speed_needed:
+    if speed is None:
         raise InputError(
             "there is no speed of the shaft",
             where=output.where,
             allowed="constraint bearing1 of the shaft, or aero omega",
             remedy="Add one of them to the output section, or give the speed: loads.shaft_speed.",
         )
-    if speed is not None:
-        values = output.in_si(speed, SPEED)
-        result["shaft_speed"] = np.abs(values) if np.all(values <= 0.0) else values
-        reading.append(f"shaft speed: {speed.text}")
+    values = output.in_si(speed, SPEED)
+    result["shaft_speed"] = np.abs(values) if np.all(values <= 0.0) else values
+    reading.append(f"shaft speed: {speed.text}")
     return result | {"reading": tuple(reading)}
 
 

@@ -120,14 +120,14 @@ def read_openfast(path: Path, *, speed_needed: bool = True, at_hub: bool = True)
     path : Path
         File ``.outb`` or ``.out``.
     speed_needed : bool
-        Whether a file without a channel for the shaft's speed is refused.
+        Whether the shaft's speed is read; a file without a channel for it is then refused.
     at_hub : bool
         Whether moments must be those at the hub; otherwise those at the strain gauge will do.
 
     Returns
     -------
     dict
-        `time` (n,) [s], `shaft_speed` (n,) [rad/s] if there is one, `force` (n, 3) [N], `moment`
+        `time` (n,) [s], `shaft_speed` (n,) [rad/s] if it is needed, `force` (n, 3) [N], `moment`
         (n, 3) [N m] and `reading`, the channels they are from.
 
     Raises
@@ -187,7 +187,7 @@ def mean_wind_speed(channels: Channels) -> float | None:
 def loads_from_channels(channels: Channels, *, speed_needed: bool, at_hub: bool = True) -> dict:
     """Hub loads from channels with OpenFAST's names, as `read_openfast` returns them."""
     loads = {"time": channels.column(("Time",), _TIME)}
-    if speed_needed or channels.has_all((_SPEED,)):
+    if speed_needed:
         loads["shaft_speed"] = channels.column(_SPEED, SPEED)
     thrust = channels.column(_THRUST, FORCE)
     shear = channels.across(_SHEAR, _ROTATING_SHEAR, FORCE)

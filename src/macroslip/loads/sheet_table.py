@@ -42,13 +42,15 @@ class SheetTable:
         """Cells of a column as text."""
         return [None if row[index] is None else str(row[index]).strip() for row in self.rows]
 
-    def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
-        """Values of columns; NaN where a cell is empty."""
-        return [self._values(index) for index in indices]
+    def numbers(
+        self, indices: Sequence[int], *, text_allowed: bool = False
+    ) -> list[NDArray[np.float64]]:
+        """Values of columns; NaN where a cell is empty or, if that is allowed, no number."""
+        return [self._values(index, text_allowed=text_allowed) for index in indices]
 
-    def _values(self, index: int) -> NDArray[np.float64]:
+    def _values(self, index: int, *, text_allowed: bool) -> NDArray[np.float64]:
         values = [number_or_nan(row[index]) for row in self.rows]
-        if None in values:
+        if None in values and not text_allowed:
             number = values.index(None)
             cell = self.rows[number][index]
             raise InputError(

@@ -124,6 +124,11 @@ class Samples(NamedTuple):
     values: NDArray  #: Shape (samples, channels); NaN where the text is no number.
     #: First text of a channel that is no number, and where it is, by the channel's index.
     unreadable: Mapping[int, str] = {}
+    #: What to do about such a text in a channel that is needed.
+    remedy: str = (
+        "Fortran writes asterisks where a number has more digits than its format; "
+        "choose a wider format for the output and run the simulation again."
+    )
 
     def channel(self, index: int, name: str, where: str) -> NDArray[np.float64]:
         """Values (samples,) of a channel; InputError naming it if one of them is no number."""
@@ -132,8 +137,7 @@ class Samples(NamedTuple):
                 f"channel {name} holds {self.unreadable[index]}, which is no number",
                 where=where,
                 allowed="numbers in all channels that the loads are read from",
-                remedy="Fortran writes asterisks where a number has more digits than its format; "
-                "choose a wider format for the output and run the simulation again.",
+                remedy=self.remedy,
             )
         return np.asarray(self.values[:, index], dtype=np.float64)
 

@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from macroslip.constants import RPM
 from macroslip.errors import InputError
+from macroslip.input.messages import shown
 from macroslip.loads.csv_text import NumberFormat, read_csv
 from macroslip.loads.openfast import (
     FIXED_CHANNELS,
@@ -62,6 +63,7 @@ _OWN_COMPONENT = re.compile(r"\s*([fm][xyz]|F_[XYZ]0)(?![a-zA-Z])")
 _MISSING_COLUMNS = (
     "Add or rename the columns; the unit is part of the name, as in time_s or fx [kN]."
 )
+_TEXT_REMEDY = "Write the column as numbers: seconds for times, and no text or marks among them."
 _IN_BRACKETS = re.compile(r"(?P<name>.*?)[ _]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
@@ -77,8 +79,10 @@ class Table(Protocol):
         """Cells of a column as text."""
         ...
 
-    def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
-        """Values of columns; NaN where a cell is empty."""
+    def numbers(
+        self, indices: Sequence[int], *, text_allowed: bool = False
+    ) -> list[NDArray[np.float64]]:
+        """Values of columns; NaN where a cell is empty or, if that is allowed, no number."""
         ...
 
 
@@ -97,7 +101,7 @@ def read_hub_table(
     path : Path
         Parquet or CSV file, or workbook of Excel.
     speed_needed : bool
-        True if a table without a column of the shaft speed is refused.
+        True if the shaft speed is read; a table without a column of it is then refused.
     at_hub : bool
         True if moments that OpenFAST writes must be those at the hub.
     number_format : NumberFormat, optional
@@ -108,7 +112,7 @@ def read_hub_table(
     Returns
     -------
     dict
-        time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the
+        time (n,) [s], shaft_speed (n,) [rad/s] if it is needed, force (n, 3) [N] and moment (n, 3) [N m] at the
         hub, and `reading`, the names of their columns.
 
     Raises
@@ -121,8 +125,7 @@ def read_hub_table(
     if channels is not None:
         return loads_from_channels(channels, speed_needed=speed_needed, at_hub=at_hub)
     remedy = "This table holds main-bearing loads: read it with BearingLoads.read."
-    optional = () if speed_needed else ("shaft_speed",)
-    return _read(table, path, _HUB_VECTORS, ("F_X0", remedy), optional)
+    return _read(table, path, _HUB_VECTORS, ("F_X0", remedy), speed_needed=speed_needed)
 
 
 def _openfast_channels(table: Table, where: str) -> Channels | None:
@@ -137,9 +140,24 @@ def _openfast_channels(table: Table, where: str) -> Channels | None:
     has_time = any(name.lower() == "time" for name in names)
     if not has_time or len(names) == 1 or any(map(_OWN_COMPONENT.match, table.names)):
         return None
-    values = np.column_stack(table.numbers(list(channels)))
-    samples = Samples(values[: _filled_rows(values)])
+    values = np.column_stack(table.numbers(list(channels), text_allowed=True))
+    values = values[: _filled_rows(values)]
+    samples = Samples(values, _texts(table, list(channels), values), _TEXT_REMEDY)
     return Channels(names, [column["unit"] for column in channels.values()], samples, where)
+
+
+def _texts(table: Table, indices: Sequence[int], values: NDArray) -> dict[int, str]:
+    """First cell that is no number in each column, by the place of the column in `indices`."""
+    texts = {}
+    for place, index in enumerate(indices):
+        empty = np.flatnonzero(np.isnan(values[:, place]))
+        cells = table.texts(index) if empty.size else []
+        words = ((row, cells[row]) for row in empty)
+        for row, word in words:
+            if word and word.lower() != "nan":
+                texts[place] = f"{shown(word)} (row {row + 1} of the data)"
+                break
+    return texts
 
 
 def read_bearing_table(
@@ -157,7 +175,8 @@ def _read(
     path: Path,
     vectors: Mapping[str, tuple[str, ...]],
     other_kind: tuple[str, str],
-    optional: tuple[str, ...] = (),
+    *,
+    speed_needed: bool = True,
 ) -> dict:
     """Arrays in SI units, and `reading`: the names of the columns they are from.
 
@@ -165,6 +184,8 @@ def _read(
     """
     names = [_spelled(name) for name in table.names]
     quantities = dict(_BASE)
+    if not speed_needed:
+        del quantities["shaft_speed"]
     for field, components in vectors.items():
         quantities |= {name: ((name,), _UNITS[field]) for name in components}
     columns = {
@@ -174,7 +195,7 @@ def _read(
     missing = [
         " or ".join(_spellings(*quantities[quantity]))
         for quantity, column in columns.items()
-        if column is None and quantity not in optional
+        if column is None
     ]
     if missing:
         other_name, other_remedy = other_kind
@@ -277,15 +298,19 @@ class _ParquetTable:
     def texts(self, index: int) -> list[str | None]:
         return [None if cell is None else str(cell) for cell in self.columns[index].to_pylist()]
 
-    def numbers(self, indices: Sequence[int]) -> list[NDArray[np.float64]]:
-        return [self._values(index) for index in indices]
+    def numbers(
+        self, indices: Sequence[int], *, text_allowed: bool = False
+    ) -> list[NDArray[np.float64]]:
+        return [self._values(index, text_allowed=text_allowed) for index in indices]
 
-    def _values(self, index: int) -> NDArray[np.float64]:
+    def _values(self, index: int, *, text_allowed: bool) -> NDArray[np.float64]:
         import pyarrow as pa
 
         column = self.columns.column(index)
         kind = column.type
         if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
+            if text_allowed:
+                return np.full(len(column), np.nan)
             raise InputError(
                 f"column {self.names[index]} holds {kind}, not numbers",
                 where=self.where,
