@@ -99,6 +99,14 @@ def test_numbers_of_numpy_are_welcome():
             "rollers: it is 3. Allowed: all, or a list",
         ),
         (
+            lambda: Case(loads=LOADS, laws=Laws.paper(), rollers={0: 1, 7: 2}),
+            "rollers: it is {0: 1, 7: 2}. Allowed: all, or a list",
+        ),
+        (
+            lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=b"\x00\x07"),
+            "rollers: it is b'\\x00\\x07'. Allowed: all, or a list",
+        ),
+        (
             lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=[True]),
             "rollers: it is [True]. Allowed: all, or a list",
         ),

@@ -64,6 +64,8 @@ def test_a_number_without_unit_has_the_same_advice(value):
         ("a: [1_0, 2]", ["'1_0' is not a decimal number", "in quotes if it is text"]),
         ("a: 2024_01.5e3", ["'2024_01.5e3' is not a decimal number"]),
         ('a: "C:\\work"', ["escape character", "single quotes"]),
+        ('a: "C:\\Users\\me"', ["escape sequence", "single quotes"]),
+        ('a: "runs\\x.out"', ["escape sequence", "single quotes"]),
     ],
 )
 def test_types_and_numbers_that_would_be_something_else(text, words):

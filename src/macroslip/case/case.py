@@ -6,7 +6,7 @@ Its fields are the keys of a case file.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
 from numbers import Integral
 from typing import Annotated, Any
@@ -60,7 +60,8 @@ class RollerNumbers(Form):
         """Check that each is a whole number; NumPy's are welcome."""
         if isinstance(value, str) and value == "all":
             return "all"
-        numbers = () if isinstance(value, str) or not isinstance(value, Iterable) else tuple(value)
+        is_list = isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping | Set)
+        numbers = tuple(value) if is_list else ()
         if not numbers or not all(
             isinstance(item, Integral) and not isinstance(item, bool) for item in numbers
         ):

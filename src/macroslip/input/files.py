@@ -155,7 +155,7 @@ def parse(
 
     def not_yaml(problem: str, where: str) -> InputError:
         remedy = "Correct the text at or before this place."
-        if "escape character" in problem:
+        if "escape" in problem:
             remedy = "Write text with backslashes, such as a path of Windows, in single quotes."
         return InputError(f"this is not valid YAML ({problem})", where=where, remedy=remedy)
 
