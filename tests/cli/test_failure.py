@@ -75,3 +75,14 @@ def test_settings_of_other_programs(quick, tmp_path):
     for threads in ("abc", "0", "-3", "1.5", ""):
         done = start("bearing", "show", "skf-240-600-bc", cwd=tmp_path, NUMBA_NUM_THREADS=threads)
         assert (done.returncode, done.stderr) == (0, ""), threads
+
+
+@pytest.mark.parametrize("content", [b"a: [1\nb: {", b"[1, 2]\n", b"\xff\xfe\x00"])
+def test_settings_of_numba_in_the_current_folder(quick, tmp_path, content):
+    """Numba reads them when it is imported, whoever left them there."""
+    case = quick()
+    (tmp_path / ".numba_config.yaml").write_bytes(content)
+    done = start("run", case, "-o", "x.nc", cwd=tmp_path)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert done.stderr.startswith("error: Numba, which compiles the program, cannot read")
+    assert done.stderr.endswith("file '.numba_config.yaml' of the current folder, or remove it.\n")

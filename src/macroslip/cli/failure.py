@@ -24,6 +24,9 @@ ROLLERS_FAILED = 3
 CASES_FAILED = ROLLERS_FAILED
 #: Beginning of the message of dask about a file of settings that it cannot read.
 _OF_DASK = "A dask config file at "
+#: Module of Numba that reads its settings, and the file that it looks for in the current folder.
+_SETTINGS_OF_NUMBA = "numba.core.config"
+_FILE_OF_NUMBA = ".numba_config.yaml"
 #: Time after which a lost interrupt is raised again [s]: the finalizer or callback has ended by
 #: then.
 _AGAIN = 0.05
@@ -76,6 +79,12 @@ def _code_and_message(error: BaseException, *, quiet: bool) -> tuple[int, str]:
         # xarray imports dask, which reads the user's settings whether it is used or not.
         fault = " ".join(str(error).split())
         return BAD_INPUT, f"error: {fault}. Correct this file of settings of dask, or remove it."
+    if _is_raised_in(_SETTINGS_OF_NUMBA, error):
+        fault = " ".join(str(error).split())
+        return BAD_INPUT, (
+            f"error: Numba, which compiles the program, cannot read its settings: {fault}. Correct "
+            f"the file '{_FILE_OF_NUMBA}' of the current folder, or remove it."
+        )
     if not isinstance(error, Exception):
         raise error
     if quiet:
@@ -90,6 +99,16 @@ def _code_and_message(error: BaseException, *, quiet: bool) -> tuple[int, str]:
         f"internal error: {type(error).__name__}. "
         "This is a fault of macroslip; please report what is above.",
     )
+
+
+def _is_raised_in(module: str, error: BaseException) -> bool:
+    """True if a function of the module raised the error, or called what did."""
+    step = error.__traceback__
+    while step is not None:
+        if step.tb_frame.f_globals.get("__name__") == module:
+            return True
+        step = step.tb_next
+    return False
 
 
 def _of_the_system(error: OSError) -> str:
