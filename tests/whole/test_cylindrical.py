@@ -301,3 +301,56 @@ def test_it_is_studied_and_not_beside_bearings_of_another_kind(tmp_path):
     (tmp_path / "both.yaml").write_text(text.replace("MORE", ", skf-240-600-bc"), encoding="utf-8")
     with pytest.raises(InputError, match="there are cylindrical and spherical roller bearings"):
         read_study(tmp_path / "both.yaml")
+
+
+def _profiled(profile):
+    return BEARING.replace(roller_crown_radius=None, roller_profile=profile)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("profile", ["straight", "logarithmic"])
+@pytest.mark.parametrize("laws", [Laws.paper(), Laws.physical()], ids=["paper", "physical"])
+def test_line_contacts_run_in_both_dynamics_and_agree_where_rollers_are_gripped(profile, laws):
+    """Under 50 kN rollers are held: films drive the same energy on imposed orbits and on free ones."""
+    given = {
+        "bearing": _profiled(profile),
+        "laws": laws,
+        "oil_supply": "flooded" if laws.asks_for_oil else None,
+        "window": Window(start=0.2),
+    }
+    free = simulate(case((0.0, -50e3, 0.0), 0.4, **given))
+    assert free.status.max() == 0 and "books_warning" not in free.attrs
+    assert -0.02 < free.cage_slip.item() < 0.0
+    held = simulate(case((0.0, -50e3, 0.0), 0.4, dynamics="imposed-orbit", cage=Cage(), **given))
+    assert held.status.max() == 0 and held.table_error_typical < 1e-4
+    assert float(held.energy.sum()) > 0.0
+    if laws.asks_for_oil:
+        ratio = float(free.energy.sum("roller").sum() / held.energy.sum("roller").sum())
+        assert 0.8 < ratio < 1.3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("profile", ["straight", "logarithmic"])
+def test_maps_of_line_contacts_hold_the_energy_of_raceways(profile):
+    """Energy over stations is that of the raceways, and a straight roller's lies evenly."""
+    found = simulate(
+        case(
+            (0.0, -50e3, 0.0),
+            0.3,
+            bearing=_profiled(profile),
+            dynamics="imposed-orbit",
+            cage=Cage(),
+        )
+    )
+    along = found.station_energy.sum("roller").isel(row=0)
+    raceways = found.energy.sum("roller").isel(row=0)
+    for raceway in ("inner", "outer"):
+        total = float(along.sel(raceway=raceway).sum("station"))
+        assert total > 0.0
+        assert total == pytest.approx(float(raceways.sel(interface=raceway)), rel=1e-6)
+    outer = along.sel(raceway="outer").values
+    assert outer == pytest.approx(outer[::-1], rel=1e-9)
+    if profile == "straight":
+        assert outer == pytest.approx(outer.mean(), rel=1e-9)
+    else:
+        assert outer[0] < 0.5 * outer.max()

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from macroslip.bearing import fields, geometry, load_ratings
+from macroslip.bearing.profile import LOGARITHMIC, LONGEST_LOGARITHMIC, PROFILES
 from macroslip.bearing.rollers import no_roller, overlapping
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity
@@ -31,7 +32,14 @@ _CLEARANCE_STATE = Choice(
     "state of the clearance: warm, in operation, or cold, with all parts at one temperature",
     lambda: CLEARANCE_STATES,
 )
+_PROFILE = Choice(
+    "profile of a cylindrical roller that touches its raceways along a line: straight, or "
+    "logarithmic by ISO/TS 16281",
+    lambda: PROFILES,
+)
 _Optional = float | None
+#: Young's moduli of steel [Pa], for which the approach of a line contact is known.
+_STEEL = (195e9, 220e9)
 #: Ratings and mass are within this factor of those by the standard and of solid rings: makers
 #: differ by far less, and a wrong unit by more.
 _SIZE_FACTOR = 30.0
@@ -41,7 +49,9 @@ class Bearing(Record):
     """Data of a double-row spherical or a single-row cylindrical roller bearing.
 
     The rows of a spherical roller bearing are identical and mirrored. A cylindrical roller bearing
-    has a `roller_crown_radius` and no osculations: its crowned rollers touch straight raceways.
+    has no osculations: its rollers touch straight raceways, crowned ones with a
+    `roller_crown_radius` in an ellipse, straight ones and those with a logarithmic profile, by
+    `roller_profile`, along a line.
     Contact angle and row offset are 0, and `outer_raceway_radius` is the radius of a cylinder.
 
     Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths
@@ -133,6 +143,7 @@ class Bearing(Record):
     roller_crown_radius: Annotated[
         _Optional, Positive("radius of a cylindrical roller's crown along its axis", LENGTH, 1000)
     ] = None
+    roller_profile: Annotated[str | None, _PROFILE] = None
     diametral_clearance: Annotated[
         float, Quantity("diametral clearance, mounted; negative for preload", LENGTH, -1e-3, 5e-3)
     ]
@@ -170,7 +181,13 @@ class Bearing(Record):
     @property
     def kind(self) -> str:
         """The kind of bearing: `spherical` (double-row) or `cylindrical` (single-row)."""
-        return "spherical" if self.roller_crown_radius is None else "cylindrical"
+        is_crowned = self.roller_crown_radius is not None
+        return "cylindrical" if is_crowned or self.touches_along_line else "spherical"
+
+    @property
+    def touches_along_line(self) -> bool:
+        """Whether rollers touch their raceways along a line, and not in an ellipse."""
+        return self.roller_profile is not None
 
     @property
     def rows(self) -> int:
@@ -217,22 +234,60 @@ def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
                 where=source.where(missing[0]),
                 allowed="both, above 0.9 and below 1",
                 remedy="Add what is missing. A cylindrical roller bearing has a "
-                "roller_crown_radius in their place: with a drop d of the roller's contour at its "
-                "ends, roller_length²/(8 d).",
+                "roller_profile, straight or logarithmic, in their place, or a "
+                "roller_crown_radius: with a drop d of the roller's contour at its ends, "
+                "roller_length²/(8 d).",
             )
         return
+    shape = "roller_profile" if bearing.touches_along_line else "roller_crown_radius"
+    yield from _profile(bearing, source)
     for key in (*osculations, "contact_angle", "row_offset"):
         if getattr(bearing, key):
             yield InputError(
-                f"{key} is {bearing.written(key)}, and roller_crown_radius tells of a cylindrical "
-                "roller bearing",
+                f"{key} is {bearing.written(key)}, and {shape} tells of a cylindrical roller "
+                "bearing",
                 where=source.where(key, "value"),
                 allowed="no value" if key in osculations else "0",
-                remedy=f"Remove roller_crown_radius from a spherical roller bearing, or {key} from "
-                "a cylindrical one."
+                remedy=f"Remove {shape} from a spherical roller bearing, or {key} from a "
+                "cylindrical one."
                 if key in osculations
-                else "Remove roller_crown_radius from a spherical roller bearing.",
+                else f"Remove {shape} from a spherical roller bearing.",
             )
+
+
+def _profile(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    """Yield what a roller that touches along a line cannot have."""
+    if not bearing.touches_along_line:
+        return
+    if bearing.roller_crown_radius is not None:
+        yield InputError(
+            f"roller_crown_radius is {bearing.written('roller_crown_radius')}, and roller_profile "
+            f"is {bearing.roller_profile}: a roller has one or the other",
+            where=source.where("roller_profile"),
+            allowed="roller_profile, or roller_crown_radius",
+            remedy="Remove roller_crown_radius if the maker tells of straight rollers or of a "
+            "logarithmic profile, and roller_profile if he tells of a crown.",
+        )
+    longest = LONGEST_LOGARITHMIC * bearing.roller_diameter
+    if bearing.roller_profile == LOGARITHMIC and bearing.roller_length > longest:
+        yield InputError(
+            f"roller_length is {bearing.written('roller_length')}, and the standard's logarithmic "
+            f"profile of so long a roller is another one, straight in its middle",
+            where=source.where("roller_length", "value"),
+            allowed=f"up to {LONGEST_LOGARITHMIC:g} times roller_diameter, "
+            f"{bearing.written('roller_length', longest)}, with roller_profile: logarithmic",
+            remedy="Set roller_profile: straight.",
+        )
+    low, high = _STEEL
+    if not low <= bearing.youngs_modulus <= high:
+        yield InputError(
+            f"youngs_modulus is {bearing.written('youngs_modulus')}, and the approach of a line "
+            "contact is known of steel on steel",
+            where=source.where("youngs_modulus", "value"),
+            allowed=f"{bearing.written('youngs_modulus', low)} to "
+            f"{bearing.written('youngs_modulus', high)} with roller_profile",
+            remedy="Give a roller_crown_radius in place of roller_profile.",
+        )
 
 
 def _contradictions(bearing: Bearing, source: Source) -> Iterator[InputError]:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from macroslip.bearing.profile import profile_crown
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
@@ -111,7 +112,9 @@ def roller_contour_radius(bearing: Bearing) -> float:
 
     One contour, set by the osculation at the outer raceway sphere.
 
-    That of a cylindrical roller is its crown.
+    That of a cylindrical roller is its crown. Where it touches along a line it is the crown that a
+    logarithmic profile has at its middle, of a straight roller too: so the roller meets the spars of
+    its cage.
 
     Examples
     --------
@@ -119,6 +122,8 @@ def roller_contour_radius(bearing: Bearing) -> float:
     >>> round(roller_contour_radius(Bearing.read("skf-240-600-bc")), 6)
     0.406602
     """
+    if bearing.touches_along_line:
+        return profile_crown(bearing.roller_length, bearing.roller_diameter)
     if bearing.osculation_outer is None:
         return float(bearing.roller_crown_radius or math.inf)
     return bearing.osculation_outer * bearing.outer_raceway_radius

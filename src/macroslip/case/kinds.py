@@ -38,6 +38,7 @@ def check_kind(case: Case) -> Iterator[InputError]:
     """
     if case.bearing.kind == "tapered":
         yield from _mechanisms(case)
+        yield from _traction_along_line(case)
         yield from _mount(case)
         return
     yield from _of_tapered_bearings(case)
@@ -45,6 +46,8 @@ def check_kind(case: Case) -> Iterator[InputError]:
         yield from _fastest(case)
     else:
         yield from _of_one_row(case)
+    if case.bearing.touches_along_line:
+        yield from _traction_along_line(case)
 
 
 def _fastest(case: Case) -> Iterator[InputError]:
@@ -146,14 +149,6 @@ def _mechanisms(case: Case) -> Iterator[InputError]:
             remedy="Set dynamics: imposed-orbit.",
         )
     yield from _no_skew(case, "the rib guides a tapered one")
-    if case.laws.traction != MECHANISMS:
-        yield InputError(
-            f"the traction law '{case.laws.traction}' is one of an elliptical contact, and a tapered "
-            "roller touches along a line",
-            where="laws.traction",
-            allowed=f"{MECHANISMS}, in a tapered roller bearing",
-            remedy=f"Set laws.traction: {MECHANISMS}.",
-        )
     if case.temperature == BALANCE:
         yield InputError(
             "the balance of heat is not computed for tapered roller bearings, whose preload hangs on "
@@ -161,6 +156,21 @@ def _mechanisms(case: Case) -> Iterator[InputError]:
             where="temperature",
             allowed="a temperature, with temperature_difference",
             remedy="Give the temperature of the oil, and how much warmer the inner ring is.",
+        )
+
+
+def _traction_along_line(case: Case) -> Iterator[InputError]:
+    """Yield a traction law that line contacts do not have."""
+    if case.laws.traction != MECHANISMS:
+        kind = case.bearing.kind
+        shape = "" if kind == "tapered" else f" with a {case.bearing.roller_profile} profile"
+        crowned = "" if kind == "tapered" else ", or give the roller a roller_crown_radius"
+        yield InputError(
+            f"the traction law '{case.laws.traction}' is one of an elliptical contact, and a {kind} "
+            f"roller{shape} touches along a line",
+            where="laws.traction",
+            allowed=f"{MECHANISMS}, in a bearing whose rollers touch along lines",
+            remedy=f"Set laws.traction: {MECHANISMS}{crowned}.",
         )
 
 

@@ -192,6 +192,25 @@ def _of_bearing(bearing: Bearing | TaperedBearing) -> list[list[str]]:
 
     lubricant = Lubricant.read("vg460-pao")  # none of these depends on it
     model = roller_model(bearing, lubricant, 1, tilt=0.0)
+    orbit = [
+        "orbit ratio",
+        f"{model.orbit_ratio:.4f}",
+        "orbital speed of rollers in pure rolling / shaft speed",
+    ]
+    if bearing.touches_along_line:
+        return [
+            [
+                "stiffness C",
+                f"{model.line_stiffness:.4g} N/m^(10/9)",
+                "load of a straight roller = C (half the approach of the raceways)^(10/9)",
+            ],
+            [
+                "profile depth d",
+                f"{1e6 * model.profile_depth:.4g} um",
+                "drop of the profile = d ln 1/(1 - (2 place/length)^2)",
+            ],
+            orbit,
+        ]
     longest = truncation_load(bearing, lubricant)
     return [
         [
@@ -204,11 +223,7 @@ def _of_bearing(bearing: Bearing | TaperedBearing) -> list[list[str]]:
             f"{longest / 1e3:.4g} kN",
             "roller load at which a contact reaches the roller's ends",
         ],
-        [
-            "orbit ratio",
-            f"{model.orbit_ratio:.4f}",
-            "orbital speed of rollers in pure rolling / shaft speed",
-        ],
+        orbit,
     ]
 
 

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from macroslip.bearing import Bearing, geometry
 from macroslip.contact.hertz import HertzContact, effective_modulus, elliptical_contact
 from macroslip.contact.mechanisms import Laws
+from macroslip.contact.traction import HIGHEST_PRESSURE
 from macroslip.lubricant import Lubricant
 
 #: Share of a roller's load that may lie beyond its ends.
@@ -133,8 +134,10 @@ def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
     """Roller load [N] at which a raceway contact ellipse reaches the ends of the roller.
 
     Above it the contact is truncated, and Hertz pressure, film and traction formulas no longer
-    describe it.
+    describe it. Infinite where rollers touch along a line, which ends with them at any load.
     """
+    if bearing.touches_along_line:
+        return math.inf
     half = 0.5 * bearing.roller_length
     return min(
         raceway.hertz.load_at_semi_axis_across(half)
@@ -162,8 +165,13 @@ def highest_load(bearing: Bearing, lubricant: Lubricant, laws: Laws) -> float:
     """Roller load [N] that a case may not exceed.
 
     There the ellipse reaches the roller's ends; with microslip, which cuts it off there, a tenth of
-    the load would lie beyond them.
+    the load would lie beyond them. Where rollers touch along a line, the largest pressure is that
+    up to which the shear of oil is known.
     """
+    if bearing.touches_along_line:
+        from macroslip.contact.strips import load_at_pressure, strips_of
+
+        return load_at_pressure(strips_of(bearing)[0], HIGHEST_PRESSURE)
     truncation = truncation_load(bearing, lubricant)
     if not laws.microslip:
         return truncation

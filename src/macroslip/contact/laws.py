@@ -250,6 +250,10 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
         from macroslip.contact.tapered import tapered_laws
 
         return tapered_laws(PreparedLaws(*contacts), laws, bearing, lubricant)
+    if bearing.touches_along_line:
+        from macroslip.contact.line_laws import cylindrical_laws
+
+        return cylindrical_laws(PreparedLaws(*contacts), laws, bearing, lubricant)
     return PreparedLaws(*contacts)
 
 

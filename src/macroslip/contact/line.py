@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from macroslip.bearing.tapered.geometry import profile_depth
+from macroslip.bearing.profile import profile_depth
 
 #: Approach of Palmgren's law [m] at 1 N on a contact of 1 m in the units of his formula: δ = 3.84e-5
 #: mm · Q^0.9/l^0.8, Q in N and l in mm.

@@ -1,13 +1,14 @@
-"""Traction, film and oil of a tapered roller's line contact, summed over strips across its axis.
+"""Traction, film and oil of a roller's line contact, summed over strips across its axis.
 
-The roller is pressed on its raceway by q(ζ) = c (δ − P(ζ))^n per length, with the logarithmic
-profile P; ζ counts from its middle to its large end. It is taken as aligned with the ring: tilt
-moves load along the roller, on which traction and film depend little. Both surfaces are cones with
-one apex, so that nothing slides along the line but for the profile and for slip of the whole roller:
+The roller, tapered or cylindrical, is pressed on its raceway by q(ζ) = c (δ − P(ζ))^n per length,
+with the logarithmic profile P, or P = 0 of a straight cylindrical roller; ζ counts from its middle
+to its large end. It is taken as aligned with the ring: tilt moves load along the roller, on which
+traction and film depend little. Both surfaces are cones with one apex, or cylinders, so that nothing
+slides along the line but for the profile and for slip of the whole roller:
 
     v(ζ) = Δu (1 + ζ/A − P/(2r)) + u2 κ P(ζ)/2,
 
-with A the distance of the apex, r the roller's radius at its middle and κ the curvature sum there;
+with A the distance of the apex, infinite for a cylinder, r the roller's radius at its middle and κ the curvature sum there;
 the interface lies midway between roller and raceway. Each strip is a chord of pressure √(1 − x²/b²)
 with film and asperities of its own load and speed. What its stress does to the roller's spin goes
 with its radius, and what it does to the orbit with the radius of the ring there, both (1 + ζ/A).
@@ -25,8 +26,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from macroslip.bearing import Bearing, geometry
+from macroslip.bearing.profile import LOGARITHMIC, profile_depth
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
-from macroslip.bearing.tapered.geometry import profile_depth
 from macroslip.compiled import jit
 from macroslip.contact.hertz import HertzContact, effective_modulus
 from macroslip.contact.laws import PreparedContact
@@ -57,7 +59,7 @@ class Strips(NamedTuple):
     """Geometry of a line contact."""
 
     length: float  #: L, effective [m]
-    depth: float  #: d of the profile P = d ln 1/(1 − (2ζ/L)²) [m]
+    depth: float  #: d of the profile P = d ln 1/(1 − (2ζ/L)²) [m]; 0 of a straight roller
     coefficient: float  #: c of q = c (δ − P)^n [N/m^(1+n)]
     exponent: float  #: n [-]
     curvature: float  #: κ, sum of both bodies' curvatures in the plane of rolling [1/m]
@@ -72,35 +74,52 @@ class Strips(NamedTuple):
         return -self.depth * np.log1p(-np.minimum(relative * relative, 1.0 - 1e-15))
 
     def reach(self, drop):
-        """Station ζ ≥ 0 at which the profile has a drop P ≥ 0 [m]."""
+        """Station ζ ≥ 0 up to which the profile drops by less than P ≥ 0 [m]."""
+        if self.depth == 0.0:
+            return 0.5 * self.length * np.greater(drop, 0.0)
         return 0.5 * self.length * np.sqrt(-np.expm1(-np.asarray(drop) / self.depth))
 
 
-def strips_of(bearing: TaperedBearing) -> tuple[Strips, Strips]:
-    """Line contacts of a tapered roller with inner and outer raceway.
+def strips_of(bearing: Bearing | TaperedBearing) -> tuple[Strips, Strips]:
+    """Line contacts of a roller with inner and outer raceway.
 
     Parameters
     ----------
-    bearing : TaperedBearing
+    bearing : Bearing or TaperedBearing
+        Tapered, or cylindrical with a `roller_profile`.
 
     Returns
     -------
     inner, outer : Strips
     """
-    row = tapered_geometry(bearing)
+    depth = profile_depth(bearing.roller_diameter)
+    if isinstance(bearing, TaperedBearing):
+        row = tapered_geometry(bearing)
+        curvatures = raceway_curvatures(row)
+        radius = row.roller_radius
+        taper = 1.0 / row.apex_distance
+    else:
+        curvatures = (
+            geometry.inner_curvatures(bearing).rolling,
+            geometry.outer_curvatures(bearing).rolling,
+        )
+        radius = geometry.roller_radius(bearing)
+        taper = 0.0
+        if bearing.roller_profile != LOGARITHMIC:
+            depth = 0.0
     modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
     inner, outer = (
         Strips(
             length=bearing.roller_length,
-            depth=profile_depth(bearing.roller_diameter),
+            depth=depth,
             coefficient=palmgren_coefficient(bearing.roller_length),
             exponent=PALMGREN_EXPONENT,
             curvature=curvature,
             modulus=modulus,
-            radius=row.roller_radius,
-            taper=1.0 / row.apex_distance,
+            radius=radius,
+            taper=taper,
         )
-        for curvature in raceway_curvatures(row)
+        for curvature in curvatures
     )
     return inner, outer
 
@@ -126,17 +145,22 @@ def strip_approach(strips: Strips, load) -> np.ndarray:
     >>> round(1e6 * float(strip_approach(line, 1e5)), 1)
     40.0
     """
+    if strips.depth == 0.0:
+        return (np.asarray(load) / (strips.coefficient * strips.length)) ** (1.0 / strips.exponent)
     log_load, log_approach = _approach_knots(strips)
     return np.exp(np.interp(np.log(load), log_load, log_approach))
 
 
-def equivalent_ellipse(strips: Strips) -> HertzContact:
-    """Ellipse with the pressure, width and approach of a line contact at `REFERENCE_LOAD`."""
-    approach = float(strip_approach(strips, REFERENCE_LOAD))
+def equivalent_ellipse(strips: Strips, load: float = REFERENCE_LOAD) -> HertzContact:
+    """Ellipse with the pressure, width and approach of a line contact at a load [N].
+
+    It gives film laws, which take ellipses, the right load per length and pressure at every load.
+    """
+    approach = float(strip_approach(strips, load))
     largest = strips.coefficient * approach**strips.exponent
-    root = REFERENCE_LOAD ** (1.0 / 3.0)
+    root = load ** (1.0 / 3.0)
     return HertzContact(
-        semi_axis_across=0.75 * REFERENCE_LOAD / largest / root,
+        semi_axis_across=0.75 * load / largest / root,
         semi_axis_along=float(half_width(largest, strips.curvature, strips.modulus)) / root,
         pressure=float(line_pressure(largest, strips.curvature, strips.modulus)) / root,
         approach=approach / root**2,
@@ -154,6 +178,8 @@ def load_at_pressure(strips: Strips, pressure: float) -> float:
     174
     """
     per_length = 2.0 * math.pi * pressure**2 / (strips.curvature * strips.modulus)
+    if strips.depth == 0.0:
+        return per_length * strips.length
     approach = (per_length / strips.coefficient) ** (1.0 / strips.exponent)
     log_load, log_approach = _approach_knots(strips)
     return math.exp(float(np.interp(math.log(approach), log_approach, log_load)))

@@ -9,15 +9,13 @@ from typing import Any
 import numpy as np
 
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
-from macroslip.contact.gap import GapShape
 from macroslip.contact.hertz import effective_modulus, elliptical_contact
 from macroslip.contact.interface import ContactShape
 from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED, PreparedContact, PreparedLaws
+from macroslip.contact.line_laws import raceway_by_strips, sheared_film
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.rib import chittenden_thickness, rib_asperity_share
-from macroslip.contact.rolling import prepare_rolling
-from macroslip.contact.strips import PreparedStrips, Strips, equivalent_ellipse, strips_of
-from macroslip.contact.traction import prepare_fluid
+from macroslip.contact.strips import REFERENCE_LOAD, strips_of
 from macroslip.lubricant import Lubricant
 
 
@@ -73,51 +71,13 @@ def tapered_laws(
     PreparedLaws
         With a rib. No contact has a closed form: the paper's film is sheared strip by strip.
     """
-    fluid = prepare_fluid(laws, lubricant)
-    sheared: dict[str, Any] = {"fluid": fluid, "closed_form": None}
+    sheared = sheared_film(laws, lubricant)
     inner, outer = (
-        _raceway(law, strips, laws, bearing, sheared)
+        raceway_by_strips(law, strips, laws, sheared, REFERENCE_LOAD)
         for law, strips in zip((ellipses.inner, ellipses.outer), strips_of(bearing), strict=True)
     )
     rib = _rib(ellipses.inner, bearing, sheared)
     return PreparedLaws(inner, outer, replace(ellipses.cage, **sheared), rib)
-
-
-def _raceway(
-    law: PreparedContact,
-    strips: Strips,
-    laws: Laws,
-    bearing: TaperedBearing,
-    sheared: dict[str, Any],
-) -> PreparedStrips:
-    """Laws of a raceway by strips."""
-    row = tapered_geometry(bearing)
-    length = bearing.roller_length
-    curvature = strips.curvature
-    interface = law.interface._replace(
-        hertz=equivalent_ellipse(strips), rolling_radius=1.0 / curvature
-    )
-    crown = bearing.roller_crown_radius
-    shape = ContactShape(
-        microslip=laws.microslip,
-        contour_radius=2.0 * crown,
-        roller_radius=row.roller_radius,
-        half_length=0.5 * length,
-        curvature_ratio=curvature,
-        # One apex for roller and ring takes the contact angle's slip out.
-        spin_ratio=0.0,
-    )
-    rolling = prepare_rolling(
-        laws.rolling,
-        interface,
-        GapShape(1.0 / curvature, crown, length),
-        row.roller_radius,
-        oil_gap=interface.lubricant.oil_gap if law.rolling is None else law.rolling.oil_gap,
-        heating=laws.inlet_heating,
-    )
-    values = {member.name: getattr(law, member.name) for member in fields(law)}
-    values |= {"interface": interface, "shape": shape, "rolling": rolling}
-    return PreparedStrips(**(values | sheared), strips=strips)
 
 
 def _rib(law: PreparedContact, bearing: TaperedBearing, sheared: dict[str, Any]) -> PreparedRib:

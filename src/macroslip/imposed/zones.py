@@ -14,6 +14,7 @@ import math
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import contact_load, log_speed
 from macroslip.imposed import tuning
+from macroslip.mechanics.elastic import approach_under_load
 from macroslip.mechanics.loads import elastic_approach
 from macroslip.mechanics.raceway import raceway_traction
 from macroslip.ring.orbit import instant
@@ -93,7 +94,7 @@ def firm_approach(body, tables, ring_speed):
         else:
             low = load
         load = math.sqrt(low * high)
-    return body.compliance * high ** (2.0 / 3.0)
+    return approach_under_load(body, high)
 
 
 @jit_inline

@@ -431,12 +431,14 @@ class Record:
     def as_dict(self) -> dict[str, Any]:
         """Give the record in the form of a catalogue file, with plain numbers and text only.
 
-        Quantities without a value, and those that follow from others, are left out. `from_dict`
+        Quantities and words without a value, and quantities that follow from others, are left out. `from_dict`
         makes an equal record of it.
         """
         origins = self.provenance
         kinds = dimensions(type(self))
-        keys = [key for key in fields_of(type(self)) if key in origins or key not in kinds]
+        words = {key for key in fields_of(type(self)) if key not in kinds}
+        words = {key for key in words if getattr(self, key) is not None}
+        keys = [key for key in fields_of(type(self)) if key in origins or key in words]
         keys = [key for key in keys if key not in self._derived]
         return self._nested(
             {

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.line_approach import line_approach
 from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
+from macroslip.contact.strips import PreparedStrips, Strips
 from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 
@@ -47,6 +49,9 @@ ALONG = np.dtype(
 )
 
 
+_NO_LINE = Strips(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
 class Contact(NamedTuple):
     """A contact as compiled functions of samples take it."""
 
@@ -57,6 +62,8 @@ class Contact(NamedTuple):
     saturation: float  #: Kellström's slide-roll ratio from which on it is reached [-]
     roughness: float  #: Composite RMS roughness [m]
     effusivity: float  #: Thermal effusivity of its steel [J/(m² K s^½)]
+    lined: bool  #: Whether roller and raceway touch along a line
+    line: Strips  #: That line contact; without meaning otherwise
 
 
 def contacts_of(laws: PreparedLaws) -> tuple[Contact, Contact, Contact]:
@@ -74,6 +81,8 @@ def contacts_of(laws: PreparedLaws) -> tuple[Contact, Contact, Contact]:
             saturation,
             law.interface.roughness,
             law.effusivity,
+            isinstance(law, PreparedStrips),
+            law.strips if isinstance(law, PreparedStrips) else _NO_LINE,
         )
 
     return contact(laws.inner), contact(laws.outer), contact(laws.cage)
@@ -119,9 +128,74 @@ def _covered(k, width, half_length, middle, across):
     return 0.5 * (first + last), (last - first) / width
 
 
+class _Line(NamedTuple):
+    """A line contact under a load."""
+
+    approach: float  #: Of roller and ring [m]
+    across: float  #: Half of the length that touches [m]
+    largest: float  #: Largest load per length [N/m]
+
+
+class _Chord(NamedTuple):
+    """A chord across a contact at a station."""
+
+    height: float  #: Load per length over the largest [-]
+    load: float  #: Load per length [N/m]
+    half_width: float  #: [m]
+    pressure: float  #: Largest [Pa]
+    slip: float  #: In rolling [m/s]
+    speed: float  #: Size of the slip in rolling and along the roller [m/s]
+
+
+@jit_inline
+def _line_under(line, load):
+    """Approach, length and largest load per length of a line contact under a load Q > 0 [N]."""
+    stiffness = line.coefficient * line.length
+    each = 0.5 * line_approach(stiffness, line.depth, math.log(load)).approach
+    across = 0.5 * line.length
+    if line.depth > 0.0:
+        across *= math.sqrt(-math.expm1(-each / line.depth))
+    return _Line(each, across, line.coefficient * each**line.exponent)
+
+
+@jit_inline
+def _line_chord(line, under, state, station):
+    """Chord of a line contact; state is that of `power_along`."""
+    relative = 2.0 * station / line.length
+    drop = -line.depth * math.log1p(-min(relative * relative, 1.0 - 1e-15))
+    load = line.coefficient * max(under.approach - drop, 1e-15) ** line.exponent
+    slip = state[2] * (1.0 - 0.5 * drop / line.radius) + 0.5 * state[1] * line.curvature * drop
+    return _Chord(
+        load / under.largest,
+        load,
+        math.sqrt(8.0 * load / (math.pi * line.modulus * line.curvature)),
+        math.sqrt(load * line.curvature * line.modulus / (2.0 * math.pi)),
+        slip,
+        abs(slip),
+    )
+
+
+@jit_inline
+def _ellipse_chord(patch, line, load, across, root, station):
+    """Chord of an ellipse of semi-axis `across`; `line` has the parabolas of the sample's slip."""
+    height = 1.0 - (station - line[0]) * (station - line[0]) / (across * across)
+    local = _parabola(line, 1, station)
+    chord = math.sqrt(height)
+    return _Chord(
+        height,
+        0.75 * height / across * load,
+        patch.along * root * chord,
+        patch.pressure * root * chord,
+        local,
+        math.hypot(local, _parabola(line, 4, station)),
+    )
+
+
 @jit
 def power_along(maps, interface, contact, state, sample, passes, along):
     """Distribution of power along the roller at a loaded raceway, and its hottest station.
+
+    Along a line contact film and share of asperities are those of its middle.
 
     Parameters
     ----------
@@ -157,10 +231,16 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     span = (sample.time - sample.since) / STATIONS
     root = load ** (1.0 / 3.0)
     across = patch.across * root
+    under = _Line(0.0, across, 0.0)
+    if contact.lined:
+        under = _line_under(contact.line, load)
+        across = under.across
     line = sample.lines[interface]
     width = 2.0 * patch.half_length / STATIONS
     node = film_node(contact.chords, film)
     boundary = 0.75 * patch.boundary_friction * max(share, _LEAST_SHARE) * load / across
+    if contact.lined:
+        boundary = patch.boundary_friction * max(share, _LEAST_SHARE) * under.largest
     hot = sample.hot[interface]
     hottest = 0.0
     densest = 0.0
@@ -176,29 +256,31 @@ def power_along(maps, interface, contact, state, sample, passes, along):
             along.work[k] = 0.0
             along.density[k] = 0.0
             continue
-        height = 1.0 - (station - line[0]) * (station - line[0]) / (across * across)
-        local = _parabola(line, 1, station)
-        speed = math.hypot(local, _parabola(line, 4, station))
-        chord = math.sqrt(height)
-        half_width = patch.along * root * chord
+        if contact.lined:
+            chord = _line_chord(contact.line, under, state, station)
+        else:
+            chord = _ellipse_chord(patch, line, load, across, root, station)
+        height = chord.height
+        speed = chord.speed
+        half_width = chord.half_width
         asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
         per_length = 0.75 * height / across * sample.at.power[interface]
         if contact.chorded:
-            stress = chord_stress_at(contact.chords, node, patch.pressure * root * chord, speed)
+            stress = chord_stress_at(contact.chords, node, chord.pressure, speed)
             per_length = (1.0 - share) * 2.0 * half_width * stress * speed + asperities
         elif contact.limit > 0.0:
             per_length = (1.0 - share) * 0.75 * height / across * load * speed
             per_length *= _saturating_friction(contact, speed, entrainment)
             per_length += asperities
         # Of power only its share of all stations counts; of p |v| its size does.
-        along.power[k] = math.copysign(per_length * covered, local)
+        along.power[k] = math.copysign(per_length * covered, chord.slip)
         along.rough[k] = asperities * covered
-        along.work[k] = 0.75 * height / across * load * speed * covered * width
+        along.work[k] = chord.load * speed * covered * width
         along.total += abs(along.power[k])
         along.rough_total += along.rough[k]
         along.work_total += along.work[k]
         if sample.at.elastic_load > 0.0:
-            spent = times[class_of(SLIP_EDGES, math.copysign(speed, local) / entrainment)]
+            spent = times[class_of(SLIP_EDGES, math.copysign(speed, chord.slip) / entrainment)]
             spent[0] += span * covered
             spent[1] += passes * covered / STATIONS
         density = per_length / (2.0 * half_width)

@@ -18,6 +18,7 @@ from macroslip.compiled import jit
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature
 from macroslip.contact.patch import fine_power, patch_power
+from macroslip.contact.strips import PreparedStrips
 from macroslip.measures.along import STATIONS, power_along
 from macroslip.measures.extremes import EXTREMES, heat_entries, raise_extremes, sample_cage
 from macroslip.measures.maps import MAPS, PER_ANGLE, spread
@@ -281,6 +282,9 @@ class ContactSampler:
                     float(sample["at"][f"{name}_{field}"]) for field in ("load", "speed", "slip")
                 )
                 if load <= 0.0 or not law.shape.microslip or law.fluid is None:
+                    continue
+                # The rule of strips is not that of an ellipse; tests compare it with a finer one.
+                if isinstance(law, PreparedStrips):
                     continue
                 state = (load, float(sample["film"][i]), ring_speed, slip)
                 span = sample["time"] - sample["since"]

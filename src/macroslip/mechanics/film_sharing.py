@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.line_approach import line_approach
 from macroslip.contact.look_up import in_plane, log_load
 
 #: Entrainment speed below which film formulas are not followed further [m/s].
@@ -42,8 +43,11 @@ def _log_film_excess(body, tables, log_q, outward, play, log_u):
     growth = inner_film * inner_slope[2] * load / inner_load
     growth += outer_film * outer_slope[2] * load / outer_load
     approach = body.compliance * root * root
+    exponent = 2.0 / 3.0
+    if body.line_stiffness > 0.0:
+        approach, exponent = line_approach(body.line_stiffness, body.profile_depth, log_q)
     space = play + approach
-    slope = growth / films - (2.0 / 3.0) * approach / space
+    slope = growth / films - exponent * approach / space
     return math.log(films / (FLOW * space)), slope
 
 
@@ -65,8 +69,8 @@ def film_balance(body, tables, play, outward, ring_speed, guess):
 
         [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
 
-    h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without
-    load turns slowly; one that grips has left its play, where q counts for little.
+    h the film of the volume flow of a roller whose surface is at rest, u = u2/2, and in place of
+    (q/K)^(2/3) the approach under q where contacts are lines. A roller without load turns slowly; one that grips has left its play, where q counts for little.
 
     Parameters
     ----------

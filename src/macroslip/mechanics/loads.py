@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from macroslip.compiled import jit_evaluation
+from macroslip.mechanics.elastic import elastic_load
 from macroslip.mechanics.film_sharing import film_load
 from macroslip.mechanics.speeds import outer_ring_speed
 from macroslip.ring.balance import radial_clearance
@@ -43,14 +43,6 @@ def elastic_approach(body, cosine, sine, now):
     radial = now.displacement_x * cosine + now.displacement_y * sine
     radial -= radial_clearance(body, cosine, sine)
     return radial * body.cos_contact_angle + now.displacement_z * body.sin_contact_angle
-
-
-@jit_evaluation
-def elastic_load(body, approach):
-    """Load Q = K δ^1.5 of both contacts in series [N] at an elastic approach [m]; 0 with play."""
-    if approach <= 0.0:
-        return 0.0
-    return body.stiffness * approach * math.sqrt(approach)
 
 
 @jit_evaluation

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -15,11 +17,13 @@ from macroslip.constants import HOUR
 from macroslip.contact.interface import highest_load, interfaces
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.registry import FILM_LAWS
+from macroslip.contact.strips import strips_of
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.lubricant import Lubricant
 from macroslip.rating import iso
 from macroslip.rating.kinds import EquivalentLoads, LoadRatings, equivalent_loads, ratings_of
+from macroslip.rating.lines import ellipse_load, line_interfaces, line_rating
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.rating.tapered import StripRating
 from macroslip.ring.motion import elastic_loads, ring_motion
@@ -27,8 +31,8 @@ from macroslip.roller.model import ring_geometry, roller_model
 
 RACEWAYS = ("inner", "outer")
 FILM_LAW = "masjedi-khonsari"
-#: How the load of a roller lies along it, for the reference life: as Hertz has it, in a tapered
-#: roller bearing by strips with profile and tilt, and evenly.
+#: How the load of a roller lies along it, for the reference life: as Hertz has it, where rollers
+#: touch along a line by strips with profile, and tilt of tapered ones, and evenly.
 DISTRIBUTIONS = ("hertz", "uniform")
 LOADS = ("radial", "axial", "equivalent")
 LOAD_CLASSES = 40
@@ -102,7 +106,8 @@ def rate(
         Slopes m for which damage-equivalent loads are given [-].
     strips : StripRating, optional
         Damage and pressures by the strips of tapered rollers: they take the place of Hertz' ellipse
-        in reference lives and largest pressures.
+        in reference lives and largest pressures. Those of cylindrical rollers that touch along a
+        line follow from their loads.
 
     Examples
     --------
@@ -114,6 +119,8 @@ def rate(
     (40.75, '2.21e+07 h')
     """
     history = _history(bearing, lubricant, loads, roller_load, contamination)
+    if strips is None and _touches_along_line(bearing):
+        strips = line_rating(bearing, history.ratings.dynamic, history.roller_load)
     history = history._replace(strips=strips)
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
              _spectra(history, wohler_exponents))  # fmt: skip
@@ -139,6 +146,11 @@ def rate(
     )
 
 
+def _touches_along_line(bearing: Bearing) -> bool:
+    """True of a cylindrical roller bearing whose rollers touch along a line."""
+    return bearing.kind == "cylindrical" and bearing.touches_along_line
+
+
 class _History(NamedTuple):
     """A bearing, its load ratings, and its loads over n samples."""
 
@@ -153,7 +165,7 @@ class _History(NamedTuple):
     radial: NDArray[np.float64]  #: Fr [N]
     axial: NDArray[np.float64]  #: Fa [N]
     equivalent: EquivalentLoads
-    strips: StripRating | None = None  #: Of tapered rollers
+    strips: StripRating | None = None  #: Of rollers that touch along a line
 
     @property
     def viscosity_ratio(self) -> float:
@@ -319,6 +331,12 @@ def _contacts(history: _History) -> dict[str, tuple]:
     """Largest roller load and pressure of each row, and the film ratio where rollers carry load."""
     bearing = history.bearing
     raceways = interfaces(bearing, history.lubricant)[: len(RACEWAYS)]
+    of_ellipse: list[Callable] = [np.asarray] * len(RACEWAYS)
+    if _touches_along_line(bearing):
+        raceways = line_interfaces(bearing, history.lubricant)
+        of_ellipse = [
+            partial(ellipse_load, *pair) for pair in zip(raceways, strips_of(bearing), strict=True)
+        ]
     load = history.roller_load
     largest = load.max(axis=(1, 2))
     pressure = np.array(
@@ -339,7 +357,8 @@ def _contacts(history: _History) -> dict[str, tuple]:
         carried = (load[row] > 0.0) & (entrainment > 0.0)
         if carried.any():
             speed = np.broadcast_to(entrainment, carried.shape)[carried]
-            ratio = film(raceways[k], load[row][carried], speed) / bearing.composite_roughness
+            pressed = of_ellipse[k](load[row][carried])
+            ratio = film(raceways[k], pressed, speed) / bearing.composite_roughness
             quantiles = np.quantile(
                 ratio, (0.05, 0.5), weights=weights[carried], method="inverted_cdf"
             )

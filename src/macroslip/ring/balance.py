@@ -5,7 +5,8 @@ The displacement d = (dX, dY, dZ) makes the elastic energy less the work of the 
     Π(d) = Σ_j (2/5) K δ_j₊^2.5 − F·d,   δ_j = n_j·d − c(φ_j) cos α,   n_j = (cos φ_j cos α, sin φ_j
     cos α, s sin α),
 
-smallest. The radial clearance is c = P_d/2 + c2 cos 2(φ − ψ) + c3 cos 3(φ − ψ), with the waves of
+smallest; with line contacts the energy of a roller is the work of `contact/line_approach.py` in place
+of (2/5) K δ^2.5. The radial clearance is c = P_d/2 + c2 cos 2(φ − ψ) + c3 cos 3(φ − ψ), with the waves of
 an outer ring out of round. Π is convex, so every minimum is global and the roller loads are unique;
 d itself is not where too few rollers are loaded to hold the ring, and then the solution nearest to
 the start is as good as any. Levenberg's damping of the Newton step deals with those singular cases
@@ -22,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
+from macroslip.contact.line_approach import line_loads
 
 #: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts
 #: as failed.
@@ -52,6 +54,9 @@ class RingGeometry(NamedTuple):
     second_y: float = 0.0
     third_x: float = 0.0
     third_y: float = 0.0
+    #: C of line contacts [N/m^(10/9)] and depth of their profile [m]; C is 0 with elliptical ones.
+    line_stiffness: float = 0.0
+    profile_depth: float = 0.0
 
 
 @jit_inline
@@ -77,18 +82,41 @@ class _Contacts(NamedTuple):
 
     normals: np.ndarray  #: n_j [-], shape (n, 3, rollers)
     play: np.ndarray  #: c(φ_j) cos α [m], shape (n, rollers)
-    stiffness: float  #: K [N/m^1.5]
+    ring: RingGeometry
 
     def rows(self, index: np.ndarray) -> _Contacts:
         """The contacts at some of the samples."""
         if index.size == len(self.play):
             return self
-        return _Contacts(self.normals[index], self.play[index], self.stiffness)
+        return _Contacts(self.normals[index], self.play[index], self.ring)
 
     def approach(self, displacement: np.ndarray) -> np.ndarray:
         """Approach δ_j₊ of every roller [m], not negative, shape (n, rollers)."""
         along = np.matmul(displacement[:, None], self.normals)[:, 0]
         return np.maximum(along - self.play, 0.0)
+
+    def forces(self, approach: np.ndarray) -> _Forces:
+        """Forces of rollers at approaches [m], not negative, shape (n, rollers)."""
+        if self.ring.line_stiffness > 0.0:
+            load, slope, work = _line_loads(self.ring, approach)
+            return _Forces(load, slope, work.sum(axis=1))
+        slope = self.ring.stiffness * np.sqrt(approach)
+        load = slope * approach
+        return _Forces(load, 1.5 * slope, 0.4 * (load * approach).sum(axis=1))
+
+
+class _Forces(NamedTuple):
+    """Forces of the rollers at n samples."""
+
+    load: np.ndarray  #: Q [N], shape (n, rollers)
+    slope: np.ndarray  #: dQ/dδ [N/m], shape (n, rollers)
+    energy: np.ndarray  #: Elastic energy of all rollers [J], shape (n,)
+
+
+def _line_loads(ring: RingGeometry, approach: np.ndarray) -> np.ndarray:
+    """Loads, slopes and work of line contacts at approaches [m], shape (3, n, rollers)."""
+    flat = np.ascontiguousarray(approach).ravel()
+    return line_loads(ring.line_stiffness, ring.profile_depth, flat).reshape(3, *approach.shape)
 
 
 class _Balance(NamedTuple):
@@ -114,17 +142,16 @@ def _contacts(ring: RingGeometry, shaft_angle: np.ndarray) -> _Contacts:
     radial = ring.cos_contact_angle
     normals = np.stack([cosine * radial, sine * radial, axial], axis=1)
     play = radial_clearance(ring, cosine, sine) * radial
-    return _Contacts(normals, play, ring.stiffness)
+    return _Contacts(normals, play, ring)
 
 
 def _evaluate(contacts: _Contacts, force: np.ndarray, displacement: np.ndarray) -> _Balance:
     """Π, its gradient and Hessian at displacements [m] under forces [N], both of shape (n, 3)."""
     approach = contacts.approach(displacement)
-    slope = contacts.stiffness * np.sqrt(approach)
-    load = slope * approach
-    energy = 0.4 * (load * approach).sum(axis=1) - (force * displacement).sum(axis=1)
-    gradient = np.matmul(contacts.normals, load[..., None])[..., 0] - force
-    weighted = contacts.normals * (1.5 * slope)[:, None]
+    forces = contacts.forces(approach)
+    energy = forces.energy - (force * displacement).sum(axis=1)
+    gradient = np.matmul(contacts.normals, forces.load[..., None])[..., 0] - force
+    weighted = contacts.normals * forces.slope[:, None]
     hessian = np.matmul(weighted, contacts.normals.transpose(0, 2, 1))
     return _Balance(energy, gradient, hessian)
 
@@ -169,6 +196,7 @@ def _push_into_contact(
     `displacement` is changed in place.
     """
     magnitude = _length(force)
+    # Only where the search begins: of line contacts the stiffness of ellipses like them serves.
     push = (magnitude / ring.stiffness) ** (2.0 / 3.0) + abs(ring.radial_play)
     is_pushed = magnitude > _tolerance(force)
     state = _evaluate(contacts, force, displacement)
@@ -316,7 +344,7 @@ def tangent_stiffness(
 ) -> np.ndarray:
     """Change of the rollers' force on the ring with its displacement, the Hessian of Π.
 
-    K = Σ_j 1.5 K_j √δ_j₊ n_j n_jᵀ over the loaded rollers; it is symmetric, and singular where they
+    K = Σ_j dQ_j/dδ_j n_j n_jᵀ, with dQ/dδ = 1.5 K √δ of elliptical contacts, over the loaded rollers; it is symmetric, and singular where they
     do not hold the ring.
 
     Parameters
@@ -359,5 +387,8 @@ def roller_loads(
     for first in range(0, shaft_angle.size, _TOGETHER):
         piece = slice(first, first + _TOGETHER)
         approach = _contacts(ring, shaft_angle[piece]).approach(displacement[piece])
-        loads[piece] = ring.stiffness * approach * np.sqrt(approach)
+        if ring.line_stiffness > 0.0:
+            loads[piece] = _line_loads(ring, approach)[0]
+        else:
+            loads[piece] = ring.stiffness * approach * np.sqrt(approach)
     return loads

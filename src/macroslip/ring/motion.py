@@ -113,6 +113,14 @@ def ring_motion(
 
 def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -> None:
     if largest > highest_load:
+        if bearing.touches_along_line:
+            raise InputError(
+                f"a roller carries {largest / 1e3:.4g} kN, with a pressure beyond all for which the "
+                "shear of oil is known",
+                where=where,
+                allowed=f"roller loads up to {highest_load / 1e3:.4g} kN for {bearing.name}",
+                remedy="Check units and signs of the loads, and the bearing's size.",
+            )
         waves = abs(bearing.out_of_round_second or 0.0) + abs(bearing.out_of_round_third or 0.0)
         shape = f"out_of_round, whose waves reach {1e6 * waves:.4g} um, " if waves else ""
         raise InputError(

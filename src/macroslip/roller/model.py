@@ -17,6 +17,7 @@ from macroslip.contact.hertz import series_stiffness
 from macroslip.contact.laws import POCKET_GAP, PreparedContact, PreparedLaws, prepare
 from macroslip.contact.look_up import PLANE, REST_SPEED, TRACTION
 from macroslip.contact.mechanisms import Laws
+from macroslip.contact.strips import strips_of
 from macroslip.contact.table import (
     Box,
     TableErrors,
@@ -65,7 +66,7 @@ WAVES = ("second_x", "second_y", "third_x", "third_y")
 _NUMBERS = (
     "radius", "mobility", "stiffness", "cos_contact_angle", "sin_contact_angle", "radial_play",
     "orbit_ratio", "outer_radius", "weight_in_plane", "weight_along_axis", "centrifugal", "drag",
-    *WAVES,
+    "line_stiffness", "profile_depth", *WAVES,
 )  # fmt: skip
 #: A roller.
 BODY = np.dtype(
@@ -105,7 +106,8 @@ class RollerModel:
     radius: float  #: r [m]
     #: r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force
     mobility: float
-    stiffness: float  #: K of inner and outer contact in series [N/m^1.5]
+    #: K of inner and outer contact in series [N/m^1.5]; with line contacts of the ellipses for them
+    stiffness: float
     #: Of the contact angle α [-]; the sine carries the row's axial sign s.
     cos_contact_angle: float
     sin_contact_angle: float
@@ -122,6 +124,9 @@ class RollerModel:
     second_y: float
     third_x: float
     third_y: float
+    #: Of line contacts, as in `macroslip.ring.balance.RingGeometry` [N/m^(10/9), m].
+    line_stiffness: float
+    profile_depth: float
     laws: PreparedLaws  #: Of the three contacts
     rib: RibNumbers | None = None  #: Of a tapered roller
 
@@ -160,6 +165,8 @@ def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
         radial_play=model.radial_play,
         stiffness=model.stiffness,
         orbit_ratio=model.orbit_ratio,
+        line_stiffness=model.line_stiffness,
+        profile_depth=model.profile_depth,
         **{name: getattr(model, name) for name in WAVES},
     )
 
@@ -217,6 +224,7 @@ def roller_model(
     second = bearing.out_of_round_second or 0.0
     third = bearing.out_of_round_third or 0.0
     crest = bearing.out_of_round_angle or 0.0
+    line_stiffness, profile_depth = _line_numbers(bearing)
     return RollerModel(
         radius=radius,
         mobility=radius**2 / geometry.spin_inertia(mass, radius),
@@ -234,9 +242,22 @@ def roller_model(
         second_y=second * math.sin(2.0 * crest),
         third_x=third * math.cos(3.0 * crest),
         third_y=third * math.sin(3.0 * crest),
+        line_stiffness=line_stiffness,
+        profile_depth=profile_depth,
         laws=prepared,
         rib=_rib_numbers(bearing) if prepared.rib else None,
     )
+
+
+def _line_numbers(bearing: Bearing) -> tuple[float, float]:
+    """C and d of the line contacts of a cylindrical roller, 0 with elliptical ones.
+
+    Of a tapered roller too: the balance of its ring finds its loads.
+    """
+    if bearing.kind != "cylindrical" or not bearing.touches_along_line:
+        return 0.0, 0.0
+    inner, _ = strips_of(bearing)
+    return inner.coefficient * inner.length, inner.depth
 
 
 def _rib_numbers(bearing: TaperedBearing) -> RibNumbers:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from macroslip.bearing import fields
+from macroslip.bearing.profile import profile_crown
 from macroslip.bearing.rollers import no_roller, overlapping
 from macroslip.bearing.tapered import geometry
 from macroslip.errors import InputError
@@ -39,6 +40,7 @@ _OF_OTHERS = (
     "diametral_clearance",
     "contact_angle",
     "roller_crown_radius",
+    "roller_profile",
 )
 
 
@@ -155,6 +157,8 @@ class TaperedBearing(Record):
     #: Of other kinds of bearings, whose geometry this one shares at the rollers' middles.
     osculation_inner: ClassVar[None] = None
     osculation_outer: ClassVar[None] = None
+    #: Rollers touch their raceways along a line, and not in an ellipse.
+    touches_along_line: ClassVar[bool] = True
     out_of_round_second: ClassVar[None] = None
     out_of_round_third: ClassVar[None] = None
     out_of_round_angle: ClassVar[None] = None
@@ -192,7 +196,7 @@ class TaperedBearing(Record):
     @property
     def roller_crown_radius(self) -> float:
         """Radius of the crown that the logarithmic profile has at the roller's middle [m]."""
-        return geometry.profile_crown(self.roller_length, self.roller_diameter)
+        return profile_crown(self.roller_length, self.roller_diameter)
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         faults = [*no_roller(self, source), *overlapping(self, source)]

@@ -21,10 +21,6 @@ if TYPE_CHECKING:
     from macroslip.bearing.tapered.bearing import TaperedBearing
 
 
-#: Depth of the profile over the roller's diameter [-], per contact.
-PROFILE_DEPTH = 0.00035
-
-
 @dataclass(frozen=True)
 class TaperedGeometry:
     """Angles, radii and lengths of a row of tapered rollers, alike in both rows.
@@ -214,32 +210,6 @@ def cone(roller_diameter: float, pitch_diameter: float, outer_angle: float) -> t
     """
     beta = half_cone_angle(roller_diameter, pitch_diameter, outer_angle)
     return beta, pitch_diameter / 2.0 / math.sin(outer_angle - beta)
-
-
-def profile_depth(roller_diameter: float) -> float:
-    """Depth d of the logarithmic profile d ln 1/(1 − (2ζ/L)²), per contact [m].
-
-    Arguments are the roller's diameter Dw [m]; its length is at most 2.5 Dw.
-
-    ISO/TS 16281:2008, section 5.4.
-
-    Examples
-    --------
-    >>> round(1e6 * profile_depth(0.062), 2)
-    21.7
-    """
-    return PROFILE_DEPTH * roller_diameter
-
-
-def profile_crown(roller_length: float, roller_diameter: float) -> float:
-    """Radius of the crown that the profile has at the roller's middle, L²/(8 d) [m].
-
-    Examples
-    --------
-    >>> round(profile_crown(0.107, 0.062), 1)
-    66.0
-    """
-    return roller_length**2 / (8.0 * profile_depth(roller_diameter))
 
 
 def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:

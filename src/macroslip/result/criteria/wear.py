@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from macroslip.bearing import geometry
 from macroslip.constants import YEAR
+from macroslip.contact.interface import ContactShape
+from macroslip.contact.laws import PreparedContact
+from macroslip.contact.strips import PreparedStrips, strip_approach
 from macroslip.damage import wear
 from macroslip.errors import InputError
 from macroslip.measures.along import STATIONS
@@ -110,17 +112,35 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
             nothing = np.zeros(along.size)
             contacts.append(wear.Pressed(0.0, nothing, 1.0, nothing, 0.0, 0.0))
             continue
-        contour = 0.5 * curved.lateral * along**2
-        half_length = law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
-        stiffness = wear.hertz_slices(load, half_length, curved.lateral)
+        contour, stiffness = _slices(law, load, along, curved.lateral)
         pressed = wear.slice_loads(contour, load, stiffness, width)
         mapped = result.surface_work.isel(raceway=i).sum("angle").values
-        slip = slip_profile(law.shape, along, pressed, mapped, skew)
+        if isinstance(law, PreparedStrips):
+            slip = _fitted_slip(0.5 * law.strips.curvature * contour, pressed, mapped, skew)
+        else:
+            slip = slip_profile(law.shape, along, pressed, mapped, skew)
         total = (pressed * slip).sum() / _SLICES
         ring = work[i].sum() / total
         roller = on_roller[i].sum() / total
         contacts.append(wear.Pressed(load, contour, stiffness, slip, ring, roller))
     return wear.grow((contacts[0], contacts[1]), width)
+
+
+def _slices(
+    law: PreparedContact, load: float, along: np.ndarray, curvature: float
+) -> tuple[np.ndarray, float]:
+    """Gap of the slices of a contact [m], and their load per length over their approach [Pa].
+
+    At a load Q > 0 [N], slices at places along the roller [m], and the lateral curvature [1/m] of
+    an elliptical contact. The law of strips is straightened at the middle of the roller.
+    """
+    if isinstance(law, PreparedStrips):
+        strips = law.strips
+        approach = float(strip_approach(strips, load))
+        slope = strips.exponent * strips.coefficient * approach ** (strips.exponent - 1.0)
+        return strips.profile(along), slope
+    half_length = law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
+    return 0.5 * curvature * along**2, wear.hertz_slices(load, half_length, curvature)
 
 
 def working_skew(row: xr.Dataset) -> float:
@@ -139,7 +159,7 @@ def working_skew(row: xr.Dataset) -> float:
 
 
 def slip_profile(
-    shape: Any, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
+    shape: ContactShape, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
 ) -> np.ndarray:
     """|v| along the roller over the ring's speed [-], with the slip of the middle that fits best.
 
@@ -164,6 +184,15 @@ def slip_profile(
         return np.ones_like(along)
     curvature = shape.curvature_ratio / (2.0 * shape.contour_radius)
     microslip = curvature * along**2 - shape.spin_ratio * along
+    return _fitted_slip(microslip, pressed, work, skew)
+
+
+def _fitted_slip(
+    microslip: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
+) -> np.ndarray:
+    """`slip_profile` of a microslip over the ring's speed [-]; a straight roller has none."""
+    if not microslip.any():
+        return np.ones_like(microslip)
     largest = np.abs(microslip[pressed > 0.0]).max()
     middle = np.linspace(-1.0, 1.0, _TRIED)[:, None] * largest
     slips = np.hypot(microslip + middle, skew)
