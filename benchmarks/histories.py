@@ -13,7 +13,7 @@ from macroslip.case.case import Case
 from macroslip.compiled import jit
 from macroslip.contact.mechanisms import Laws
 from macroslip.imposed.run import radau_limits
-from macroslip.imposed.zones import EDGE, classify, edge_time, interference_at
+from macroslip.imposed.zones import EDGE, classify, edge_time, approach_at
 from macroslip.loads import HubLoads, bundled_cases
 from macroslip.result.prepared import prepare
 from macroslip.ring.orbit import Motion
@@ -144,8 +144,8 @@ def histories_of(
 
 
 @jit
-def _interference(body, motion, start_angle, interval, time):
-    return interference_at(body, motion, start_angle, interval, time)
+def _approach(body, motion, start_angle, interval, time):
+    return approach_at(body, motion, start_angle, interval, time)
 
 
 def load_edges(roller: Roller, motion: Motion, start_angle: float) -> np.ndarray:
@@ -158,7 +158,7 @@ def load_edges(roller: Roller, motion: Motion, start_angle: float) -> np.ndarray
     found = []
     for k in np.flatnonzero(classes == EDGE):
         low, high = motion.time[k], motion.time[k + 1]
-        ends = [_interference(body, motion, start_angle, k, time) for time in (low, high)]
+        ends = [_approach(body, motion, start_angle, k, time) for time in (low, high)]
         if ends[0] * ends[1] < 0.0:
             found.append(edge_time(body, motion, start_angle, k, low, high))
     return np.array(found)
@@ -172,7 +172,7 @@ def _coast_middles(
     for low, high in itertools.pairwise(bounds):
         middle = 0.5 * (low + high)
         interval = int(np.searchsorted(motion.time, middle, side="right")) - 1
-        free = _interference(roller.body[0], motion, start_angle, interval, middle) < 0.0
+        free = _approach(roller.body[0], motion, start_angle, interval, middle) < 0.0
         if free and high - low > _SHORTEST_COAST:
             parts = int(np.ceil((high - low) / _LONGEST_STRETCH))
             found += [low + (high - low) * (part + 0.5) / parts for part in range(parts)]

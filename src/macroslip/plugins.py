@@ -77,12 +77,9 @@ writes. Check its path, which starts at the current folder.
     before = [set(kind.names()) for kind in kinds]
 
     def added() -> OwnLaws:
-        return OwnLaws(
-            *(
-                tuple(sorted(set(kind.names()) - old))
-                for kind, old in zip(kinds, before, strict=True)
-            )
-        )
+        names = [set(kind.names()) - old for kind, old in zip(kinds, before, strict=True)]
+        films, tractions = (tuple(sorted(of_kind)) for of_kind in names)
+        return OwnLaws(films, tractions)
 
     try:
         _import(path, name)

@@ -218,7 +218,7 @@ def test_names_that_are_taken_or_unknown_are_refused():
     register_film("mine", mine, reference="mended at a prompt")
     assert FILM_LAWS.named("mine").reference == "mended at a prompt"
     FILM_LAWS.remove("mine")
-    assert FILM_LAWS.names() == ["masjedi-khonsari", "masjedi-khonsari-moes", "moes"]
+    assert "mine" not in FILM_LAWS.names()
     with pytest.raises(
         InputError, match="^laws.film: 'dowson' does not exist. Allowed: .*masjedi-khonsari"
     ):

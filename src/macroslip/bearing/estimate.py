@@ -251,7 +251,8 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
     for _ in range(30):
         centre = sphere - 0.5 * diameter
         if gamma is None:
-            count = np.pi / np.arcsin(np.minimum(spacing * diameter / (2.0 * centre * cosine), 1.0))
+            half_pitch = np.minimum(spacing * diameter / (2.0 * centre * cosine), 1.0)
+            count = np.pi / np.arcsin(half_pitch)
         length = _length(rating, count, diameter, alpha, centre * cosine)
         if gamma is None:
             drop = _drop(drawn["osculation"] * sphere, length)

@@ -292,7 +292,8 @@ def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
             allowed=" or ".join(ROWS),
             remedy="Choose one of the two rows.",
         )
-    return -np.pi / 2 + 2 * np.pi * (np.arange(rollers_per_row) + _STAGGER[row]) / rollers_per_row
+    pitches = np.arange(rollers_per_row) + _STAGGER[row]
+    return -np.pi / 2 + 2 * np.pi * pitches / rollers_per_row
 
 
 def roller_mass(density: float, roller_radius: float, roller_length: float) -> float:

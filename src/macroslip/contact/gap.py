@@ -85,17 +85,22 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
 
     def flow(end: float) -> float:
         start = start_of(end)
-        return squared(end) - squared(start) - (1.0 + end * end) * (cubed(end) - cubed(start))
+        by_speed = squared(end) - squared(start)
+        by_pressure = cubed(end) - cubed(start)
+        return by_speed - (1.0 + end * end) * by_pressure
 
     end = float(brentq(flow, 0.0, 0.5, xtol=1e-15))
     start = start_of(end)
+    film = 1.0 + end * end
+
     # −∫ t dp and ∫ (1 + t²) dp, dp = 1/(1 + t²)² − (1 + t_e²)/(1 + t²)³.
-    ends = [
-        -0.5 / (1.0 + t * t) + 0.25 * (1.0 + end * end) / (1.0 + t * t) ** 2 for t in (start, end)
-    ]
-    load = -24.0 * (ends[1] - ends[0])
+    def antiderivative(t: float) -> float:
+        gap = 1.0 + t * t
+        return -0.5 / gap + 0.25 * film / gap**2
+
+    load = -24.0 * (antiderivative(end) - antiderivative(start))
     rise = math.atan(end) - math.atan(start)
-    rolling = 6.0 * math.sqrt(2.0) * (rise - (1.0 + end * end) * (squared(end) - squared(start)))
+    rolling = 6.0 * math.sqrt(2.0) * (rise - film * (squared(end) - squared(start)))
     return load / LOAD, rolling / ROLLING_AT_GAP, rise / SHEAR
 
 
@@ -174,18 +179,14 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     root = np.sqrt(np.maximum(curvature / gap, 1e-12))
     narrow = np.arctan(root) / root
     wide = np.arcsinh(root) / root
-    slices = np.stack(
-        [
-            LOAD * radius * length / gap * narrow,
-            ROLLING_AT_GAP * length * np.sqrt(radius / gap) * wide,
-            SHEAR * length * np.sqrt(2.0 * radius / gap) * wide,
-        ]
-    )
+    load = LOAD * radius * length / gap * narrow
+    rolling = ROLLING_AT_GAP * length * np.sqrt(radius / gap) * wide
+    shear = SHEAR * length * np.sqrt(2.0 * radius / gap) * wide
+    slices = np.stack([load, rolling, shear])
     correction = ratios(curvature / gap, np.sqrt(8.0 * radius * gap) / length)
     if math.isfinite(oil_gap):
-        starved = np.array(
-            [starved_martin(min(widest_inlet, float(inlet))) for inlet in oil_gap / (FLOW * gap)]
-        ).T
+        inlets = np.minimum(widest_inlet, oil_gap / (FLOW * gap))
+        starved = np.array([starved_martin(inlet) for inlet in inlets.tolist()]).T
     else:
         starved = np.array(starved_martin(widest_inlet))[:, None]
     values = np.log(slices * correction * starved).T
@@ -205,7 +206,9 @@ def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, coordinate):
     cell = np.minimum(((inside - knots[0]) * per_step).astype(int), knots.size - 2)
     t = inside - knots[cell]
     a, b, c, d = (np.ascontiguousarray(cubics[k, :, which])[cell] for k in range(4))
-    return ((a * t + b) * t + c) * t + d + (coordinate - inside) * ((3.0 * a * t + 2.0 * b) * t + c)
+    value = ((a * t + b) * t + c) * t + d
+    slope = (3.0 * a * t + 2.0 * b) * t + c
+    return value + (coordinate - inside) * slope
 
 
 def film_at_load(gap: Gap, log_group):

@@ -208,11 +208,25 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
         geometry.outer_curvatures(bearing),
         geometry.cage_curvatures(bearing),
     )
+    is_rough = laws.asperities != "none"
     contacts = []
     for interface, curved in zip(interfaces(bearing, lubricant), curvatures, strict=True):
-        cage = interface.name == "cage"
+        is_cage = interface.name == "cage"
         friction = _raceway_friction(laws, interface.name)
-        gap = GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length)
+        closed_form = None
+        if laws.is_closed_form:
+            closed_form = prepare_barus_crook(interface, heated=laws.heating)
+        rolling = prepare_rolling(
+            laws.rolling,
+            interface,
+            GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length),
+            geometry.roller_radius(bearing),
+            oil_gap=oil_gap,
+            widest_inlet=_SPAR_END if is_cage else math.inf,
+            heating=laws.inlet_heating,
+        )
+        # The film of a roller in its pocket is tens of micrometres thick: no asperity touches.
+        floats = is_cage and laws.rolling != "none"
         contacts.append(
             PreparedContact(
                 name=interface.name,
@@ -222,28 +236,16 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 oil_gap=oil_gap if laws.starvation else math.inf,
                 thermal_loading=film.thermal_loading(lubricant) if laws.inlet_heating else 0.0,
                 fluid=fluid if friction is None else None,
-                closed_form=prepare_barus_crook(interface, heated=laws.heating)
-                if laws.is_closed_form
-                else None,
+                closed_form=closed_form,
                 friction=friction,
                 # The film of the cage stays one that is sheared.
-                traction_name=MECHANISMS if cage and not is_own else laws.traction,
-                # The film of a roller in its pocket is tens of micrometres thick: no asperity
-                # touches.
-                asperity_name="none" if cage and laws.rolling != "none" else laws.asperities,
-                boundary_friction=lubricant.boundary_friction if laws.asperities != "none" else 0.0,
+                traction_name=MECHANISMS if is_cage and not is_own else laws.traction,
+                asperity_name="none" if floats else laws.asperities,
+                boundary_friction=lubricant.boundary_friction if is_rough else 0.0,
                 full_slip=asperities.FULL_SLIP,
                 effusivity=steel,
-                rolling=prepare_rolling(
-                    laws.rolling,
-                    interface,
-                    gap,
-                    geometry.roller_radius(bearing),
-                    oil_gap=oil_gap,
-                    widest_inlet=_SPAR_END if cage else math.inf,
-                    heating=laws.inlet_heating,
-                ),
-                curved=laws.asperities != "none" or sheared,
+                rolling=rolling,
+                curved=is_rough or sheared,
             )
         )
     if bearing.kind == "tapered":

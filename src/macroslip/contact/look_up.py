@@ -263,20 +263,37 @@ def traction(table, tables, load, ring_speed, slip):
     pull_by_y = load.load * third[0] * ratio_slope
     lag_by_w = heavy * second[1] * speed_slope
     lag_by_y = heavy * third[1] * ratio_slope
+    pull = sign * load.load * value[0]
+    lag = sign * heavy * value[1]
+    skew = sign * table.side * load.load * root * value[2]
+    # Where asperities have nearly nothing, splines pass a little below zero.
+    asperity_power = heavy * at.speed * max(value[3], 0.0)
+    # Derivatives by v and by u2 take the sign twice.
+    pull_by_slip = pull_by_w * at.speed_by_slip + pull_by_y * at.ratio_by_slip
+    lag_by_slip = lag_by_w * at.speed_by_slip + lag_by_y * at.ratio_by_slip
+    pull_by_speed = pull_by_w * at.speed_by_ring + pull_by_y * at.ratio_by_ring
+    lag_by_speed = lag_by_w * at.speed_by_ring + lag_by_y * at.ratio_by_ring
+    pull_by_load = sign * (value[0] + first[0] * load_slope)
+    lag_by_load = sign * root * root * ((5.0 / 3.0) * value[1] + first[1] * load_slope)
     return Traction(
-        sign * load.load * value[0],
-        sign * heavy * value[1],
-        sign * table.side * load.load * root * value[2],
-        # Where asperities have nearly nothing, splines pass a little below zero.
-        heavy * at.speed * max(value[3], 0.0),
-        # Derivatives by v and by u2 take the sign twice.
-        pull_by_w * at.speed_by_slip + pull_by_y * at.ratio_by_slip,
-        lag_by_w * at.speed_by_slip + lag_by_y * at.ratio_by_slip,
-        pull_by_w * at.speed_by_ring + pull_by_y * at.ratio_by_ring,
-        lag_by_w * at.speed_by_ring + lag_by_y * at.ratio_by_ring,
-        sign * (value[0] + first[0] * load_slope),
-        sign * root * root * ((5.0 / 3.0) * value[1] + first[1] * load_slope),
+        pull,
+        lag,
+        skew,
+        asperity_power,
+        pull_by_slip,
+        lag_by_slip,
+        pull_by_speed,
+        lag_by_speed,
+        pull_by_load,
+        lag_by_load,
     )
+
+
+@jit_inline
+def _nearest_node(axis, coordinate):
+    """Number of the node nearest to a coordinate."""
+    cell, position, _ = cell_of(axis, coordinate)
+    return cell + 1 if position > 0.5 else cell
 
 
 @jit_inline
@@ -300,7 +317,7 @@ def rising_slip(table, tables, load, speed):
         Size of the slip [m/s], > 0.
     """
     ln_load = log_load(load)
-    i, t, _ = cell_of(table.load, ln_load + table.stretch * math.exp(ln_load * (1.0 / 3.0)))
-    k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(speed)))
-    corner = (i + (1 if t > 0.5 else 0)) * (table.speed.cells + 1) + k + (1 if s > 0.5 else 0)
-    return tables[table.rising + corner] * speed
+    stretched = ln_load + table.stretch * math.exp(ln_load * (1.0 / 3.0))
+    row = _nearest_node(table.load, stretched)
+    column = _nearest_node(table.speed, math.sqrt(math.sqrt(speed)))
+    return tables[table.rising + row * (table.speed.cells + 1) + column] * speed

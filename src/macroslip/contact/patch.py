@@ -109,9 +109,9 @@ def _on_line(coefficients, cell, t):
     second = coefficients[cell + 1]
     third = coefficients[cell + 2]
     fourth = coefficients[cell + 3]
-    middle = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * second + (
-        4.0 - 6.0 * u * u + 3.0 * u * u * u
-    ) * third
+    before = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * second
+    after = (4.0 - 6.0 * u * u + 3.0 * u * u * u) * third
+    middle = before + after
     return (u * u * u * first + middle + t * t * t * fourth) * (1.0 / 6.0)
 
 

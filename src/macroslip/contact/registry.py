@@ -368,16 +368,21 @@ def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, sp
         return
     law = chosen[1]
     thin, thick = np.clip([heights.min(), heights.max()], _THINNEST, _THICKEST)
-    slips = np.concatenate([[LEAST_SLIP, 2.0 * LEAST_SLIP], np.geomspace(1e-6, 1.0, 19) * speed])
-    loads, films, slips = np.meshgrid(
-        loads[:, 0], np.geomspace(thin, thick, 5), slips, indexing="ij"
-    )
+    small = [LEAST_SLIP, 2.0 * LEAST_SLIP]
+    slips = np.concatenate([small, np.geomspace(1e-6, 1.0, 19) * speed])
+    films = np.geomspace(thin, thick, 5)
+    loads, films, slips = np.meshgrid(loads[:, 0], films, slips, indexing="ij")
     force = law(interface, loads, films, slips)
     off = np.abs(0.5 * force[..., 1] / force[..., 0] - 1.0)
     if off.max() > _PROPORTIONAL:
         i, k = np.unravel_index(off.argmax(), off.shape)
-        where = f"traction law '{law.name}', {interface.name}, load {loads[i, k, 0]:.4g} N, film {films[i, k, 0]:.4g} m"
-        ends = " and ".join(f"{force[i, k, j]:.4g} N at {slips[i, k, j]:.4g} m/s" for j in (0, 1))
+        load = loads[i, k, 0]
+        height = films[i, k, 0]
+        where = (
+            f"traction law '{law.name}', {interface.name}, load {load:.4g} N, film {height:.4g} m"
+        )
+        near, far = (f"{force[i, k, j]:.4g} N at {slips[i, k, j]:.4g} m/s" for j in (0, 1))
+        ends = f"{near} and {far}"
         raise _wrong(f"it gives {ends}", where, "a force in proportion to slip where that is small")
 
 

@@ -227,14 +227,16 @@ def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> S
     fall = spin - ring * contact.cosine
     turned = k * spin * skew
     per_xi = -(contact.sine * ring + spin * tilt)
+    lean = contact.cosine * tilt + contact.sine
+    sagitta = 0.25 * offset * shift
     return SlipLines(
-        slip - 0.25 * fall * offset * shift - k * contact.sine * ring * aside,
-        0.5 * fall * offset - k * ring * (contact.cosine * tilt + contact.sine),
-        0.5 * fall * rim,
-        -turned * (r + 0.25 * offset * shift),
-        0.5 * turned * offset + per_xi * skew * (1.0 + contact.turn),
-        0.5 * turned * rim,
-        per_xi,
+        v0=slip - fall * sagitta - k * contact.sine * ring * aside,
+        v1=0.5 * fall * offset - k * ring * lean,
+        v2=0.5 * fall * rim,
+        w0=-turned * (r + sagitta),
+        w1=0.5 * turned * offset + per_xi * skew * (1.0 + contact.turn),
+        w2=0.5 * turned * rim,
+        per_xi=per_xi,
     )
 
 
@@ -299,21 +301,24 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     part = stress * points.area / speed
     along = part * points.v
     axial = part * points.w
-    totals = (
-        ((along + axial * k * skew) * (r - points.drop) + axial * tilt * xi) / r,
-        along,
-        axial,
-        -k * along * (station + k * r * tilt) - axial * xi,
-        (1.0 / contact.roller_contour - 1.0 / r)
-        * points.area
-        * points.pressure
-        * (points.chord + turned)
-        * station,
-        stress * points.area * speed,
-        rough * points.area * speed,
-        -k * along * _distance(contact, points, tilt, shift) + axial * contact.sine * xi,
+    turning = (along + axial * k * skew) * (r - points.drop) + axial * tilt * xi
+    inclination = (1.0 / contact.roller_contour - 1.0 / r) * (points.chord + turned)
+    distance = _distance(contact, points, tilt, shift)
+
+    def total(values: np.ndarray) -> np.ndarray:
+        """Sum over the points of the contact, in the shape of the states."""
+        return values.sum(axis=(1, 2)).reshape(shape)[()]
+
+    return Resultants(
+        turning=total(turning / r),
+        pull=total(along),
+        axial=total(axial),
+        moment=total(-k * along * (station + k * r * tilt) - axial * xi),
+        pressure_moment=total(points.area * points.pressure * inclination * station),
+        power=total(stress * points.area * speed),
+        asperity_power=total(rough * points.area * speed),
+        ring_torque=total(-k * along * distance + axial * contact.sine * xi),
     )
-    return Resultants(*(values.sum(axis=(1, 2)).reshape(shape)[()] for values in totals))
 
 
 def _distance(contact: SkewedContact, points: _Points, tilt, shift) -> np.ndarray:

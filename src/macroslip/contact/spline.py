@@ -81,11 +81,12 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
     for dimension in range(dimensions):
         nodes = np.moveaxis(values, dimension, 0)
         coefficients = np.empty((len(nodes) + 2, *nodes.shape[1:]))
-        inner = coefficients[1:-1]  # that of a node stands at its place
+        inner = coefficients[1:-1]  # those of the nodes, in their order
         # Not a knot: the fourth difference of the first five coefficients vanishes, which gives the
         # second node's.
         for side in (slice(None), slice(None, None, -1)):
-            inner[side][1] = (8.0 * nodes[side][1] - nodes[side][0] - nodes[side][2]) / 6.0
+            first, second, third = nodes[side][:3]
+            inner[side][1] = (8.0 * second - first - third) / 6.0
         right = 6.0 * nodes[2:-2]
         right[0] -= inner[1]
         right[-1] -= inner[-2]

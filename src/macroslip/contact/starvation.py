@@ -102,7 +102,8 @@ def inlet_at_gap(gap, flooded_film):
     """
     spline = _inlets()
     log_ratio = np.log(gap) - np.log(flooded_film)
-    return 1.0 + np.exp(spline(np.clip(log_ratio, spline.x[0], spline.x[-1])))
+    inside = np.clip(log_ratio, spline.x[0], spline.x[-1])
+    return 1.0 + np.exp(spline(inside))
 
 
 def rigid_rolling_factor(inlet):
@@ -116,7 +117,9 @@ def rigid_rolling_factor(inlet):
     0.499
     """
     spline = _martin()
-    return np.exp(spline(np.clip(np.log(np.asarray(inlet) - 1.0), spline.x[0], spline.x[-1])))
+    coordinate = np.log(np.asarray(inlet) - 1.0)
+    inside = np.clip(coordinate, spline.x[0], spline.x[-1])
+    return np.exp(spline(inside))
 
 
 def shared_gaps(

@@ -346,7 +346,8 @@ def _grid(contact: PreparedContact, box: Box) -> _Grid:
     # film ends, and a node would spread that over its cells.
     fine = _RATIO_SPACING * box.fineness
     beyond = _NO_ENTRAINMENT - middle
-    scale = beyond / math.sinh(fine * (math.floor(math.asinh(beyond / scale) / fine) + 0.5))
+    cells_below = math.floor(math.asinh(beyond / scale) / fine)
+    scale = beyond / math.sinh(fine * (cells_below + 0.5))
     below, above = (
         math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle)
     )
@@ -522,12 +523,14 @@ def _errors(
     interpolated = _interpolated(grid, coefficients, state)
     load, speed, slip = state
     root = np.cbrt(load)
+    heavy = load * root * root
     along = speed * np.sqrt(1.0 - 0.25 * slip * slip)
-    expected = tractions(contact, load, along, speed * slip)
-    scales = (load, load * root * root, load * root, load * root * root * speed)
+    sliding = speed * slip
+    expected = tractions(contact, load, along, sliding)
+    scales = (load, heavy, load * root, heavy * speed)
     scaled = [value * scale for value, scale in zip(interpolated, scales, strict=True)]
-    spin, power = _spin_and_power(contact, along, speed * slip, expected)
-    other, other_power = _spin_and_power(contact, along, speed * slip, scaled)
+    spin, power = _spin_and_power(contact, along, sliding, expected)
+    other, other_power = _spin_and_power(contact, along, sliding, scaled)
     largest = np.abs(spin).max(axis=-1, keepdims=True)
     off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
     least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)

@@ -29,7 +29,8 @@ def share_below(
     """
     amounts = np.asarray(amounts, float)
     total = amounts.sum(axis=(-2, -1))
-    below = amounts[..., : list(edges).index(film_ratio) + 1, :].sum(axis=(-2, -1))
+    classes = list(edges).index(film_ratio) + 1
+    below = amounts[..., :classes, :].sum(axis=(-2, -1))
     with np.errstate(invalid="ignore", divide="ignore"):
         return below / total
 
@@ -46,5 +47,7 @@ def slower_share(amounts: ArrayLike, edges: Sequence[float]) -> NDArray[np.float
     0.25
     """
     amounts = np.asarray(amounts, float)
+    classes = list(edges).index(0.0) + 1
+    slower = amounts[..., :classes].sum(-1)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return amounts[..., : list(edges).index(0.0) + 1].sum(-1) / amounts.sum(-1)
+        return slower / amounts.sum(-1)

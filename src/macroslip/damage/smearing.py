@@ -33,4 +33,5 @@ def entries_beyond(largest: ArrayLike, entries: ArrayLike, limit: float) -> tupl
     [1, 3]
     """
     beyond = np.asarray(largest) > limit
-    return beyond.sum(axis=(-2, -1)), np.where(beyond, entries, 0).sum(axis=(-2, -1))
+    entries_there = np.where(beyond, entries, 0)
+    return beyond.sum(axis=(-2, -1)), entries_there.sum(axis=(-2, -1))

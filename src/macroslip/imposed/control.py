@@ -31,10 +31,8 @@ _THIRD = np.linalg.solve(
 EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
 #: Coefficients of x, x² and x³ of the cubics that are 1 at one of the nodes 0, c1, c2, 1 of a step
 #: and 0 at the others.
-_TERMS = tuple(
-    tuple(float(x) for x in row)
-    for row in np.linalg.inv(np.vander([0.0, *NODES], 4, increasing=True))[1:]
-)
+_CUBICS = np.linalg.inv(np.vander([0.0, *NODES], 4, increasing=True))
+_TERMS = tuple(tuple(row) for row in _CUBICS[1:].tolist())
 #: Most iterations of the search for a zero of such a cubic, and the change of the part of a step
 #: after which it ends.
 _ITERATIONS = 50
@@ -42,13 +40,18 @@ _CONVERGED = 1e-12
 
 
 @jit_inline
+def _combined(weights, g0, g1, g2, g3):
+    """Weighted sum of the values at the nodes of a step."""
+    return weights[0] * g0 + weights[1] * g1 + weights[2] * g2 + weights[3] * g3
+
+
+@jit_inline
 def _cubic_terms(g0, g1, g2, g3):
     """Coefficients of x, x² and x³ of the cubic through the values at the nodes of a step."""
-    return (
-        _TERMS[0][0] * g0 + _TERMS[0][1] * g1 + _TERMS[0][2] * g2 + _TERMS[0][3] * g3,
-        _TERMS[1][0] * g0 + _TERMS[1][1] * g1 + _TERMS[1][2] * g2 + _TERMS[1][3] * g3,
-        _TERMS[2][0] * g0 + _TERMS[2][1] * g1 + _TERMS[2][2] * g2 + _TERMS[2][3] * g3,
-    )
+    linear = _combined(_TERMS[0], g0, g1, g2, g3)
+    square = _combined(_TERMS[1], g0, g1, g2, g3)
+    cube = _combined(_TERMS[2], g0, g1, g2, g3)
+    return linear, square, cube
 
 
 @jit_inline

@@ -47,9 +47,11 @@ MATRIX = np.array(
 WEIGHTS = (float(MATRIX[2, 0]), float(MATRIX[2, 1]), float(MATRIX[2, 2]))
 #: Weights of Simpson's rule.
 SIMPSON = (1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0)
-A11, A12, A13, A21, A22, A23, A31, A32, A33 = (float(x) for x in np.linalg.inv(MATRIX).ravel())
+_INVERSE = np.linalg.inv(MATRIX)
+A11, A12, A13, A21, A22, A23, A31, A32, A33 = _INVERSE.ravel().tolist()
+_EIGENVALUES = np.linalg.eigvals(_INVERSE)
 #: Real eigenvalue of A⁻¹.
-EIGENVALUE = float(min(np.linalg.eigvals(np.linalg.inv(MATRIX)), key=lambda z: abs(z.imag)).real)
+EIGENVALUE = float(min(_EIGENVALUES, key=lambda z: abs(z.imag)).real)
 
 
 @jit_inline
@@ -195,8 +197,10 @@ def collocation(part, z1, z2, z3):
     b = NODES[1]
     # Newton's divided differences through (0, 0), (a, z1), (b, z2), (1, z3).
     first = z1 / a
-    second = ((z2 - z1) / (b - a) - first) / b
-    third = ((z3 - z2) / (1.0 - b) - (z2 - z1) / (b - a)) / (1.0 - a) - second
+    between = (z2 - z1) / (b - a)
+    last = (z3 - z2) / (1.0 - b)
+    second = (between - first) / b
+    third = (last - between) / (1.0 - a) - second
     increment = part * (first + (part - a) * (second + (part - b) * third))
     rate = (
         first

@@ -397,11 +397,11 @@ def integrate(path, stops, classes, work, steps):
             # Rounding has put the roller on the barrier.
             now.time = stretch.barrier
             continue
-        length = (
-            left
-            if stretch.step >= 0.95 * left
-            else (0.5 * left if stretch.step > 0.6 * left else stretch.step)
-        )
+        length = stretch.step
+        if length >= 0.95 * left:
+            length = left
+        elif length > 0.6 * left:
+            length = 0.5 * left
         if length <= 4e-16 * abs(now.time) + 1e-300:
             return STEP_TOO_SMALL, count
         held = stretch.failed == 0 and follows_loads(path, now, stretch.zone, length)

@@ -98,7 +98,7 @@ def firm_approach(body, tables, ring_speed):
 
 
 @jit_inline
-def interference_at(body, motion, start_angle, interval, time):
+def approach_at(body, motion, start_angle, interval, time):
     """Elastic approach δ of a roller at a time.
 
     Parameters
@@ -143,22 +143,23 @@ def classify(body, motion, start_angle, firm, classes):
     classes : ndarray of int8, shape (n − 1,)
         Is written: `FREE`, `EDGE` or `FIRM` by interval.
     """
-    before = interference_at(body, motion, start_angle, 0, motion.time[0])
+    before = approach_at(body, motion, start_angle, 0, motion.time[0])
     waves = 4.0 * math.hypot(body.second_x, body.second_y) + 9.0 * math.hypot(
         body.third_x, body.third_y
     )
     for k in range(motion.time.size - 1):
-        after = interference_at(body, motion, start_angle, k, motion.time[k + 1])
+        after = approach_at(body, motion, start_angle, k, motion.time[k + 1])
         near = motion.displacement[k]
         far = motion.displacement[k + 1]
         span = abs(body.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
         turn = span * max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
         quickening = span * abs(motion.shaft_speed[k + 1] - motion.shaft_speed[k])
-        reach = math.sqrt(
-            max(near[0] * near[0] + near[1] * near[1], far[0] * far[0] + far[1] * far[1])
-        )
+        near_square = near[0] * near[0] + near[1] * near[1]
+        far_square = far[0] * far[0] + far[1] * far[1]
+        reach = math.sqrt(max(near_square, far_square))
         shift = math.sqrt((far[0] - near[0]) ** 2 + (far[1] - near[1]) ** 2)
-        margin = 0.125 * ((turn * turn + quickening) * (reach + waves) + 2.0 * turn * shift) + 1e-15
+        curvature = (turn * turn + quickening) * (reach + waves) + 2.0 * turn * shift
+        margin = 0.125 * curvature + 1e-15
         classes[k] = EDGE
         if before < -margin and after < -margin:
             classes[k] = FREE
@@ -189,8 +190,8 @@ def edge_time(body, motion, start_angle, interval, start, end):
         Time [s]; `end` if the signs at both times are the same. A load that comes and goes in
         between is missed.
     """
-    first = interference_at(body, motion, start_angle, interval, start)
-    last = interference_at(body, motion, start_angle, interval, end)
+    first = approach_at(body, motion, start_angle, interval, start)
+    last = approach_at(body, motion, start_angle, interval, end)
     if first == 0.0 or first * last >= 0.0:
         return end
     low, high = start, end
@@ -198,7 +199,7 @@ def edge_time(body, motion, start_angle, interval, start, end):
         middle = 0.5 * (low + high)
         if middle <= low or middle >= high:
             break
-        if interference_at(body, motion, start_angle, interval, middle) * first > 0.0:
+        if approach_at(body, motion, start_angle, interval, middle) * first > 0.0:
             low = middle
         else:
             high = middle

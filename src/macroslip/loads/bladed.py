@@ -178,7 +178,8 @@ def _fields(path: Path) -> list[tuple[str, str]]:
         elif key in _KEYS:
             fields.append((key, value.strip()))
         elif fields:
-            fields[-1] = fields[-1][0], f"{fields[-1][1]} {line.strip()}"
+            last_key, last_value = fields[-1]
+            fields[-1] = (last_key, f"{last_value} {line.strip()}")
     return fields
 
 

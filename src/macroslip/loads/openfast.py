@@ -280,7 +280,8 @@ class Channels:
             y = self.column(rotating[0], factors)
             z = self.column(rotating[1], factors)
             azimuth = self.column(_AZIMUTH, ANGLE)
-            self.taken[-3:] = [f"{self.taken[-3]} and {self.taken[-2]} turned by {self.taken[-1]}"]
+            first, second, turned_by = self.taken[-3:]
+            self.taken[-3:] = [f"{first} and {second} turned by {turned_by}"]
             return turn_to_fixed(y, z, azimuth)
         for aliases in fixed:
             if not self.has_all((aliases,)):

@@ -328,7 +328,8 @@ def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> NDArray[np.floa
     # Without it the rear bearing alone holds the moment: M_y = −b F_Y0, M_z = b F_X0 there.
     _, rear = _without_moments(hub_loads, drivetrain)
     arm = (drivetrain.front_to_rear or 0.0) * (drivetrain.front_moment_share or 0.0)
-    return arm * np.column_stack([-rear[:, 1], rear[:, 0], np.zeros(len(rear))])
+    none = np.zeros(len(rear))
+    return arm * np.column_stack([-rear[:, 1], rear[:, 0], none])
 
 
 def _without_moments(

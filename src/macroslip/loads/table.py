@@ -378,7 +378,8 @@ def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:
     first = float(str(np.float32(time[0])))
     rate = max(1, round(1.0 / step))
     index = np.arange(time.size, dtype=float)
-    tolerance = float(np.spacing(np.float32(np.abs(time).max())))
+    largest = np.float32(np.abs(time).max())
+    tolerance = float(np.spacing(largest))
     for axis in (
         first + index / rate,
         first + index * float(f"{step:.6g}"),

@@ -174,14 +174,15 @@ def _read(path: Path, size: int, changed: int) -> WindioShaft:
         )
     where = str(path)
     uptilt = _number(data, (*_SHAPE, "uptilt"), where)
-    to_flange = _number(data, ("components", "hub", "diameter"), where)
+    hub_diameter = _number(data, ("components", "hub", "diameter"), where)
     from_flange = _number(data, (*_SHAPE, "distance_hub_mb"), where)
+    hub_to_bearing = None
+    if hub_diameter is not None and from_flange is not None:
+        hub_to_bearing = 0.5 * hub_diameter + from_flange
     return WindioShaft(
         path.name,
         tilt=None if uptilt is None else math.radians(uptilt),
-        hub_to_bearing=None
-        if to_flange is None or from_flange is None
-        else 0.5 * to_flange + from_flange,
+        hub_to_bearing=hub_to_bearing,
         front_to_rear=_number(data, (*_SHAPE, "distance_mb_mb"), where),
         front_type=str(_value(data, (*_OTHER, "mb1Type")) or ""),
         rear_type=str(_value(data, (*_OTHER, "mb2Type")) or ""),

@@ -44,9 +44,9 @@ class CageMeasures:
     def add(self, part: Part) -> None:
         """Take up a part of the integration."""
         self.books.add(part)
-        counted = (part.bearing["start"] >= self._window) & (
-            part.bearing["end"] > part.bearing["start"]
-        )
+        in_window = part.bearing["start"] >= self._window
+        has_length = part.bearing["end"] > part.bearing["start"]
+        counted = in_window & has_length
         if counted.any():
             self._add_pushes(part, counted)
             self._add_slip(part, counted)
@@ -59,9 +59,8 @@ class CageMeasures:
             push = steps["cage_load"][..., k]
             weight = steps["weight"][..., k]
             turn = whole["turn"][:, k][:, self._bearing.positions["cage"]]
-            sector = (
-                (turn + self._bearing.positions["angle"]) / (2.0 * np.pi) % 1.0 * SECTORS
-            ).astype(int) % SECTORS
+            turns = (turn + self._bearing.positions["angle"]) / (2.0 * np.pi)
+            sector = (turns % 1.0 * SECTORS).astype(int) % SECTORS
             for side, here in enumerate((push < 0.0, push > 0.0)):
                 size = np.where(here, np.abs(push), 0.0)
                 self.impulse[:, side] += (weight * size).sum(axis=0)
@@ -78,15 +77,13 @@ class CageMeasures:
         nominal = self._bearing.orbit_ratio * speed[turns] * self._bearing.pitch_radius
         for c in range(self._bearing.cages):
             slip = whole["cages"][turns, c, 0] / nominal
-            self.slip[c] += np.array(
-                [
-                    power_of_slip @ span[turns]
-                    for power_of_slip in (np.ones_like(slip), slip, slip * slip)
-                ]
-            )
+            moving = span[turns]
+            self.slip[c, 0] += np.ones_like(slip) @ moving
+            self.slip[c, 1] += slip @ moving
+            self.slip[c, 2] += (slip * slip) @ moving
 
     def _trace(self, part: Part) -> None:
-        _, rows, places = np.intersect1d(part.bearing["end"], self._times, return_indices=True)
+        _, rows, samples = np.intersect1d(part.bearing["end"], self._times, return_indices=True)
         if not rows.size:
             return
         bearing = self._bearing
@@ -96,16 +93,16 @@ class CageMeasures:
         every = np.arange(rows.size)
         speed = whole["shaft_speed"][every, last]
         cages = whole["cages"][:, : bearing.cages]
-        self.traces[places, :, 0] = (
-            cages[..., 0] + 0.5 * speed[:, None] * bearing.inner_radius
-        ) / bearing.pitch_radius
-        self.traces[places, :, 1] = cages[..., 1]
-        self.traces[places, :, 2] = cages[..., 4]
-        self.traces[places, :, 3] = cages[..., 5]
-        self.traces[places, :, 4] = whole["torque"][:, : bearing.cages]
-        self.offset[places] = part.offset[rows]
+        lead_speed = cages[..., 0] + 0.5 * speed[:, None] * bearing.inner_radius
+        self.traces[samples, :, 0] = lead_speed / bearing.pitch_radius
+        self.traces[samples, :, 1] = cages[..., 1]
+        self.traces[samples, :, 2] = cages[..., 4]
+        self.traces[samples, :, 3] = cages[..., 5]
+        self.traces[samples, :, 4] = whole["torque"][:, : bearing.cages]
+        self.offset[samples] = part.offset[rows]
         inner = steps["inner_slip"][every, :, last]
         outer = steps["outer_slip"][every, :, last]
-        ring = speed[:, None] * (bearing.positions["inner_radius"] - 0.5 * bearing.inner_radius)
-        ring -= 0.5 * speed[:, None] * bearing.positions["inner_radius"]
-        self.deviation[places] = (0.5 * (inner - outer) + ring) / bearing.pitch_radius
+        inner_radius = bearing.positions["inner_radius"]
+        ring = speed[:, None] * (inner_radius - 0.5 * bearing.inner_radius)
+        ring -= 0.5 * speed[:, None] * inner_radius
+        self.deviation[samples] = (0.5 * (inner - outer) + ring) / bearing.pitch_radius

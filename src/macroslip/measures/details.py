@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature
 from macroslip.contact.patch import fine_power, patch_power
@@ -93,6 +93,12 @@ def new_details(edges: np.ndarray) -> Details:
     return details
 
 
+@jit_inline
+def _over(part, total):
+    """A part over the total; 0 where there is none."""
+    return part / total if total > 0.0 else 0.0
+
+
 @jit
 def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry_extreme):
     """Spread the energies of samples and raise the extremes.
@@ -139,20 +145,18 @@ def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry
                         of_sector[k] = max(of_sector[k], after.density[k])
                 late = sample.mean_time[i] if before.total > 0.0 else 1.0
                 late_rough = sample.mean_time[i] if before.rough_total > 0.0 else 1.0
+            half_span = 0.5 * span
+            work_after = after.work_total if load > 0.0 else 0.0
             spent = (
-                (1.0 - late) * sample.energy[i] / before.total if before.total > 0.0 else 0.0,
-                late * sample.energy[i] / after.total if late > 0.0 and after.total > 0.0 else 0.0,
-                (1.0 - late_rough) * sample.rough[i] / before.rough_total
-                if before.rough_total > 0.0
-                else 0.0,
-                late_rough * sample.rough[i] / after.rough_total
-                if late_rough > 0.0 and after.rough_total > 0.0
-                else 0.0,
-                0.5 * span,
-                0.5 * span if load > 0.0 else 0.0,
+                _over((1.0 - late) * sample.energy[i], before.total),
+                _over(late * sample.energy[i], after.total),
+                _over((1.0 - late_rough) * sample.rough[i], before.rough_total),
+                _over(late_rough * sample.rough[i], after.rough_total),
+                half_span,
+                half_span if load > 0.0 else 0.0,
             )
             spread(maps, i, (start, end), sample.mean_time[i], spent, before, after)
-            work = 0.5 * span * (before.work_total + (after.work_total if load > 0.0 else 0.0))
+            work = half_span * (before.work_total + work_after)
             maps.working_load[i, 0] += work * load
             maps.working_load[i, 1] += work
             if load > 0.0:

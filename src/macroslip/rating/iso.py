@@ -355,7 +355,8 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
                 continue
             reach = semi_axis * carried ** (1.0 / 3.0)
             end = min(0.5 * roller_length / reach, 1.0)
-            scale = carried * count * REDUCTION / (rating * (1.5 * end - 0.5 * end * end * end))
+            covered = 1.5 * end - 0.5 * end * end * end
+            scale = carried * count * REDUCTION / (rating * covered)
             before = 0.0
             for i in range(count):
                 end_of_lamina = min((i + 1) * lamina / reach, 1.0)

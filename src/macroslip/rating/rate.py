@@ -381,22 +381,21 @@ def _contacts(history: _History) -> dict[str, tuple]:
 
 def _class_edges(history: _History) -> NDArray[np.float64]:
     reach = [history.radial, history.axial, history.equivalent.dynamic]
-    low, high = min(load.min() for load in reach), max(load.max() for load in reach)
+    low = min(load.min() for load in reach)
+    high = max(load.max() for load in reach)
     return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
 
 
 def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple]:
     edges = _class_edges(history)
-    by_name = dict(
-        zip(LOADS, (history.radial, history.axial, history.equivalent.dynamic), strict=True)
-    )
-    times = [load_duration(load, history.duration, edges) for load in by_name.values()]
-    turns = [load_duration(load, history.revolutions, edges) for load in by_name.values()]
+    # In the order of `LOADS`.
+    loads = (history.radial, history.axial, history.equivalent.dynamic)
+    times = [load_duration(load, history.duration, edges) for load in loads]
+    turns = [load_duration(load, history.revolutions, edges) for load in loads]
     total = history.duration.sum()
-    ranges = [
-        [damage_equivalent_load(load, total, exponent) for exponent in exponents]
-        for load in by_name.values()
-    ]
+    ranges = []
+    for load in loads:
+        ranges.append([damage_equivalent_load(load, total, exponent) for exponent in exponents])
     about = "range of the damage-equivalent load at 1 Hz"
     return {
         "time_share": _variable(

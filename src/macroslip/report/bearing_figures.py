@@ -464,7 +464,9 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
 def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
     """Residuals of a whole bearing's balances over time, over all that has passed through."""
     impulse = float(abs(result.book_inner_impulse).max()) or 1.0
-    spent = float(abs(result.book_raceway_loss[-1])) + float(abs(result.pocket_loss[-1])) or 1.0
+    raceway_loss = float(abs(result.book_raceway_loss[-1]))
+    pocket_loss = float(abs(result.pocket_loss[-1]))
+    spent = raceway_loss + pocket_loss or 1.0
     for values, label, style in (
         (result.momentum_residual / impulse, "angular momentum", {"color": BLUE, "linestyle": "-"}),
         (result.energy_residual / spent, "energy", {"color": ORANGE, "linestyle": "--"}),

@@ -44,7 +44,8 @@ def quantise(values: NDArray, low: float, high: float) -> bytes:
     [np.uint16(0), np.uint16(32767), np.uint16(65534), np.uint16(65535)]
     """
     span = high - low or 1.0
-    codes = np.round((np.clip(np.nan_to_num(values, nan=low), low, high) - low) / span * _TOP)
+    inside = np.clip(np.nan_to_num(values, nan=low), low, high)
+    codes = np.round((inside - low) / span * _TOP)
     codes = np.where(values > low, np.maximum(codes, 1), codes)
     return np.where(np.isnan(values), MISSING, codes).astype("<u2").tobytes()
 
@@ -58,9 +59,8 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
 
     time = scene.time.values
     quantities = []
-    power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(
-        axis=(0, 1)
-    )
+    powers = scene.power.transpose("row", "roller", "time").values
+    power = np.nan_to_num(powers, nan=-1.0).max(axis=(0, 1))
     for name, heading, unit, factor, logarithmic in QUANTITIES:
         if name not in scene:
             continue

@@ -114,8 +114,9 @@ def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
     plot_direction(axes[2], loads)
     plot_spectrum(axes[3], loads)
     plot_empty_row(axes[4], time, carried, float(np.mean(carried <= 0.0)))
-    radial = np.sort(np.hypot(loads.force[:, 0], loads.force[:, 1]))[::-1] / 1e3
-    axes[5].plot(np.linspace(0.0, 100.0, radial.size), radial, color=BLUE, linewidth=1.2)
+    radial = np.hypot(loads.force[:, 0], loads.force[:, 1]) / 1e3
+    exceeded = np.sort(radial)[::-1]
+    axes[5].plot(np.linspace(0.0, 100.0, exceeded.size), exceeded, color=BLUE, linewidth=1.2)
     finish(axes[5], "share of time [%]", "radial load exceeded [kN]", "load duration")
     figure.suptitle(loads.source, fontsize=10, x=0.01, ha="left")
     return figure

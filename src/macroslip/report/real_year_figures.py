@@ -65,17 +65,26 @@ def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
 
     Takes `macroslip.study.real_year.RealYear.table` of one design.
     """
-    shown = table[table["quantity"].isin(_SUMS) & (table["fixed"] > 0.0) & table["real"].notna()]
-    places = np.arange(len(shown))
+    is_known = (table["fixed"] > 0.0) & table["real"].notna()
+    shown = table[table["quantity"].isin(_SUMS) & is_known]
+    positions = np.arange(len(shown))
     fixed = shown["fixed"].to_numpy()
     real = shown["real"].to_numpy() / fixed
-    ends = np.stack([shown["oil_cooler"].to_numpy(), shown["oil_warmer"].to_numpy()]) / fixed
-    off = np.abs(np.stack([real - ends.min(axis=0), ends.max(axis=0) - real]))
+    cooler = shown["oil_cooler"].to_numpy() / fixed
+    warmer = shown["oil_warmer"].to_numpy() / fixed
+    down = np.abs(real - np.minimum(cooler, warmer))
+    up = np.abs(np.maximum(cooler, warmer) - real)
     axes.errorbar(
-        places, real, yerr=off, fmt="o", color=BLUE, capsize=4, label="real, oil 5 K off the sensor"
+        positions,
+        real,
+        yerr=np.stack([down, up]),
+        fmt="o",
+        color=BLUE,
+        capsize=4,
+        label="real, oil 5 K off the sensor",
     )
     axes.plot(
-        places + 0.15,
+        positions + 0.15,
         shown["at_mean"].to_numpy() / fixed,
         linestyle="none",
         marker="s",
@@ -84,7 +93,7 @@ def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
     )
     axes.axhline(1.0, color=GREY, linewidth=0.8)
     names = [str(name).replace("_", "\n") for name in shown["quantity"]]
-    axes.set_xticks(places, names)
+    axes.set_xticks(positions, names)
     axes.set_xlim(-0.5, len(shown) - 0.5)
     log_ticks(axes)
     return finish(axes, "", "over a year at 35 °C")

@@ -51,7 +51,14 @@ def _of_row(row: xr.Dataset) -> dict[str, Any]:
     energy = row.energy.sum("interface", skipna=False)
     by_interface = row.energy.mean("roller", skipna=False)
     total = _known(energy.mean(skipna=False))
+    interface = ""
+    share = None
+    if total:
+        interface = str(by_interface.idxmax().item())
+        share = 100.0 * float(by_interface.max()) / total
     peaks = row.get("peak_power", unknown)
+    largest_peaks = row.get("window_peak_power", peaks)
+    spin_ratios = row.get("min_spin_ratio", unknown)
     outside = 100.0 * row.get("outside_film_range", unknown)
     at_raceways = outside.sel(interface=outside.interface.isin(["inner", "outer"]))
     return {
@@ -59,11 +66,11 @@ def _of_row(row: xr.Dataset) -> dict[str, Any]:
         "energy": total,
         "least": _known(energy.min()),
         "most": _known(energy.max()),
-        "interface": str(by_interface.idxmax().item()) if total else "",
-        "share": 100.0 * float(by_interface.max()) / total if total else None,
-        "peak": _known(row.get("window_peak_power", peaks).max()),
+        "interface": interface,
+        "share": share,
+        "peak": _known(largest_peaks.max()),
         "typical": _known(peaks.max("interface").median()),
-        "spin": _known(row.get("min_spin_ratio", unknown).min()),
+        "spin": _known(spin_ratios.min()),
         "outside": _known(at_raceways.mean("roller").max()),
         "outside_most": _known(outside.max()),
         "failed": int((row.status != 0).sum()),
@@ -102,10 +109,12 @@ def estimated_values(result: xr.Dataset) -> tuple[int, int]:
 
 def rollers_failed(results: Iterable[xr.Dataset]) -> tuple[int, int]:
     """Number of rollers of some datasets that failed, and of all rollers."""
-    statuses = [result.status for result in results]
-    return sum(int((status != 0).sum()) for status in statuses), sum(
-        int(status.size) for status in statuses
-    )
+    failed = 0
+    count = 0
+    for result in results:
+        failed += int((result.status != 0).sum())
+        count += int(result.status.size)
+    return failed, count
 
 
 def failures(name: str, result: xr.Dataset) -> list[dict[str, Any]]:

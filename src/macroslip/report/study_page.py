@@ -432,9 +432,10 @@ def _extreme_pictures(
             design if is_one_case else f"{name}, {design}"
             for name, design in zip(names, designs_of_runs, strict=True)
         ]
+    known = [name for name in _EXTREMES if bool(study[name].notnull().any())]
     return [
         picture(_plot_extremes, f"By run: {_EXTREMES[name]}", study[name], names, **OPENING)
-        for name in [name for name in _EXTREMES if bool(study[name].notnull().any())][:most]
+        for name in known[:most]
     ]
 
 

@@ -14,6 +14,7 @@ momentum and energy are closed.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -231,17 +232,22 @@ def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
     return {"axial_travel": np.array(travelled), "thrust_reversals": np.array(reversals)}
 
 
+def _each(table: Table, number: Callable[[Any], Any]) -> np.ndarray:
+    """A number or an array of every roller, over (row, roller, ...)."""
+    return np.array([[number(roller) for roller in line] for line in table])
+
+
 def _traces(table: Table) -> dict[str, np.ndarray]:
-    traces = [[roller.measures.traces() for roller in line] for line in table]
-    return {
-        name: np.array([[traces_of_roller[name] for traces_of_roller in line] for line in traces])
-        for name in traces[0][0]
-    }
+    rollers = [[roller.measures.traces() for roller in line] for line in table]
+    stacked = {}
+    for name in rollers[0][0]:
+        stacked[name] = np.array([[traces[name] for traces in line] for line in rollers])
+    return stacked
 
 
 def _peaks_by_position(table: Table) -> np.ndarray:
     """Largest power of all rollers over row, interface and position on the orbit [W]."""
-    sectors = np.array([[roller.measures.sector_power for roller in line] for line in table])
+    sectors = _each(table, lambda roller: roller.measures.sector_power)
     sectors[_failed(table)] = np.nan
     return np.swapaxes(sectors.max(axis=1), 1, 2)
 
@@ -282,29 +288,25 @@ def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict
 
 
 def _failed(table: Table) -> np.ndarray:
-    return np.array(
-        [[roller.outcome.status != Status.COMPLETED for roller in line] for line in table]
-    )
+    return _each(table, lambda roller: roller.outcome.status != Status.COMPLETED)
 
 
 def _gathered(table: Table, name: str, of: str = "totals") -> np.ndarray:
     """One array of the totals or details over (row, roller, ...); NaN for rollers that failed."""
-    values = np.array(
-        [[getattr(getattr(roller.measures, of), name) for roller in line] for line in table],
-        dtype=float,
-    )
+    values = _each(table, lambda roller: getattr(getattr(roller.measures, of), name))
+    values = values.astype(float)
     values[_failed(table)] = np.nan
     return values
 
 
 def _window_values(table: Table) -> dict[str, Any]:
     def outcome(name: str) -> np.ndarray:
-        return np.array([[getattr(roller.outcome, name) for roller in line] for line in table])
+        return _each(table, lambda roller: getattr(roller.outcome, name))
 
     peaks = _gathered(table, "peak_power")
-    times = np.array([[roller.measures.law_times for roller in line] for line in table])
-    loads = np.array([[roller.measures.totals.film_load for roller in line] for line in table])
-    ratio = np.array([[spin_ratio(roller.measures.totals) for roller in line] for line in table])
+    times = _each(table, lambda roller: roller.measures.law_times)
+    loads = _each(table, lambda roller: roller.measures.totals.film_load)
+    ratio = _each(table, lambda roller: spin_ratio(roller.measures.totals))
     failed = _failed(table)
     for values in (ratio, times, loads):
         values[failed] = np.nan
@@ -323,7 +325,7 @@ def _window_values(table: Table) -> dict[str, Any]:
         **{name: outcome(field) for name, field in _COUNTS.items()},
         "unbalanced_force": outcome("unbalanced"),
         "end_time": outcome("time"),
-        "end_slip": np.array([[roller.measures.end_slip for roller in line] for line in table]),
+        "end_slip": _each(table, lambda roller: roller.measures.end_slip),
     }
 
 
@@ -337,21 +339,20 @@ def _contact_details(table: Table) -> dict[str, np.ndarray]:
     fine, off = np.moveaxis(quadrature, -1, 0)
     with np.errstate(invalid="ignore", divide="ignore"):
         error = np.where(fine > 0.0, off / fine, np.nan)
+    details = [[roller.measures.details for roller in line] for line in table]
     return {
         "station_energy": _gathered(table, "station_energy", "details"),
         **dict(zip(ORBIT_EXTREMES, np.moveaxis(extreme, -1, 0), strict=True)),
         "entries": _gathered(table, "entries", "details"),
         **dict(zip(ENTRY_EXTREMES, np.moveaxis(entry, -1, 0), strict=True)),
         "quadrature_error": error,
-        **surface_maps.values(
-            [[roller.measures.details for roller in line] for line in table], _failed(table)
-        ),
+        **surface_maps.values(details, _failed(table)),
     }
 
 
 def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
-    places = (np.arange(SECTORS) + 0.5) * (2.0 * np.pi / SECTORS)
-    return "position", places, described("rad", "place on the orbit, from +X0")
+    middles = (np.arange(SECTORS) + 0.5) * (2.0 * np.pi / SECTORS)
+    return "position", middles, described("rad", "place on the orbit, from +X0")
 
 
 def roller_coordinates(

@@ -112,7 +112,8 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
         here = sector[r, good[r]].ravel()
         passed = np.bincount(here, np.tile(way, rollers), sectors)
         for i in range(result.sizes["interface"]):
-            total = np.bincount(here, (power[r, good[r], :, i] * seconds).ravel(), sectors)
+            energy = power[r, good[r], :, i] * seconds
+            total = np.bincount(here, energy.ravel(), sectors)
             per_way = np.divide(total, passed, out=np.zeros(sectors), where=passed > 0.0)
             shape = per_way / max(per_way.sum(), np.finfo(float).tiny)
             values[r, i] = shape * total.sum() / (rollers * orbits * 360.0 / sectors)
@@ -140,7 +141,8 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
     dims = _middles(sectors)
     values = np.empty((result.sizes["row"], angle.sizes["time"], sectors))
     for r, k in np.ndindex(*values.shape[:2]):
-        values[r, k] = np.interp(dims[1], angle.values[r, :, k], load[r, :, k], period=360.0)
+        known = angle.values[r, :, k]
+        values[r, k] = np.interp(dims[1], known, load[r, :, k], period=360.0)
     labels = {"row": result.row, "time": angle.time, "angle": dims}
     about = {"units": "N", "long_name": "load of the rollers"}
     return xr.DataArray(values, labels, ("row", "time", "angle"), "roller_load", about)
@@ -176,7 +178,8 @@ def over_orbit(
         order = np.argsort(sector, kind="stable")
         ends = np.searchsorted(sector[order], np.arange(sectors + 1))
         for i, k in np.ndindex(quantile_values.shape[1], sectors):
-            here = values.values[r, ..., i].ravel()[order[ends[k] : ends[k + 1]]]
+            in_sector = order[ends[k] : ends[k + 1]]
+            here = values.values[r, ..., i].ravel()[in_sector]
             here = here[np.isfinite(here)]
             if here.size:
                 quantile_values[r, i, :, k] = np.quantile(here, quantiles)
@@ -258,13 +261,14 @@ def scene(
     """
     angle = position(result)
     turned = np.degrees(travelled(result))
-    every = slice(
-        None, None, max(1, round(step / float(np.median(np.diff(result.time.values)))))
-    )  # two samples at least
+    interval = float(np.median(np.diff(result.time.values)))  # two samples at least
+    every = slice(None, None, max(1, round(step / interval)))
     power = result.power.sum("interface", skipna=False).isel(time=every).transpose(*_ORDER)
     window = np.isin(power.time.values, in_window(result).time.values)
-    total = np.where(window, np.nan_to_num(power.values, nan=-1.0).max(axis=(0, 1)), -1.0)
-    first = int(np.clip(int(np.argmax(total)) - samples // 2, 0, max(0, total.size - samples)))
+    largest = np.nan_to_num(power.values, nan=-1.0).max(axis=(0, 1))
+    total = np.where(window, largest, -1.0)
+    middle = int(np.argmax(total))
+    first = min(max(middle - samples // 2, 0), max(0, total.size - samples))
     part = slice(first, first + samples)
     thin = result.isel(time=every).isel(time=part)
     values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}

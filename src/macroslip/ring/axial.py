@@ -30,7 +30,8 @@ def travel_rate(time: np.ndarray, position: np.ndarray, start: float, end: float
     0.0004
     """
     inside = _within(time, position, start, end)
-    return _hourly(float(np.abs(np.diff(inside)).sum()), start, end)
+    travelled = float(np.abs(np.diff(inside)).sum())
+    return _hourly(travelled, start, end)
 
 
 def reversal_rate(
@@ -65,7 +66,8 @@ def reversal_rate(
     """
     inside = _within(time, force, start, end)
     signs = np.sign(inside[np.abs(inside) > dead_band])
-    return _hourly(float(np.count_nonzero(np.diff(signs))), start, end)
+    reversals = np.count_nonzero(np.diff(signs))
+    return _hourly(float(reversals), start, end)
 
 
 def _within(time: np.ndarray, values: np.ndarray, start: float, end: float) -> np.ndarray:

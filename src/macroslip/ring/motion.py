@@ -172,11 +172,12 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
     """
     count = ring.cosine.size // 2
     full = 2.0 * math.pi
-    known = loads.approach(ring.stiffness, max(ring.radial_play, 0.0) * ring.cos_contact_angle)
-    before = np.clip(
-        np.searchsorted(loads.time, motion.time, side="right") - 1, 0, loads.time.size - 2
-    )
-    share = (motion.time - loads.time[before]) / (loads.time[before + 1] - loads.time[before])
+    play = max(ring.radial_play, 0.0) * ring.cos_contact_angle
+    known = loads.approach(ring.stiffness, play)
+    last_before = np.searchsorted(loads.time, motion.time, side="right") - 1
+    before = np.clip(last_before, 0, loads.time.size - 2)
+    span = loads.time[before + 1] - loads.time[before]
+    share = (motion.time - loads.time[before]) / span
     start = np.arctan2(ring.sine, ring.cosine)
     approach = np.empty((motion.time.size, 2 * count))
     for k, (line, at, part) in enumerate(zip(approach, before, share, strict=True)):
@@ -197,7 +198,8 @@ def finely_sampled(
     """Time and shaft speed of the same piecewise linear loads, sampled finely for the balance."""
     part = _SAMPLED_GIVEN if isinstance(loads, RollerLoads) else _SAMPLED_PITCH
     path = np.diff(travel(loads.time, loads.shaft_speed, orbit_ratio))
-    pieces = np.ceil(path / (part * 2.0 * np.pi / rollers_per_row) * (1.0 - 1e-9)).astype(int)
+    longest = part * 2.0 * np.pi / rollers_per_row
+    pieces = np.ceil(path / longest * (1.0 - 1e-9)).astype(int)
     if pieces.max() <= 1:
         # Copies: the loads are read-only, which would be another type to the compiler and compile
         # everything twice.

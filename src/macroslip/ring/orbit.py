@@ -96,13 +96,11 @@ def instant(motion, interval, time):
     rise = motion.shaft_speed[interval + 1] - speed
     near = motion.displacement[interval]
     far = motion.displacement[interval + 1]
-    return Instant(
-        speed + rise * share,
-        motion.shaft_angle[interval] + (speed + 0.5 * rise * share) * since,
-        near[0] + (far[0] - near[0]) * share,
-        near[1] + (far[1] - near[1]) * share,
-        near[2] + (far[2] - near[2]) * share,
-    )
+    angle = motion.shaft_angle[interval] + (speed + 0.5 * rise * share) * since
+    x = near[0] + (far[0] - near[0]) * share
+    y = near[1] + (far[1] - near[1]) * share
+    z = near[2] + (far[2] - near[2]) * share
+    return Instant(speed + rise * share, angle, x, y, z)
 
 
 def merged_times(times: np.ndarray, anchors: np.ndarray) -> np.ndarray:
@@ -128,9 +126,10 @@ def merged_times(times: np.ndarray, anchors: np.ndarray) -> np.ndarray:
     >>> merged_times(np.array([0.1 + 0.2, 0.5]), np.array([0.0, 0.3, 0.6])).tolist()
     [0.3, 0.5]
     """
-    after = np.clip(np.searchsorted(anchors, times), 1, max(anchors.size - 1, 1))
+    last = anchors.size - 1
+    after = np.clip(np.searchsorted(anchors, times), 1, max(last, 1))
     below = anchors[after - 1]
-    above = anchors[np.minimum(after, anchors.size - 1)]
+    above = anchors[np.minimum(after, last)]
     nearest = np.where(times - below <= above - times, below, above)
     rounding = TIME_ROUNDING * max(abs(anchors[0]), abs(anchors[-1]))
     return np.where(np.abs(times - nearest) <= rounding, nearest, times)
@@ -145,12 +144,13 @@ def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
     >>> angle_at(motion, np.array([0.0, 1.0, 2.0])).tolist()
     [0.0, 1.5, 4.0]
     """
-    k = np.clip(np.searchsorted(motion.time, time, side="right") - 1, 0, motion.time.size - 2)
+    before = np.searchsorted(motion.time, time, side="right") - 1
+    k = np.clip(before, 0, motion.time.size - 2)
     since = time - motion.time[k]
-    rise = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
-        motion.time[k + 1] - motion.time[k]
-    )
-    return motion.shaft_angle[k] + (motion.shaft_speed[k] + 0.5 * rise * since) * since
+    speed = motion.shaft_speed[k]
+    acceleration = (motion.shaft_speed[k + 1] - speed) / (motion.time[k + 1] - motion.time[k])
+    mean_speed = speed + 0.5 * acceleration * since
+    return motion.shaft_angle[k] + mean_speed * since
 
 
 def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
@@ -170,7 +170,8 @@ def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.
     straight = 0.5 * np.abs(near + far) * span
     with np.errstate(invalid="ignore", divide="ignore"):
         turning = 0.5 * (near**2 + far**2) / np.abs(far - near) * span
-    return np.concatenate([[0.0], np.cumsum(np.where(near * far < 0.0, turning, straight))])
+    ways = np.where(near * far < 0.0, turning, straight)
+    return np.concatenate([[0.0], np.cumsum(ways)])
 
 
 def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
@@ -185,16 +186,20 @@ def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -
     """
     speed = shaft_speed * orbit_ratio
     turns = np.flatnonzero(speed[:-1] * speed[1:] < 0.0)
-    zeros = time[turns] + np.diff(time)[turns] * speed[turns] / (speed[turns] - speed[turns + 1])
+    fall = speed[turns] - speed[turns + 1]
+    zeros = time[turns] + np.diff(time)[turns] * speed[turns] / fall
     # Between these times the speed has one sign and goes straight.
     time = np.insert(time, turns + 1, zeros)
     speed = np.insert(np.abs(speed), turns + 1, 0.0)
     path = travel(time, speed, 1.0)
     # Rounding of the sum may take a little from the last orbit of a whole number; it is given back.
-    count = math.floor(path[-1] / (2.0 * math.pi) * (1.0 + 4e-16 * (time.size + 10)))
+    rounding = 4e-16 * (time.size + 10)
+    count = math.floor(path[-1] / (2.0 * math.pi) * (1.0 + rounding))
     targets = np.minimum(2.0 * math.pi * np.arange(1, count + 1), path[-1])
     k = np.searchsorted(path, targets, side="left") - 1
     since = targets - path[k]
-    rise = (speed[k + 1] - speed[k]) / (time[k + 1] - time[k])
-    root = np.sqrt(np.maximum(speed[k] ** 2 + 2.0 * rise * since, 0.0))
-    return np.minimum(time[k] + 2.0 * since / (speed[k] + root), time[k + 1])
+    acceleration = (speed[k + 1] - speed[k]) / (time[k + 1] - time[k])
+    square = speed[k] ** 2 + 2.0 * acceleration * since
+    speed_there = np.sqrt(np.maximum(square, 0.0))
+    mean_speed = 0.5 * (speed[k] + speed_there)
+    return np.minimum(time[k] + since / mean_speed, time[k + 1])

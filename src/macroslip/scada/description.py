@@ -151,9 +151,10 @@ class PeriodForm(Form):
             if not isinstance(day, str | datetime.date):
                 raise self.wrong(value)
             try:
-                days.append(pd.Timestamp(str(day)).tz_localize("UTC").normalize())
+                timestamp = pd.Timestamp(str(day)).tz_localize("UTC")
             except (ValueError, TypeError):
                 raise self.wrong(value) from None
+            days.append(timestamp.normalize())
         if days[1] < days[0]:
             raise self.wrong(value, "Write the earlier day first.")
         return Period(days[0], days[1] + pd.Timedelta(days=1))

@@ -203,8 +203,8 @@ def _time(columns: dict[str, str], values: pd.DataFrame) -> list[str]:
     texts = values["time"].astype("string")
     has_offset = bool(texts.str.contains(r"(?:Z|[+-]\d\d:?\d\d)\s*$", regex=True).all())
     dates, form = _dates(texts.drop_duplicates())
-    steps = np.diff(np.unique(dates.dropna())).astype("timedelta64[s]").astype(float)
-    minutes = float(np.median(steps)) / 60.0 if steps.size else 10.0
+    steps = np.diff(np.unique(dates.dropna())).astype("timedelta64[s]")
+    minutes = float(np.median(steps.astype(float))) / 60.0 if steps.size else 10.0
     zone = "" if has_offset else ", zone: UTC"
     lines = [] if has_offset else ["# The times tell no offset: is the clock in UTC?"]
     section = f"column: {_quoted(columns['time'])}{zone}{form}, stamp: start, step: {minutes:g} min"

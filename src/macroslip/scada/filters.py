@@ -137,7 +137,9 @@ def run_lengths(values: np.ndarray, counted: np.ndarray, breaks: np.ndarray) -> 
     """
     counted = counted & np.isfinite(values)
     begins = np.ones(values.size, dtype=bool)
-    begins[1:] = (values[1:] != values[:-1]) | breaks[1:] | ~counted[1:] | ~counted[:-1]
+    changes = values[1:] != values[:-1]
+    is_left_out = ~counted[1:] | ~counted[:-1]
+    begins[1:] = changes | breaks[1:] | is_left_out
     number = np.cumsum(begins) - 1
     return np.where(counted, np.bincount(number)[number], 0)
 
@@ -153,7 +155,8 @@ def jumps(values: Quantities, time: np.ndarray, step: float) -> np.ndarray:
     for name, limit in _JUMPS.items():
         if name in values:
             allowed = limit * max(step / _TEN_MINUTES, 1.0)
-            is_jump[1:] |= (np.abs(np.diff(values[name])) > allowed + _ROUNDING) & ~after_gap
+            is_large = np.abs(np.diff(values[name])) > allowed + _ROUNDING
+            is_jump[1:] |= is_large & ~after_gap
     return is_jump
 
 

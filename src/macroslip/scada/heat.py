@@ -255,9 +255,9 @@ def _change_of_halves(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
     second = chosen & np.asarray(start >= middle)
     if not (first.any() and second.any()):
         return ()
-    change = (fit.left[second].sum() / fit.heat[second].sum()) / (
-        fit.left[first].sum() / fit.heat[first].sum()
-    ) - 1.0
+    index_before = fit.left[first].sum() / fit.heat[first].sum()
+    index_after = fit.left[second].sum() / fit.heat[second].sum()
+    change = index_after / index_before - 1.0
     if abs(change) <= MOST_CHANGE:
         return ()
     return (

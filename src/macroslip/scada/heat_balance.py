@@ -115,9 +115,14 @@ def fit_heat(balance: Balance, model: HeatModel, reference: NDArray[np.bool_]) -
     sources = 1 + len(model.sources)
     heat = fitted[:, :sources].sum(axis=1)
     left = target - fitted[:, sources:].sum(axis=1)
-    residual = float(np.sqrt(np.mean((left - heat)[reference] ** 2)))
+    missed = (left - heat)[reference]
     return HeatFit(
-        model, {name: float(value) for name, value in values.items()}, errors, residual, heat, left
+        model=model,
+        values={name: float(value) for name, value in values.items()},
+        errors=errors,
+        residual=float(np.sqrt(np.mean(missed**2))),
+        heat=heat,
+        left=left,
     )
 
 
@@ -156,10 +161,12 @@ def _bootstrap(
     counts = np.stack([np.bincount(row, minlength=number) for row in drawn]).astype(float)
     left = np.einsum("sb,bij->sij", counts, squares)
     right = counts @ products
-    # A sample may lack what tells two constants apart.
-    return np.stack(
-        [np.linalg.lstsq(a, b, rcond=None)[0] for a, b in zip(left, right, strict=True)]
-    )
+    solutions = []
+    for matrix, vector in zip(left, right, strict=True):
+        # By least squares, since two constants may be the same in a sample.
+        solution, *_ = np.linalg.lstsq(matrix, vector, rcond=None)
+        solutions.append(solution)
+    return np.stack(solutions)
 
 
 def _half_width(values: NDArray[np.float64]) -> float:

@@ -249,12 +249,13 @@ def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) 
     sorted_out["jump"] = kept & data["jump"].to_numpy()
     table = list(fates)
     for fate, rows in sorted_out.items():
-        table += [(str(m), fate, int(n)) for m, n in pd.Series(months[rows]).value_counts().items()]
+        counts = pd.Series(months[rows]).value_counts()
+        table += [(str(month), fate, int(count)) for month, count in counts.items()]
     steps = pd.date_range(data.index[0], data.index[-1], freq=pd.Timedelta(seconds=step))
     expected = pd.Series(steps.strftime("%Y-%m")).value_counts()
     present = pd.Series(months).value_counts()
     absent = expected.sub(present, fill_value=0).clip(lower=0)
-    table += [(str(m), "absent", int(n)) for m, n in absent.items() if n > 0]
+    table += [(str(month), "absent", int(count)) for month, count in absent.items() if count > 0]
     frame = pd.DataFrame(table, columns=["month", "filter", "rows"])
     frame["filter"] = pd.Categorical(frame["filter"], FATES, ordered=True)
     return frame.sort_values(["month", "filter"], ignore_index=True)

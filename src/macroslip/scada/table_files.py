@@ -114,7 +114,10 @@ def clean(name: object) -> str:
     >>> clean("# Date and time "), clean(None)
     ('Date and time', '')
     """
-    return "" if name is None else str(name).lstrip("\ufeff").strip().removeprefix("#").strip()
+    if name is None:
+        return ""
+    text = str(name).lstrip("\ufeff").strip()
+    return text.removeprefix("#").strip()
 
 
 @dataclass(frozen=True)

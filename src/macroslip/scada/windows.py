@@ -90,7 +90,8 @@ def unbroken_windows(
     usable = np.asarray(usable, dtype=bool)
     steps = round(LENGTH / step)
     later = np.diff(time.as_unit("ns").asi8) / 1e9
-    follows = (np.abs(later - step) < 0.5 * step) & ~np.asarray(jump, dtype=bool)[1:]
+    is_next = np.abs(later - step) < 0.5 * step
+    follows = is_next & ~np.asarray(jump, dtype=bool)[1:]
     joined = np.r_[False, follows & usable[1:] & usable[:-1]]
     stretch = np.cumsum(~joined)
     # Number of a row within its stretch.

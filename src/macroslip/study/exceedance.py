@@ -155,7 +155,9 @@ def load_spectrum(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
         study.load_cycles.isel(case=case).values / lengths[case]
         for case in range(study.sizes["case"])
     )
-    cycles = years * YEAR * weighted(bins.means(rates)[0], bins.probabilities(aggregation.weights))
+    mean_rates, _, _ = bins.means(rates)
+    probabilities = bins.probabilities(aggregation.weights)
+    cycles = years * YEAR * weighted(mean_rates, probabilities)
     kept = _span(np.nan_to_num(cycles).any(axis=(0, 1)))
     about = described("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(
@@ -167,5 +169,7 @@ def load_spectrum(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
 
 
 def _span(some: np.ndarray) -> slice:
-    places = np.flatnonzero(some)
-    return slice(max(int(places[0]) - 1, 0), int(places[-1]) + 2) if places.size else slice(0, 1)
+    indices = np.flatnonzero(some).tolist()
+    if not indices:
+        return slice(0, 1)
+    return slice(max(indices[0] - 1, 0), indices[-1] + 2)

@@ -132,10 +132,15 @@ class Pattern:
             for path in start.glob("/".join(names))
             if path.is_file()
         )
-        read = [(name, self.fields_of(name)) for name in paths]
-        return [(name, fields) for name, fields in read if fields is not None], [
-            name for name, fields in read if fields is None
-        ]
+        fitting = []
+        others = []
+        for name in paths:
+            fields = self.fields_of(name)
+            if fields is None:
+                others.append(name)
+            else:
+                fitting.append((name, fields))
+        return fitting, others
 
 
 def load_list(

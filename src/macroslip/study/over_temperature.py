@@ -20,6 +20,7 @@ from scipy.optimize import brentq
 
 from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
+from macroslip.result.criteria import YEARLY
 from macroslip.study.temperature_shares import TemperatureShares
 from macroslip.study.weights import LossOfHeat, Weighting, bin_numbers, binned, stored_weighting
 
@@ -39,10 +40,18 @@ _SHARE_OUTSIDE = 1e-3
 _OF_A_RUN = ("case", "run", "key", "outcome", "reason", LABEL)
 _LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
 #: Beginnings of the names of what grows by factors.
-_BY_FACTORS = ("energy_", "orbit_energy_", "peak_power_", "friction_power", "contact_torque")
-_BY_FACTORS += ("pressure_slip_rate", "wear_rate", *_LIVES)
+_BY_FACTORS = (
+    "energy_",
+    "orbit_energy_",
+    "peak_power_",
+    "friction_power",
+    "contact_torque",
+    *_LIVES,
+)
+_BY_FACTORS += tuple(yearly.run_name for yearly in YEARLY if yearly.by_factors)
 #: Extremes of a run: that of any temperature which occurs counts.
-_LARGEST = ("peak_power_max", "orbit_energy_max", "largest_entry_slip", "largest_pressure")
+_LARGEST = ("peak_power_max", "orbit_energy_max", "largest_pressure")
+_LARGEST += tuple(yearly.run_name for yearly in YEARLY if yearly.drawn == "largest")
 _LEAST = ("lowest_spin_ratio", "static_safety", "least_film_ratio")
 
 

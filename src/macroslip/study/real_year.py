@@ -12,7 +12,7 @@ import xarray as xr
 
 from macroslip.constants import HOURS_A_YEAR, YEAR, ZERO_CELSIUS
 from macroslip.errors import InputError
-from macroslip.result.criteria import CRITERIA
+from macroslip.result.criteria import CRITERIA, YEARLY
 from macroslip.scada.bins import JointShares
 from macroslip.scada.reader import Scada
 from macroslip.study.aggregation import Aggregation
@@ -36,8 +36,8 @@ FIXED = ZERO_CELSIUS + 35.0
 OFFSET = 5.0
 #: Least length of a record that stands for a year [h].
 _SHORT = 30.0 * 24.0
-#: Number of a run behind a number of a design whose scatter between seeds is known.
-_RATES = {"wear": "wear_rate", "entries": "entry_rate", "pressure_slip": "pressure_slip_rate"}
+#: Rate of a run behind a number of a design, whose scatter between seeds is computed.
+_RATES = {yearly.name: yearly.run_name for yearly in YEARLY if yearly.drawn != "largest"}
 
 
 @dataclass(frozen=True)

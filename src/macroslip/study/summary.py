@@ -103,7 +103,8 @@ CASE_VARIABLES = {
 #: Units of all columns of numbers; names of columns by row end in the row.
 NUMBERS = {
     f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in AXIAL_SIGNS
-} | {name: units for name, (units, _) in CASE_VARIABLES.items()}
+}
+NUMBERS |= {name: units for name, (units, _) in CASE_VARIABLES.items()}
 
 
 def rows_with_numbers(runs: pd.DataFrame) -> tuple[str, ...]:
@@ -241,12 +242,13 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     >>> float(found.load_cycles.sum()), f"{float(found.load_range[most]):.3g} N"
     (10.0, '9.17e+04 N')
     """
-    counts = [
-        np.histogram(
-            rainflow_ranges(series) if np.ptp(series) >= RANGE_EDGES[0] else [], RANGE_EDGES
-        )[0].astype(float)
-        for series in (np.hypot(loads.force[:, 0], loads.force[:, 1]), loads.force[:, 2])
-    ]
+    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
+    axial = loads.force[:, 2]
+    counts = []
+    for series in (radial, axial):
+        ranges = rainflow_ranges(series) if np.ptp(series) >= RANGE_EDGES[0] else []
+        in_class, _ = np.histogram(ranges, RANGE_EDGES)
+        counts.append(in_class.astype(float))
     middle = np.sqrt(RANGE_EDGES[1:] * RANGE_EDGES[:-1])
     about = {"units": "N", "long_name": "range of the cycle, middle of its class"}
     return xr.Dataset(

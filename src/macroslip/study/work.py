@@ -42,7 +42,8 @@ class StoreError(MacroslipError):
 
 def program() -> str:
     """Hash of the program's sources and of registered laws of the user's own."""
-    return hashlib.sha256("\0".join([fingerprint(), *own_laws()]).encode()).hexdigest()
+    sources = [fingerprint(), *own_laws()]
+    return hashlib.sha256("\0".join(sources).encode()).hexdigest()
 
 
 def case_key(case: Case, options: Mapping[str, Any]) -> str:

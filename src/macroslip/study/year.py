@@ -113,12 +113,14 @@ def _energies(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, 
     energy = _in_a_year(mean, share)
     total = energy.sum(axis=1)
     several = (runs > 1)[:, :, None]
+    weight = share[:, None]
     with np.errstate(invalid="ignore", divide="ignore"):
         # Variance of a mean of n runs: s²/n, with s² = n/(n − 1) (<P²> − <P>²).
         variance = np.maximum(square - mean**2, 0.0) / (runs - 1.0)[:, :, None]
-        of_total = np.where(several, (YEAR * share[:, None]) ** 2 * variance, 0.0).sum(axis=1)
-        scatter = np.sqrt(of_total) / total
-    scatter[~np.any(several & (share[:, None] > 0.0), axis=1)[:, 0]] = np.nan
+        of_bins = np.where(several, (YEAR * weight) ** 2 * variance, 0.0)
+        scatter = np.sqrt(of_bins.sum(axis=1)) / total
+    has_scatter = np.any(several & (weight > 0.0), axis=1)[:, 0]
+    scatter[~has_scatter] = np.nan
     cells = ("group", "bin")
     about_hour = described("J", "energy of a mean roller in an hour of it")
     about_energy = described("J", "energy of a mean roller in a year")
@@ -145,8 +147,9 @@ def _criteria(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, 
             data[name] = (dims, largest, described(units, about))
     for name, (variable, units, about) in SUMS.items():
         if variable in study:
-            rates = bins.means(_by_row(study, variable))[0]
-            data[name] = (dims, _in_a_year(rates, share), described(units, f"{about}: in a year"))
+            rates, _, _ = bins.means(_by_row(study, variable))
+            sums = _in_a_year(rates, share)
+            data[name] = (dims, sums, described(units, f"{about}: in a year"))
     return data
 
 
@@ -155,16 +158,18 @@ def _lives(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any
     data: dict[str, Any] = {}
     for name in LIVES:
         if name in study:
+            about = f"{name.replace('_', ' ')}, by Palmgren and Miner"
             with np.errstate(divide="ignore"):
-                damage = weighted(bins.means(1.0 / study[name].values)[0], share)
-                about = f"{name.replace('_', ' ')}, by Palmgren and Miner"
-                data[name] = ("group", 1.0 / damage, described("h", about))
+                damage_rates, _, _ = bins.means(1.0 / study[name].values)
+                life = 1.0 / weighted(damage_rates, share)
+            data[name] = ("group", life, described("h", about))
     for exponent in EXPONENTS:
         name = f"damage_equivalent_load_{exponent}"
         if name in study:
-            raised = weighted(bins.means(study[name].values ** exponent)[0], share)
             about = f"range of the damage-equivalent radial load at 1 Hz, exponent {exponent}"
-            data[name] = ("group", raised ** (1.0 / exponent), described("N", about))
+            powers, _, _ = bins.means(study[name].values ** exponent)
+            load = weighted(powers, share) ** (1.0 / exponent)
+            data[name] = ("group", load, described("N", about))
     return data
 
 
@@ -204,9 +209,9 @@ def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
                     f"Entries leave out {hours:.3g} h a year in which no orbit is complete."
                 )
                 values = values.where(~unknown, 0.0)
-        whole = values.sum("bin", skipna=False)
-        rows = whole.sum("row", skipna=False) if drawn == "sum" else whole.max("row", skipna=False)
-        table[name] = rows.values / mean_over.get(name, 1.0)
+        by_row = values.sum("bin", skipna=False)
+        over_rows = by_row.sum if drawn == "sum" else by_row.max
+        table[name] = over_rows("row", skipna=False).values / mean_over.get(name, 1.0)
     for name in LIVES:
         if name in annual and bool(annual[name].notnull().any()):
             table[name] = annual[name].values
@@ -217,7 +222,9 @@ def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
         )
     if left_out := int(annual.left_out.sum()):
         notes.append(f"{left_out} runs without a result are left out.")
-    return table.sort_values("energy", kind="stable") if "energy" in table else table, notes
+    if "energy" in table:
+        table = table.sort_values("energy", kind="stable")
+    return table, notes
 
 
 def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str]:
@@ -248,9 +255,9 @@ def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[s
                 continue
             head = "" if name in CHOICES else f"{str(name).rpartition('.')[2].replace('_', ' ')} "
             parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
-    return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [
-        ""
-    ] * dataset.sizes["group"]
+    if not parts:
+        return [""] * dataset.sizes["group"]
+    return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)]
 
 
 def _follows_model(dataset: xr.Dataset | xr.DataArray, texts: list[str]) -> bool:

@@ -35,8 +35,7 @@ class Yearly:
     of_run: Callable[[xr.Dataset, xr.Dataset], xr.DataArray | None]
     name: str  #: Name in a year
     #: `sum`: run numbers are rates that a year adds up, of both rows; `max`: the same, of the worse
-    #: row; `largest`: the
-    #: largest of any run and row counts.
+    #: row; `largest`: the largest of any run and row counts.
     drawn: str
     year_unit: str  #: Of the number of a wind speed or event
     year_meaning: str
@@ -44,6 +43,9 @@ class Yearly:
     meaning: str
     #: The sum of a design is given over the covered time and this; None: as it is.
     mean_over: float | None = None
+    #: True if the number grows by factors over the temperature of the oil, so that its logarithm is
+    #: interpolated.
+    by_factors: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

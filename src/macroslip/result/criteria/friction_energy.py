@@ -72,6 +72,7 @@ CRITERIA = (
                 unit="1",
                 meaning="e_a over the FE8 test",
                 mean_over=REFERENCE_POWER,
+                by_factors=True,
             ),
         ),
     ),

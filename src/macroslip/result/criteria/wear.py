@@ -260,6 +260,7 @@ CRITERIA = (
                 year_meaning="depth of wear at k = 1e-17 m2/N, at most",
                 unit="m/year",
                 meaning="wear at k = 1e-17 m²/N, deepest place",
+                by_factors=True,
             ),
         ),
     ),
