@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant, Traces, simulate
 from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.contact.table import table_box
-from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces
+from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces
 from macroslip.roller.model import roller_model, with_tables
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
@@ -38,7 +38,7 @@ def exponents() -> None:
     """Power of both raceways of a gripped roller over its load, without the oil beside the ellipse."""
     box = table_box(np.array([RING]), 100e3, 2e-5)
     roller = with_tables({"downwind": _MODEL}, box)[0]["downwind"]
-    at, forces, found = np.zeros(1, STATION), np.zeros(1, FORCES), np.zeros(3)
+    at, forces, found = np.zeros(1, CONDITIONS), np.zeros(1, FORCES), np.zeros(3)
     at["ring_speed"] = RING
 
     def raceways(load: float, slip: float) -> float:

@@ -13,7 +13,7 @@ from benchmarks.quadrature import patch_by_quadrature
 from benchmarks.scan import timed
 from macroslip.compiled import jit
 from macroslip.contact.closed_form import patch_integral
-from macroslip.mechanics.spin import FORCES, STATION, slip_forces, station
+from macroslip.mechanics.spin import CONDITIONS, FORCES, slip_forces, write_conditions
 from macroslip.ring.orbit import instant, interval_of
 
 #: States taken from each history, at equal intervals of time; how often they are gone through and timed.
@@ -23,7 +23,7 @@ _GRIPPED, _COASTING = 1e-6, 1e-3
 
 
 class States(NamedTuple):
-    """Stations, an array of `STATION`, and slips [m/s], met by one roller."""
+    """Conditions, an array of `CONDITIONS`, and slips [m/s], met by one roller."""
 
     stations: np.ndarray
     slips: np.ndarray
@@ -39,7 +39,7 @@ def _stations_again(body, tables, motion, start_angle, times, found, rounds):
     for r in range(rounds):
         for k in range(times.size):
             interval = interval_of(motion, times[k], interval)
-            station(
+            write_conditions(
                 body, tables, start_angle + 1e-9 * r, instant(motion, interval, times[k]), found[k]
             )
 
@@ -86,7 +86,7 @@ def visited(history: History, tolerance: float) -> States:
     """States of the history at equal intervals of time."""
     times = np.linspace(history.start, history.end, _STATES + 1)[1:]
     _, measures = own.integrate(history, tolerance, times)
-    stations = np.zeros(times.size, STATION)
+    stations = np.zeros(times.size, CONDITIONS)
     _stations_again(*_arguments(history), history.motion, history.start_angle, times, stations, 1)
     return States(stations, measures.traces()["slip"])
 

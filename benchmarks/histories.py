@@ -13,7 +13,7 @@ from macroslip.case.case import Case
 from macroslip.compiled import jit
 from macroslip.contact.mechanisms import Laws
 from macroslip.imposed.run import radau_limits
-from macroslip.imposed.zones import EDGE, classify, edge_time, approach_at
+from macroslip.imposed.zones import EDGE, approach_at, classify, edge_time
 from macroslip.loads import HubLoads, bundled_cases
 from macroslip.result.prepared import prepare
 from macroslip.ring.orbit import Motion

@@ -12,7 +12,14 @@ import numpy as np
 
 from benchmarks.histories import History
 from macroslip.compiled import jit, jit_inline
-from macroslip.mechanics.spin import FORCES, STATION, net_force, powers, slip_forces, station
+from macroslip.mechanics.spin import (
+    CONDITIONS,
+    FORCES,
+    net_force,
+    powers,
+    slip_forces,
+    write_conditions,
+)
 from macroslip.ring.orbit import Motion, instant, interval_of
 from macroslip.roller.model import BODY
 
@@ -21,7 +28,7 @@ from macroslip.roller.model import BODY
 WORK = np.dtype(
     [
         ("samples", "i8"), ("interval", "i8"), ("evaluations", "i8"), ("energy_unit", "f8"), ("start_angle", "f8"),
-        ("body", BODY), ("at", STATION), ("forces", FORCES), ("power", "f8", (3,)),
+        ("body", BODY), ("at", CONDITIONS), ("forces", FORCES), ("power", "f8", (3,)),
     ]
 )  # fmt: skip
 _SIZE = WORK.itemsize // 8
@@ -59,13 +66,13 @@ def _motion(d, samples):
 
 @jit_inline
 def _evaluate(time, slip, d, work):
-    """Write station and forces; returns du2/dt [m/s²]."""
+    """Write conditions and forces; returns du2/dt [m/s²]."""
     motion, body = _motion(d, work.samples), work.body
     k = interval_of(motion, time, work.interval)
     work.interval = k
     work.evaluations += 1
     tables = d[_SIZE + 6 * work.samples :]
-    station(body, tables, work.start_angle, instant(motion, k, time), work.at)
+    write_conditions(body, tables, work.start_angle, instant(motion, k, time), work.at)
     slip_forces(body, tables, work.at, slip, work.forces)
     acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
         motion.time[k + 1] - motion.time[k]

@@ -15,7 +15,7 @@ from macroslip.imposed.solve import integrate
 from macroslip.imposed.state import LIMITS, WORK, Path
 from macroslip.imposed.status import UNDER_WAY
 from macroslip.imposed.zones import classify
-from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces, station
+from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces, write_conditions
 from macroslip.ring.orbit import Instant, Motion, shaft_angle
 from macroslip.roller.model import Roller, RollerModel, roller_model, with_tables
 from macroslip.roller.step import STAGES, STEP
@@ -48,16 +48,16 @@ def rollers(
 
 def station_of(roller: Roller, angle: float, now: Instant) -> np.void:
     """A place on the orbit [rad] and an instant."""
-    found = np.zeros(1, STATION)
-    station(roller.body[0], roller.tables, angle, now, found[0])
+    found = np.zeros(1, CONDITIONS)
+    write_conditions(roller.body[0], roller.tables, angle, now, found[0])
     return found[0]
 
 
 def a_station(
     load: float, extra_outer: float = 0.0, tangential: float = -25.0, ring_speed: float = RING_SPEED
 ):
-    """A station made up [N], [m/s]."""
-    found = np.zeros(1, STATION)
+    """Conditions made up [N], [m/s]."""
+    found = np.zeros(1, CONDITIONS)
     found["ring_speed"] = ring_speed
     found["approach"] = 1e-5
     found["elastic_load"] = load
@@ -72,7 +72,7 @@ def a_station(
 
 
 def forces_of(roller: Roller, at: np.void, slip: float) -> np.void:
-    """Forces at a station and a slip [m/s]."""
+    """Forces under conditions and a slip [m/s]."""
     found = np.zeros(1, FORCES)
     slip_forces(roller.body[0], roller.tables, at, float(slip), found[0])
     return found[0]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.right_hand_side import evaluations, jacobian, pack, rates
-from macroslip.mechanics.spin import FORCES, STATION, slip_forces, station
+from macroslip.mechanics.spin import CONDITIONS, FORCES, slip_forces, write_conditions
 from macroslip.ring.orbit import instant
 
 
@@ -24,9 +24,9 @@ def rate_at(time, slip, data):
 
 def met(history, time):
     """Station of the roller at a time [s] within the interval of its sample."""
-    motion, found = history.motion, np.zeros(1, STATION)
+    motion, found = history.motion, np.zeros(1, CONDITIONS)
     k = int(np.searchsorted(motion.time, time, side="right")) - 1
-    station(
+    write_conditions(
         history.roller.body[0],
         history.roller.tables,
         history.start_angle,

@@ -9,7 +9,7 @@ from benchmarks import own
 from benchmarks.histories import load_edges
 from benchmarks.outcome import errors
 from benchmarks.quiet import silence
-from macroslip.mechanics.spin import STATION, station
+from macroslip.mechanics.spin import CONDITIONS, write_conditions
 from macroslip.ring.orbit import instant
 
 TIGHT = {
@@ -50,9 +50,11 @@ def test_load_edges_are_where_load_begins_and_ends(histories):
     assert edges.size > 0
 
     def load(time):
-        interval, found = int((history.motion.time <= time).sum()) - 1, np.zeros(1, STATION)
+        interval, found = int((history.motion.time <= time).sum()) - 1, np.zeros(1, CONDITIONS)
         now = instant(history.motion, interval, time)
-        station(history.roller.body[0], history.roller.tables, history.start_angle, now, found[0])
+        write_conditions(
+            history.roller.body[0], history.roller.tables, history.start_angle, now, found[0]
+        )
         return float(found["elastic_load"][0])
 
     for edge in edges:

@@ -12,7 +12,7 @@ from macroslip.compiled import jit
 from macroslip.contact.rib import rib_contact, rib_state
 from macroslip.contact.strips import PreparedStrips, strip_approach
 from macroslip.contact.table import table_box
-from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces
+from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces
 from macroslip.roller.model import roller_model, with_tables
 from macroslip.roller.step import STEP, write_stage
 
@@ -74,7 +74,7 @@ def test_slope_of_all_forces_by_slip(made):
 
 
 def station(load):
-    at = np.zeros(1, STATION)
+    at = np.zeros(1, CONDITIONS)
     at["ring_speed"] = RING_SPEED
     at["approach"] = 1e-5
     for name in ("elastic_load", "inner_load", "outer_load"):

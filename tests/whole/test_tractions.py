@@ -15,8 +15,8 @@ from macroslip.contact.table import table_box
 from macroslip.whole.model import whole_bearing, with_tables
 from macroslip.whole.stage import FIRST, ROLLER, SCHEDULE
 from macroslip.whole.tractions import (
+    CONDITIONS,
     LINEARISATION,
-    MOMENT,
     cage_from,
     evaluate_marked,
     new_linearisations,
@@ -43,18 +43,18 @@ def assembly(request, bearing, lubricant):
 def linearisations_at(assembly, load, speed, slip):
     """The linearised tractions of a roller whose both raceways are at this load [N], ring speed and slip [m/s]."""
     count = assembly.positions.size
-    moments, (linearisations, _), schedules = (
-        np.zeros((2, count), MOMENT),
+    conditions, (linearisations, _), schedules = (
+        np.zeros((2, count), CONDITIONS),
         new_linearisations(count),
         np.zeros(count, SCHEDULE),
     )
     for name in ("inner", "outer"):
-        moments[f"{name}_load"], moments[f"{name}_speed"] = load, speed
+        conditions[f"{name}_load"], conditions[f"{name}_speed"] = load, speed
     schedules["marked"] = True
     rollers = np.zeros(count, ROLLER)
     rollers["y"][:, FIRST] = slip
     assert (
-        evaluate_marked(assembly, 0.0, moments[0], rollers, FIRST, schedules, linearisations[0])
+        evaluate_marked(assembly, 0.0, conditions[0], rollers, FIRST, schedules, linearisations[0])
         == 2 * count
     )
     return linearisations[0, 0]

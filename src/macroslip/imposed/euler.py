@@ -16,7 +16,7 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.imposed import tuning
 from macroslip.imposed.state import STATE, SUMS, evaluate, frame, locate, start_at, write_point
 from macroslip.imposed.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE, UNDER_WAY
-from macroslip.mechanics.spin import FORCES, STATION, net_force
+from macroslip.mechanics.spin import CONDITIONS, FORCES, net_force
 from macroslip.ring.orbit import interval_of
 from macroslip.roller.step import write_stage
 
@@ -41,7 +41,7 @@ RULE = np.dtype(
 FIXED_WORK = np.dtype(
     [
         ("now", STATE),
-        ("end", STATION),  # at the end of the step
+        ("end", CONDITIONS),  # at the end of the step
         ("forces", FORCES),  # there, at a spin that is tried
         ("spin", "f8"),  # ω relative to the orbiting frame [rad/s]
         ("sums", SUMS),
@@ -70,7 +70,7 @@ def backward_euler_step(path, work, step, tolerance):
     ----------
     path : macroslip.imposed.state.Path
     work : record of `FIXED_WORK`
-        State before the step, and the station at its end.
+        State before the step, and the conditions at its end.
     step : float
         Length of the step, > 0 [s].
     tolerance : float

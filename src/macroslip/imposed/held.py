@@ -160,7 +160,7 @@ def solve_held(path, now, attempt, before, sums):
 
 @jit_inline
 def held_slip(microslip, slip, at, later, exponent):
-    """First guess of the slip of a firmly held roller at a later station.
+    """First guess of the slip of a firmly held roller under later conditions.
 
     With microslip the middle slips so that the two sides of the lines of pure rolling balance: in
     proportion to speed, and to a power of the load that `held_exponent` measures.
@@ -171,7 +171,7 @@ def held_slip(microslip, slip, at, later, exponent):
         Whether the contacts have microslip; the guess is the slip now without.
     slip : float
         Slip now [m/s].
-    at, later : record of `macroslip.mechanics.spin.STATION`
+    at, later : record of `macroslip.mechanics.spin.CONDITIONS`
         Stations now and later.
     exponent : float
         Power of the elastic load that slip follows [-].
@@ -179,7 +179,7 @@ def held_slip(microslip, slip, at, later, exponent):
     Returns
     -------
     float
-        Slip at the later station [m/s]; that of now where load or speed give no ratio, or where
+        Slip under the later conditions [m/s]; that of now where load or speed give no ratio, or where
         speed grows by more than `MOST_QUICKENING`.
     """
     if not microslip or at.elastic_load <= 0.0 or at.ring_speed == 0.0 or later.elastic_load <= 0.0:
@@ -199,7 +199,7 @@ def held_exponent(at, slip, later, later_slip, exponent):
 
     Parameters
     ----------
-    at, later : record of `macroslip.mechanics.spin.STATION`
+    at, later : record of `macroslip.mechanics.spin.CONDITIONS`
         Stations before and after the change.
     slip, later_slip : float
         Slips at these stations [m/s].

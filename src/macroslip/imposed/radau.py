@@ -212,7 +212,7 @@ def collocation(part, z1, z2, z3):
 
 @jit_inline
 def sample_between(path, now, attempt, part, sample):
-    """Write station, slip and the rate of its increment at a part of a step that was solved.
+    """Write conditions, slip and the rate of its increment at a part of a step that was solved.
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def sample_between(path, now, attempt, part, sample):
     part : float
         Part of the step, 0 to 1 [-].
     sample : record of `macroslip.imposed.state.SAMPLE`
-        Its station, slip and rate are written.
+        Its conditions, slip and rate are written.
     """
     time = now.time + part * attempt.length
     sample.at.film_balance = attempt.at[1].film_balance

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
-from macroslip.mechanics.spin import FORCES, STATION, powers, slip_forces, station
+from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces, write_conditions
 from macroslip.ring.orbit import instant
 from macroslip.roller.step import write_stage
 
@@ -55,7 +55,7 @@ STATE = np.dtype(
         ("time", "f8"),  # [s]
         ("interval", "i8"),  # index of the sample interval that holds it
         ("slip", "f8"),  # Δu [m/s]
-        ("at", STATION),
+        ("at", CONDITIONS),
         ("forces", FORCES),
         ("powers", "f8", (3,)),  # frictional powers of the interfaces [W]
     ]
@@ -70,7 +70,7 @@ ATTEMPT = np.dtype(
         ("held", "i8"),
         ("times", "f8", (3,)),  # of its stages [s]
         ("weights", "f8", (3,)),  # of its stages, as parts of the step [-]
-        ("at", STATION, (3,)),  # at its stages
+        ("at", CONDITIONS, (3,)),  # at its stages
         ("slip", "f8", (3,)),  # at its stages [m/s]
         # Increments of slip by forces, s = v − v0 − (u2 − u2_0) [m/s].
         ("increment", "f8", (3,)),
@@ -85,7 +85,7 @@ ATTEMPT = np.dtype(
 #: A sample between the stages of a step.
 SAMPLE = np.dtype(
     [
-        ("at", STATION),
+        ("at", CONDITIONS),
         ("slip", "f8"),  # [m/s]
         ("rate", "f8"),  # derivative of the increment of slip by the part of the step [m/s]
         ("forces", FORCES),
@@ -145,7 +145,7 @@ WORK = np.dtype(
 
 @jit_inline
 def locate(path, time, interval, at):
-    """Write the station of the roller at a time.
+    """Write the conditions of the roller at a time.
 
     Parameters
     ----------
@@ -154,20 +154,22 @@ def locate(path, time, interval, at):
         [s]
     interval : int
         Index of the sample interval that holds the time.
-    at : record of `macroslip.mechanics.spin.STATION`
+    at : record of `macroslip.mechanics.spin.CONDITIONS`
         Is written; its film load is where the search for the new one begins.
     """
-    station(path.body, path.tables, path.start_angle, instant(path.motion, interval, time), at)
+    write_conditions(
+        path.body, path.tables, path.start_angle, instant(path.motion, interval, time), at
+    )
 
 
 @jit_inline
 def evaluate(path, at, slip, forces):
-    """Write the forces on the roller at a station and a slip.
+    """Write the forces on the roller under conditions and a slip.
 
     Parameters
     ----------
     path : Path
-    at : record of `macroslip.mechanics.spin.STATION`
+    at : record of `macroslip.mechanics.spin.CONDITIONS`
     slip : float
         Δu at both raceways [m/s].
     forces : record of `macroslip.mechanics.spin.FORCES`
@@ -178,7 +180,7 @@ def evaluate(path, at, slip, forces):
 
 @jit_inline
 def start_at(path, now, sums):
-    """Write station, forces and powers of the roller at its time and slip; count the evaluation."""
+    """Write conditions, forces and powers of the roller at its time and slip; count the evaluation."""
     locate(path, now.time, now.interval, now.at)
     evaluate(path, now.at, now.slip, now.forces)
     powers(path.body, now.at, now.forces, now.slip, now.powers[:])

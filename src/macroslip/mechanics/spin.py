@@ -18,8 +18,8 @@ from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
 from macroslip.mechanics.rib import NO_RIB_FORCES, rib_forces
 from macroslip.mechanics.speeds import outer_ring_speed, surface_speed
 
-#: Loads and speeds of a roller at one place and time, whatever its spin.
-STATION = np.dtype(
+#: Conditions of a roller at one position and time, whatever its spin: loads and speeds.
+CONDITIONS = np.dtype(
     [
         # Speed of both raceway surfaces past the roller's centre (28)-(30):
         # u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s].
@@ -80,8 +80,8 @@ FORCES = np.dtype(
 
 
 @jit
-def station(body, tables, start_angle, now, at):
-    """Write loads on a roller and the speed of the rings past it.
+def write_conditions(body, tables, start_angle, now, at):
+    """Write the conditions of a roller: its loads, and the speed of the rings past it.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def station(body, tables, start_angle, now, at):
         Orbital position φ at the first sample [rad].
     now : macroslip.ring.orbit.Instant
         The ring's motion.
-    at : record of `STATION`
+    at : record of `CONDITIONS`
         Is written; its film load is where the search for the new one begins.
     """
     orbital_speed = body.orbit_ratio * now.shaft_speed
@@ -128,7 +128,7 @@ def slip_forces(body, tables, at, slip, forces):
     body : record of `macroslip.roller.model.BODY`
     tables : int
         Address of the flat array of tables.
-    at : record of `STATION`
+    at : record of `CONDITIONS`
     slip : float
         Δu [m/s].
     forces : record of `FORCES`
@@ -224,9 +224,9 @@ def powers(body, at, forces, slip, power):
     Parameters
     ----------
     body : record of `macroslip.roller.model.BODY`
-    at : record of `STATION`
+    at : record of `CONDITIONS`
     forces : record of `FORCES`
-        Forces at this station and slip.
+        Forces under these conditions and this slip.
     slip : float
         Δu at both raceways [m/s].
     power : ndarray, shape (3,)

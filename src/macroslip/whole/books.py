@@ -74,12 +74,12 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
     positions = assembly.positions
     rollers = space.rollers
     cages = space.cages
-    moments = space.moments[k]
+    conditions = space.conditions[k]
     pitch = bearing.pitch_radius
     arm = bearing.lever * pitch
     for j in range(positions.size):
         position = positions[j]
-        at = moments[j]
+        at = conditions[j]
         own = rollers[j].y[FIRST + k]
         orbital = 0.5 * (own[0] - own[1] + at.ring)
         lag_in = at.pull_inner - at.turning_inner

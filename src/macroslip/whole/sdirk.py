@@ -302,13 +302,13 @@ def _write_stage(assembly, k, time, weight, space, row):
 
     The stage is at `time` [s] and has the weight `weight` [s].
     """
-    moments = space.moments[k]
+    conditions = space.conditions[k]
     linearisations = space.linearisations[0]
     rollers = space.rollers
     for j in range(row.size):
         step = row[j]
         body = assembly.bodies[assembly.positions[j].row]
-        at = moments[j]
+        at = conditions[j]
         linear = linearisations[j]
         own = rollers[j].y[FIRST + k]
         at_inner = (at.inner_load, at.inner_speed, own[0])
@@ -359,12 +359,12 @@ def _keep_rate(step, k, space):
     """Slopes of a solved stage."""
     rollers = space.rollers
     cages = space.cages
-    moments = space.moments[k]
+    conditions = space.conditions[k]
     for j in range(rollers.size):
         y = rollers[j].y
         for i in range(2):
             y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
-        y[FIRST_RATE + k, 2] = moments[j].pocket_speed
+        y[FIRST_RATE + k, 2] = conditions[j].pocket_speed
     for c in range(cages.size):
         y = cages[c].y
         for i in range(6):
@@ -415,7 +415,7 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
                 FIRST + k,
                 space.rollers,
                 space.cages,
-                space.moments[k],
+                space.conditions[k],
                 whole.turn[k],
             )
             residual = solve_stage(
@@ -511,7 +511,7 @@ def _refresh(assembly, limits, time, space, power_scale):
     forces of all resting rollers were near those predicted; otherwise the step has to be repeated.
     """
     schedules = space.schedules
-    moments = space.moments[1]
+    conditions = space.conditions[1]
     linearisations = space.linearisations[0]
     known = space.linearisations[1]
     for j in range(schedules.size):
@@ -521,7 +521,7 @@ def _refresh(assembly, limits, time, space, power_scale):
     # The last stage as a sum, as stages are numbered elsewhere: for a constant all of it would be
     # compiled once more.
     space.memory[0].evaluations += evaluate_marked(
-        assembly, time, moments, space.rollers, FIRST + 1, schedules, linearisations
+        assembly, time, conditions, space.rollers, FIRST + 1, schedules, linearisations
     )
     mass = assembly.bearing[0].roller_mass
     good = True
@@ -610,10 +610,10 @@ def _cut(bearing, rollers, step, left):
 def _leaves_tables(assembly, limits, space):
     """True if a roller ends the step in a state outside its tables."""
     body = assembly.bodies[0]
-    moments = space.moments[1]
+    conditions = space.conditions[1]
     rollers = space.rollers
-    for j in range(moments.size):
-        at = moments[j]
+    for j in range(conditions.size):
+        at = conditions[j]
         own = rollers[j].y[LAST]
         if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
             return True
@@ -637,7 +637,7 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     last = 0 if begins else 1
     rollers = space.rollers
     cages = space.cages
-    moments = space.moments[last]
+    conditions = space.conditions[last]
     pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
     whole.start = start.time
     whole.end = end.time
@@ -651,7 +651,7 @@ def _write_end(assembly, start, end, space, row, whole, offset):
             whole.cages[c, i] = cages[c].y[FIRST + last, i]
     for j in range(row.size):
         step = row[j]
-        at = moments[j]
+        at = conditions[j]
         own = rollers[j]
         step.start = start.time
         step.end = end.time

@@ -23,7 +23,7 @@ from macroslip.whole import tuning
 from macroslip.whole.model import Assembly
 from macroslip.whole.pocket import guide_force, pocket_force
 from macroslip.whole.tractions import (
-    MOMENT,
+    CONDITIONS,
     address,
     cage_from,
     evaluate_marked,
@@ -90,7 +90,7 @@ class Space(NamedTuple):
 
     rollers: np.ndarray  #: shape (n,)
     cages: np.ndarray  #: shape (c,)
-    moments: np.ndarray  #: Shape (2, n). At both stages.
+    conditions: np.ndarray  #: Shape (2, n). At both stages.
     linearisations: (
         np.ndarray
     )  #: Shape (2, n). Those of the step under way, and those kept from before it.
@@ -106,7 +106,7 @@ def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     count = assembly.positions.size
     cages = int(assembly.bearing[0]["cages"])
     return Space(
-        np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), MOMENT), *new_linearisations(count), np.zeros(count, SCHEDULE),
+        np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), CONDITIONS), *new_linearisations(count), np.zeros(count, SCHEDULE),
         np.zeros(count, BLOCK), np.zeros(cages, BORDER), memory,
     )  # fmt: skip
 
@@ -147,7 +147,7 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
     contact : tuple
         A roller's body, record of `macroslip.roller.model.BODY`, and the address of its tables.
     stage : Stage
-    at : record of `macroslip.whole.tractions.MOMENT`
+    at : record of `macroslip.whole.tractions.CONDITIONS`
         The roller at the stage's time; `push`, `friction` and the speeds in its pocket are filled.
     own : ndarray, shape (3,)
         v_in, v_out [m/s] and x [m] of the roller; the offset x is filled, as its speed gives it.
@@ -409,11 +409,11 @@ def _begin_cage(bearing, stage, cage, star, border):
 
 
 @jit_inline
-def _raceway_forces(assembly, stage, k, moments, rollers, schedules, linearisations):
+def _raceway_forces(assembly, stage, k, conditions, rollers, schedules, linearisations):
     """Raceway forces in stage `k`, evaluated where slopes do not serve; returns the evaluations."""
-    for j in range(moments.size):
+    for j in range(conditions.size):
         schedule = schedules[j]
-        at = moments[j]
+        at = conditions[j]
         linear = linearisations[j]
         own = rollers[j].y[FIRST + k]
         at.turning_inner, at.pull_inner = raceway_from(
@@ -426,11 +426,11 @@ def _raceway_forces(assembly, stage, k, moments, rollers, schedules, linearisati
             schedule.fresh = True
         schedule.marked = schedule.fresh and not schedule.settled
     evaluations = evaluate_marked(
-        assembly, stage.time, moments, rollers, FIRST + k, schedules, linearisations
+        assembly, stage.time, conditions, rollers, FIRST + k, schedules, linearisations
     )
-    for j in range(moments.size):
+    for j in range(conditions.size):
         if schedules[j].marked:
-            at = moments[j]
+            at = conditions[j]
             inner = linearisations[j].inner
             outer = linearisations[j].outer
             off = abs(at.turning_inner - inner.turning) + abs(at.pull_inner - inner.pull)
@@ -460,7 +460,7 @@ def _assemble(assembly, stage, k, size, space):
     """Residuals and derivatives of stage `k` at its present state; returns the largest one [N]."""
     rollers = space.rollers
     cages = space.cages
-    moments = space.moments[k]
+    conditions = space.conditions[k]
     linearisations = space.linearisations[0]
     positions = assembly.positions
     blocks = space.blocks
@@ -472,15 +472,15 @@ def _assemble(assembly, stage, k, size, space):
         _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], borders[c])
     memory = space.memory[0]
     memory.evaluations += _raceway_forces(
-        assembly, stage, k, moments, rollers, space.schedules, linearisations
+        assembly, stage, k, conditions, rollers, space.schedules, linearisations
     )
     memory.iterations += 1
     inertia = bearing.roller_mass / stage.step
     worst = 0.0
     finite = True
-    for j in range(moments.size):
+    for j in range(conditions.size):
         c = positions[j].cage
-        at = moments[j]
+        at = conditions[j]
         linear = linearisations[j]
         block = blocks[j]
         own = rollers[j].y[FIRST + k]
@@ -533,13 +533,13 @@ def _follow(assembly, stage, k, space):
     positions = assembly.positions
     rollers = space.rollers
     cages = space.cages
-    moments = space.moments[k]
+    conditions = space.conditions[k]
     linearisations = space.linearisations[0]
     blocks = space.blocks
     borders = space.borders
     for j in range(blocks.size):
         c = positions[j].cage
-        at = moments[j]
+        at = conditions[j]
         linear = linearisations[j]
         block = blocks[j]
         cage = cages[c].y[FIRST + k]

@@ -71,8 +71,8 @@ LINEARISATIONS = np.dtype(
         ("when", "f8"),  # time of the last evaluation of the raceways [s]
     ]
 )
-#: Loads, speeds and forces of a roller at one time.
-MOMENT = np.dtype(
+#: Conditions of a roller at one time: loads and speeds, and the forces that it meets.
+CONDITIONS = np.dtype(
     [
         (name, "f8")
         for name in (
@@ -122,7 +122,7 @@ def address(assembly):
 
 
 @jit_inline
-def locate(assembly, now, which, rollers, cages, moments, turn):
+def locate(assembly, now, which, rollers, cages, conditions, turn):
     """Place all rollers on their orbit at a time, and compute their loads and ring speeds.
 
     A pocket is at θ = θ_0 + nominal orbit + ∫w dt/r~, and its roller at
@@ -140,7 +140,7 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
         Slips [m/s] and pocket offsets [m].
     cages : ndarray of `macroslip.whole.stage.CAGE`, shape (c,)
         Lags and displacements [m].
-    moments : ndarray of `MOMENT`, shape (n,)
+    conditions : ndarray of `CONDITIONS`, shape (n,)
         Filled with angles, loads [N] and speeds [m/s]; the search for the films' load begins with
         the `film_balance` there.
     turn : ndarray, shape (2,)
@@ -157,9 +157,9 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
         turn_cosine, turn_sine = math.cos(turn[c]), math.sin(turn[c])
         a = cage[4]
         b = cage[5]
-        for j in range(moments.size):
+        for j in range(conditions.size):
             position = positions[j]
-            at = moments[j]
+            at = conditions[j]
             if position.cage != c:
                 continue
             body = bodies[position.row]
@@ -210,7 +210,7 @@ def _evaluate(body, law, tables, load, speed, slip, linear):
 
 
 @jit
-def evaluate_marked(assembly, time, moments, rollers, which, schedules, linearisations):
+def evaluate_marked(assembly, time, conditions, rollers, which, schedules, linearisations):
     """Evaluate the tractions of both raceway contacts of marked rollers.
 
     Parameters
@@ -218,7 +218,7 @@ def evaluate_marked(assembly, time, moments, rollers, which, schedules, linearis
     assembly : macroslip.whole.model.Assembly
     time : float
         Time of the evaluation [s].
-    moments : ndarray of `MOMENT`, shape (n,)
+    conditions : ndarray of `CONDITIONS`, shape (n,)
         Loads [N] and ring speeds [m/s] at that time.
     rollers : ndarray of `macroslip.whole.stage.ROLLER`, shape (n,)
         Slips [m/s].
@@ -241,7 +241,7 @@ def evaluate_marked(assembly, time, moments, rollers, which, schedules, linearis
     for j in range(schedules.size):
         if schedules[j].marked:
             body = bodies[positions[j].row]
-            at = moments[j]
+            at = conditions[j]
             linear = linearisations[j]
             own = rollers[j].y[which]
             _evaluate(body, body.inner, tables, at.inner_load, at.inner_speed, own[0], linear.inner)
@@ -344,7 +344,7 @@ def is_out_of_reach(linear, at, slips, slip_reach):
     ----------
     linear : record of `LINEARISATIONS`
         Tractions and slopes at the last evaluation.
-    at : record of `MOMENT`
+    at : record of `CONDITIONS`
         Loads [N] and ring speeds [m/s] now.
     slips : ndarray
         v_in and v_out now [m/s], as its first two numbers.
