@@ -137,7 +137,7 @@ def test_the_criterion_furthest_beyond_its_reference_and_all_others_beyond_their
     )
     assert answer(one, [wear])[-1] == (
         "Nearest to its reference is wear, time: the reference is 0.2 of it (a rig), known to a factor of 10, "
-        "so not told apart from it."
+        "so not distinguishable from it."
     )
     assert answer(one, [unknown]) == answer(one)
     # A sum over a year beside a test of hours is left to the table.

@@ -92,7 +92,7 @@ def test_a_difference_within_its_scatter_is_not_told_apart():
     found = compare(result(1.0), result(1.001, noise=0.5, osculation=0.98))
     assert (
         "is smaller than its scatter of" in found.attrs["ranking"]
-        and "not told apart" in found.attrs["ranking"]
+        and "cannot be distinguished" in found.attrs["ranking"]
     )
 
 

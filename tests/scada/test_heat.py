@@ -312,7 +312,7 @@ def test_what_cannot_support_a_fit_is_refused(sound, friction, tmp_path):
     refused(sound, "reference: [2024-01-01, 2024-01-10]", "windows of two hours")
     refused(sound[sound["rotor_speed"] > 0.6], "", "at standstill or idling")
     warm = sound[sound["bearing_temperature"].between(293.0, 299.0)]
-    refused(warm, "", "the effect of temperature cannot be told")
+    refused(warm, "", "the effect of temperature cannot be fitted")
     cold = sound.copy()
     cold[[name for name in sound if "temperature" in name]] -= 12.0
     refused(cold, "", "the study at 5 to 50 degC")

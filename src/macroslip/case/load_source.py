@@ -14,7 +14,7 @@ from macroslip.loads import BearingLoads, HubLoads, RollerLoads
 from macroslip.loads.bundled import bundled_names
 from macroslip.loads.csv_text import DECIMAL_MARKS, THOUSANDS_MARKS
 
-#: Keys for what files with hub loads may lack: speed [rad/s] and point of output [m].
+#: Keys of values that files with hub loads may lack: speed [rad/s] and point of output [m].
 FOR_HUB_FILES = ("shaft_speed", "hub_to_output")
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "roller_loads", "hub", "main_bearing")
 #: Keys that say how loads are read from a file.

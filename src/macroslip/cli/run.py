@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _TRACE_STEP = 0.05
 #: Longest time of a case's motion [s].
 _TRACE_LENGTH = 60.0
-#: Names in the summary of what `macroslip.report.result_numbers.row_numbers` has for a row.
+#: Names in the summary of the numbers of `macroslip.report.result_numbers.row_numbers`.
 _OF_ROW = {
     "energy": "mean energy per roller [J]",
     "peak": "highest peak power [W]",
@@ -38,7 +38,7 @@ _OF_ROW = {
     "rollers": "rollers",
     "failed": "failed rollers",
 }
-#: Names in the JSON summary of what a rating has for the bearing as a whole.
+#: Names in the JSON summary of a rating's numbers for the bearing as a whole.
 _RATED = {
     "static_safety": "static safety [1]",
     "basic_life": "L10h [h]",

@@ -200,7 +200,7 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
         return
     with bar_with_time_left(console) as bar:
         task = bar.add_task(PREPARING, total=None)
-        # Runs that were there already tell nothing of the time for the rest.
+        # Runs that were there already say nothing about the time of the others.
         yield lambda progress: bar.update(
             task,
             description=f"{progress.unchanged} unchanged, {progress.failed} failed",

@@ -113,8 +113,8 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
     return np.where(power == 0.0, 0.0, rise)[()]
 
 
-#: Places in the contact where a transient rise is found, over b: the steady one is largest at
-#: 0.652; and the rule for what has come in on the way there.
+#: Positions x/b in the contact where a transient rise is computed: the steady one is largest at
+#: 0.652; and the quadrature of the heat that came in on the way there.
 _PLACES = np.array([-0.3, 0.0, 0.3, 0.5, 0.652, 0.8, 0.95])
 _NODES, _WEIGHTS = (
     0.5 * (part + shift)

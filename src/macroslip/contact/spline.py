@@ -27,7 +27,7 @@ _INDEX = ir.IntType(32)
 _SIZE = ir.IntType(64)
 _EMPTY = ir.Constant(_VECTOR, ir.Undefined)
 _FOUR = types.UniTuple(types.float64, CHANNELS)
-#: The four weights as a polynomial of the place in the cell, constant term first, and their
+#: The four weights as a polynomial of the position in the cell, constant term first, and their
 #: derivatives.
 _CUBIC = [
     [1 / 6, 4 / 6, 1 / 6, 0.0],

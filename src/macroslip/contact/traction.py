@@ -71,7 +71,7 @@ LOWEST_LOG_SLIP = -12.0
 _GRIDS = {NEWTONIAN: (80, 0.3, 0.35), LIMITING_SHEAR: (80, 0.3, 0.35), EYRING: (56, 0.45, 0.5)}
 #: Slip [m/s] from which on the chord table is continued in a straight line: in light contacts it
 #: reaches a million times further. That is seven nodes and more beyond the slips that are looked
-#: up, and at each node a spline forgets three quarters of what is done beyond.
+#: up, and the influence of a change on a spline falls to a quarter with each node.
 _CONTINUED = 150.0
 #: Bounds and spacing of both coordinates of the local stress, and its relative error beyond which
 #: it is solved for.

@@ -162,8 +162,8 @@ def _attempt(path, work):
         energy_off = energy_error(path, now, zone, attempt, work.sample, sums)
     since = path.limits.window if now.time >= path.limits.window else path.motion.time[0]
     mean_power = (sums.spent + attempt.energy) / (attempt.times[2] - since)
-    # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a
-    # sample interval may be off by what is allowed in that part.
+    # Power jumps with the shaft's acceleration at every sample; its error in a short part of a
+    # sample interval may reach the tolerance of that part.
     share = max(attempt.length, tuning.SHORT_PART * work.stretch.sample_step)
     limits = path.limits
     worth = max(mean_power * share, attempt.energy, tuning.NO_ENERGY * limits.energy_scale)

@@ -43,7 +43,7 @@ LIMITS = np.dtype(
         ("firm", "f8"),
         # Start of the window [s].
         ("window", "f8"),
-        # Change of a slip near zero that does not change its place in a table [m/s]; 0 without
+        # Change of a slip near zero that does not change its position in a table [m/s]; 0 without
         # tables of traction.
         ("grain", "f8"),
     ]
@@ -92,7 +92,7 @@ SAMPLE = np.dtype(
         ("powers", "f8", (3,)),  # of the interfaces [W]
     ]
 )
-#: What steps before tell of the next one.
+#: Numbers of the steps before, from which guesses for the next one are made.
 BEFORE = np.dtype(
     [
         ("exponent", "f8"),  # power of the load that the slip of a held roller follows [-]

@@ -63,8 +63,8 @@ SHORT_PART = 0.05
 #: histories; without, not all do.
 DEFECT_NODES = (0.83, 0.4)
 DEFECT_WEIGHT = 0.25
-#: Weight of what a step's quadrature misses of the way as an error of energy. Friction grows with
-#: speed to a power of up to 1.5, and what is missed is the error itself and no bound far above it,
+#: Weight of the way that a step's quadrature misses as an error of energy. Friction grows with
+#: speed to a power of up to 1.5, and the missed way is the error itself and no bound far above it,
 #: as ENERGY_SHARE supposes: five times as much.
 KINK_WEIGHT = 7.5
 #: Part of the cage's load at one end of a step that is left at the other where power may have a
@@ -89,7 +89,7 @@ FORCE_TOLERANCE = 1e-9
 #: are 1e-5 with it.
 MICROSLIP_FORCE_SHARE = 0.5
 MICROSLIP_FORCE_TOLERANCE = 1e-4
-#: Rounding of a place in a table, as part of a cell. Asked for less than rounding leaves, rollers
+#: Rounding of a position in a table, as part of a cell. Asked for less than rounding leaves, rollers
 #: that cold oil without heating grips at 1e-17 m/s stop in steps of nanoseconds.
 PLACE_ROUNDING = 5e-16
 #: Safety factor on the residual predicted from the curvature of the forces in earlier steps, and

@@ -145,7 +145,7 @@ def read_hawc2(path: Path, *, speed_needed: bool = True, at_hub: bool = True) ->
     Raises
     ------
     InputError
-        If the file is cut off or damaged, a channel is missing or cannot be told from others, the
+        If the file is cut off or damaged, a channel is missing or cannot be distinguished from others, the
         loads are not those at the hub, or the forces do not show the rotor's weight.
     """
     if path.suffix.lower() == ".dat":

@@ -43,7 +43,7 @@ _NEEDED = {
     "four-point": ("tilt", "hub_to_bearing", "front_to_rear", "locating", "bearing"),
     "three-point": ("tilt", "hub_to_bearing", "bearing_to_gearbox"),
 }
-#: Where windIO has what a key needs.
+#: Keys of windIO by the key of a case that needs them.
 _PLACES = {
     "tilt": "components.drivetrain.outer_shape.uptilt",
     "hub_to_bearing": "components.drivetrain.outer_shape.distance_hub_mb and components.hub.diameter",
@@ -83,7 +83,7 @@ class WindioShaft:
     def description(self) -> str:
         """File and bearings in words."""
         types = (
-            f"front bearing {self.front_type or 'not told'}, rear {self.rear_type or 'not told'}"
+            f"front bearing {self.front_type or 'not given'}, rear {self.rear_type or 'not given'}"
         )
         return f"{self.file}: {types}"
 

@@ -26,8 +26,8 @@ class CageMeasures:
         #: By side of the pocket, shape (n, 2): ∫|N| dt [N s], largest |N| [N] and time with a push
         #: [s] in the window.
         self.impulse, self.largest, self.time = (np.zeros((count, 2)) for _ in range(3))
-        #: Largest |N| in the window by place on the orbit [N], shape (n, places).
-        self.largest_by_place = np.zeros((count, SECTORS))
+        #: Largest |N| in the window by sector of the orbit [N], shape (n, sectors).
+        self.largest_by_sector = np.zeros((count, SECTORS))
         #: ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window,
         #: shape (c, 3).
         self.slip = np.zeros((cages, 3))
@@ -67,7 +67,7 @@ class CageMeasures:
                 self.time[:, side] += (weight * here).sum(axis=0)
                 self.largest[:, side] = np.maximum(self.largest[:, side], size.max(axis=0))
             rollers = np.broadcast_to(np.arange(push.shape[1]), push.shape)
-            np.maximum.at(self.largest_by_place, (rollers, sector), np.abs(push))
+            np.maximum.at(self.largest_by_sector, (rollers, sector), np.abs(push))
 
     def _add_slip(self, part: Part, counted: np.ndarray) -> None:
         whole = part.bearing[counted]

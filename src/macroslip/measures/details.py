@@ -55,7 +55,7 @@ class Details(NamedTuple):
 
     edges: np.ndarray  #: As of `Totals` [s]
     extreme: np.ndarray  #: `EXTREMES` [K, W/m², 1, 1] over complete orbit and interface
-    #: By raceway, of some samples: energy by a finer quadrature, and what the one in use is off by
+    #: By raceway, of some samples: energy by a finer quadrature, and the error of the one in use
     #: [J]
     quadrature: np.ndarray
     entries: np.ndarray  #: Entries into the load zone, by orbit

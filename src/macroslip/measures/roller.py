@@ -63,7 +63,7 @@ class RollerMeasures:
             ContactSampler(wanted, row.roller, row.model.laws, *places) if wanted.details else None
         )
         self._last: np.ndarray | np.void = np.zeros((), END)
-        #: Largest power by place on the orbit [W], where no orbit is complete.
+        #: Largest power by sector of the orbit [W], where no orbit is complete.
         self.sector_power = None if wanted.edges.size > 1 else np.zeros((SECTORS, 3))
         self._start_angle = start_angle
         self._traced: list[np.ndarray] = []

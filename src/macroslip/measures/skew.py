@@ -20,8 +20,8 @@ from macroslip.roller.model import Roller
 from macroslip.roller.skew import Pair
 from macroslip.roller.skew_table import Guide, SkewTable, turned
 
-#: What `SkewMeasures.by_place` sums up.
-BY_PLACE = ("skew_by_position", "axial_force_by_position", "skew_power_by_position")
+#: Numbers that `SkewMeasures.by_sector` sums up.
+BY_SECTOR = ("skew_by_position", "axial_force_by_position", "skew_power_by_position")
 
 
 class Skewing(NamedTuple):
@@ -56,7 +56,7 @@ def _add(skewing, roller, steps, j, places, window, totals):
 
     The first of `totals` holds what was added at the end of the last step [W].
     """
-    (table, guide), (before, sums, by_place) = skewing, totals
+    (table, guide), (before, sums, by_sector) = skewing, totals
     for n in range(steps.shape[0]):
         step = steps[n, j]
         for i in range(3):
@@ -89,7 +89,7 @@ def _add(skewing, roller, steps, j, places, window, totals):
                     sums[1] += weight * outer
                     sums[2] = max(sums[2], turned_roller.left)
                     sums[3] += weight * ends
-                    of_sector = by_place[places[n, k]]
+                    of_sector = by_sector[places[n, k]]
                     of_sector[0] += weight
                     of_sector[1] += weight * turned_roller.skew
                     of_sector[2] += weight * turned_roller.axial
@@ -136,7 +136,7 @@ class SkewMeasures:
 
     Attributes
     ----------
-    by_place : ndarray, shape (sectors, 4)
+    by_sector : ndarray, shape (sectors, 4)
         Time under the rings' load [s], and integrals over it of ψ [rad s], axial force [N s] and
         added power [J].
     """
@@ -147,7 +147,7 @@ class SkewMeasures:
         self._window = window
         self._sums = np.zeros(4)
         self._before = np.zeros(3)
-        self.by_place = np.zeros((SECTORS, 1 + len(BY_PLACE)))
+        self.by_sector = np.zeros((SECTORS, 1 + len(BY_SECTOR)))
 
     def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
         """Add skew's power to the steps of roller `j`, in the buffer itself.
@@ -155,7 +155,7 @@ class SkewMeasures:
         The stages of the steps are at these places on the orbit.
         """
         roller = self._roller.body[0], self._roller.tables.ctypes.data
-        totals = self._before, self._sums, self.by_place
+        totals = self._before, self._sums, self.by_sector
         _add(self._skewing[:2], roller, steps, j, places, self._window, totals)
 
     def turn(self, samples: np.ndarray) -> None:

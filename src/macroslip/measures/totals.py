@@ -13,7 +13,7 @@ from macroslip.contact.laws import PreparedContact, PreparedLaws
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 from macroslip.ring.orbit import last_before
 
-#: Meaning of `Totals.mechanism_energy` by position: what makes surfaces slide.
+#: Kinds of sliding by which `Totals.mechanism_energy` is divided, in its order.
 MECHANISMS = ("sliding", "curvature", "contact angle")
 INTERFACES = ("inner", "outer", "cage")
 RACEWAYS = INTERFACES[:2]

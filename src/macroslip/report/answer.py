@@ -220,7 +220,7 @@ def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
     if first["ratio"] > first["factor"]:
         sentence += ", so beyond it in any case"
     elif first["ratio"] > 1.0 / first["factor"]:
-        sentence += ", so not told apart from it"
+        sentence += ", so not distinguishable from it"
     if beyond:
         sentence += "; also beyond: "
     return [f"{sentence}{'; '.join(f'{_name(line)} ({_times(line)})' for line in beyond)}."]

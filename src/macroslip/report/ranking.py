@@ -107,7 +107,7 @@ def _differences(first: str, others: pd.DataFrame) -> list[str]:
     if within_scatter:
         sentences.append(
             f"The difference between {first} and {'; and '.join(within_scatter)}: "
-            "they are not told apart."
+            "they cannot be distinguished."
         )
     if unsure:
         pairs = (
@@ -115,5 +115,5 @@ def _differences(first: str, others: pd.DataFrame) -> list[str]:
             if len(unsure) == len(others) > 1
             else f"the difference is between {first} and {'; and '.join(unsure)}"
         )
-        sentences.append(f"How sure {pairs} cannot be told from these results.")
+        sentences.append(f"How sure {pairs} cannot be seen from these results.")
     return sentences

@@ -45,7 +45,7 @@ INTERFACE: _Styles = MappingProxyType(
         "cage": {"color": GREEN, "linestyle": "-."},
     }
 )
-#: Size of a picture [inches]: what a telephone held upright shows without making letters smaller
+#: Size of a picture [inches] that a telephone held upright shows without making letters smaller
 #: than the text's; and size of a round one.
 WIDTH = 4.2
 HEIGHT = 3.1
@@ -195,7 +195,7 @@ def save(figure: Figure, folder: Path, name: str) -> list[str]:
     """Write the figure as PNG (200 dpi) and SVG into a folder; returns the file names."""
     files = [f"{name}.png", f"{name}.svg"]
     figure.savefig(folder / files[0], dpi=200)
-    # The places of everything are found by now; finding them takes as long as drawing.
+    # The layout is computed by now; computing it again would take as long as drawing.
     figure.set_layout_engine("none")
     figure.savefig(folder / files[1], metadata={"Date": None})
     return files

@@ -14,7 +14,7 @@ from macroslip.whole.books import FLOWS, STOCKS, Books
 
 #: Part of momentum and energy that may be missing in the books of a whole bearing without a word.
 LARGEST_RESIDUAL = 0.005
-#: Part of what is dissipated that friction may seem to give back. What it gives is lost elsewhere,
+#: Part of the dissipated energy that friction may seem to give back. What it gives is lost elsewhere,
 #: so rows are off by more.
 _LARGEST_GAIN = 0.001
 #: Energy [J] and impulse [N m s] of which no part is missed: those of a bearing at rest are
@@ -50,12 +50,12 @@ def _pocket_values(case: Case, outcome: Outcome, cages: CageMeasures) -> dict[st
         chosen = every[:, list(case.roller_numbers)]
         return chosen if outcome.status == Status.COMPLETED else np.full_like(chosen, np.nan)
 
-    by_place = cages.largest_by_place.reshape(rows, count, -1)
+    by_sector = cages.largest_by_sector.reshape(rows, count, -1)
     return {
         "pocket_impulse": by_roller(cages.impulse),
         "largest_pocket_force": by_roller(cages.largest),
         "pocket_contact_time": by_roller(cages.time),
-        "largest_force_by_position": by_place.max(axis=1),
+        "largest_force_by_position": by_sector.max(axis=1),
     }
 
 

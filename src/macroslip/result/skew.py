@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
-from macroslip.measures.skew import BY_PLACE, Skewing
+from macroslip.measures.skew import BY_SECTOR, Skewing
 from macroslip.ring.orbit import Motion
 from macroslip.roller.skew import pocket, raceways
 from macroslip.roller.skew_table import guide_of, skew_table
@@ -98,16 +98,16 @@ def values(
         gathered[failed] = np.nan
         return gathered
 
-    total = np.nansum(of_rollers("by_place"), axis=1)
+    total = np.nansum(of_rollers("by_sector"), axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         means = total[..., 1:] / total[..., :1]
         share = case.bearing.rollers_per_row / (~failed).sum(axis=1)
-    impulse = total[..., 1 + BY_PLACE.index("axial_force_by_position")].sum(axis=1)
+    impulse = total[..., 1 + BY_SECTOR.index("axial_force_by_position")].sum(axis=1)
     mean_thrust = impulse * share / span * math.cos(case.bearing.contact_angle)
     return {
         "skew_energy": of_rollers("energy"),
         "skew_residual": of_rollers("residual"),
         "stop_energy": of_rollers("stop_energy"),
         "frictional_thrust": np.where(failed.all(axis=1), np.nan, mean_thrust),
-        **dict(zip(BY_PLACE, np.moveaxis(means, -1, 0), strict=True)),
+        **dict(zip(BY_SECTOR, np.moveaxis(means, -1, 0), strict=True)),
     }

@@ -192,7 +192,7 @@ def _check_windows(
     if standing < LEAST_IDLE:
         raise InputError(
             f"the reference has {standing} windows at standstill or idling, by which the loss of "
-            "heat is told from the friction",
+            "heat is distinguished from the friction",
             where=where,
             allowed=f"{LEAST_IDLE} and more",
             remedy="Choose a longer reference.",
@@ -201,7 +201,7 @@ def _check_windows(
     if high - low < LEAST_SPAN:
         raise InputError(
             f"the bearing is at {low - ZERO_CELSIUS:.1f} to {high - ZERO_CELSIUS:.1f} degC in nine "
-            "tenths of the reference, so that the effect of temperature cannot be told",
+            "tenths of the reference, so that the effect of temperature cannot be fitted",
             where=where,
             allowed=f"a span of {LEAST_SPAN:g} K and more",
             remedy="Choose a reference with warm and cold months.",

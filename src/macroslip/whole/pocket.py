@@ -253,7 +253,7 @@ def guide_force(play, a, b, p, q):
         Towards the axis [N], never below zero.
     n_x, n_y : float
         Direction in which the cage has left it.
-    by_place, by_speed : float
+    by_sector, by_speed : float
         Derivatives of the push by the distance [N/m] and by its rate [N s/m].
 
     Examples

@@ -393,12 +393,12 @@ def _begin_cage(bearing, stage, cage, star, border):
     residual[1] = inertia * (cage[2] - star[2])
     residual[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
     if bearing.translates:
-        push, n_x, n_y, by_place, by_speed = guide_force(
+        push, n_x, n_y, by_sector, by_speed = guide_force(
             bearing.radial_play, cage[4], cage[5], cage[2], cage[3]
         )
         residual[1] += push * n_x
         residual[2] += push * n_y
-        radial = by_speed + stage.step * by_place
+        radial = by_speed + stage.step * by_sector
         turning_push = (
             stage.step * push / math.sqrt(cage[4] ** 2 + cage[5] ** 2) if push > 0.0 else 0.0
         )

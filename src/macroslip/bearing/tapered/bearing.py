@@ -154,7 +154,7 @@ class TaperedBearing(Record):
     cage_poisson_ratio: fields.CagePoissonRatio = 0.3
     thermal_conductivity: fields.ThermalConductivity = None
     specific_heat: fields.SpecificHeat = None
-    #: Of other kinds of bearings, whose geometry this one shares at the rollers' middles.
+    #: Fields of other kinds of bearings, whose geometry tapered rollers share at their middles.
     osculation_inner: ClassVar[None] = None
     osculation_outer: ClassVar[None] = None
     #: Rollers touch their raceways along a line, and not in an ellipse.

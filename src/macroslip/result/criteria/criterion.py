@@ -57,9 +57,9 @@ class Criterion:
     mechanism: str  #: Kind of damage: smearing, friction energy, micropitting, wear
     quantity: str  #: Number that is compared
     unit: str
-    #: Variables from which the value follows; none where the result lacks what they take.
+    #: Variables from which the value follows; none where the result lacks their input.
     variables: Callable[[Evaluation], Variables]
-    #: The worst value of either row and any place, of the variables of all criteria [unit]; NaN
+    #: The worst value of either row and any point, of the variables of all criteria [unit]; NaN
     #: where not known.
     value: Callable[[Mapping[str, np.ndarray]], float]
     #: Sentences on what is missing, of the evaluation and the variables of all criteria.
