@@ -263,29 +263,19 @@ def traction(table, tables, load, ring_speed, slip):
     pull_by_y = load.load * third[0] * ratio_slope
     lag_by_w = heavy * second[1] * speed_slope
     lag_by_y = heavy * third[1] * ratio_slope
-    pull = sign * load.load * value[0]
-    lag = sign * heavy * value[1]
-    skew = sign * table.side * load.load * root * value[2]
-    # Where asperities have nearly nothing, splines pass a little below zero.
-    asperity_power = heavy * at.speed * max(value[3], 0.0)
-    # Derivatives by v and by u2 take the sign twice.
-    pull_by_slip = pull_by_w * at.speed_by_slip + pull_by_y * at.ratio_by_slip
-    lag_by_slip = lag_by_w * at.speed_by_slip + lag_by_y * at.ratio_by_slip
-    pull_by_speed = pull_by_w * at.speed_by_ring + pull_by_y * at.ratio_by_ring
-    lag_by_speed = lag_by_w * at.speed_by_ring + lag_by_y * at.ratio_by_ring
-    pull_by_load = sign * (value[0] + first[0] * load_slope)
-    lag_by_load = sign * root * root * ((5.0 / 3.0) * value[1] + first[1] * load_slope)
     return Traction(
-        pull,
-        lag,
-        skew,
-        asperity_power,
-        pull_by_slip,
-        lag_by_slip,
-        pull_by_speed,
-        lag_by_speed,
-        pull_by_load,
-        lag_by_load,
+        sign * load.load * value[0],
+        sign * heavy * value[1],
+        sign * table.side * load.load * root * value[2],
+        # Where asperities have nearly nothing, splines pass a little below zero.
+        heavy * at.speed * max(value[3], 0.0),
+        # Derivatives by v and by u2 take the sign twice.
+        pull_by_w * at.speed_by_slip + pull_by_y * at.ratio_by_slip,
+        lag_by_w * at.speed_by_slip + lag_by_y * at.ratio_by_slip,
+        pull_by_w * at.speed_by_ring + pull_by_y * at.ratio_by_ring,
+        lag_by_w * at.speed_by_ring + lag_by_y * at.ratio_by_ring,
+        sign * (value[0] + first[0] * load_slope),
+        sign * root * root * ((5.0 / 3.0) * value[1] + first[1] * load_slope),
     )
 
 

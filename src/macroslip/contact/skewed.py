@@ -287,9 +287,14 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     load, ring_speed, slip, skew, shift, tilt = (values.reshape(-1, 1, 1) for values in states)
     k = contact.side
     r = contact.roller_radius
-    lines = slip_lines(contact, ring_speed, slip, skew, shift, tilt)
     mean_speed = np.abs(ring_speed - 0.5 * slip)
-    points = _points(contact, load, lines, shift, mean_speed)
+    points = _points(
+        contact,
+        load,
+        slip_lines(contact, ring_speed, slip, skew, shift, tilt),
+        shift,
+        mean_speed,
+    )
     station = points.station
     turned = contact.turn * skew * station
     xi = points.chord + skew * station + turned
@@ -301,23 +306,24 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     part = stress * points.area / speed
     along = part * points.v
     axial = part * points.w
-    turning = (along + axial * k * skew) * (r - points.drop) + axial * tilt * xi
+    moment = (along + axial * k * skew) * (r - points.drop) + axial * tilt * xi
     inclination = (1.0 / contact.roller_contour - 1.0 / r) * (points.chord + turned)
-    distance = _distance(contact, points, tilt, shift)
 
     def total(values: np.ndarray) -> np.ndarray:
         """Sum over the points of the contact, in the shape of the states."""
         return values.sum(axis=(1, 2)).reshape(shape)[()]
 
     return Resultants(
-        turning=total(turning / r),
+        turning=total(moment / r),
         pull=total(along),
         axial=total(axial),
         moment=total(-k * along * (station + k * r * tilt) - axial * xi),
         pressure_moment=total(points.area * points.pressure * inclination * station),
         power=total(stress * points.area * speed),
         asperity_power=total(rough * points.area * speed),
-        ring_torque=total(-k * along * distance + axial * contact.sine * xi),
+        ring_torque=total(
+            -k * along * _distance(contact, points, tilt, shift) + axial * contact.sine * xi
+        ),
     )
 
 
