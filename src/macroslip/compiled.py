@@ -6,14 +6,17 @@ They are cached on disk and release the lock of the interpreter.
 from __future__ import annotations
 
 import contextlib
+import functools
 import gc
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numba
-from numba.core import event
-from numba.extending import register_jitable
+import numpy as np
+from llvmlite import ir
+from numba.core import cgutils, event
+from numba.extending import intrinsic, register_jitable
 
 from macroslip.errors import MacroslipError
 from macroslip.storage.kernels import kernel_folder
@@ -71,19 +74,87 @@ def jit(function: Callable) -> Callable:
             "NUMBA_DISABLE_JIT: compiling is switched off. Remove this variable of the environment."
         )
     folder = kernel_folder()
-    before = numba.config.CACHE_DIR
     if folder is not None:
-        numba.config.CACHE_DIR = str(folder)
-        try:
-            # Numba refuses to store a function that has no file, and one whose folder in ours
-            # cannot be written.
-            with contextlib.suppress(RuntimeError):
-                dispatcher = numba.njit(cache=True, **_OPTIONS)(function)
-                if Path(dispatcher.stats.cache_path).is_relative_to(folder):
-                    return dispatcher
-        finally:
-            numba.config.CACHE_DIR = before
+        # Numba refuses to store a function that has no file, and one whose folder in ours cannot be
+        # written.
+        with _kept_in(folder), contextlib.suppress(RuntimeError):
+            dispatcher = numba.njit(cache=True, **_OPTIONS)(function)
+            if _is_kept(dispatcher, folder):
+                return dispatcher
     return numba.njit(**_OPTIONS)(function)
+
+
+@contextlib.contextmanager
+def _kept_in(folder: Path) -> Iterator[None]:
+    """Let numba keep what it compiles in a folder."""
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder)
+    try:
+        yield
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+def _is_kept(dispatcher: Any, folder: Path) -> bool:
+    """True if numba keeps a function in a folder of ours, not beside the sources."""
+    return Path(dispatcher.stats.cache_path).is_relative_to(folder)
+
+
+@functools.cache
+def _c_function(dispatcher: Any, arguments: tuple[np.dtype | type, ...]) -> Any:
+    """A compiled function with the calling convention of C, compiled now or read from the disk."""
+    numbers = {int: numba.types.int64, float: numba.types.float64}
+    types = [numbers[x] if isinstance(x, type) else numba.from_dtype(x) for x in arguments]
+    signature = numba.types.void(*types)
+    folder = kernel_folder()
+    if folder is not None and _is_kept(dispatcher, folder):
+        with _kept_in(folder):
+            return numba.cfunc(signature, cache=True, error_model="numpy")(dispatcher.py_func)
+    return numba.cfunc(signature, error_model="numpy")(dispatcher.py_func)
+
+
+def address_of(dispatcher: Any, *arguments: np.dtype | type) -> int:
+    """Address of a function, for compiled functions that call it by `call_at`.
+
+    What a compiled function calls by its name becomes part of it: numba optimises it and makes
+    machine code of it once more in every caller, and in the callers of these. A large function with
+    many callers is handed to them by its address instead, and is compiled once.
+
+    Parameters
+    ----------
+    dispatcher : numba dispatcher
+        A function compiled by `jit` that returns nothing.
+    *arguments : dtype or type
+        Types of its arguments: the dtype of a record, `int` or `float`.
+
+    Returns
+    -------
+    int
+        Address in this process.
+    """
+    return _c_function(dispatcher, arguments).address
+
+
+@intrinsic
+def call_at(typingctx, address, arguments):
+    """Call the function at an address of `address_of`.
+
+    Parameters
+    ----------
+    typingctx : Context
+        Numba's; callers leave it out.
+    address : int
+    arguments : tuple
+        Exactly of the types that `address_of` was given: nothing checks them.
+    """
+
+    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, values: Any) -> Any:
+        given = cgutils.unpack_tuple(builder, values[1])
+        kind = ir.FunctionType(ir.VoidType(), [value.type for value in given])
+        builder.call(builder.inttoptr(values[0], kind.as_pointer()), given)
+        return context.get_dummy_value()
+
+    return numba.types.void(address, arguments), _generate
 
 
 def jit_inline(function: Callable) -> Callable:

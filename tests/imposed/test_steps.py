@@ -30,7 +30,7 @@ from macroslip.imposed.radau import (
     residuals,
 )
 from macroslip.imposed.root import is_continuous, surely_rising
-from macroslip.imposed.state import WORK, Path
+from macroslip.imposed.state import WORK, path_of
 from macroslip.imposed.tuning import AT_END, HOT_CHANGE
 from macroslip.imposed.zones import EDGE, FREE
 from macroslip.ring.orbit import interval_of
@@ -174,14 +174,7 @@ def a_step(motion, roller, start, end, slip=0.0):
     now["interval"], attempt["end_interval"] = (interval_of(motion, t, 0) for t in (start, end))
     now["at"]["ring_speed"] = -ratio * np.interp(start, motion.time, motion.shaft_speed)
     attempt["at"]["ring_speed"] = -ratio * np.interp(times, motion.time, motion.shaft_speed)
-    return work, Path(
-        body,
-        roller.tables.ctypes.data,
-        roller.tables,
-        motion,
-        0.0,
-        limits_of(roller, motion, 2e-4)[0],
-    )
+    return work, path_of(roller, motion, 0.0, limits_of(roller, motion, 2e-4)[0])
 
 
 @pytest.fixture(scope="module")

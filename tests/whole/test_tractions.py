@@ -17,6 +17,7 @@ from macroslip.whole.stage import FIRST, ROLLER, SCHEDULE
 from macroslip.whole.tractions import (
     CONDITIONS,
     LINEARISATION,
+    address,
     cage_from,
     evaluate_marked,
     new_linearisations,
@@ -96,7 +97,8 @@ def test_between_evaluations_forces_follow_the_slopes(assembly):
 def friction(assembly, linear, push, sliding):
     """Friction of the cage with its slopes, evaluated anew."""
     linear.load = -1.0
-    return cage_from(assembly.bodies[0], assembly.tables, linear, push, sliding, 0.1)
+    contact = (assembly.bodies[0], address(assembly), assembly.evaluate_cage)
+    return cage_from(contact, linear, push, sliding, 0.1)
 
 
 @pytest.mark.parametrize("push", [-30.0, 0.5])

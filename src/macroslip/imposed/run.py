@@ -12,7 +12,7 @@ from macroslip.imposed import tuning
 from macroslip.imposed.euler import FIXED_WORK, RULE, integrate_fixed_step
 from macroslip.imposed.root import surely_rising
 from macroslip.imposed.solve import integrate
-from macroslip.imposed.state import LIMITS, WORK, Path
+from macroslip.imposed.state import LIMITS, WORK, path_of
 from macroslip.imposed.status import UNDER_WAY
 from macroslip.imposed.zones import classify, firm_approach
 from macroslip.ring.orbit import Motion
@@ -141,8 +141,7 @@ def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator
     motion = problem.motion
     limits = problem.limits[0]
     body = problem.roller.body[0]
-    tables = problem.roller.tables
-    path = Path(body, tables.ctypes.data, tables, motion, float(start_angle), limits)
+    path = path_of(problem.roller, motion, start_angle, limits)
     steps = new_steps()
     classes = np.empty(motion.time.size - 1, dtype=np.int8)
     radau = problem.limits.dtype == LIMITS

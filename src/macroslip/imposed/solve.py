@@ -369,7 +369,15 @@ def integrate(path, stops, classes, work, steps):
     """
     time, speed, angle, displacement = path.motion
     motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]
-    path = Path(path.body, path.tables, uncounted(path.flat), motion, path.start_angle, path.limits)
+    path = Path(
+        path.body,
+        path.forces,
+        path.tables,
+        uncounted(path.flat),
+        motion,
+        path.start_angle,
+        path.limits,
+    )
     limits = path.limits
     now = work.now
     attempt = work.attempt

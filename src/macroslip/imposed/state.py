@@ -6,9 +6,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit_inline
+from macroslip.compiled import address_of, call_at, jit_inline
 from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces, write_conditions
-from macroslip.ring.orbit import instant
+from macroslip.ring.orbit import Motion, instant
+from macroslip.roller.model import BODY, Roller
 from macroslip.roller.step import write_stage
 
 
@@ -16,6 +17,8 @@ class Path(NamedTuple):
     """Motion of one roller on its orbit, and the settings of its integration."""
 
     body: Any  #: Record of a roller
+    #: Address of `slip_forces`: half of all machine code would else be copies of it.
+    forces: int
     #: Address of the flat array of its tables: an array would be counted at every look-up
     tables: int
     flat: np.ndarray  #: The array itself
@@ -143,6 +146,34 @@ WORK = np.dtype(
 )
 
 
+def path_of(roller: Roller, motion: Motion, start_angle: float, limits: Any) -> Path:
+    """Motion of a roller on its orbit, and the settings of its integration.
+
+    Parameters
+    ----------
+    roller : macroslip.roller.model.Roller
+    motion : macroslip.ring.orbit.Motion
+        Of the inner ring.
+    start_angle : float
+        Position φ at the first sample [rad].
+    limits : record of `LIMITS`, or of `macroslip.imposed.euler.RULE`
+
+    Returns
+    -------
+    Path
+    """
+    tables = roller.tables
+    return Path(
+        roller.body[0],
+        address_of(slip_forces, BODY, int, CONDITIONS, float, FORCES),
+        tables.ctypes.data,
+        tables,
+        motion,
+        float(start_angle),
+        limits,
+    )
+
+
 @jit_inline
 def locate(path, time, interval, at):
     """Write the conditions of the roller at a time.
@@ -175,7 +206,7 @@ def evaluate(path, at, slip, forces):
     forces : record of `macroslip.mechanics.spin.FORCES`
         Is written.
     """
-    slip_forces(path.body, path.tables, at, slip, forces)
+    call_at(path.forces, (path.body, path.tables, at, slip, forces))  # pyright: ignore[reportCallIssue]
 
 
 @jit_inline

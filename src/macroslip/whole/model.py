@@ -21,6 +21,7 @@ from macroslip.roller.model import RollerModel, TableReport, roller_model
 from macroslip.roller.model import with_tables as rollers_with_tables
 from macroslip.whole.cage import Cage, inner_radii
 from macroslip.whole.pocket import POCKET, Pocket, prepare_pocket
+from macroslip.whole.tractions import addresses_of_evaluations
 
 _NUMBERS = (
     "roller_mass", "radius", "pitch_radius", "inner_radius", "outer_radius", "orbit_ratio", "lever", "cage_mass",
@@ -81,6 +82,10 @@ class Assembly(NamedTuple):
     bodies: np.ndarray  #: Shape (rows,). A roller of each row.
     tables: np.ndarray  #: The flat array of their tables
     positions: np.ndarray  #: shape (n,)
+    #: Addresses of the evaluations of a raceway contact and of a cage's contact, see
+    #: `macroslip.whole.tractions`.
+    evaluate_raceway: int
+    evaluate_cage: int
 
 
 def whole_bearing(
@@ -180,4 +185,5 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
         numbers[name] = getattr(bearing, name)
     numbers["pocket"] = tuple(pocket)
     bodies = np.concatenate([roller.body for roller in rollers.values()])
-    return Assembly(numbers, bodies, next(iter(rollers.values())).tables, bearing.positions), report
+    tables = next(iter(rollers.values())).tables
+    return Assembly(numbers, bodies, tables, bearing.positions, *addresses_of_evaluations()), report

@@ -58,6 +58,7 @@ from macroslip.whole.stage import (
 )
 from macroslip.whole.tractions import (
     cage_shear_from,
+    copy_linearisation,
     evaluate_marked,
     extrapolated_power,
     locate,
@@ -388,7 +389,8 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
         step = _INSTANT
     else:
         tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
-    space.numbers[0] = space.numbers[1]
+    for j in range(space.rollers.size):
+        copy_linearisation(space.numbers, j, 1, 0)
     schedules = space.schedules
     for j in range(schedules.size):
         schedules[j].fresh = limits.extrapolates == 0 or schedules[j].interval < h or h == 0.0
@@ -694,7 +696,7 @@ def _advance(end, space, row):
         for k in range(2):
             memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
         if schedules[j].due:
-            numbers[1, j] = numbers[0, j]
+            copy_linearisation(numbers, j, 0, 1)
         _take_over(rollers[j].y)
     for c in range(cages.size):
         _take_over(cages[c].y)
@@ -759,7 +761,8 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         whole = wholes[rows]
         worst, solved = _solve_stages(assembly, motion, limits, start, end, space, row, whole)
         if memory.begun == 0:
-            space.numbers[1] = space.numbers[0]
+            for j in range(row.size):
+                copy_linearisation(space.numbers, j, 0, 1)
             _write_end(assembly, start, end, space, row, whole, offsets[rows])
             memory.begun = 1
             rows = rows + 1

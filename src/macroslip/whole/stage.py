@@ -145,7 +145,8 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
     ----------
     bearing : record of `macroslip.whole.model.BEARING`
     contact : tuple
-        A roller's body, record of `macroslip.roller.model.BODY`, and the address of its tables.
+        A roller's body, record of `macroslip.roller.model.BODY`, the address of its tables, and
+        the address of the evaluation of its contact with the cage.
     stage : Stage
     at : record of `macroslip.whole.tractions.CONDITIONS`
         The roller at the stage's time; `push`, `friction` and the speeds in its pocket are filled.
@@ -179,10 +180,7 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
     push, by_offset, by_speed = pocket_force(bearing.pocket, own[2], speed)
     # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
     sliding = 0.5 * (v_in + v_out + at.ring) + bearing.lever * bearing.pitch_radius * cage_turn
-    body, tables = contact
-    friction, by_sliding, by_push = cage_from(
-        body, tables, linear.cage, push, sliding, stage.cage_reach
-    )
+    friction, by_sliding, by_push = cage_from(contact, linear.cage, push, sliding, stage.cage_reach)
     at.friction = friction
     at.push = push
     at.sliding = sliding
@@ -466,7 +464,7 @@ def _assemble(assembly, stage, k, size, space):
     blocks = space.blocks
     borders = space.borders
     bearing = assembly.bearing[0]
-    contact = (assembly.bodies[0], address(assembly))
+    contact = (assembly.bodies[0], address(assembly), assembly.evaluate_cage)
     _place_cages(stage, k, cages)
     for c in range(cages.size):
         _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], borders[c])

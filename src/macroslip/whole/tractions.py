@@ -11,13 +11,14 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import address_of, call_at, jit, jit_inline
 from macroslip.contact.look_up import contact_load, log_speed
 from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.power import RacewayPower, raceway_power
 from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
 from macroslip.mechanics.speeds import inner_ring_speed, outer_ring_speed
+from macroslip.roller.model import BODY, CONTACT
 from macroslip.whole import tuning
 
 #: Tractions of a raceway contact and their slopes, at the state in which they were evaluated.
@@ -113,6 +114,25 @@ def new_linearisations(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @jit_inline
+def copy_linearisation(numbers, roller, source, target):
+    """Copy the evaluation of a roller's contacts from one set to the other.
+
+    Number by number: where arrays are assigned, the compiler adds messages about their shapes,
+    which take it as long as a fifth of the integration does.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (2, n, columns)
+        As `new_linearisations` gives them.
+    roller : int
+    source, target : int
+        0 for the evaluations in use, 1 for those of accepted steps.
+    """
+    for column in range(numbers.shape[2]):
+        numbers[target, roller, column] = numbers[source, roller, column]
+
+
+@jit_inline
 def address(assembly):
     """Address of the tables, of the type that it has on an imposed orbit.
 
@@ -184,7 +204,7 @@ def locate(assembly, now, which, rollers, cages, conditions, turn):
 
 
 @jit
-def _evaluate(body, law, tables, load, speed, slip, linear):
+def _evaluate_raceway(body, law, tables, load, speed, slip, linear):
     """Evaluate a raceway contact at its load [N], ring speed and slip [m/s] into its record."""
     forces = NO_RACEWAY_FORCES
     if load > 0.0:
@@ -207,6 +227,27 @@ def _evaluate(body, law, tables, load, speed, slip, linear):
     linear.shear_by_speed = forces.shear_by_speed
     linear.skew = forces.skew
     linear.rough = forces.asperity_power
+
+
+@jit
+def _evaluate_cage(body, tables, load, sliding, linear):
+    """Evaluate the cage's contact at its load [N] and slip against the cage [m/s]."""
+    contact = cage_forces(body, tables, load, -sliding, log_speed(sliding))
+    linear.force = contact.friction + contact.resistance
+    linear.by_slip = contact.friction_by_slip + contact.resistance_by_slip
+    linear.by_load = contact.friction_by_load + contact.resistance_by_load
+    linear.shear = contact.resistance
+    linear.shear_by_slip = contact.resistance_by_slip
+    linear.shear_by_load = contact.resistance_by_load
+    linear.rough = contact.asperity_power
+    linear.slip = sliding
+    linear.load = load
+
+
+def addresses_of_evaluations() -> tuple[int, int]:
+    """Addresses of the evaluations of a raceway contact and of a cage's contact."""
+    raceway = address_of(_evaluate_raceway, BODY, CONTACT, int, float, float, float, LINEARISATION)
+    return raceway, address_of(_evaluate_cage, BODY, int, float, float, CAGE_LINEARISATION)
 
 
 @jit
@@ -244,8 +285,14 @@ def evaluate_marked(assembly, time, conditions, rollers, which, schedules, linea
             at = conditions[j]
             linear = linearisations[j]
             own = rollers[j].y[which]
-            _evaluate(body, body.inner, tables, at.inner_load, at.inner_speed, own[0], linear.inner)
-            _evaluate(body, body.outer, tables, at.outer_load, at.outer_speed, own[1], linear.outer)
+            call_at(  # pyright: ignore[reportCallIssue]
+                assembly.evaluate_raceway,
+                (body, body.inner, tables, at.inner_load, at.inner_speed, own[0], linear.inner),
+            )
+            call_at(  # pyright: ignore[reportCallIssue]
+                assembly.evaluate_raceway,
+                (body, body.outer, tables, at.outer_load, at.outer_speed, own[1], linear.outer),
+            )
             linear.when = time
             evaluations += 2
     return evaluations
@@ -402,16 +449,16 @@ def extrapolated_power(linear, law, turning, pull, shear, load, speed, slip):
 
 
 @jit_inline
-def cage_from(body, tables, linear, push, sliding, part):
+def cage_from(contact, linear, push, sliding, part):
     """Friction of the cage on a roller, extrapolated linearly between evaluations.
 
     The contact is the same in both rows. A pocket full of oil brakes its roller without load too.
 
     Parameters
     ----------
-    body : record of `macroslip.roller.model.BODY`
-    tables : int
-        Address of the flat array of tables.
+    contact : tuple
+        Record of a roller, `macroslip.roller.model.BODY`, the address of the flat array of its
+        tables, and the address `evaluate_cage` of `macroslip.whole.model.Assembly`.
     linear : record of `CAGE_LINEARISATION`
         The last evaluation, replaced by one at the present state where load or slip is out of
         reach.
@@ -431,6 +478,7 @@ def cage_from(body, tables, linear, push, sliding, part):
     by_push : float
         Its slope by N [-].
     """
+    body, tables, evaluate = contact
     load = abs(push)
     if not body.oily and load <= tuning.LIGHT:
         return 0.0, 0.0, 0.0
@@ -438,16 +486,7 @@ def cage_from(body, tables, linear, push, sliding, part):
         abs(load - linear.load) <= part * linear.load + tuning.LIGHT
         and abs(sliding - linear.slip) <= part * abs(linear.slip)
     ):
-        contact = cage_forces(body, tables, load, -sliding, log_speed(sliding))
-        linear.force = contact.friction + contact.resistance
-        linear.by_slip = contact.friction_by_slip + contact.resistance_by_slip
-        linear.by_load = contact.friction_by_load + contact.resistance_by_load
-        linear.shear = contact.resistance
-        linear.shear_by_slip = contact.resistance_by_slip
-        linear.shear_by_load = contact.resistance_by_load
-        linear.rough = contact.asperity_power
-        linear.slip = sliding
-        linear.load = load
+        call_at(evaluate, (body, tables, load, sliding, linear))  # pyright: ignore[reportCallIssue]
     force = (
         linear.force
         + linear.by_slip * (sliding - linear.slip)

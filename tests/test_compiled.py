@@ -1,0 +1,43 @@
+"""Compiled functions that are called by their address."""
+
+import numba
+import numpy as np
+
+from macroslip.compiled import address_of, call_at, jit
+
+POINT = np.dtype([("x", "f8"), ("turns", "i8")])
+
+
+@jit
+def _move(point, count, speed, moved):
+    """Move a point by a number of times its speed."""
+    moved.x = point.x + count * speed
+    moved.turns = point.turns + count
+
+
+@numba.njit
+def _move_at(address, points, count, speed):
+    """Move the first point to where the second one is, by the function at an address."""
+    call_at(address, (points[0], count, speed, points[1]))
+
+
+def test_a_function_at_an_address_does_what_it_does_by_its_name():
+    points = np.zeros(2, POINT)
+    points[0] = (1.5, 4)
+    _move_at(address_of(_move, POINT, int, float, POINT), points, 3, 0.25)
+    assert points[1].tolist() == (2.25, 7)
+
+
+def test_a_function_has_one_address():
+    assert address_of(_move, POINT, int, float, POINT) == address_of(
+        _move, POINT, int, float, POINT
+    )
+
+
+def test_a_function_at_an_address_is_no_part_of_its_callers():
+    address = address_of(_move, POINT, int, float, POINT)
+    _move_at(address, np.zeros(2, POINT), 1, 1.0)
+    (code,) = _move_at.inspect_llvm().values()
+    assert "_move_at" in code
+    calls = [line.replace("_move_at", "") for line in code.splitlines() if " call " in line]
+    assert not any("_move" in line for line in calls)
