@@ -12,7 +12,7 @@ from macroslip.contact.table import table_box
 from macroslip.imposed.euler import FIXED_WORK, integrate_fixed_step
 from macroslip.imposed.run import radau_limits
 from macroslip.imposed.solve import integrate
-from macroslip.imposed.state import LIMITS, WORK, Path
+from macroslip.imposed.state import LIMITS, WORK, path_of
 from macroslip.imposed.status import UNDER_WAY
 from macroslip.imposed.zones import classify
 from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces, write_conditions
@@ -132,9 +132,7 @@ def walk(
     rows: int = 1000,
 ):
     """All steps of the roller from a slip [m/s] on, in buffers of so many rows, and its status and record of work."""
-    path = Path(
-        roller.body[0], roller.tables.ctypes.data, roller.tables, motion, float(angle), limits[0]
-    )
+    path = path_of(roller, motion, angle, limits[0])
     work = np.zeros(1, WORK if limits.dtype == LIMITS else FIXED_WORK)
     classes, found = np.zeros(motion.time.size - 1, np.int8), []
     work["now"]["slip"], buffer, status = slip, np.zeros(rows, STEP), UNDER_WAY
