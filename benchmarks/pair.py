@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 #: The state that `make check` compares with: the last one before this round of changes.
-LAST_STATE = "b2f5b5e"
+LAST_STATE = "d60dc46a"
 ROOT = Path(__file__).parents[1]
 
 
