@@ -1,5 +1,7 @@
 """Compiled functions that are called by their address."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numba
 import numpy as np
 
@@ -32,6 +34,20 @@ def test_a_function_has_one_address():
     assert address_of(_move, POINT, int, float, POINT) == address_of(
         _move, POINT, int, float, POINT
     )
+
+
+def test_a_function_that_is_not_kept_on_the_disk_has_an_address_too():
+    points = np.zeros(2, POINT)
+    move = numba.njit(_move.py_func)
+    _move_at(address_of(move, POINT, int, float, POINT), points, 1, 2.0)
+    assert points[1].tolist() == (2.0, 1)
+
+
+def test_threads_that_ask_at_once_get_one_address():
+    move = numba.njit(_move.py_func)
+    with ThreadPoolExecutor(4) as pool:
+        addresses = list(pool.map(lambda _: address_of(move, POINT, int, float, POINT), range(8)))
+    assert len(set(addresses)) == 1
 
 
 def test_a_function_at_an_address_is_no_part_of_its_callers():

@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import gc
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,10 @@ _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wra
 
 #: Functions that a first case compiles, nearly the same of every model. A whole bearing has its own.
 _ABOUT = {"imposed": 150, "whole": 190}
+
+
+#: Held while the address of a function is looked up or the function compiled for it.
+_ADDRESSES = threading.Lock()
 
 
 class _Compiling(event.Listener):
@@ -96,8 +101,9 @@ def _kept_in(folder: Path) -> Iterator[None]:
 
 
 def _is_kept(dispatcher: Any, folder: Path) -> bool:
-    """True if numba keeps a function in a folder of ours, not beside the sources."""
-    return Path(dispatcher.stats.cache_path).is_relative_to(folder)
+    """True if numba keeps a function in a folder of ours: not beside the sources, nor nowhere."""
+    path = dispatcher.stats.cache_path
+    return path is not None and Path(path).is_relative_to(folder)
 
 
 @functools.cache
@@ -132,7 +138,10 @@ def address_of(dispatcher: Any, *arguments: np.dtype | type) -> int:
     int
         Address in this process.
     """
-    return _c_function(dispatcher, arguments).address
+    # Threads that ask at once would compile twice, and the code of the first would be let go while
+    # its address is in use.
+    with _ADDRESSES:
+        return _c_function(dispatcher, arguments).address
 
 
 @intrinsic
