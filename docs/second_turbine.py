@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -90,6 +90,9 @@ def runs(seat: str) -> Iterator[Run]:
     for celsius in (25, 50):
         kelvin = ZERO_CELSIUS + celsius
         yield Run(seat, 12, variant=f"oil at {celsius} °C", changes={"temperature": kelvin})
+    yield Run(
+        seat, 12, variant="skew", changes={"laws": replace(Laws.physical(), skew="quasi-static")}
+    )
     yield Run(seat, 12, variant="half the clearance", clearance=0.5)
     yield Run(seat, 12, variant="oval +50 µm", oval=50e-6)
     yield Run(seat, 12, variant="oval -50 µm", oval=-50e-6)
@@ -115,16 +118,17 @@ def case_of(run: Run) -> Case:
     if run.steady:
         force = loads.force.mean(axis=0) * ([1, 1, 1] if run.steady == "mean" else [1, 1, 0])
         loads = BearingLoads.constant(force, float(loads.shaft_speed.mean()), 30.0)
+    laws = Laws.paper() if run.model == "paper" else Laws.physical()
+    settings = {"laws": laws, **run.changes}
     return Case(
         loads=loads,
         bearing=bearing,
         lubricant=Lubricant.read(turbine.lubricant),
         drivetrain=turbine.drivetrain,
         rollers=[0, bearing.rollers_per_row // 2],
-        laws=Laws.paper() if run.model == "paper" else Laws.physical(),
         rating=False,
         traces=Traces(step=0.1) if run.variant == AS_IT_IS else None,
-        **run.changes,
+        **settings,
     )
 
 
