@@ -18,7 +18,9 @@ from skew_drawing import skewed_rollers
 
 from macroslip import Bearing, BearingLoads, Case, Laws, Traces, simulate
 from macroslip.bearing import geometry
+from macroslip.bearing.tapered import TaperedBearing
 from macroslip.report.bearing_drawing import draw_bearing
+from macroslip.report.tapered_drawing import draw_tapered_bearing
 
 SHAFT, BEARING, FORCE, MOTION, PALE = "#1f5a96", "#b3261e", "#7a4b00", "#1b7a3d", "#e6e6e6"
 
@@ -388,7 +390,13 @@ def bearing_section() -> Figure:
     return draw_bearing(Bearing.read("skf-240-600-bc"))
 
 
+def tapered_section() -> Figure:
+    """Section of a tapered roller main bearing, with rows, apexes and dimensions, to scale."""
+    return draw_tapered_bearing(TaperedBearing.read("tdo-main-bearing"))
+
+
 PICTURES = {
+    "tapered-section.svg": tapered_section,
     "frames-side.svg": side_view,
     "frames-axial.svg": axial_view,
     "frames-roller.svg": one_roller,

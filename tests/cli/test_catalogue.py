@@ -250,3 +250,5 @@ def test_a_drawing(folder, macroslip):
     done = macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.txt")
     assert done.code == 2 and "ends with .svg, .pdf or .png" in done.err
     assert macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.svg").code == 2
+    assert macroslip("bearing", "draw", "32216-pair", "-o", "pair.svg").code == 0
+    assert "<svg" in (folder / "pair.svg").read_text(encoding="utf-8")

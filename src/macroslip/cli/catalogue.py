@@ -484,7 +484,7 @@ def _draw(
     force: Force = False,
 ) -> None:
     """Draw the section of a bearing, with the name and value of every dimension."""
-    from macroslip import Bearing
+    from macroslip.bearing.kinds import read_bearing
 
     if output.suffix not in _DRAWINGS:
         allowed = "a name that ends with .svg, .pdf or .png"
@@ -492,8 +492,13 @@ def _draw(
     check_new_file(output, force=force)
     require(PICTURE)
     from macroslip.report.bearing_drawing import draw_bearing
+    from macroslip.report.tapered_drawing import draw_tapered_bearing
 
-    figure = draw_bearing(Bearing.read(name_or_file))
+    bearing = read_bearing(name_or_file)
+    if bearing.kind == "tapered":
+        figure = draw_tapered_bearing(bearing)
+    else:
+        figure = draw_bearing(bearing)
     with new_file(output, force=force) as temporary:
         figure.savefig(temporary, format=output.suffix[1:])
     typer.echo(f"written: {output}")

@@ -41,6 +41,8 @@ ALONG = np.dtype(
         ("rough_total", "f8"),
         # Sum of ∫ p |v| dA [W].
         ("work_total", "f8"),
+        # Largest power per length times power per area of a station [W²/m³].
+        ("hottest", "f8"),
         # Film regime: 1 where Λ is 1 and above, 0 below.
         ("regime", "i8"),
     ]
@@ -95,7 +97,7 @@ def _parabola(line, first, station):
 
 
 @jit_inline
-def _entrainment(ring_speed, slip):
+def signed_entrainment(ring_speed, slip):
     """Entrainment speed with its sign, not slower than films are followed [m/s]."""
     mean = ring_speed - 0.5 * slip
     return math.copysign(max(abs(mean), LOWEST_SPEED), mean)
@@ -117,6 +119,77 @@ def _covered(k, width, half_length, middle, across):
     first = max(left, middle - across)
     last = min(left + width, middle + across)
     return 0.5 * (first + last), (last - first) / width
+
+
+class Station(NamedTuple):
+    """A station along the roller as it is booked."""
+
+    number: int
+    covered: float  #: Part of it that touches [-]
+    width: float  #: Of a whole station [m]
+    load: float  #: Per length [N/m]
+    half_width: float  #: Of the contact along rolling [m]
+    slip: float  #: With its sign [m/s]
+    speed: float  #: Of slip, across rolling too [m/s]
+    power: float  #: Per length [W/m]
+    asperities: float  #: Their part of the power per length [W/m]
+
+
+@jit_inline
+def begin_along(along):
+    """Set the sums over stations to zero."""
+    along.total = 0.0
+    along.rough_total = 0.0
+    along.work_total = 0.0
+    along.hottest = 0.0
+
+
+@jit_inline
+def leave_station(along, k):
+    """Note that a station does not touch."""
+    along.power[k] = 0.0
+    along.rough[k] = 0.0
+    along.work[k] = 0.0
+    along.density[k] = 0.0
+
+
+@jit_inline
+def book_station(along, station, hot, times, passed):
+    """Add a station's power to those along the roller.
+
+    Parameters
+    ----------
+    along : record of `ALONG`
+        Power, work and density of the station, and sums, are written.
+    station : Station
+    hot : ndarray
+        Power per length [W/m] and half-width [m] of the hottest station are written.
+    times : ndarray, shape (classes of slip, 2)
+        Times under load [s] and passes [-] of the film's class; the station's are added.
+    passed : tuple of float
+        Time [s] and passes [-] since the sample before, entrainment speed with its sign [m/s].
+    """
+    k = station.number
+    # Of power only its share of all stations counts; of p |v| its size does.
+    along.power[k] = math.copysign(station.power * station.covered, station.slip)
+    along.rough[k] = station.asperities * station.covered
+    along.work[k] = station.load * station.speed * station.covered * station.width
+    along.total += abs(along.power[k])
+    along.rough_total += along.rough[k]
+    along.work_total += along.work[k]
+    if passed[0] > 0.0:
+        ratio = math.copysign(station.speed, station.slip) / passed[2]
+        spent = times[class_of(SLIP_EDGES, ratio)]
+        spent[0] += passed[0] / STATIONS * station.covered
+        spent[1] += passed[1] * station.covered / STATIONS
+    density = station.power / (2.0 * station.half_width)
+    along.density[k] = density
+    # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
+    if station.power * density > along.hottest:
+        along.hottest = station.power * density
+        hot[0] = station.power
+        hot[1] = station.half_width
+    return density
 
 
 @jit
@@ -152,29 +225,23 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     film = sample.film[interface]
     share = sample.share[interface]
     load = state[0]
-    entrainment = _entrainment(state[1], state[2])
+    entrainment = signed_entrainment(state[1], state[2])
     times = maps.film_slip[interface, class_of(FILM_EDGES, film / contact.roughness)]
-    span = (sample.time - sample.since) / STATIONS
+    span = sample.time - sample.since
     root = load ** (1.0 / 3.0)
     across = patch.across * root
     line = sample.lines[interface]
     width = 2.0 * patch.half_length / STATIONS
     node = film_node(contact.chords, film)
     boundary = 0.75 * patch.boundary_friction * max(share, _LEAST_SHARE) * load / across
-    hot = sample.hot[interface]
-    hottest = 0.0
+    passed = (span if sample.at.elastic_load > 0.0 else 0.0, passes, entrainment)
     densest = 0.0
     fastest = 0.0
-    along.total = 0.0
-    along.rough_total = 0.0
-    along.work_total = 0.0
+    begin_along(along)
     for k in range(STATIONS):
         station, covered = _covered(k, width, patch.half_length, line[0], across)
         if covered < 1e-6:
-            along.power[k] = 0.0
-            along.rough[k] = 0.0
-            along.work[k] = 0.0
-            along.density[k] = 0.0
+            leave_station(along, k)
             continue
         height = 1.0 - (station - line[0]) * (station - line[0]) / (across * across)
         local = _parabola(line, 1, station)
@@ -190,24 +257,11 @@ def power_along(maps, interface, contact, state, sample, passes, along):
             per_length = (1.0 - share) * 0.75 * height / across * load * speed
             per_length *= _saturating_friction(contact, speed, entrainment)
             per_length += asperities
-        # Of power only its share of all stations counts; of p |v| its size does.
-        along.power[k] = math.copysign(per_length * covered, local)
-        along.rough[k] = asperities * covered
-        along.work[k] = 0.75 * height / across * load * speed * covered * width
-        along.total += abs(along.power[k])
-        along.rough_total += along.rough[k]
-        along.work_total += along.work[k]
-        if sample.at.elastic_load > 0.0:
-            spent = times[class_of(SLIP_EDGES, math.copysign(speed, local) / entrainment)]
-            spent[0] += span * covered
-            spent[1] += passes * covered / STATIONS
-        density = per_length / (2.0 * half_width)
-        along.density[k] = density
-        # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
-        if per_length * density > hottest:
-            hottest = per_length * density
-            hot[0] = per_length
-            hot[1] = half_width
+        of_length = 0.75 * height / across * load
+        booked = Station(
+            k, covered, width, of_length, half_width, local, speed, per_length, asperities
+        )
+        density = book_station(along, booked, sample.hot[interface], times, passed)
         densest = max(densest, density)
         fastest = max(fastest, speed)
     along.regime = 1 if film >= contact.roughness else 0

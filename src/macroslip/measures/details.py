@@ -18,7 +18,9 @@ from macroslip.compiled import jit
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature
 from macroslip.contact.patch import fine_power, patch_power
+from macroslip.contact.strips import PreparedStrips
 from macroslip.measures.along import STATIONS, power_along
+from macroslip.measures.along_line import STRIP, line_power_along, strips_along
 from macroslip.measures.extremes import EXTREMES, heat_entries, raise_extremes, sample_cage
 from macroslip.measures.maps import MAPS, PER_ANGLE, spread
 from macroslip.measures.samples import MEMORY, SAMPLE, begin, choose
@@ -93,10 +95,11 @@ def new_details(edges: np.ndarray) -> Details:
 
 
 @jit
-def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry_extreme):
+def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extreme, entry_extreme):
     """Spread the energies of samples and raise the extremes.
 
-    What is hottest is written to the samples.
+    What is hottest is written to the samples. Strips are those of line contacts, over sample,
+    raceway and station; of ellipses there are none.
     """
     body, tables = roller
     for n in range(samples.size):
@@ -124,9 +127,15 @@ def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry
             late = 0.0
             late_rough = 0.0
             if load > 0.0:
-                densest, fastest, mean = power_along(
-                    maps, i, contacts[i], states[i], sample, abs(end - start) / SECTORS, after
-                )
+                passes = abs(end - start) / SECTORS
+                if len(strips) > 0:
+                    densest, fastest, mean = line_power_along(
+                        maps, i, contacts[i], states[i], sample, passes, strips[n, i], after
+                    )
+                else:
+                    densest, fastest, mean = power_along(
+                        maps, i, contacts[i], states[i], sample, passes, after
+                    )
                 film_ratio = sample.film[i] / contacts[i].roughness
                 raise_extremes(extreme, sample.orbit, i, densest, fastest / mean, film_ratio)
                 if sample.entry > 0:
@@ -226,6 +235,7 @@ class ContactSampler:
             samples["share"][loaded, i] = law.asperity_share(
                 load[loaded], entrainment[loaded], film
             )
+        strips = self._strips(samples["at"])
         lines = samples["lines"]
         lines[...] = 0.0
         for i, name in enumerate(RACEWAYS):
@@ -247,6 +257,7 @@ class ContactSampler:
         roller = self._roller.body[0], self._roller.tables.ctypes.data
         _spread_samples(
             samples,
+            strips,
             self._contacts,
             roller,
             self._start_angle,
@@ -268,6 +279,18 @@ class ContactSampler:
         self._entering = rows[under_way:]
         self._check_quadrature(samples)
 
+    def _strips(self, at: np.ndarray) -> np.ndarray:
+        """Strips of line contacts, of `STRIP` and shape (samples, 2, STATIONS); of ellipses none."""
+        laws = self._laws.inner, self._laws.outer
+        count = at.size if isinstance(laws[0], PreparedStrips) else 0
+        strips = np.zeros((count, len(RACEWAYS), STATIONS), STRIP)
+        if count:
+            for i, (name, law) in enumerate(zip(RACEWAYS, laws, strict=True)):
+                loaded = at[f"{name}_load"] > 0.0
+                state = (at[f"{name}_{field}"][loaded] for field in ("load", "speed", "slip"))
+                strips[loaded, i] = strips_along(law, *state)
+        return strips
+
     def _heat(self, rows: np.ndarray) -> None:
         """Find how hot the raceways became in entries that have ended."""
         heat_entries(rows, self._contacts[0].effusivity, self.details.entry_extreme)
@@ -281,6 +304,8 @@ class ContactSampler:
                     float(sample["at"][f"{name}_{field}"]) for field in ("load", "speed", "slip")
                 )
                 if load <= 0.0 or not law.shape.microslip or law.fluid is None:
+                    continue
+                if isinstance(law, PreparedStrips):  # whose stations are the strips of a rule of their own
                     continue
                 state = (load, float(sample["film"][i]), ring_speed, slip)
                 span = sample["time"] - sample["since"]

@@ -156,9 +156,9 @@ def tabulated_power(
 
 
 def bearing_friction_power(result: xr.Dataset) -> float:
-    """Mean friction power of the bearing over the window [W]: sliding, rolling, cage and drag.
+    """Mean friction power of the bearing over the window [W]: sliding, rolling, cage, ribs and drag.
 
-        P = Z/n Σ (E + E_rolling)/t + P_drag
+        P = Z/n Σ (E + E_rolling + E_rib)/t + P_drag
 
     of n simulated rollers a row that represent all Z. Raises InputError if a roller failed.
     """
@@ -168,6 +168,8 @@ def bearing_friction_power(result: xr.Dataset) -> float:
         raise InputError(fault, where=_BALANCE, remedy=remedy)
     span = result.attrs["window_end"] - result.attrs["window_start"]
     energy = float(result.energy.sum() + result.rolling_energy.sum())
+    if "rib_energy" in result:
+        energy += float(result.rib_energy.sum())
     share = result.attrs["rollers_per_row"] / result.sizes["roller"]
     return share * energy / span + result.attrs["drag_power"]
 

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
 from macroslip.bearing import geometry
 from macroslip.constants import YEAR
+from macroslip.contact.strips import PreparedStrips, strip_approach
 from macroslip.damage import wear
 from macroslip.errors import InputError
 from macroslip.measures.along import STATIONS
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly
 from macroslip.result.criteria.evaluation import SURFACES, Evaluation
 from macroslip.result.variables import described
+
+if TYPE_CHECKING:
+    from macroslip.contact.laws import PreparedContact
 
 #: Time for which turbines are designed [years], IEC 61400-1.
 DESIGN_LIFE = 20.0
@@ -30,7 +34,7 @@ _TRIED = 401
 _SLICES = 4
 #: Number of the depth of 10 µm, and of the middle coefficient k of a run.
 _TEN_MICROMETRES = wear.DEPTHS.index(1e-5)
-_MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
+MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
 _NO_WEAR = (
     "Wear was not computed, since without asperities nothing touches: choose their law, laws: "
     "{asperities: masjedi-khonsari} "
@@ -110,12 +114,17 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
             nothing = np.zeros(along.size)
             contacts.append(wear.Pressed(0.0, nothing, 1.0, nothing, 0.0, 0.0))
             continue
-        contour = 0.5 * curved.lateral * along**2
-        half_length = law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
-        stiffness = wear.hertz_slices(load, half_length, curved.lateral)
+        if isinstance(law, PreparedStrips):
+            contour = law.strips.profile(along)
+            approach = float(strip_approach(law.strips, load))
+            stiffness = load / (np.maximum(approach - contour, 0.0).sum() * width)
+        else:
+            contour = 0.5 * curved.lateral * along**2
+            half_length = law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
+            stiffness = wear.hertz_slices(load, half_length, curved.lateral)
         pressed = wear.slice_loads(contour, load, stiffness, width)
         mapped = result.surface_work.isel(raceway=i).sum("angle").values
-        slip = slip_profile(law.shape, along, pressed, mapped, skew)
+        slip = slip_profile(law, along, pressed, mapped, skew)
         total = (pressed * slip).sum() / _SLICES
         ring = work[i].sum() / total
         roller = on_roller[i].sum() / total
@@ -139,13 +148,13 @@ def working_skew(row: xr.Dataset) -> float:
 
 
 def slip_profile(
-    shape: Any, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
+    law: PreparedContact, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
 ) -> np.ndarray:
     """|v| along the roller over the ring's speed [-], with the slip of the middle that fits best.
 
     Parameters
     ----------
-    shape : ContactShape
+    law : PreparedContact
         Of the raceway contact.
     along : ndarray, shape (n,)
         Places of the slices along the roller [m].
@@ -160,13 +169,20 @@ def slip_profile(
     -------
     ndarray, shape (n,)
     """
+    shape = law.shape
     if not shape.microslip:
         return np.ones_like(along)
-    curvature = shape.curvature_ratio / (2.0 * shape.contour_radius)
-    microslip = curvature * along**2 - shape.spin_ratio * along
+    growth = np.ones_like(along)
+    if isinstance(law, PreparedStrips):
+        strips = law.strips
+        microslip = 0.5 * strips.curvature * strips.profile(along)
+        growth += along * strips.taper
+    else:
+        curvature = shape.curvature_ratio / (2.0 * shape.contour_radius)
+        microslip = curvature * along**2 - shape.spin_ratio * along
     largest = np.abs(microslip[pressed > 0.0]).max()
     middle = np.linspace(-1.0, 1.0, _TRIED)[:, None] * largest
-    slips = np.hypot(microslip + middle, skew)
+    slips = np.hypot(microslip + middle * growth, skew)
     profiles = (slips * pressed).reshape(_TRIED, STATIONS, _SLICES).sum(axis=-1)
     profiles /= profiles.sum(axis=1, keepdims=True)
     error = ((profiles - work / work.sum()) ** 2).sum(axis=1)
@@ -200,7 +216,7 @@ def _wear_rate(criteria: xr.Dataset, _: xr.Dataset) -> xr.DataArray | None:
     if "asperity_work_rate" not in criteria:
         return None
     work = criteria.asperity_work_rate.max(["surface", "station"], skipna=False)
-    return _MIDDLE_COEFFICIENT * work
+    return MIDDLE_COEFFICIENT * work
 
 
 CRITERIA = (

@@ -1,0 +1,249 @@
+"""A spherical and a tapered roller bearing on the same year of hub loads, as docs/tapered.md has it.
+
+    python docs/tapered_year.py compute OUT     every case, into OUT/tapered_year.csv
+    python docs/tapered_year.py table OUT       the table, and figures/tapered_year.svg
+
+The year is thinned: the first minute of four load cases of turbulence class B of the 1.5 MW turbine,
+two rollers of each row, weighted by the hours of IEC class II around each wind speed, no events. What
+ribs of other shapes do follows from the loads of their rollers in pure rolling. `compute` goes on
+where it stopped; it takes seven minutes of a processor.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+
+from macroslip import Case, HubLoads, Laws, Lubricant, Turbine, simulate
+from macroslip.bearing.kinds import read_bearing
+from macroslip.constants import YEAR
+from macroslip.measures.along import FILM_EDGES
+from macroslip.report.style import BLUE, GREEN, GREY, ORANGE, finish, new_figure
+from macroslip.result.criteria import YEARLY
+from macroslip.result.damage import damage
+from macroslip.study.summary import rating_values
+
+SECONDS = 60.0
+#: Wind speeds [m/s], and the edges of the classes for which they stand.
+WINDS = (4, 8, 14, 20)
+EDGES = (3.0, 6.0, 11.0, 17.0, 25.0)
+#: Mean wind speed of IEC class II [m/s], Rayleigh.
+MEAN_WIND = 8.5
+TURBINE = Turbine.read("windpact1.5")
+SPHERICAL = TURBINE.bearing
+TAPERED = "tdo-main-bearing"
+#: Stiffness of the gearbox's support that takes a part of the moment, an estimate [N/m].
+SUPPORT = 1e8
+#: Film over that of full inlets at the raceways of both bearings: SKF's factor needs diameters, which
+#: the tapered one's page does not give.
+SUPPLY = 0.7
+#: Film at a rib over that of a full inlet, where it is starved.
+STARVED = 0.1
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A bearing in the turbine: values that differ from its file, and from the mount."""
+
+    name: str
+    bearing: str = TAPERED
+    values: Mapping[str, float] = field(default_factory=dict)
+    mount: Mapping[str, Any] = field(default_factory=dict)
+
+
+VARIANTS = (
+    Variant("spherical, 240/600", SPHERICAL),
+    Variant("tapered"),
+    Variant("no preload", values={"preload": 0.0}),
+    Variant("preload 0.4 mm", values={"preload": 0.4e-3}),
+    Variant("bearing alone", mount={"mount": "alone", "gearbox_stiffness": None}),
+)
+#: Variants of which the ribs alone are computed; raceways do not feel them.
+RIBS = (
+    Variant("rib as estimated"),
+    Variant("rib contact 3 mm high", values={"rib_contact_height": 3e-3}),
+    Variant("rib contact 9 mm high", values={"rib_contact_height": 9e-3}),
+    Variant("rib sphere 0.7", values={"rib_sphere_ratio": 0.7}),
+    Variant("rib sphere 0.95", values={"rib_sphere_ratio": 0.95}),
+    Variant("half the film at the rib", values={"rib_oil_supply": 0.5}),
+    Variant("a tenth of the film at the rib", values={"rib_oil_supply": STARVED}),
+)
+
+
+def case_of(variant: Variant, wind: int) -> Case:
+    """A variant at a wind speed [m/s]."""
+    bearing = read_bearing(variant.bearing)
+    if variant.values:
+        bearing = bearing.replace(**variant.values)
+    drivetrain = TURBINE.drivetrain
+    if bearing.kind == "tapered":
+        drivetrain = replace(drivetrain, **({"gearbox_stiffness": SUPPORT} | variant.mount))
+    return Case(
+        loads=HubLoads.bundled(f"{wind}B").window(0.0, SECONDS),
+        bearing=bearing,
+        lubricant=Lubricant.read(TURBINE.lubricant),
+        drivetrain=drivetrain,
+        rollers=[0, bearing.rollers_per_row // 2],
+        laws=Laws.physical(),
+        oil_supply=SUPPLY,
+    )
+
+
+def measures(case: Case) -> dict[str, float]:
+    """Numbers of a case: powers of the bearing [W], rates of damage, shares of time and lives."""
+    result = simulate(case)
+    assert (result.status == 0).all(), case.loads.source
+    window = float(result.attrs["window_end"] - result.attrs["window_start"])
+    scale = case.bearing.rollers_per_row / result.sizes["roller"] / window
+    raceways = result.energy.sel(interface=["inner", "outer"])
+    ribs = float(result.rib_energy.sum()) if "rib_energy" in result else 0.0
+    rating = rating_values(case)
+    return {
+        "raceway power": scale * float(raceways.sum()),
+        "cage power": scale * float(result.energy.sel(interface="cage").sum()),
+        "rolling power": scale * float(result.rolling_energy.sum()),
+        "rib power": scale * ribs,
+        "lowest spin": float(result.min_spin_ratio.min()),
+        "reference life": rating["reference_life"],
+        "largest pressure": rating["largest_pressure"],
+        **films(result),
+        **rates(result),
+    }
+
+
+def films(result: xr.Dataset) -> dict[str, float]:
+    """Shares of the loaded time of both raceways and rows with thin films, and at the ribs."""
+    time = result.film_slip_time.sum(("row", "raceway", "slip_class")).values
+    shares = {
+        f"film below {edge:g}": float(time[: FILM_EDGES.index(edge) + 1].sum() / time.sum())
+        for edge in (1.0, 3.0)
+    }
+    if "min_rib_film_ratio" in result:
+        shares["least film at ribs"] = float(result.min_rib_film_ratio.min())
+    return shares
+
+
+def rates(result: xr.Dataset) -> dict[str, float]:
+    """Numbers of damage: sums of both rows, or the worse one."""
+    criteria = damage(result)
+    values = {}
+    for yearly in YEARLY:
+        of_rows = yearly.of_run(criteria, result)
+        if of_rows is not None:
+            known = of_rows.fillna(0.0)
+            values[yearly.run_name] = float(known.sum() if yearly.drawn == "sum" else known.max())
+    return values
+
+
+def cases(there: set[tuple[str, int]]) -> Iterator[tuple[Variant, int]]:
+    """Variants and wind speeds that are not there yet."""
+    for variant in VARIANTS:
+        for wind in WINDS:
+            if (variant.name, wind) not in there:
+                yield variant, wind
+
+
+def compute(folder: Path) -> None:
+    """Simulate every case that is not there yet."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "tapered_year.csv"
+    there: set[tuple[str, int]] = set()
+    if path.exists():
+        known = pd.read_csv(path)[["variant", "wind"]].drop_duplicates()
+        there = set(known.itertuples(index=False, name=None))
+    for variant, wind in cases(there):
+        numbers = measures(case_of(variant, wind))
+        lines = [[variant.name, wind, name, value] for name, value in numbers.items()]
+        frame = pd.DataFrame(lines, columns=["variant", "wind", "quantity", "value"])
+        frame.to_csv(path, mode="a", header=not path.exists(), index=False)
+        print(variant.name, wind, flush=True)
+
+
+def seconds_of_year() -> pd.Series:
+    """Time of a year [s] in the class of each wind speed."""
+    exceeded = np.exp(-np.pi / 4.0 * (np.array(EDGES) / MEAN_WIND) ** 2)
+    return pd.Series(-YEAR * np.diff(exceeded), WINDS)
+
+
+def years(folder: Path) -> pd.DataFrame:
+    """A year of every variant, by name and quantity."""
+    table = pd.read_csv(folder / "tapered_year.csv")
+    values = table.pivot(index=["variant", "quantity"], columns="wind", values="value")
+    seconds = seconds_of_year()
+    share = seconds / seconds.sum()
+    rows = {}
+    for variant in VARIANTS:
+        of_variant = values.loc[variant.name]
+
+        def total(quantity: str, numbers: pd.DataFrame = of_variant) -> float:
+            return float((numbers.loc[quantity] * seconds).sum())
+
+        parts = ("raceway", "cage", "rolling", "rib")
+        energy = {f"{part} [GJ]": 1e-9 * total(f"{part} power") for part in parts}
+        rows[variant.name] = energy | {
+            "friction [GJ]": sum(energy.values()),
+            "entries under slip [1e6]": 1e-6 * total("entry_rate"),
+            "film below 3 [%]": 100.0 * float((of_variant.loc["film below 3"] * share).sum()),
+            "film below 1 [%]": 100.0 * float((of_variant.loc["film below 1"] * share).sum()),
+            "wear of raceways [um]": 1e6 * total("wear_rate"),
+            "reference life [1e6 h]": 1e-6 / float((share / of_variant.loc["reference life"]).sum()),
+            "largest pressure [GPa]": 1e-9 * float(of_variant.loc["largest pressure"].max()),
+            "lowest spin [1]": float(of_variant.loc["lowest spin"].min()),
+        }
+        if "rib_wear_rate" in of_variant.index:
+            rows[variant.name] |= {
+                "wear of ribs [um]": 1e6 * total("rib_wear_rate"),
+                "least film at ribs [1]": float(of_variant.loc["least film at ribs"].min()),
+            }
+    return pd.DataFrame(rows).T
+
+
+def figure(folder: Path) -> Figure:
+    """Friction by part, entries, films and life of every variant, beside the spherical bearing."""
+    table = years(folder)
+    drawn, panels = new_figure(10.2, 4.2, columns=4, sharey=True)
+    places = np.arange(len(table))
+    left = np.zeros(len(table))
+    for part, colour in (("raceway", BLUE), ("cage", GREY), ("rolling", GREEN), ("rib", ORANGE)):
+        values = table[f"{part} [GJ]"].to_numpy()
+        panels[0].barh(places, values, left=left, color=colour, label=part)
+        left += values
+    for axes, (name, label) in zip(
+        panels[1:],
+        (
+            ("entries under slip [1e6]", "entries under slip [million]"),
+            ("film below 3 [%]", "loaded time with Λ < 3 [%]"),
+            ("reference life [1e6 h]", "reference life [million h]"),
+        ),
+        strict=True,
+    ):
+        axes.barh(places, table[name], color=[GREY, *[BLUE] * (len(table) - 1)])
+        finish(axes, label, "")
+    finish(panels[0], "friction of a year [GJ]", "")
+    panels[0].set_yticks(places, table.index)
+    panels[0].invert_yaxis()
+    handles, labels = panels[0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside upper center", ncols=4, frameon=False)
+    return drawn
+
+
+def tell(folder: Path) -> None:
+    """Print the table and draw the figure."""
+    print(f"hours: {seconds_of_year().sum() / 3600.0:.0f}")
+    print(years(folder).T.to_string(float_format=lambda value: f"{value:.3g}"))
+    matplotlib.rcParams["svg.hashsalt"] = "macroslip"
+    path = Path(__file__).parent / "figures" / "tapered_year.svg"
+    figure(folder).savefig(path, metadata={"Date": None})
+
+
+if __name__ == "__main__":
+    {"compute": compute, "table": tell}[sys.argv[1]](Path(sys.argv[2]))
