@@ -195,7 +195,8 @@ def years(folder: Path) -> pd.DataFrame:
             "film below 3 [%]": 100.0 * float((of_variant.loc["film below 3"] * share).sum()),
             "film below 1 [%]": 100.0 * float((of_variant.loc["film below 1"] * share).sum()),
             "wear of raceways [um]": 1e6 * total("wear_rate"),
-            "reference life [1e6 h]": 1e-6 / float((share / of_variant.loc["reference life"]).sum()),
+            "reference life [1e6 h]": 1e-6
+            / float((share / of_variant.loc["reference life"]).sum()),
             "largest pressure [GPa]": 1e-9 * float(of_variant.loc["largest pressure"].max()),
             "lowest spin [1]": float(of_variant.loc["lowest spin"].min()),
         }

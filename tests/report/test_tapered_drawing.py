@@ -14,7 +14,9 @@ BEARING = read_bearing("tdo-main-bearing")
 def words(figure) -> dict[str, str]:
     """What the drawing says of either row."""
     texts = [text.get_text() for text in figure.axes[0].texts]
-    return {row: next(text for text in texts if f"“{row}”" in text) for row in ("downwind", "upwind")}
+    return {
+        row: next(text for text in texts if f"“{row}”" in text) for row in ("downwind", "upwind")
+    }
 
 
 @pytest.mark.parametrize(("arrangement", "side"), [("O", "upwind"), ("X", "downwind")])

@@ -495,10 +495,8 @@ def _draw(
     from macroslip.report.tapered_drawing import draw_tapered_bearing
 
     bearing = read_bearing(name_or_file)
-    if bearing.kind == "tapered":
-        figure = draw_tapered_bearing(bearing)
-    else:
-        figure = draw_bearing(bearing)
+    draw = draw_tapered_bearing if bearing.kind == "tapered" else draw_bearing
+    figure = draw(bearing)
     with new_file(output, force=force) as temporary:
         figure.savefig(temporary, format=output.suffix[1:])
     typer.echo(f"written: {output}")

@@ -11,11 +11,11 @@ from macroslip.contact.strips import load_at_pressure, strips_of
 from macroslip.contact.traction import HIGHEST_PRESSURE
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads
-from macroslip.result.tapered import warmed
+from macroslip.result.tapered import TaperedMount, warmed
 from macroslip.result.tapered_checks import check_moment, check_preload
 from macroslip.result.tapered_ribs import rib_values as history_of_ribs
 from macroslip.ring.grip import grip_load
-from macroslip.ring.tapered import ROW_SIGNS, gearbox_support, tapered_ring
+from macroslip.ring.tapered import ROW_SIGNS, tapered_ring
 from macroslip.ring.tapered_motion import TaperedMotion, tapered_motion
 
 if TYPE_CHECKING:
@@ -36,11 +36,14 @@ def warm_bearing(case: Case) -> TaperedBearing:
 
     Two single rows of its kind, at their distance, where the mount has them.
     """
-    bearing = case.bearing
-    drivetrain = case.drivetrain
-    if isinstance(case.loads, HubLoads) and drivetrain.mount == "two-bearings":
-        bearing = bearing.replace(row_offset=0.5 * (drivetrain.front_to_rear or 0.0))
-    return warmed(bearing, case.temperature_difference)
+    mount = _mount_of(case)
+    mounted = case.bearing if mount is None else mount.mounted(case.bearing)
+    return warmed(mounted, case.temperature_difference)
+
+
+def _mount_of(case: Case) -> TaperedMount | None:
+    """How the shaft of a case is held; None where the force on the bearing is given."""
+    return TaperedMount.of(case.drivetrain) if isinstance(case.loads, HubLoads) else None
 
 
 def tapered_ring_motion(case: Case) -> TaperedMotion:
@@ -62,12 +65,9 @@ def tapered_ring_motion(case: Case) -> TaperedMotion:
     MacroslipError
         If a balance was not found.
     """
-    support = None
-    drivetrain = case.drivetrain
-    if isinstance(case.loads, HubLoads) and drivetrain.gearbox_stiffness is not None:
-        support = gearbox_support(drivetrain.gearbox_stiffness, drivetrain.bearing_to_gearbox)
+    mount = _mount_of(case)
     warm = warm_bearing(case)
-    ring = tapered_ring(warm, support=support)
+    ring = tapered_ring(warm) if mount is None else mount.ring(warm)
     check_preload(warm, ring)
     check_moment(warm, ring, case.ring_moments)
     ring_motion = tapered_motion(case.ring_loads, case.ring_moments, ring)
