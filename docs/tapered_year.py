@@ -30,6 +30,8 @@ from macroslip.measures.along import FILM_EDGES
 from macroslip.report.style import BLUE, GREEN, GREY, ORANGE, finish, new_figure
 from macroslip.result.criteria import YEARLY
 from macroslip.result.damage import damage
+from macroslip.result.tapered_case import tapered_ring_motion
+from macroslip.result.tapered_ribs import rib_values
 from macroslip.study.summary import rating_values
 
 SECONDS = 60.0
@@ -46,6 +48,8 @@ SUPPORT = 1e8
 #: Film over that of full inlets at the raceways of both bearings: SKF's factor needs diameters, which
 #: the tapered one's page does not give.
 SUPPLY = 0.7
+#: Coefficient of wear [m²/N], known to a factor of ten.
+WEAR = 1e-17
 #: Film at a rib over that of a full inlet, where it is starved.
 STARVED = 0.1
 
@@ -69,7 +73,7 @@ VARIANTS = (
 )
 #: Variants of which the ribs alone are computed; raceways do not feel them.
 RIBS = (
-    Variant("rib as estimated"),
+    Variant("ribs as estimated"),
     Variant("rib contact 3 mm high", values={"rib_contact_height": 3e-3}),
     Variant("rib contact 9 mm high", values={"rib_contact_height": 9e-3}),
     Variant("rib sphere 0.7", values={"rib_sphere_ratio": 0.7}),
@@ -120,6 +124,21 @@ def measures(case: Case) -> dict[str, float]:
     }
 
 
+def rib_measures(case: Case) -> dict[str, float]:
+    """Power of all ribs [W], their wear [m/s] and least film [1] in pure rolling."""
+    motion = tapered_ring_motion(case)
+    force = motion.balance.rib_force
+    by_row = force.reshape(len(force), 2, -1)
+    speed = np.abs(motion.motion.shaft_speed)
+    ribs = rib_values(case.bearing, case.oil, by_row, speed, case.laws)
+    return {
+        "rib power": float(ribs["rib_power"].sum(axis=1).mean()),
+        "rib_wear_rate": WEAR * float(ribs["rib_asperity_work"].mean(axis=0).max()),
+        "least film at ribs": float(ribs["rib_film_ratio"].min()),
+        "rib flash temperature": float(ribs["rib_flash_temperature"].max()),
+    }
+
+
 def films(result: xr.Dataset) -> dict[str, float]:
     """Shares of the loaded time of both raceways and rows with thin films, and at the ribs."""
     time = result.film_slip_time.sum(("row", "raceway", "slip_class")).values
@@ -146,7 +165,7 @@ def rates(result: xr.Dataset) -> dict[str, float]:
 
 def cases(there: set[tuple[str, int]]) -> Iterator[tuple[Variant, int]]:
     """Variants and wind speeds that are not there yet."""
-    for variant in VARIANTS:
+    for variant in (*VARIANTS, *RIBS):
         for wind in WINDS:
             if (variant.name, wind) not in there:
                 yield variant, wind
@@ -161,7 +180,8 @@ def compute(folder: Path) -> None:
         known = pd.read_csv(path)[["variant", "wind"]].drop_duplicates()
         there = set(known.itertuples(index=False, name=None))
     for variant, wind in cases(there):
-        numbers = measures(case_of(variant, wind))
+        case = case_of(variant, wind)
+        numbers = rib_measures(case) if variant in RIBS else measures(case)
         lines = [[variant.name, wind, name, value] for name, value in numbers.items()]
         frame = pd.DataFrame(lines, columns=["variant", "wind", "quantity", "value"])
         frame.to_csv(path, mode="a", header=not path.exists(), index=False)
@@ -208,6 +228,23 @@ def years(folder: Path) -> pd.DataFrame:
     return pd.DataFrame(rows).T
 
 
+def rib_years(folder: Path) -> pd.DataFrame:
+    """Friction, wear and films of the ribs in a year, by variant of the rib."""
+    table = pd.read_csv(folder / "tapered_year.csv")
+    values = table.pivot(index=["variant", "quantity"], columns="wind", values="value")
+    seconds = seconds_of_year()
+    rows = {}
+    for variant in RIBS:
+        of_variant = values.loc[variant.name]
+        rows[variant.name] = {
+            "ribs [GJ]": 1e-9 * float((of_variant.loc["rib power"] * seconds).sum()),
+            "wear of ribs [um]": 1e6 * float((of_variant.loc["rib_wear_rate"] * seconds).sum()),
+            "least film over roughness [1]": float(of_variant.loc["least film at ribs"].min()),
+            "flash temperature [K]": float(of_variant.loc["rib flash temperature"].max()),
+        }
+    return pd.DataFrame(rows).T
+
+
 def figure(folder: Path) -> Figure:
     """Friction by part, entries, films and life of every variant, beside the spherical bearing."""
     table = years(folder)
@@ -240,7 +277,8 @@ def figure(folder: Path) -> Figure:
 def tell(folder: Path) -> None:
     """Print the table and draw the figure."""
     print(f"hours: {seconds_of_year().sum() / 3600.0:.0f}")
-    print(years(folder).T.to_string(float_format=lambda value: f"{value:.3g}"))
+    for table in (years(folder), rib_years(folder)):
+        print(table.T.to_string(float_format=lambda value: f"{value:.3g}"))
     matplotlib.rcParams["svg.hashsalt"] = "macroslip"
     path = Path(__file__).parent / "figures" / "tapered_year.svg"
     figure(folder).savefig(path, metadata={"Date": None})

@@ -305,7 +305,9 @@ class ContactSampler:
                 )
                 if load <= 0.0 or not law.shape.microslip or law.fluid is None:
                     continue
-                if isinstance(law, PreparedStrips):  # whose stations are the strips of a rule of their own
+                if isinstance(
+                    law, PreparedStrips
+                ):  # whose stations are the strips of a rule of their own
                     continue
                 state = (load, float(sample["film"][i]), ring_speed, slip)
                 span = sample["time"] - sample["since"]
