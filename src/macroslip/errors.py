@@ -39,6 +39,17 @@ def legible(text: str, longest: int) -> str:
     return safe_text(text, "\n")
 
 
+def on_one_line(error: object) -> str:
+    """Text of an error without its line breaks.
+
+    Examples
+    --------
+    >>> on_one_line("no number   in line 3")
+    'no number in line 3'
+    """
+    return " ".join(str(error).split())
+
+
 class MacroslipError(Exception):
     """Base of every error this package raises on purpose."""
 
@@ -89,3 +100,14 @@ class InputError(MacroslipError, ValueError):
         super().__init__(
             " ".join(part if part.endswith((".", "!", "?")) else part + "." for part in parts)
         )
+
+    def but(self, **parts: str) -> InputError:
+        """The same error with other parts: fault, where, allowed or remedy.
+
+        Examples
+        --------
+        >>> print(InputError("the speed is NaN", remedy="Fill the gap.").but(where="run.csv"))
+        run.csv: the speed is NaN. Fill the gap.
+        """
+        own = {"where": self.where, "allowed": self.allowed, "remedy": self.remedy}
+        return InputError(**{"fault": self.fault, **own, **parts})

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import CodeType
 from typing import NamedTuple
 
-from macroslip.errors import InputError
+from macroslip.errors import InputError, on_one_line
 from macroslip.storage.files import check_regular
 
 _ALLOWED = (
@@ -118,11 +118,9 @@ def _import(path: Path, name: str) -> None:
         loader.exec_module(module)
     except InputError as problem:
         where = ", ".join(part for part in (_where(path, problem), problem.where) if part)
-        raise InputError(
-            problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
-        ) from None
+        raise problem.but(where=where) from None
     except (Exception, SystemExit) as error:
-        reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
+        reason = error.msg if isinstance(error, SyntaxError) else on_one_line(error)
         fault = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
         remedy = f"Mend it; python {path} shows where the error comes from."
         raise InputError(fault, where=_where(path, error), remedy=remedy) from None

@@ -13,7 +13,8 @@ from macroslip.constants import YEAR
 from macroslip.result.criteria.friction_energy import REFERENCE_POWER
 from macroslip.result.damage import damage
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.effects import effects, main_effects, rank_correlations, sampled_parameters
+from macroslip.study.effects import effects, main_effects, rank_correlations
+from macroslip.study.labels import sampled_parameters
 from macroslip.study.summary import damage_values
 from macroslip.study.weights import BinProbabilities, Rate, Year
 from macroslip.study.year import design_names, designs, year

@@ -27,6 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.bearing.bearing import Bearing
 from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit
 from macroslip.bearing.sampled import (
@@ -157,7 +158,7 @@ class EstimatedBearing(NamedTuple):
 
     bearing: Bearing  #: The medians, with ranges in their provenance
     samples: Mapping[
-        str, NDArray[np.float64]
+        str, FloatArray
     ]  #: Every inner dimension [SI], n samples, by key of the bearing
 
 
@@ -208,13 +209,13 @@ def estimate_bearing(
     return EstimatedBearing(_record(page, drawn, name, title), drawn)
 
 
-def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:
+def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     """Sample the dimensions that the page leaves open.
 
     Diameter, number and length of the rollers follow from them.
     """
 
-    def between(accepted: Accepted) -> NDArray[np.float64]:
+    def between(accepted: Accepted) -> FloatArray:
         return rng.uniform(*accepted, SAMPLES)
 
     height = 0.5 * (page.outside - page.bore)
@@ -281,9 +282,7 @@ def _drop(contour, length):
     return contour - np.sqrt(np.maximum(contour**2 - 0.25 * length**2, 0.0))
 
 
-def _fitting(
-    page: MakersPage, drawn: dict[str, NDArray[np.float64]]
-) -> dict[str, NDArray[np.float64]]:
+def _fitting(page: MakersPage, drawn: dict[str, FloatArray]) -> dict[str, FloatArray]:
     sine, cosine = np.sin(drawn["contact_angle"]), np.cos(drawn["contact_angle"])
     diameter = drawn["roller_diameter"]
     length = drawn["roller_length"]

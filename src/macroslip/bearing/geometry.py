@@ -22,8 +22,7 @@ from macroslip.bearing.profile import profile_crown
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from macroslip.arrays import FloatArray
     from macroslip.bearing.bearing import Bearing
 
 #: Names of the rows of a double-row bearing, in the order in which results list them.
@@ -270,7 +269,7 @@ def envelope(bearing: Bearing) -> Envelope:
     )
 
 
-def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
+def initial_angles(row: str, rollers_per_row: int) -> FloatArray:
     """Positions of the Z rollers of a row at the start [rad], shape (Z,).
 
     They rise in even steps from the bottom.

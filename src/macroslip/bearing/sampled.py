@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.arrays import BoolArray, FloatArray
 from macroslip.errors import InputError
 
 SAMPLES = 20_000
@@ -31,18 +32,18 @@ class Accepted(NamedTuple):
     high: float
 
 
-def within(values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0) -> NDArray[np.bool_]:
+def within(values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0) -> BoolArray:
     """True where a proportion lies in what is accepted, widened by a margin on both sides."""
     return (values >= accepted.low - margin) & (values <= accepted.high + margin)
 
 
 def fitting(
-    drawn: Mapping[str, NDArray[np.float64]],
-    passed: Mapping[str, NDArray[np.bool_]],
+    drawn: Mapping[str, FloatArray],
+    passed: Mapping[str, BoolArray],
     *,
     allowed: str,
     remedy: str,
-) -> dict[str, NDArray[np.float64]]:
+) -> dict[str, FloatArray]:
     """Samples that pass every check of proportions.
 
     Parameters

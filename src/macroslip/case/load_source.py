@@ -114,9 +114,7 @@ class LoadSource:
             remedy = problem.remedy
             for programs_words, words in _ADVICE.items():
                 remedy = remedy.replace(programs_words, words)
-            raise InputError(
-                problem.fault, where=problem.where, allowed=problem.allowed, remedy=remedy
-            ) from None
+            raise problem.but(remedy=remedy) from None
 
     def _series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
         key = self.key

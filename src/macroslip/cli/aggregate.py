@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
-from macroslip.cli.options import AsJson, By, Force, Quiet
+from macroslip.cli.options import AsJson, By, Force, Quiet, wind_of
 from macroslip.cli.options import Weibull as WeibullOption
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError, safe_text
@@ -104,16 +104,14 @@ def aggregate(
 def _weights(
     weibull: tuple[float, float] | None, probabilities: Path | None
 ) -> Weibull | BinProbabilities | None:
-    from macroslip.study.weights import BinProbabilities, Weibull
+    from macroslip.study.weights import BinProbabilities
 
     if weibull is not None and probabilities is not None:
         raise InputError(
             "--weibull and --probabilities are given together", remedy="Give one of them."
         )
-    if weibull is not None:
-        return Weibull(scale=weibull[0], shape=weibull[1])
     if probabilities is None:
-        return None
+        return wind_of(weibull)
     import pandas as pd
 
     check_regular(probabilities, "Name a CSV table.")
@@ -150,4 +148,5 @@ def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
         ]
         for line in shown.itertuples(index=False)
     ]
-    print_table(title, [(name, name in numbers) for name in shown], rows)
+    columns = ["r" if name in numbers else "l" for name in shown]
+    print_table(title, list(map(str, shown)), rows, columns)

@@ -14,7 +14,7 @@ from macroslip.cli.needs import PICTURE, require
 from macroslip.cli.options import AsJson, Force
 from macroslip.cli.printing import print_json, print_table
 from macroslip.errors import InputError
-from macroslip.storage.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, new_file, write_new
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -47,8 +47,7 @@ def si(option: str, text: str | None, dimension: Dimension) -> float | None:
 
 
 def _write(path: Path, record: Record, force: bool) -> None:
-    with new_file(path, force=force) as temporary:
-        temporary.write_text(record.as_yaml(), encoding="utf-8")
+    write_new(path, record.as_yaml(), force=force)
 
 
 def _record(noun: str) -> type[Record]:
@@ -96,7 +95,7 @@ def _catalogue(noun: str) -> typer.Typer:
             print_json([{"name": record.name, "title": record.title} for record in records])
             return
         rows = [[record.name, record.title] for record in records]
-        print_table(f"{noun}s", [("name", False), ("title", False)], rows)
+        print_table(f"{noun}s", ["name", "title"], rows)
 
     def show(
         name_or_file: NameOrFile,
@@ -155,12 +154,11 @@ def _show(record: Record, more: _Rows | None, as_json: bool) -> None:
         ]
         for key, origin in record.provenance.items()
     ]
-    headings = [("key", False), ("value", True), ("where it comes from", False), ("note", False)]
-    print_table(f"{record.name}: {record.title}" if record.title else record.name, headings, rows)
+    title = f"{record.name}: {record.title}" if record.title else record.name
+    print_table(title, ["key", "value", "where it comes from", "note"], rows, "lrll")
     if more:
         typer.echo()
-        columns = [("quantity", False), ("value", True), ("meaning", False)]
-        print_table(more.heading, columns, more.lines)
+        print_table(more.heading, ["quantity", "value", "meaning"], more.lines, "lrl")
 
 
 def _of_tapered(bearing: TaperedBearing) -> list[list[str]]:
@@ -416,7 +414,7 @@ def _tell_estimate(
         f"{estimate.bearing.name}: median and range of four out of five of "
         f"{numbers['bearings that fit the page']} bearings that fit the page"
     )
-    print_table(title, [("key", False), ("median", True), ("10 to 90 %", False)], rows)
+    print_table(title, ["key", "median", "10 to 90 %"], rows, "lrl")
     typer.echo()
     ratio = numbers["C by ISO 281 / published [1]"]
     if estimate.bearing.kind == "tapered":

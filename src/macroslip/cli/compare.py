@@ -10,7 +10,7 @@ import typer
 from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
 from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.options import AsJson, By, Force, Quiet
-from macroslip.storage.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, write_new
 
 PAGE = "comparison.html"
 
@@ -37,7 +37,7 @@ def compare(
 ) -> None:
     """Compare results, or the designs of a study: differences, numbers and ranking."""
     require(FIGURES)
-    from macroslip.cli.printing import print_json, print_table
+    from macroslip.cli.printing import print_json, print_notes, print_table
     from macroslip.report.accessor import open_result
     from macroslip.report.comparison import compare as compared
     from macroslip.report.comparison_page import comparison_page, comparison_tables
@@ -55,8 +55,7 @@ def compare(
         else dict(zip(comparison["design"].unique(), map(open_result, results), strict=True))
     )
     page = comparison_page(comparison, curves, title=title)
-    with new_file(output, force=force) as temporary:
-        temporary.write_text(page, encoding="utf-8")
+    write_new(output, page, force=force)
     if xlsx is not None:
         from macroslip.report.sheets import comparison_sheets
         from macroslip.study.reader import open_study
@@ -70,15 +69,11 @@ def compare(
     if quiet:
         return
     typer.echo(f"{comparison.attrs['about']}.")
-    for note in comparison.attrs["notes"]:
-        typer.echo(f"note: {note}")
+    print_notes(comparison.attrs["notes"])
     for table in comparison_tables(comparison):
         if table.rows:
-            print_table(
-                table.caption,
-                [(name, k > 0) for k, name in enumerate(table.headings)],
-                [list(row) for row in table.rows],
-            )
+            columns = "l" + "r" * (len(table.headings) - 1)
+            print_table(table.caption, table.headings, table.rows, columns)
             typer.echo()
     typer.echo(comparison.attrs["ranking"])
     typer.echo(f"written: {output}")

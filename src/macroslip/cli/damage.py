@@ -84,12 +84,8 @@ def damage(
         ]
         coefficients = ", ".join(f"{k:.2g}" for k in criteria.wear_coefficient.values[::-1])
         title = f"years of wear at k = {coefficients} m²/N"
-        headings = [
-            ("row", False),
-            ("surface", False),
-            *((f"{1e6 * worn:g} µm", True) for worn in criteria.depth.values),
-        ]
-        print_table(title, headings, rows)
+        depths = [f"{1e6 * worn:g} µm" for worn in criteria.depth.values]
+        print_table(title, ["row", "surface", *depths], rows, "ll" + "r" * len(depths))
     if xlsx is not None:
         typer.echo(f"written: {xlsx}")
 
@@ -115,11 +111,8 @@ def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: st
 
     if lines:
         shown = criteria_table(lines)
-        print_table(
-            title,
-            [(heading, heading in ("value", "ratio")) for heading in shown.headings],
-            shown.rows,
-        )
+        columns = ["r" if name in ("value", "ratio") else "l" for name in shown.headings]
+        print_table(title, shown.headings, shown.rows, columns)
         typer.echo(f"how sure: {how_sure(lines)}")
     for sentence in missing:
         typer.echo(sentence)

@@ -75,13 +75,13 @@ def doctor(
     rows.append(
         ["caches", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"]
     )
-    print_table(f"macroslip {report['version']}", [("", False), ("", False)], rows)
+    print_table(f"macroslip {report['version']}", ["", ""], rows)
     typer.echo()
     rows = [
         [package["package"], package["installed"] or "-", package["wanted"]]
         for package in report["packages"]
     ]
-    print_table("packages", [("package", False), ("installed", False), ("wanted", False)], rows)
+    print_table("packages", ["package", "installed", "wanted"], rows)
     typer.echo()
     rows = [
         [
@@ -91,7 +91,7 @@ def doctor(
         ]
         for command in report["commands"]
     ]
-    print_table("commands that need more", [("command", False), ("", False), ("", False)], rows)
+    print_table("commands that need more", ["command", "", ""], rows)
 
 
 def _warm(case: Path | None, quiet: bool) -> None:

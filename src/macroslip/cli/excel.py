@@ -10,7 +10,7 @@ import typer
 
 from macroslip.cli.needs import EXCEL, require
 from macroslip.errors import InputError
-from macroslip.storage.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, write_new
 from macroslip.storage.workbook import EXTENSION, workbook
 
 if TYPE_CHECKING:
@@ -42,6 +42,4 @@ def check_workbook(path: Path | None, *, force: bool, inputs: Iterable[Path] = (
 
 def write_workbook(path: Path, sheets: Mapping[str, pd.DataFrame], *, force: bool) -> None:
     """Write tables as the sheets of a workbook, whole or not at all."""
-    content = workbook(sheets)
-    with new_file(path, force=force) as temporary:
-        temporary.write_bytes(content)
+    write_new(path, workbook(sheets), force=force)

@@ -15,7 +15,7 @@ import typer
 
 from macroslip.cli import INTERRUPTED, ignore_interrupts
 from macroslip.cli.printing import print_json
-from macroslip.errors import InputError, MacroslipError, legible
+from macroslip.errors import InputError, MacroslipError, legible, on_one_line
 from macroslip.storage.files import SHORTER
 
 INTERNAL_ERROR = 1
@@ -70,17 +70,17 @@ def _code_and_message(error: BaseException, *, quiet: bool) -> tuple[int, str]:
     if isinstance(error, KeyboardInterrupt):
         return INTERRUPTED, "interrupted"
     if isinstance(error, MacroslipError):
-        return BAD_INPUT, f"error: {' '.join(str(error).split()) if quiet else error}"
+        return BAD_INPUT, f"error: {on_one_line(error) if quiet else error}"
     if isinstance(error, OSError):
         return BAD_INPUT, _of_the_system(error)
     if isinstance(error, MemoryError):
         return BAD_INPUT, f"error: the computer has not enough memory for this. {MEMORY}"
     if isinstance(error, ValueError) and str(error).startswith(_OF_DASK):
         # xarray imports dask, which reads the user's settings whether it is used or not.
-        fault = " ".join(str(error).split())
+        fault = on_one_line(error)
         return BAD_INPUT, f"error: {fault}. Correct this file of settings of dask, or remove it."
     if _is_raised_in(_SETTINGS_OF_NUMBA, error):
-        fault = " ".join(str(error).split())
+        fault = on_one_line(error)
         return BAD_INPUT, (
             f"error: Numba, which compiles the program, cannot read its settings: {fault}. Correct "
             f"the file '{_FILE_OF_NUMBA}' of the current folder, or remove it."

@@ -11,7 +11,7 @@ import typer
 
 from macroslip.cli.options import Force
 from macroslip.errors import InputError, legible
-from macroslip.storage.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, write_new
 
 
 class Example(StrEnum):
@@ -84,8 +84,7 @@ def init(
     for target in contents:
         check_new_file(target, force=force)
     for target, content in contents.items():
-        with new_file(target, force=force) as temporary:
-            temporary.write_bytes(content)
+        write_new(target, content, force=force)
         typer.echo(f"written:    {target}")
     folder = "" if path.parent == Path() else f"{path.parent}/"
     typer.echo(_NEXT[example].format(path=path, stem=path.with_suffix(""), folder=folder))

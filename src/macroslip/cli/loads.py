@@ -270,9 +270,7 @@ def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
         [name, *(number(float(value)) for value in values.values())]
         for name, values in statistics.items()
     ]
-    print_table(
-        title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows
-    )
+    print_table(title, ["", "mean", "std", "min", "max"], rows, "lrrrr")
 
 
 def _words(drivetrain: dict[str, Any]) -> str:

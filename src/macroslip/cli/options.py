@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from macroslip.study import weights
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print it as JSON.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
@@ -24,3 +27,10 @@ By = Annotated[
     list[str] | None,
     typer.Option(help="Of a study: a label to keep apart, such as bearing. Repeatable."),
 ]
+
+
+def wind_of(weibull: tuple[float, float] | None) -> weights.Weibull | None:
+    """The distribution that `--weibull` gives; None where the option is left out."""
+    from macroslip.study import weights
+
+    return None if weibull is None else weights.Weibull(scale=weibull[0], shape=weibull[1])

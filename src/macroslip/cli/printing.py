@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -28,34 +28,46 @@ def counted(count: int, noun: str) -> str:
 
 
 def print_table(
-    title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]
+    title: str,
+    headings: Sequence[str],
+    rows: Iterable[Iterable[str]],
+    columns: Sequence[str] = "",
 ) -> None:
-    """Print a table; each heading comes with whether its column holds numbers."""
+    """Print a table.
+
+    Parameters
+    ----------
+    title : str
+    headings : sequence of str
+        No line of headings is printed if all are empty.
+    rows : iterable of iterables of str
+    columns : sequence of {"l", "r"}, optional
+        Alignment of each column, left or right; all left if not given.
+    """
     from rich.table import Table
 
-    headings = list(headings)
-    shown = Table(
-        box=None, padding=(0, 2, 0, 0), show_header=any(heading for heading, _ in headings)
-    )
-    for heading, numbers in headings:
-        shown.add_column(heading, justify="right" if numbers else "left")
+    table = Table(box=None, padding=(0, 2, 0, 0), show_header=any(headings))
+    for heading, side in zip(headings, columns or "l" * len(headings), strict=True):
+        table.add_column(heading, justify="right" if side == "r" else "left")
     for row in rows:
-        shown.add_row(*row)
+        table.add_row(*row)
     out = plain_console()
     out.print(title, style="bold", soft_wrap=True)
-    out.print(shown)
+    out.print(table)
+
+
+def print_notes(notes: Iterable[str]) -> None:
+    """Print a line for each note."""
+    for note in notes:
+        typer.echo(f"note: {note}")
 
 
 def plain_console(*, stderr: bool = False) -> Console:
     """Console without markup and colours, `PIPE_WIDTH` wide where there is no terminal."""
     from rich.console import Console
 
-    out = Console(stderr=stderr, markup=False, highlight=False)
-    return (
-        out
-        if out.is_terminal
-        else Console(stderr=stderr, markup=False, highlight=False, width=PIPE_WIDTH)
-    )
+    width = None if Console(stderr=stderr).is_terminal else PIPE_WIDTH
+    return Console(stderr=stderr, markup=False, highlight=False, width=width)
 
 
 def number(value: float) -> str:

@@ -10,9 +10,9 @@ import typer
 from macroslip.cli.compare import compare
 from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
 from macroslip.cli.needs import FIGURES, require
-from macroslip.cli.options import Force, Quiet, Weibull
-from macroslip.errors import InputError
-from macroslip.storage.files import check_new_file, new_file
+from macroslip.cli.options import Force, Quiet, Weibull, wind_of
+from macroslip.errors import InputError, on_one_line
+from macroslip.storage.files import check_new_file, write_new
 
 PAGE = "report.html"
 _TITLE = "Slip of the rollers"
@@ -55,7 +55,6 @@ def report(
     from macroslip.study.database import Outcome
     from macroslip.study.result_files import CASES
     from macroslip.study.store import parts
-    from macroslip.study.weights import Weibull
 
     output = output or (results if results.is_dir() else results.parent) / PAGE
     if results.exists():
@@ -69,12 +68,12 @@ def report(
         study = open_study(results)
         number = int((study.outcome != str(Outcome.COMPLETED)).sum())
         failed = f"{number} of {study.sizes['case']} runs failed or are missing" if number else ""
-        wind = Weibull(scale=weibull[0], shape=weibull[1]) if weibull else None
-        page = study_page(study, title=title or study.attrs["title"] or _TITLE, weights=wind)
+        page = study_page(
+            study, title=title or study.attrs["title"] or _TITLE, weights=wind_of(weibull)
+        )
     else:
         page, failed = _of_results(results, title)
-    with new_file(output, force=force) as temporary:
-        temporary.write_text(page, encoding="utf-8", errors="backslashreplace")
+    write_new(output, page, force=force)
     if not quiet:
         typer.echo(f"written: {output}")
     if failed:
@@ -93,7 +92,7 @@ def _of_results(results: Path, title: str | None) -> tuple[str, str]:
         page = results_page(datasets, title=title or _TITLE)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         # A file may have been changed in too many ways to check each.
-        fault = f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})"
+        fault = f"no page can be made of this ({type(error).__name__}: {on_one_line(error)[:200]})"
         allowed = "what macroslip run wrote, or a selection of it"
         remedy = "Run the case again; if nothing has changed the file since it was written, please report this."
         raise InputError(fault, where=str(results), allowed=allowed, remedy=remedy) from error

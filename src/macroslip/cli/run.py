@@ -145,10 +145,8 @@ def _named(case: Path, loads: str, doubts: Sequence[str]) -> Iterator[None]:
         yield
     except InputError as problem:
         inner = f"loads, {problem.where}" if problem.where.startswith(loads) else problem.where
-        raise InputError(
-            problem.fault,
+        raise problem.but(
             where=f"{case}, {inner}" if inner else str(case),
-            allowed=problem.allowed,
             remedy=" ".join([problem.remedy, *(f"Doubtful: {doubt}" for doubt in doubts)]).strip(),
         ) from None
     except MemoryError:
@@ -220,8 +218,8 @@ def _print_rows(dataset: xr.Dataset, summary: dict[str, Any]) -> None:
     plural = "" if orbits == 1 else "s"
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{plural}"
     columns = [words for key, words in _OF_ROW.items() if key != "rollers"]
-    headings = [("row", False), *((heading, True) for heading in columns)]
-    print_table(f"{summary['title']}, {window}", headings, rows)
+    title = f"{summary['title']}, {window}"
+    print_table(title, ["row", *columns], rows, "l" + "r" * len(columns))
     cages = summary.get("cage slip [1]", {})
     for cage, slip in cages.items():
         whose = "the cage" if len(cages) == 1 else f"the {cage} cage"

@@ -9,11 +9,10 @@ import typer
 
 from macroslip.cli.failure import command
 from macroslip.cli.needs import FIGURES, require
-from macroslip.cli.options import AsJson, Force, Quiet
-from macroslip.cli.options import Weibull as WeibullOption
-from macroslip.cli.printing import number, print_json, print_table
+from macroslip.cli.options import AsJson, Force, Quiet, Weibull, wind_of
+from macroslip.cli.printing import number, print_json, print_notes, print_table
 from macroslip.cli.scada_heat import heat
-from macroslip.storage.files import check_new_file, make_folder, new_file
+from macroslip.storage.files import check_new_file, make_folder, write_new
 
 if TYPE_CHECKING:
     from macroslip.scada import Scada
@@ -54,8 +53,7 @@ def init(
     output = output or file.with_name("scada.yaml")
     check_new_file(output, force=force, inputs=[file])
     text, notes = draft(file, output.parent, sheet)
-    with new_file(output, force=force) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_new(output, text, force=force)
     for line in notes:
         typer.echo(line)
     typer.echo(f"written:    {output}")
@@ -93,16 +91,16 @@ def inspect(
         print_json(report if beside is None else report | {"speeds": beside.to_dict("records")})
         return
     typer.echo(told_rows(read))
-    for note in notes:
-        typer.echo(f"note: {note}")
+    print_notes(notes)
     typer.echo()
     shown = [str(name) for name, rows in counts.items() if rows.sum() > 0]
     lines = [[month, *(f"{counts.loc[month, name]}" for name in shown)] for month in counts.index]
     lines.append(["all", *(f"{counts[name].sum()}" for name in shown)])
     print_table(
         "rows by month, and the first filter that drops them; absent: steps without a row",
-        [("", False), *((name, True) for name in shown)],
+        ["", *shown],
         lines,
+        "l" + "r" * len(shown),
     )
     typer.echo()
     _print_histogram(read)
@@ -110,8 +108,9 @@ def inspect(
         typer.echo()
         print_table(
             "speed of the rotor",
-            [(name, True) for name in beside],
-            [[number(value) for value in line] for line in beside.itertuples(index=False)],
+            [str(name) for name in beside],
+            [map(number, line) for line in beside.itertuples(index=False)],
+            "r" * len(beside.columns),
         )
 
 
@@ -132,8 +131,9 @@ def _print_histogram(read: Scada) -> None:
     lines.append(["idle", *(_percent(stood.get(at, 0.0)) for at in table.columns)])
     print_table(
         "% of the rows with data, by wind speed [m/s] and temperature of the bearing [degC]",
-        [("", True), *((f"{at:g}", True) for at in table.columns)],
+        ["", *(f"{at:g}" for at in table.columns)],
         lines,
+        "r" + "r" * len(table.columns),
     )
 
 
@@ -146,7 +146,7 @@ def year(
     description: Description,
     study: StudyFolder,
     output: Annotated[Path, typer.Option("--output", "-o", help="The folder for tables and page.")],
-    weibull: WeibullOption = None,
+    weibull: Weibull = None,
     allow_short: Annotated[
         bool, typer.Option("--allow-short", help="Let less than 30 days stand for a year.")
     ] = False,
@@ -158,21 +158,18 @@ def year(
     require(FIGURES)
     from macroslip.report.real_year_page import real_year_page
     from macroslip.study.real_year import real_year
-    from macroslip.study.weights import Weibull
 
     make_folder(output)
     for name in (*_TABLES, PAGE):
         check_new_file(output / name, force=force, inputs=[description])
-    wind = None if weibull is None else Weibull(scale=weibull[0], shape=weibull[1])
-    real = real_year(description, study, wind=wind, allow_short=allow_short)
+    real = real_year(description, study, wind=wind_of(weibull), allow_short=allow_short)
     contents = {
         "bins.csv": real.bins.to_csv(index=False, lineterminator="\n"),
         "year.csv": real.table.to_csv(index=False, lineterminator="\n"),
         PAGE: real_year_page(real),
     }
     for name, text in contents.items():
-        with new_file(output / name, force=force) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_new(output / name, text, force=force)
     if as_json:
         written = [str(output / name) for name in contents]
         print_json(
@@ -191,8 +188,7 @@ def _print_year(real: RealYear) -> None:
 
     for sentence in verdict(real):
         typer.echo(sentence)
-    for note in real.notes:
-        typer.echo(f"note: {note}")
+    print_notes(real.notes)
     typer.echo()
     names = ["real", "at_mean", "fixed", "real_over_fixed", "oil_cooler", "oil_warmer", "seeds [%]"]
     lines = [
@@ -202,12 +198,9 @@ def _print_year(real: RealYear) -> None:
         ]
         for line in real.table.to_dict("records")
     ]
-    headings = ["real", "at the mean", "at 35 degC", "real/35 degC", "oil −5 K", "oil +5 K"]
-    print_table(
-        f"a year: {real.source}",
-        [("", False), *((name, True) for name in [*headings, "seeds [%]"])],
-        lines,
-    )
+    headings = ["", "real", "at the mean", "at 35 degC", "real/35 degC", "oil −5 K", "oil +5 K"]
+    columns = "l" + "r" * len(names)
+    print_table(f"a year: {real.source}", [*headings, "seeds [%]"], lines, columns)
 
 
 command(scada, init)

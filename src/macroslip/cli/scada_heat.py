@@ -9,7 +9,7 @@ import typer
 
 from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.options import AsJson, Quiet
-from macroslip.cli.printing import print_json, print_table
+from macroslip.cli.printing import print_json, print_notes, print_table
 
 
 def heat(
@@ -60,13 +60,12 @@ def heat(
         return
     for sentence in (*sentences, *(f"doubtful: {mark}" for mark in fitted.marks)):
         typer.echo(sentence)
-    for note in fitted.notes:
-        typer.echo(f"note: {note}")
+    print_notes(fitted.notes)
     rows = [
         [model_name(fit), f"{fit.residual:.4f}"]
         for fit in sorted(fitted.fits, key=lambda fit: fit.residual)
     ]
-    headings = [("model", False), ("root mean square of the residual [K/h]", True)]
-    print_table("What each model leaves of dT/dt", headings, rows)
+    headings = ["model", "root mean square of the residual [K/h]"]
+    print_table("What each model leaves of dT/dt", headings, rows, "lr")
     for path in written:
         typer.echo(f"written: {path}")

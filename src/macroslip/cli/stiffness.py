@@ -12,7 +12,7 @@ import typer
 from macroslip.cli.options import AsJson, Force, Quiet
 from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError
-from macroslip.storage.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, write_new
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,8 +58,7 @@ def stiffness(
             text = stiffness_table(rings).to_csv(index=False, lineterminator="\n")
         else:
             text = json.dumps(stiffness_data(rings), indent=2, ensure_ascii=False)
-        with new_file(output, force=force) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_new(output, text, force=force)
     if as_json:
         print_json(stiffness_data(rings))
     elif not quiet:
@@ -103,6 +102,7 @@ def _print(rings: xr.Dataset) -> None:
         rows.append([here.case.item(), here.kind.item(), *forces, *entries, held])
     print_table(
         "loads [kN] and stiffness of displacements [MN/m]; tilts: 0, the bearing aligns itself",
-        [("case", False), ("about", False), *((name, True) for name in headings), ("", False)],
+        ["case", "about", *headings, ""],
         rows,
+        "ll" + "r" * len(headings) + "l",
     )

@@ -17,7 +17,7 @@ from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.options import AsJson, Force, Quiet, Threads
 from macroslip.cli.printing import counted, plain_console, print_json, print_table
 from macroslip.errors import InputError, safe_text
-from macroslip.storage.files import check_new_file, new_file
+from macroslip.storage.files import check_new_file, write_new
 
 if TYPE_CHECKING:
     from macroslip.study.progress import Progress
@@ -120,8 +120,7 @@ def _write_study(study: Path, folder: Path, *, force: bool) -> None:
     for path in made.texts:
         check_new_file(path, force=force)
     for path, text in made.texts.items():
-        with new_file(path, force=force) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_new(path, text, force=force)
     for remark in made.remarks[:_LISTED]:
         to_stderr(f"note: {remark}")
     if len(made.remarks) > _LISTED:
@@ -165,7 +164,7 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
             [f"time here, on {processors} processors", duration(estimate.seconds / processors)],
             ["disk", decimal(round(estimate.bytes))],
         ]
-    print_table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
+    print_table(safe_text(checked.title) or "study", ["", ""], rows, "lr")
     typer.echo(
         f"Time and disk are estimated from {counted(estimate.looked_at, 'run')} of the study, "
         "begun here and now."

@@ -198,10 +198,7 @@ class Laws:
     def named(cls, name: str) -> Laws:
         """The set called `name`, paper or physical; InputError for any other name."""
         if name not in PRESETS:
-            problem = unknown_name(name, list(PRESETS))
-            raise InputError(
-                problem.fault, where="laws.model", allowed=problem.allowed, remedy=problem.remedy
-            )
+            raise unknown_name(name, list(PRESETS)).but(where="laws.model")
         return cls(**PRESETS[name])
 
     def but(self, **changes: Any) -> Laws:

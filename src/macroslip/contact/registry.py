@@ -22,7 +22,7 @@ from macroslip.constants import KELLSTROEM, MECHANISMS
 from macroslip.contact import film
 from macroslip.contact.interface import Interface, highest_load, interfaces
 from macroslip.contact.mechanisms import Laws
-from macroslip.errors import InputError, MacroslipError
+from macroslip.errors import InputError, MacroslipError, on_one_line
 from macroslip.lubricant import Lubricant
 
 #: Slip [m/s] below which the force of a traction law of one's own is in proportion to slip.
@@ -107,7 +107,7 @@ class Law(NamedTuple):
         except (KeyboardInterrupt, MacroslipError):
             raise
         except BaseException as error:
-            reason = " ".join(str(error).split())[:200]
+            reason = on_one_line(error)[:200]
             raise _wrong(
                 f"{type(error).__name__} in it ({reason})", where, "a function that raises nothing"
             ) from error

@@ -10,8 +10,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.damage.wear import slice_loads
 
 REFERENCE = "FE8 test with washers 81212, 60 kN, 750 rpm, 20 h; slip from its geometry"
@@ -61,9 +61,7 @@ class ThrustTest:
     roller_diameter: float = 11e-3  #: [m]
     rollers: int = 15
 
-    def power(
-        self, profile: str = "uniform", slices: int = 200
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def power(self, profile: str = "uniform", slices: int = 200) -> tuple[FloatArray, FloatArray]:
         """Stations along the roller [m], outwards, and e_a of a washer there [W/m²].
 
         The load is even along the roller (`uniform`), or that of ISO/TS 16281's `logarithmic`

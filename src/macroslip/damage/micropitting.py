@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from macroslip.arrays import FloatArray
 
 REFERENCES = (
     "Rycerz and Kadiric, Tribol. Lett. 67 (2019) 63, doi:10.1007/s11249-019-1174-7: more with the "
@@ -14,9 +16,7 @@ REFERENCES = (
 )
 
 
-def share_below(
-    amounts: ArrayLike, edges: Sequence[float], film_ratio: float
-) -> NDArray[np.float64]:
+def share_below(amounts: ArrayLike, edges: Sequence[float], film_ratio: float) -> FloatArray:
     """Share [-] of time or passes in films thinner than a film ratio; NaN where there is none.
 
     Of amounts over (..., class of Λ, class of slip); the film ratio is one of the upper edges of
@@ -35,7 +35,7 @@ def share_below(
         return below / total
 
 
-def slower_share(amounts: ArrayLike, edges: Sequence[float]) -> NDArray[np.float64]:
+def slower_share(amounts: ArrayLike, edges: Sequence[float]) -> FloatArray:
     """Share [-] of time, or of passes, with the ring the slower surface; the rest is the roller's.
 
     Of amounts over (..., class of the slide-roll ratio, ring less roller), whose upper edges but

@@ -11,11 +11,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from macroslip.arrays import FloatArray
 from macroslip.contact.flash import effusivity, flash_temperature
-
-_Array = NDArray[np.float64]
 
 #: Thermal effusivity of bearing steel [J/(m² K √s)], of 46 W/(m K), 7850 kg/m³ and 460 J/(kg K).
 STEEL_EFFUSIVITY = float(effusivity(46.0, 7850.0, 460.0))
@@ -23,7 +22,7 @@ STEEL_EFFUSIVITY = float(effusivity(46.0, 7850.0, 460.0))
 
 def pass_energy(
     pressure: ArrayLike, half_along: ArrayLike, sliding: ArrayLike, speed: ArrayLike
-) -> _Array:
+) -> FloatArray:
     """Pressure times slip at a point of a surface in one pass of the contact [J/m²].
 
     It is p0 v_f 2a/u. Times a coefficient of friction it is the friction energy per area, times the
@@ -57,7 +56,7 @@ def rib_flash_temperature(
     friction: ArrayLike,
     sliding: ArrayLike,
     speeds: tuple[ArrayLike, ArrayLike],
-) -> _Array:
+) -> FloatArray:
     """Flash temperature in the middle of the rib contact, above the bodies' own temperature [K].
 
     It is that of a band of half-width a with the power µ v_f p0 a π/2 per length.

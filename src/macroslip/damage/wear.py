@@ -6,7 +6,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from macroslip.arrays import FloatArray
 
 REFERENCE = "Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448"
 #: Wear of steel in a lubricated contact per work of asperities' pressure times slip [m²/N]: the
@@ -18,10 +20,8 @@ STEP = 1e-6
 #: Steps after which bodies that hardly wear are given up.
 _MOST_STEPS = 2000
 
-_Array = NDArray[np.float64]
 
-
-def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float) -> _Array:
+def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float) -> FloatArray:
     """Volume k E/µ_b [m³] that wears where asperities dissipate E; with E per area the depth [m].
 
     Asperities dissipate µ_b p |v| of the area that they carry, so E/µ_b is their pressure times
@@ -44,7 +44,7 @@ def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float)
     return coefficient * np.asarray(asperity_energy, float) / friction
 
 
-def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> _Array:
+def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> FloatArray:
     """Load per length of slices that press a roller like springs, w = c (δ − gap) ≥ 0 [N/m].
 
     Parameters
@@ -101,9 +101,9 @@ class Pressed(NamedTuple):
     """A raceway contact of a roller that wears."""
 
     load: float  #: Q [N]
-    contour: _Array  #: Gap of each slice [m]
+    contour: FloatArray  #: Gap of each slice [m]
     stiffness: float  #: c of the slices [Pa]
-    slip: _Array  #: |v| of each slice [m/s]
+    slip: FloatArray  #: |v| of each slice [m/s]
     ring: float  #: Passes per way that a place of the ring feels [1/m]
     roller: float  #: The same of a place of the roller
 
@@ -111,10 +111,10 @@ class Pressed(NamedTuple):
 class Worn(NamedTuple):
     """Growth of wear."""
 
-    work: _Array  #: k t [m²/N s], shape (m,): time is this over k
-    depth: _Array  #: Of inner raceway, outer raceway and roller by slice [m], shape (m, 3, n)
+    work: FloatArray  #: k t [m²/N s], shape (m,): time is this over k
+    depth: FloatArray  #: Of inner raceway, outer raceway and roller by slice [m], shape (m, 3, n)
 
-    def work_at(self, depth: float) -> _Array:
+    def work_at(self, depth: float) -> FloatArray:
         """K t [m²/N s] after which the deepest slice of each body has this depth [m].
 
         Infinite where it is not reached while the deepest of all wears by 2 mm.
@@ -122,7 +122,7 @@ class Worn(NamedTuple):
         deepest = self.depth.max(axis=-1)
         return np.array([np.interp(depth, body, self.work, right=math.inf) for body in deepest.T])
 
-    def depth_at(self, work: float) -> _Array:
+    def depth_at(self, work: float) -> FloatArray:
         """Depth [m] of each body by slice at a k t; NaN beyond the time that was computed."""
         slices = self.depth.reshape(self.work.size, -1).T
         depths = [np.interp(work, self.work, depth, right=math.nan) for depth in slices]

@@ -125,7 +125,7 @@ class Quantity(Form):
             try:
                 number, unit = parse_quantity(value, self.dimension)
             except InputError as problem:
-                raise InputError(problem.fault, allowed=self.form, remedy=problem.remedy) from None
+                raise problem.but(where="", allowed=self.form) from None
             si_value = self.dimension.to_si(float(number), unit)
             written = str(value)
         else:

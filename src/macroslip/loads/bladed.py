@@ -23,8 +23,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.errors import InputError
 from macroslip.loads.source_file import (
     MOST_VALUES,
@@ -65,10 +65,10 @@ class _Group(NamedTuple):
     step: float  #: Time between samples [s].
     number: np.dtype | None  #: Type of binary data; None if they can only be text.
     may_be_text: bool
-    mean: NDArray[np.float64]  #: Means that the header states, or empty.
+    mean: FloatArray  #: Means that the header states, or empty.
 
     @property
-    def time(self) -> NDArray[np.float64]:
+    def time(self) -> FloatArray:
         """Times (n,) of the samples [s]."""
         return self.first + self.step * np.arange(self.samples, dtype=float)
 
@@ -228,7 +228,7 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
     return _Group(path, names, units, samples, first, step, number, form == "F", mean)
 
 
-def _columns(group: _Group, names: Sequence[str]) -> NDArray[np.float64]:
+def _columns(group: _Group, names: Sequence[str]) -> FloatArray:
     """Values (n, len(names)) of some variables in SI units, checked against the header."""
     for name in names:
         unit = group.units[group.names.index(name)]

@@ -17,9 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
+from macroslip.arrays import FloatArray
 from macroslip.errors import InputError
 from macroslip.input.messages import shown
 
@@ -102,9 +100,7 @@ class CsvTable:
         """Cells of a column."""
         return self._column(index).to_pylist()
 
-    def numbers(
-        self, indices: Sequence[int], *, text_allowed: bool = False
-    ) -> list[NDArray[np.float64]]:
+    def numbers(self, indices: Sequence[int], *, text_allowed: bool = False) -> list[FloatArray]:
         """Values of columns; NaN where a cell is empty or, if that is allowed, no number."""
         columns = {index: self._column(index) for index in indices}
         decimal = self._decimal_mark(columns)
@@ -218,7 +214,7 @@ class CsvTable:
 
     def _parsed(
         self, name: str, column: pa.ChunkedArray, decimal: str, *, text_allowed: bool
-    ) -> NDArray[np.float64]:
+    ) -> FloatArray:
         import pyarrow as pa
         import pyarrow.compute as pc
 

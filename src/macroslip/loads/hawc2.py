@@ -35,6 +35,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.errors import InputError
 from macroslip.loads.source_file import (
     ANGLE,
@@ -99,7 +100,7 @@ class _Output(NamedTuple):
     time: NDArray
     where: str
 
-    def in_si(self, channel: _Channel, factors: Mapping[str, float]) -> NDArray[np.float64]:
+    def in_si(self, channel: _Channel, factors: Mapping[str, float]) -> FloatArray:
         """Values (n,) of a channel in SI units."""
         values = self.samples.channel(channel.index, channel.name, self.where)
         return in_si(values, channel.unit, factors, channel=channel.name, where=self.where)
@@ -112,7 +113,7 @@ class _Section(NamedTuple):
     label: str
     components: dict[str, _Channel]  #: By Fx … Mz, in the shaft's axes.
 
-    def vector(self, output: _Output, kind: str) -> NDArray[np.float64]:
+    def vector(self, output: _Output, kind: str) -> FloatArray:
         """Force F [N] or moment M [N m] (n, 3) in the shaft's axes."""
         factors = FORCE if kind == "F" else MOMENT
         components = [output.in_si(self.components[kind + axis], factors) for axis in "xyz"]
@@ -410,9 +411,7 @@ def _beside(path: Path, extension: str, remedy: str) -> Path:
     )
 
 
-def _announced_time(
-    stamps: NDArray, duration: float, resolution: float, data: Path
-) -> NDArray[np.float64]:
+def _announced_time(stamps: NDArray, duration: float, resolution: float, data: Path) -> FloatArray:
     """Times of the samples, which have to last as long as the list of channels announces.
 
     16 bits resolve the time of a long run to more than a step, so that binary times are taken as
@@ -475,7 +474,7 @@ def _plain(value: Any) -> Any:
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else value
 
 
-def _block_values(block) -> NDArray[np.float64]:
+def _block_values(block) -> FloatArray:
     """Values (n, channels) of a block, unpacked."""
     data = block["data"]
     values = data[:].astype(np.float64)
@@ -487,7 +486,7 @@ def _block_values(block) -> NDArray[np.float64]:
     return values * block["gains"][:] + block["offsets"][:]
 
 
-def _block_time(block) -> NDArray[np.float64]:
+def _block_time(block) -> FloatArray:
     """Times (n,) [s] of a block: in steps, counted in steps, or as such."""
     start = _plain(block.attrs.get("time_start", 0.0))
     step = _plain(block.attrs.get("time_step", 1.0))

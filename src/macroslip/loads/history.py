@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.constants import RPM
 from macroslip.errors import InputError
 from macroslip.input.units import is_finite_number
@@ -74,9 +75,9 @@ class History:
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]]
     #: Highest shaft speed [rad/s].
     _FASTEST: ClassVar[float] = 100.0
-    time: NDArray[np.float64]
-    shaft_speed: NDArray[np.float64]
-    force: NDArray[np.float64]
+    time: FloatArray
+    shaft_speed: FloatArray
+    force: FloatArray
     source: str
 
     def __post_init__(self) -> None:
@@ -156,7 +157,7 @@ class History:
         """Number of samples and their time."""
         return f"{self.time.size} samples, {self.time[0]:g} s to {self.time[-1]:g} s"
 
-    def _forces(self) -> dict[str, NDArray[np.float64]]:
+    def _forces(self) -> dict[str, FloatArray]:
         """Forces (n,) [N] by their names."""
         return dict(zip(self._VECTORS["force"], self.force.T, strict=True))
 
@@ -199,10 +200,10 @@ class HubLoads(History):
         "force": ("fx", "fy", "fz"),
         "moment": ("mx", "my", "mz"),
     }
-    time: NDArray[np.float64]
-    shaft_speed: NDArray[np.float64]
-    force: NDArray[np.float64]
-    moment: NDArray[np.float64]
+    time: FloatArray
+    shaft_speed: FloatArray
+    force: FloatArray
+    moment: FloatArray
     source: str
     reading: tuple[str, ...] = ()
     event: bool = False
@@ -367,9 +368,9 @@ class BearingLoads(History):
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("F_X0", "F_Y0", "F_Z0")}
     #: Shafts of gearboxes and generators turn faster than rotors.
     _FASTEST: ClassVar[float] = 400.0
-    time: NDArray[np.float64]
-    shaft_speed: NDArray[np.float64]
-    force: NDArray[np.float64]
+    time: FloatArray
+    shaft_speed: FloatArray
+    force: FloatArray
     source: str
     event: bool = False
 
@@ -545,7 +546,7 @@ def _constant(
     return fields | {"source": source}
 
 
-def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
+def _numbers(name: str, values: ArrayLike, source: str) -> FloatArray:
     """A read-only copy; text that looks like a number is not one."""
     try:
         original = np.asarray(values)

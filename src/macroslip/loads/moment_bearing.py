@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.constants import GRAVITY
 from macroslip.loads.history import BearingLoads, HubLoads
 from macroslip.loads.statics import Drivetrain
@@ -12,7 +12,7 @@ from macroslip.loads.statics import Drivetrain
 
 def moment_bearing_load(
     hub_loads: HubLoads, hub_to_bearing: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[FloatArray, FloatArray]:
     """Force and moment of the rotor on the inner ring of a bearing that carries moments.
 
     The hub centre is `hub_to_bearing` upwind of the bearing's middle. The weight of the shaft is
@@ -45,9 +45,7 @@ def moment_bearing_load(
     return force, moment
 
 
-def shaft_load(
-    hub_loads: HubLoads, drivetrain: Drivetrain
-) -> tuple[BearingLoads, NDArray[np.float64]]:
+def shaft_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[BearingLoads, FloatArray]:
     """Force and moment of rotor and shaft on the middle of a main bearing that carries moments.
 
     Of two single-row bearings that is the middle between them.

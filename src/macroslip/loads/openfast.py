@@ -36,6 +36,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.errors import InputError
 from macroslip.loads.source_file import (
     ANGLE,
@@ -248,7 +249,7 @@ class Channels:
         """True if each quantity has a channel under one of its names."""
         return all(any(alias.lower() in self.index for alias in aliases) for aliases in quantities)
 
-    def column(self, aliases: tuple[str, ...], factors: Mapping[str, float]) -> NDArray[np.float64]:
+    def column(self, aliases: tuple[str, ...], factors: Mapping[str, float]) -> FloatArray:
         """Values (n,) of a channel in SI units; zeros, and an entry in `missing`, without it."""
         alias = next((alias for alias in aliases if alias.lower() in self.index), None)
         if alias is None:
@@ -272,7 +273,7 @@ class Channels:
         fixed: tuple[tuple[str, ...], ...],
         rotating: tuple[tuple[str, ...], ...],
         factors: Mapping[str, float],
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    ) -> tuple[FloatArray, FloatArray]:
         """Components along y and z, from the non-rotating pair or else from the rotating pair."""
         if self.has_all(fixed):
             return self.column(fixed[0], factors), self.column(fixed[1], factors)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.constants import RPM
 from macroslip.errors import InputError
 from macroslip.loads.csv_text import csv_number_format
@@ -54,10 +54,10 @@ class RollerLoads(History):
 
     _VECTORS: ClassVar = {}
     event: ClassVar[bool] = False
-    time: NDArray[np.float64]
-    shaft_speed: NDArray[np.float64]
-    angle: NDArray[np.float64]
-    load: NDArray[np.float64]
+    time: FloatArray
+    shaft_speed: FloatArray
+    angle: FloatArray
+    load: FloatArray
     source: str
 
     def __post_init__(self) -> None:
@@ -167,7 +167,7 @@ class RollerLoads(History):
         }
         return cls(**cut(columns, start, end, str(path)), source=str(path))
 
-    def _forces(self) -> dict[str, NDArray[np.float64]]:
+    def _forces(self) -> dict[str, FloatArray]:
         """Mean load of a row's positions (n,) [N] by the row's name."""
         return dict(zip(ROW_NAMES, self.load.mean(axis=2).T, strict=True))
 
@@ -188,6 +188,6 @@ class RollerLoads(History):
         )
         return BearingLoads(self.time, self.shaft_speed, share * force, self.source)
 
-    def approach(self, stiffness: float, play: float) -> NDArray[np.float64]:
+    def approach(self, stiffness: float, play: float) -> FloatArray:
         """Approach of the rings [m] at every position, from K [N/m^1.5]; without load −play [m]."""
         return np.where(self.load > 0.0, (self.load / stiffness) ** (2.0 / 3.0), -play)

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.errors import InputError
 from macroslip.input.messages import shown
 from macroslip.loads.csv_text import name_with_unit
@@ -42,13 +42,11 @@ class SheetTable:
         """Cells of a column as text."""
         return [None if row[index] is None else str(row[index]).strip() for row in self.rows]
 
-    def numbers(
-        self, indices: Sequence[int], *, text_allowed: bool = False
-    ) -> list[NDArray[np.float64]]:
+    def numbers(self, indices: Sequence[int], *, text_allowed: bool = False) -> list[FloatArray]:
         """Values of columns; NaN where a cell is empty or, if that is allowed, no number."""
         return [self._values(index, text_allowed=text_allowed) for index in indices]
 
-    def _values(self, index: int, *, text_allowed: bool) -> NDArray[np.float64]:
+    def _values(self, index: int, *, text_allowed: bool) -> FloatArray:
         values = [number_or_nan(row[index]) for row in self.rows]
         if None in values and not text_allowed:
             number = values.index(None)

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.constants import RPM
 from macroslip.errors import InputError, legible
 from macroslip.storage.files import check_regular
@@ -86,7 +87,7 @@ def in_si(
     channel: str,
     where: str,
     remedy: str = "Convert the channel.",
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Values of a channel in SI units.
 
     Parameters
@@ -130,7 +131,7 @@ class Samples(NamedTuple):
         "choose a wider format for the output and run the simulation again."
     )
 
-    def channel(self, index: int, name: str, where: str) -> NDArray[np.float64]:
+    def channel(self, index: int, name: str, where: str) -> FloatArray:
         """Values (samples,) of a channel; InputError naming it if one of them is no number."""
         if index in self.unreadable:
             raise InputError(
@@ -187,7 +188,7 @@ def fortran_number(text: str) -> float:
     return float(re.sub("[dD]", "E", text))
 
 
-def numbers(words: Sequence[str]) -> tuple[NDArray[np.float64], dict[int, str]]:
+def numbers(words: Sequence[str]) -> tuple[FloatArray, dict[int, str]]:
     """Values of words, NaN for each that is no number, and those words by their index."""
     if _in_fortran("".join(words)):
         with contextlib.suppress(ValueError):
@@ -291,7 +292,7 @@ def turn_to_fixed(
     return along_ya * cos - along_za * sin, along_ya * sin + along_za * cos
 
 
-def moment_at_hub(force: NDArray, moment: NDArray, hub_to_output: float) -> NDArray[np.float64]:
+def moment_at_hub(force: NDArray, moment: NDArray, hub_to_output: float) -> FloatArray:
     """Moment about the hub centre from that about a point behind it on the shaft.
 
     M_hub = M + d x̂ × F, with x̂ the shaft's axis, downwind, and no load on the shaft between.

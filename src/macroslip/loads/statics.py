@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity, Text
@@ -219,7 +219,7 @@ class Drivetrain:
             )
 
 
-def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDArray[np.float64]]:
+def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, FloatArray]:
     """Load of the shaft on each of its two supports, from the loads at the hub.
 
     Free body: the shaft, cut at the hub and at both supports. With x downwind along the shaft from
@@ -297,7 +297,7 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     return dict(zip(names, (first + spared, second - spared), strict=True))
 
 
-def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> NDArray[np.float64]:
+def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> FloatArray:
     """Moment of the shaft on a moment-carrying front main bearing about its centre.
 
     λ M of `support_loads`, in the bearing frame: M_X0 = λ M_y and M_Y0 = λ M_z.
@@ -332,9 +332,7 @@ def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> NDArray[np.floa
     return arm * np.column_stack([-rear[:, 1], rear[:, 0], none])
 
 
-def _without_moments(
-    hub_loads: HubLoads, drivetrain: Drivetrain
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _without_moments(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[FloatArray, FloatArray]:
     """Loads (n, 3) [N] of the shaft on its first and second support if neither takes a moment."""
     four_point = drivetrain.mount == "four-point"
     # Every four-point mount has its span, which Drivetrain checks.

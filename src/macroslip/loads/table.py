@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.constants import RPM
 from macroslip.errors import InputError
 from macroslip.input.messages import shown
@@ -79,9 +80,7 @@ class Table(Protocol):
         """Cells of a column as text."""
         ...
 
-    def numbers(
-        self, indices: Sequence[int], *, text_allowed: bool = False
-    ) -> list[NDArray[np.float64]]:
+    def numbers(self, indices: Sequence[int], *, text_allowed: bool = False) -> list[FloatArray]:
         """Values of columns; NaN where a cell is empty or, if that is allowed, no number."""
         ...
 
@@ -162,7 +161,7 @@ def _texts(table: Table, indices: Sequence[int], values: NDArray) -> dict[int, s
 
 def read_bearing_table(
     path: Path, number_format: NumberFormat | None = None, sheet: str = ""
-) -> dict[str, NDArray[np.float64]]:
+) -> dict[str, FloatArray]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s] and force (n, 3) [N] on the inner ring."""
     remedy = "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
     columns = _read(open_table(path, number_format, sheet), path, _BEARING_VECTORS, ("fx", remedy))
@@ -225,7 +224,7 @@ def _other_sheets(path: Path) -> str:
     return " Another sheet of the workbook is read if the key sheet names it."
 
 
-def _filled_rows(values: NDArray[np.float64]) -> int:
+def _filled_rows(values: FloatArray) -> int:
     """Number of rows before the empty ones at the end, which spreadsheets leave."""
     filled = np.flatnonzero(~np.isnan(values).all(axis=1))
     return int(filled[-1]) + 1 if filled.size else 0
@@ -298,12 +297,10 @@ class _ParquetTable:
     def texts(self, index: int) -> list[str | None]:
         return [None if cell is None else str(cell) for cell in self.columns[index].to_pylist()]
 
-    def numbers(
-        self, indices: Sequence[int], *, text_allowed: bool = False
-    ) -> list[NDArray[np.float64]]:
+    def numbers(self, indices: Sequence[int], *, text_allowed: bool = False) -> list[FloatArray]:
         return [self._values(index, text_allowed=text_allowed) for index in indices]
 
-    def _values(self, index: int, *, text_allowed: bool) -> NDArray[np.float64]:
+    def _values(self, index: int, *, text_allowed: bool) -> FloatArray:
         import pyarrow as pa
 
         column = self.columns.column(index)
@@ -354,7 +351,7 @@ def open_table(path: Path, number_format: NumberFormat | None = None, sheet: str
         ) from error
 
 
-def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rebuild_uniform(time: FloatArray) -> FloatArray:
     """Uniform axis that a float32 time column was rounded from; another column as it is.
 
     At 600 s neighbouring float32 numbers are 6e-5 s apart, which would give a record of 50 Hz steps

@@ -174,9 +174,7 @@ class Lubricant(Record):
             following = derive(usable, provenance)
         except InputError as problem:
             where = source.file or problem.where
-            raise InputError(
-                problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
-            ) from None
+            raise problem.but(where=where) from None
         follows = {key: origin.value for key, origin in following.items()}
         super()._fill(
             {**values, **follows}, {**provenance, **following}, source, frozenset(following)
@@ -293,9 +291,7 @@ class Lubricant(Record):
         try:
             there = moved_inlet(here, temperature)
         except InputError as problem:
-            raise InputError(
-                problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
-            ) from None
+            raise problem.but(where=where) from None
         before = f"at {self.inlet_temperature:g} K"
         notes = {
             "density": f"0.65 kg/(m3 K) from {self.density:g} {before}",

@@ -17,8 +17,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from macroslip.arrays import FloatArray
 from macroslip.compiled import jit
 
 LIFE_EXPONENT = 10.0 / 3.0
@@ -41,7 +42,7 @@ MINIMUM_SHARE_OF_ROLLERS = 0.02
 
 def static_equivalent_load(
     radial_load: ArrayLike, axial_load: ArrayLike, factor_y0: float
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Static equivalent radial load P0 = Fr + Y0 |Fa| [N] of a double-row bearing.
 
     ISO 76:2006, section 6.2, X0 = 1.
@@ -57,7 +58,7 @@ def static_equivalent_load(
     return np.asarray(radial_load, float) + factor_y0 * np.abs(axial_load)
 
 
-def static_safety(static_load_rating: float, equivalent_load: ArrayLike) -> NDArray[np.float64]:
+def static_safety(static_load_rating: float, equivalent_load: ArrayLike) -> FloatArray:
     """Static safety factor S0 = C0/P0 [-] of loads [N] by ISO 76:2006; infinite without load.
 
     Examples
@@ -101,7 +102,7 @@ def minimum_load_of_rollers(dynamic_load_rating: float) -> float:
 
 def dynamic_equivalent_load(
     radial_load: ArrayLike, axial_load: ArrayLike, e: float, y1: float, y2: float
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Dynamic equivalent radial load of a double-row spherical roller bearing.
 
     P = Fr + Y1 |Fa| where |Fa| <= e Fr, else 0.67 Fr + Y2 |Fa|. As catalogues round the factors, P
@@ -139,7 +140,7 @@ def dynamic_equivalent_load(
     return np.where(axial <= e * radial, radial + y1 * axial, 0.67 * radial + y2 * axial)
 
 
-def basic_life(load_rating: float, equivalent_load: ArrayLike) -> NDArray[np.float64]:
+def basic_life(load_rating: float, equivalent_load: ArrayLike) -> FloatArray:
     """Basic rating life with 90 % reliability, L10 = 1e6 (C/P)^(10/3) revolutions of loads [N].
 
     It is infinite without load.
@@ -196,7 +197,7 @@ def reference_viscosity(speed: float, pitch: float) -> float:
 
 def life_modification(
     viscosity_ratio: float, contamination: float, load_ratio: ArrayLike
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Life modification factor a_ISO [-] of radial roller bearings.
 
     a_ISO = 0.1 [1 - (1.5859 - A/kappa^B) (e_C C_u/P)^0.4]^-9.185, at most 50, with (A, B) =
@@ -375,9 +376,7 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     return damage
 
 
-def reference_life(
-    damage: NDArray[np.float64], axis: int | tuple[int, ...] | None = None
-) -> NDArray[np.float64]:
+def reference_life(damage: FloatArray, axis: int | tuple[int, ...] | None = None) -> FloatArray:
     """Basic reference rating life of rings together [revolutions].
 
     L10r = 1e6 (sum (Q_c/Q_e)^(-9/2))^(-8/9).

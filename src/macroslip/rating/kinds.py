@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from macroslip.arrays import FloatArray
 from macroslip.bearing import Bearing, load_ratings
 from macroslip.rating import iso
 from macroslip.rating.tapered import equivalent_load, static_equivalent_load, tapered_ratings
@@ -24,8 +25,8 @@ class LoadRatings(NamedTuple):
 class EquivalentLoads(NamedTuple):
     """Equivalent radial loads over a history."""
 
-    dynamic: NDArray[np.float64]  #: P [N]
-    static: NDArray[np.float64]  #: P0 [N]
+    dynamic: FloatArray  #: P [N]
+    static: FloatArray  #: P0 [N]
 
 
 _AXIAL_FACTORS = ("axial_factor_e", "axial_factor_y1", "axial_factor_y2", "axial_factor_y0")

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from macroslip.arrays import BoolArray, FloatArray
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import row_names
 from macroslip.constants import HOUR
@@ -45,7 +45,7 @@ WOHLER_EXPONENTS = (4.0, 10.0)
 
 def roller_load_history(
     bearing: Bearing, lubricant: Lubricant, loads: BearingLoads | RollerLoads
-) -> tuple[BearingLoads, NDArray[np.float64]]:
+) -> tuple[BearingLoads, FloatArray]:
     """Elastic load of every roller at every sample; it does not depend on the lubricant.
 
     Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the
@@ -77,7 +77,7 @@ def rate(
     bearing: Bearing,
     lubricant: Lubricant,
     loads: BearingLoads,
-    roller_load: NDArray[np.float64],
+    roller_load: FloatArray,
     *,
     contamination: float = CONTAMINATION,
     wohler_exponents: tuple[float, ...] = WOHLER_EXPONENTS,
@@ -159,11 +159,11 @@ class _History(NamedTuple):
     loads: BearingLoads
     contamination: float  #: e_C [-]
     ratings: LoadRatings
-    roller_load: NDArray[np.float64]  #: Q [N] over (row, roller, sample)
-    duration: NDArray[np.float64]  #: Time that every sample represents [s]
-    revolutions: NDArray[np.float64]  #: Turns of the shaft that every sample represents [-]
-    radial: NDArray[np.float64]  #: Fr [N]
-    axial: NDArray[np.float64]  #: Fa [N]
+    roller_load: FloatArray  #: Q [N] over (row, roller, sample)
+    duration: FloatArray  #: Time that every sample represents [s]
+    revolutions: FloatArray  #: Turns of the shaft that every sample represents [-]
+    radial: FloatArray  #: Fr [N]
+    axial: FloatArray  #: Fa [N]
     equivalent: EquivalentLoads
     strips: StripRating | None = None  #: Of rollers that touch along a line
 
@@ -191,7 +191,7 @@ def _history(
     bearing: Bearing,
     lubricant: Lubricant,
     loads: BearingLoads,
-    roller_load: NDArray[np.float64],
+    roller_load: FloatArray,
     contamination: float,
 ) -> _History:
     ratings = ratings_of(bearing)
@@ -233,7 +233,7 @@ def _history(
     )
 
 
-def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
+def _share(condition: BoolArray, weight: FloatArray) -> float:
     return float(weight[condition].sum() / weight.sum())
 
 
@@ -299,7 +299,7 @@ def _reference(history: _History) -> dict[str, tuple]:
     if history.strips is not None:
         damages[DISTRIBUTIONS.index("hertz")] = history.strips.damage
 
-    def hours(life: NDArray[np.float64]) -> NDArray[np.float64]:
+    def hours(life: FloatArray) -> FloatArray:
         # Palmgren and Miner: the shares of life used by each load add up.
         turned = history.revolutions.sum()
         used = (history.revolutions / life).sum(axis=-1)
@@ -379,7 +379,7 @@ def _contacts(history: _History) -> dict[str, tuple]:
     }
 
 
-def _class_edges(history: _History) -> NDArray[np.float64]:
+def _class_edges(history: _History) -> FloatArray:
     reach = [history.radial, history.axial, history.equivalent.dynamic]
     low = min(load.min() for load in reach)
     high = max(load.max() for load in reach)

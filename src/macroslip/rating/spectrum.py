@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from macroslip.arrays import FloatArray
+
 LEVELS = 256
 """Levels between smallest and largest load at which reversals are counted."""
 
 
-def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:
+def sample_durations(time: FloatArray) -> FloatArray:
     """Time that every sample represents [s]: half of the intervals at either side.
 
     Examples
@@ -21,9 +23,7 @@ def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:
     return 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
 
 
-def load_duration(
-    load: NDArray[np.float64], weight: NDArray[np.float64], edges: NDArray[np.float64]
-) -> NDArray:
+def load_duration(load: FloatArray, weight: FloatArray, edges: FloatArray) -> NDArray:
     """Shares [-] of time, or of revolutions, that n loads [N] spend in each of k classes.
 
     Their sum is 1.
@@ -42,7 +42,7 @@ def load_duration(
         return durations / weight.sum()
 
 
-def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
+def rainflow_ranges(load: FloatArray) -> FloatArray:
     """Ranges [N] of the cycles of a load history [N].
 
     It is taken as repeating, so that every cycle closes.

@@ -6,8 +6,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from macroslip.arrays import FloatArray
 from macroslip.bearing import load_ratings
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.hertz import effective_modulus
@@ -80,9 +81,7 @@ def tapered_ratings(bearing: TaperedBearing) -> TaperedRatings:
     )
 
 
-def equivalent_load(
-    ratings: TaperedRatings, radial: ArrayLike, axial: ArrayLike
-) -> NDArray[np.float64]:
+def equivalent_load(ratings: TaperedRatings, radial: ArrayLike, axial: ArrayLike) -> FloatArray:
     """Dynamic equivalent radial load of a double-row tapered roller bearing [N].
 
     It knows neither moments nor preload: with these use `tapered_reference_life`.
@@ -117,7 +116,7 @@ def equivalent_load(
 
 def static_equivalent_load(
     ratings: TaperedRatings, radial: ArrayLike, axial: ArrayLike
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Static equivalent radial load P0 = F_r + Y0 |F_a| [N] of a double-row bearing.
 
     Parameters
@@ -139,9 +138,7 @@ def static_equivalent_load(
     return np.asarray(radial, float) + ratings.axial_factor_y0 * np.abs(axial)
 
 
-def strip_damage(
-    strips: NDArray[np.float64], rating: float, stationary: bool
-) -> NDArray[np.float64]:
+def strip_damage(strips: FloatArray, rating: float, stationary: bool) -> FloatArray:
     """Damage of one ring of a row by its strips, (q_e/q_c)^(9/2), mean over the strips.
 
     Parameters
@@ -182,7 +179,7 @@ def tapered_reference_life(
     bearing: TaperedBearing,
     ring: TaperedRing,
     balance: TaperedBalance,
-    shaft_angle: NDArray[np.float64],
+    shaft_angle: FloatArray,
 ) -> float:
     """Basic reference rating life of both rows under a load history [revolutions of the shaft].
 
@@ -217,15 +214,15 @@ def tapered_reference_life(
 class StripRating(NamedTuple):
     """Damage and largest pressures of the raceways over a load history, from the loads of strips."""
 
-    damage: NDArray[np.float64]  #: (Q_e/Q_c)^(9/2) over (row, raceway, sample)
-    pressure: NDArray[np.float64]  #: Largest pressure [Pa] over (row, raceway)
+    damage: FloatArray  #: (Q_e/Q_c)^(9/2) over (row, raceway, sample)
+    pressure: FloatArray  #: Largest pressure [Pa] over (row, raceway)
 
 
 def strip_rating(
     bearing: TaperedBearing,
     ring: TaperedRing,
     balance: TaperedBalance,
-    shaft_angle: NDArray[np.float64],
+    shaft_angle: FloatArray,
 ) -> StripRating:
     """Damage of every raceway at every sample, and its largest pressure, by the loads of strips.
 

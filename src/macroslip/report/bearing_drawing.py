@@ -13,8 +13,8 @@ from macroslip.report.style import program_style
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
+    from macroslip.arrays import FloatArray
     from macroslip.bearing import Bearing
 
 STEEL = "#e6e6e6"
@@ -76,7 +76,7 @@ def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
     axes.plot(sphere * np.sin(turn), sphere * np.cos(turn), color=SPHERE, lw=0.8, ls=":")
 
 
-def _inner_raceway(bearing: Bearing, distance: NDArray[np.float64]) -> NDArray[np.float64]:
+def _inner_raceway(bearing: Bearing, distance: FloatArray) -> FloatArray:
     """Distance of the inner raceway from the axis [mm] at distances from the mid-plane [mm]."""
     contour = _MILLI * geometry.inner_raceway_contour_radius(bearing)
     reach = contour - 0.5 * _MILLI * bearing.roller_diameter
@@ -85,7 +85,7 @@ def _inner_raceway(bearing: Bearing, distance: NDArray[np.float64]) -> NDArray[n
     return across - np.sqrt(np.maximum(contour**2 - (distance - along) ** 2, 0.0))
 
 
-def _roller(bearing: Bearing, side: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _roller(bearing: Bearing, side: int) -> tuple[FloatArray, FloatArray]:
     """Outline of a roller in the section [mm], along and across the bearing's axis."""
     contour = geometry.roller_contour_radius(bearing)
     half = 0.5 * bearing.roller_length

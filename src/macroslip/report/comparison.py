@@ -17,12 +17,12 @@ from macroslip.input.units import with_unit
 from macroslip.report.accessor import open_result
 from macroslip.report.ranking import ENERGY, ranking_sentences
 from macroslip.report.result_numbers import estimated_values
-from macroslip.report.run_names import study_about
+from macroslip.report.run_names import as_groups, study_about
 from macroslip.result.damage import lines
 from macroslip.result.plausibility import doubtful_result
 from macroslip.result.run_input import stored_settings
 from macroslip.study.aggregation import aggregation_in_use
-from macroslip.study.effects import sampled_parameters
+from macroslip.study.labels import sampled_parameters
 from macroslip.study.over_temperature import weighted_study
 from macroslip.study.reader import is_study, open_study
 from macroslip.study.weights import BinProbabilities, Weibull, binned
@@ -346,8 +346,7 @@ def _labels_of_designs(
 
 def _parts(study: xr.Dataset, labels: Sequence[str]) -> dict[str, xr.Dataset]:
     """The runs of each design by its name; its other labels are pooled into one group."""
-    columns = {name: ("group", study[name].values, study[name].attrs) for name in labels}
-    design = np.array(design_names(xr.Dataset(coords=columns)) if labels else [""])
+    design = np.array(design_names(as_groups(study, labels)))
     names = list(dict.fromkeys(design.tolist()))
     if len(names) < 2:
         varied = _varied_labels(study)

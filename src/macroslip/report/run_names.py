@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from macroslip.constants import ZERO_CELSIUS
-from macroslip.study.weights import is_parameter
+from macroslip.study.labels import is_parameter, labels_over
 from macroslip.study.year import design_names, file_names
 
 #: Labels of a run, and words for several of each.
@@ -66,17 +66,15 @@ def case_names(study: xr.Dataset) -> list[str]:
     """Name of the case of every run: fields that tell it apart, `14 m/s, seed 2`, or its loads."""
     not_of_loads = (*INTERNAL, *SEVERAL, "temperature")
     fields = [
-        str(name)
-        for name in study.coords
-        if study[name].dims == ("case",)
-        and name not in not_of_loads
-        and not is_parameter(study, str(name))
+        name
+        for name in labels_over(study)
+        if name not in not_of_loads and not is_parameter(study, name)
     ]
     loads = study.loads.values.astype(str)
     are_files = any("." in name for name in loads)
     if fields and are_files:
         # A wind speed is known by its unit: it needs no name before it.
-        others = _as_groups(study, [name for name in fields if name != "wind_speed"])
+        others = as_groups(study, [name for name in fields if name != "wind_speed"])
         names = [
             ", ".join(filter(None, parts))
             for parts in zip(_speeds(study, fields), design_names(others), strict=True)
@@ -100,13 +98,13 @@ def run_names(study: xr.Dataset) -> list[str]:
         for name in study.coords
         if name != "loads" and (name in (*SEVERAL, "temperature") or is_parameter(study, str(name)))
     ]
-    designs = design_names(_as_groups(study, labels), 3)
+    designs = design_names(as_groups(study, labels), 3)
     return [
         ", ".join(filter(None, names)) for names in zip(case_names(study), designs, strict=True)
     ]
 
 
-def _as_groups(study: xr.Dataset, labels: list[str]) -> xr.Dataset:
-    """Labels of the runs as those of groups, one a run."""
+def as_groups(study: xr.Dataset, labels: list[str]) -> xr.Dataset:
+    """Labels of the runs of a study as those of groups, one a run."""
     coordinates = {name: ("group", study[name].values, study[name].attrs) for name in labels}
     return xr.Dataset({"number": ("group", np.arange(study.sizes["case"]))}, coordinates)

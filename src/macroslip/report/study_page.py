@@ -33,9 +33,10 @@ from macroslip.result.plausibility import JUDGED, doubtful_result
 from macroslip.result.surface_maps import energy_density
 from macroslip.study.aggregation import Aggregation, aggregation_in_use
 from macroslip.study.database import Outcome
-from macroslip.study.effects import effects, sampled_parameters
+from macroslip.study.effects import effects
 from macroslip.study.exceedance import exceedance
 from macroslip.study.export import as_table
+from macroslip.study.labels import sampled_parameters
 from macroslip.study.lifetime import lifetime_energy, weighted_maps, worst
 from macroslip.study.over_temperature import weighted_study
 from macroslip.study.weights import (

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.linalg import expm
 from scipy.optimize import root_scalar
 
+from macroslip.arrays import FloatArray
 from macroslip.bearing import Bearing
 from macroslip.case.case import Case
 from macroslip.case.parts import Heat
@@ -349,7 +349,7 @@ def rings_at_balance(heat: Heat, temperature: float) -> tuple[float, float]:
 
 def ring_temperatures(
     heat: Heat, power: float, time: Sequence[float], start: tuple[float, float]
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Temperatures of inner and outer ring under a constant friction power, exact.
 
         m_i c dT_i/dt = P/2 − G_r (T_i − T_o)

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.case.case import BALANCE, Case
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads
@@ -52,7 +53,7 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     )
 
 
-def _load_history(case: Case) -> tuple[BearingLoads, NDArray[np.float64], StripRating | None]:
+def _load_history(case: Case) -> tuple[BearingLoads, FloatArray, StripRating | None]:
     """Loads at the samples of the ring's balance, those of all rollers, and of tapered strips."""
     if case.bearing.kind != "tapered":
         return *roller_load_history(case.bearing, case.oil, case.ring_loads), None

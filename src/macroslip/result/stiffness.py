@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 
 import macroslip
+from macroslip.arrays import FloatArray
 from macroslip.bearing import Bearing
 from macroslip.case.case import Case
 from macroslip.errors import InputError, MacroslipError
@@ -163,7 +163,7 @@ def _ring(bearing: Bearing, lubricant: Lubricant) -> RingGeometry:
     return ring_geometry(bearing, roller_model(bearing, lubricant, 1, tilt=0.0))
 
 
-def _about(ring: RingGeometry, force: NDArray[np.float64], name: str) -> dict[str, Any]:
+def _about(ring: RingGeometry, force: FloatArray, name: str) -> dict[str, Any]:
     """Displacement, stiffness, its variation over a pitch, and whether the ring is held."""
     pitch = 4.0 * math.pi / ring.cosine.size
     angle = pitch / ring.orbit_ratio * np.arange(_POSITIONS) / _POSITIONS

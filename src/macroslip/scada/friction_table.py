@@ -15,6 +15,7 @@ import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
+from macroslip.arrays import FloatArray
 from macroslip.bearing import Bearing
 from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
@@ -133,7 +134,7 @@ class FrictionTable:
         return tuple(dict.fromkeys(self.entries["supply"]))
 
     @cached_property
-    def temperatures(self) -> NDArray[np.float64]:
+    def temperatures(self) -> FloatArray:
         """Temperatures of the table [K], rising."""
         return np.unique(self.entries["temperature"].to_numpy(float))
 
@@ -182,7 +183,7 @@ class FrictionTable:
 
     def torque(
         self, supply: str, wind_speed: ArrayLike, shaft_speed: ArrayLike, temperature: ArrayLike
-    ) -> NDArray[np.float64]:
+    ) -> FloatArray:
         """Friction torque of the whole bearing against its rotation [N m].
 
         Parameters
@@ -219,7 +220,7 @@ class FrictionTable:
 
     def power(
         self, supply: str, wind_speed: ArrayLike, shaft_speed: ArrayLike, temperature: ArrayLike
-    ) -> NDArray[np.float64]:
+    ) -> FloatArray:
         """Friction power M n [W].
 
         Parameters

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from macroslip.arrays import BoolArray, FloatArray
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.scada.filters import TURNING
@@ -47,8 +47,8 @@ class Indexed(NamedTuple):
     model: str
     supply: str
     start: pd.DatetimeIndex
-    measured: NDArray[np.float64]
-    expected: NDArray[np.float64]
+    measured: FloatArray
+    expected: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,8 +119,8 @@ class _Analysed(NamedTuple):
 
     record: pd.DataFrame
     balance: Balance
-    reference: NDArray[np.bool_]
-    turning: NDArray[np.bool_]
+    reference: BoolArray
+    turning: BoolArray
     fits: tuple[HeatFit, ...]
 
 
@@ -166,7 +166,7 @@ def _analysed(scada: Scada, record: pd.DataFrame, friction: FrictionTable) -> _A
     return _Analysed(record, balance, reference, turning, fits)
 
 
-def _in_reference(start: pd.DatetimeIndex, period: tuple | None) -> NDArray[np.bool_]:
+def _in_reference(start: pd.DatetimeIndex, period: tuple | None) -> BoolArray:
     """True for windows that begin in the reference; for all where there is none."""
     if period is None:
         return np.ones(len(start), dtype=bool)
@@ -174,9 +174,7 @@ def _in_reference(start: pd.DatetimeIndex, period: tuple | None) -> NDArray[np.b
     return np.asarray((start >= first) & (start < end))
 
 
-def _check_windows(
-    reference: NDArray[np.bool_], idle: NDArray[np.bool_], kelvin: NDArray[np.float64]
-) -> None:
+def _check_windows(reference: BoolArray, idle: BoolArray, kelvin: FloatArray) -> None:
     """Refuse a reference from which the balance cannot be fitted."""
     count = int(reference.sum())
     standing = int((reference & idle).sum())
@@ -315,7 +313,7 @@ def _window_table(analysed: _Analysed) -> pd.DataFrame:
     )
 
 
-def _regressed_rise(analysed: _Analysed) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _regressed_rise(analysed: _Analysed) -> tuple[FloatArray, FloatArray]:
     """Rise of the bearing above the air [K], and that of a regression on the reference.
 
     On speed, wind, its square, power and the air's temperature: what an operator would fit without

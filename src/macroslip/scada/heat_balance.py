@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from macroslip.arrays import BoolArray, FloatArray
 from macroslip.constants import HOUR
 from macroslip.scada.heat_models import HeatModel
 from macroslip.scada.windows import Windows
@@ -39,9 +40,9 @@ class Balance:
 
     windows: Windows
     start: pd.DatetimeIndex  #: Time of the first row of each window
-    rate: NDArray[np.float64]  #: dT/dt of each window [K/h]
+    rate: FloatArray  #: dT/dt of each window [K/h]
     #: Mean excess over a temperature of the air [K], by the name of its conductance
-    excess: Mapping[str, NDArray[np.float64]]
+    excess: Mapping[str, FloatArray]
 
     @classmethod
     def of(cls, record: pd.DataFrame, windows: Windows) -> Balance:
@@ -70,16 +71,16 @@ class HeatFit:
     values: Mapping[str, float]  #: Constants by the names of `PARAMETERS`
     errors: Mapping[str, float]  #: Standard errors by the bootstrap of blocks
     residual: float  #: Root mean square of the residuals of the reference [K/h]
-    heat: NDArray[np.float64]  #: q0 and the heat of the model in each window [K/h]
-    left: NDArray[np.float64]  #: dT/dt and what went to the air in each window [K/h]
+    heat: FloatArray  #: q0 and the heat of the model in each window [K/h]
+    left: FloatArray  #: dT/dt and what went to the air in each window [K/h]
 
     @property
-    def residuals(self) -> NDArray[np.float64]:
+    def residuals(self) -> FloatArray:
         """Measured less fitted dT/dt of each window [K/h]."""
         return self.left - self.heat
 
 
-def fit_heat(balance: Balance, model: HeatModel, reference: NDArray[np.bool_]) -> HeatFit:
+def fit_heat(balance: Balance, model: HeatModel, reference: BoolArray) -> HeatFit:
     """Fit the heat balance of a bearing by least squares over its windows.
 
         dT/dt = q0 + 3600 [P(T) + M_s n]/C − Σ k (T − T_air)    [K/h, W, J/K]
@@ -126,7 +127,7 @@ def fit_heat(balance: Balance, model: HeatModel, reference: NDArray[np.bool_]) -
     )
 
 
-def _columns(balance: Balance, model: HeatModel) -> tuple[Sequence[str], NDArray[np.float64]]:
+def _columns(balance: Balance, model: HeatModel) -> tuple[Sequence[str], FloatArray]:
     """Names of the constants, and what each is multiplied with, over (constant, window)."""
     sources = [balance.windows.mean(values) for values in model.sources.values()]
     excess = [-values for values in balance.excess.values()]
@@ -134,7 +135,7 @@ def _columns(balance: Balance, model: HeatModel) -> tuple[Sequence[str], NDArray
     return names, np.stack([np.ones(len(balance.windows)), *sources, *excess])
 
 
-def _constants(names: Sequence[str], solved: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+def _constants(names: Sequence[str], solved: FloatArray) -> dict[str, FloatArray]:
     """Constants of the fit, from solutions over (..., constant)."""
     values = dict(zip(names, np.moveaxis(solved, -1, 0), strict=True))
     if "capacity" in values:
@@ -146,9 +147,7 @@ def _constants(names: Sequence[str], solved: NDArray[np.float64]) -> dict[str, N
     return values
 
 
-def _bootstrap(
-    design: NDArray[np.float64], target: NDArray[np.float64], blocks: NDArray[np.int64]
-) -> NDArray[np.float64]:
+def _bootstrap(design: FloatArray, target: FloatArray, blocks: NDArray[np.int64]) -> FloatArray:
     """Solutions of the normal equations of drawn blocks, over (sample, constant)."""
     _, block = np.unique(blocks, return_inverse=True)
     number = int(block.max()) + 1
@@ -169,7 +168,7 @@ def _bootstrap(
     return np.stack(solutions)
 
 
-def _half_width(values: NDArray[np.float64]) -> float:
+def _half_width(values: FloatArray) -> float:
     """Half of what the middle 68 % span: the standard deviation of normal numbers."""
     low, high = np.nanpercentile(values, [16.0, 84.0])
     return float(0.5 * (high - low))

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
+
+from macroslip.arrays import FloatArray
 
 #: Periods over which windows are drawn together, as pandas names them, and windows that each needs.
 PERIODS: Mapping[str, tuple[str, int]] = {"day": ("D", 4), "week": ("W", 12), "month": ("M", 48)}
@@ -17,8 +18,8 @@ FLAGGED = 1.0
 
 def index_over(
     start: pd.DatetimeIndex,
-    measured: NDArray[np.float64],
-    expected: NDArray[np.float64],
+    measured: FloatArray,
+    expected: FloatArray,
     period: str,
 ) -> pd.DataFrame:
     """Index of each period: sum of the measured over the sum of the expected heat.
@@ -61,7 +62,7 @@ def index_over(
     return index.reset_index()
 
 
-def cusum(index: NDArray[np.float64]) -> NDArray[np.float64]:
+def cusum(index: FloatArray) -> FloatArray:
     """Cumulative sum of an index, S ← max(0, S + r − 1.10), day by day.
 
     E. S. Page, Continuous inspection schemes, Biometrika 41 (1954) 100, doi:10.2307/2333009.

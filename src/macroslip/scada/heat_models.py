@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
+from macroslip.arrays import FloatArray
 from macroslip.scada.friction_table import FrictionTable
 from macroslip.torque.handbooks import palmgren_torque, skf_torque
 
@@ -42,7 +42,7 @@ class HeatModel:
     supply: str  #: Supply of oil, empty where there is none
     #: Source by the name of its constant: `capacity`, of a heat [W]; `seal_torque`, of the speed
     #: [rad/s]; `heat_at_rated`, of a share of the heat at rated speed [-]
-    sources: Mapping[str, NDArray[np.float64]]
+    sources: Mapping[str, FloatArray]
 
     @property
     def has_capacity(self) -> bool:
@@ -91,10 +91,10 @@ def heat_models(
 
 def _handbooks(
     friction: FrictionTable,
-    wind: NDArray[np.float64],
-    speed: NDArray[np.float64],
-    oil: NDArray[np.float64],
-) -> dict[str, NDArray[np.float64]]:
+    wind: FloatArray,
+    speed: FloatArray,
+    oil: FloatArray,
+) -> dict[str, FloatArray]:
     """Torque [N m] of every row by the SKF model and by Palmgren, at the mean loads of its wind."""
     loads = friction.loads
     if loads is None or friction.bearing is None or friction.lubricant is None:

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.signal import lfilter
 from scipy.stats import norm, weibull_min
 
+from macroslip.arrays import BoolArray, FloatArray
 from macroslip.constants import HOUR, RPM, ZERO_CELSIUS
 from macroslip.scada.friction_table import FrictionTable, read_entries
 from macroslip.scada.speed_exponents import speed_exponents
@@ -120,7 +120,7 @@ def synthetic_year(truth: SyntheticYear, friction: FrictionTable) -> pd.DataFram
     bearing = _bearing(truth, friction, wind, speed, nacelle, ambient)
     recorded = bearing + truth.noise * random.standard_normal(rows)
 
-    def rounded(kelvin: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rounded(kelvin: FloatArray) -> FloatArray:
         if truth.resolution == 0.0:
             return kelvin
         steps = np.round((kelvin - ZERO_CELSIUS) / truth.resolution)
@@ -163,7 +163,7 @@ def write_record(record: pd.DataFrame, path: str | PathLike[str]) -> None:
     table.to_csv(path, index=False, lineterminator="\n", compression=compression)
 
 
-def _correlated(random: np.random.Generator, rows: int, correlation: float) -> NDArray[np.float64]:
+def _correlated(random: np.random.Generator, rows: int, correlation: float) -> FloatArray:
     """Normal numbers of variance 1 whose correlation falls by e over so many rows."""
     kept = np.exp(-1.0 / correlation)
     pushes = np.sqrt(1.0 - kept**2) * random.standard_normal(rows)
@@ -173,7 +173,7 @@ def _correlated(random: np.random.Generator, rows: int, correlation: float) -> N
 
 def _within_spells(
     random: np.random.Generator, rows: int, number: float, length: float
-) -> NDArray[np.bool_]:
+) -> BoolArray:
     """True for rows in one of `number` spells of a mean length."""
     inside = np.zeros(rows, dtype=bool)
     starts = random.integers(0, rows, round(number))
@@ -183,9 +183,7 @@ def _within_spells(
     return inside
 
 
-def _operation(
-    random: np.random.Generator, rows: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def _operation(random: np.random.Generator, rows: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Wind [m/s], speed of the rotor [rad/s] and power [W] of every row."""
     weather = _correlated(random, rows, _WEATHER_ROWS)
     gusts = _correlated(random, rows, _GUST_ROWS)
@@ -205,8 +203,8 @@ def _operation(
 
 
 def _air(
-    random: np.random.Generator, time: pd.DatetimeIndex, power: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    random: np.random.Generator, time: pd.DatetimeIndex, power: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Temperatures outside and in the nacelle [K]."""
     hours = np.arange(time.size) * _STEP / HOUR
     of_year = -7.5 * np.cos(2.0 * np.pi * (hours / 24.0 - 20.0) / 365.0)
@@ -217,7 +215,7 @@ def _air(
     return ambient, ambient + rise + 0.6 * _smoothed(_correlated(random, time.size, 36.0))
 
 
-def _smoothed(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _smoothed(values: FloatArray) -> FloatArray:
     """The values with a delay of two hours (first order)."""
     kept = np.exp(-1.0 / _LAG_ROWS)
     return lfilter([1.0 - kept], [1.0, -kept], values, zi=[kept * values[0]])[0]
@@ -226,11 +224,11 @@ def _smoothed(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def _bearing(
     truth: SyntheticYear,
     friction: FrictionTable,
-    wind: NDArray[np.float64],
-    speed: NDArray[np.float64],
-    nacelle: NDArray[np.float64],
-    ambient: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    wind: FloatArray,
+    speed: FloatArray,
+    nacelle: FloatArray,
+    ambient: FloatArray,
+) -> FloatArray:
     """Temperature of the bearing [K], its mean over every row.
 
     Within a row the friction is linear in the temperature, so that a row has the closed solution
@@ -264,7 +262,7 @@ def _bearing(
     return means
 
 
-def _friction_factor(truth: SyntheticYear, rows: int) -> NDArray[np.float64]:
+def _friction_factor(truth: SyntheticYear, rows: int) -> FloatArray:
     """Friction of every row over that of the table [-]."""
     days = np.arange(rows) / _ROWS_A_DAY
     turns = days / _WANDER_DAYS + _WANDER_PHASE * truth.seed

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
+from macroslip.arrays import BoolArray, FloatArray
 from macroslip.constants import HOUR
 
 #: Length of a window [s].
@@ -30,7 +31,7 @@ class Windows:
         """Numbers of the rows over (window, row)."""
         return self.first[:, None] + np.arange(self.steps + 1)
 
-    def mean(self, values: ArrayLike) -> NDArray[np.float64]:
+    def mean(self, values: ArrayLike) -> FloatArray:
         """Mean of each window by the trapezoidal rule, of a value for every row of the record.
 
         Examples
@@ -42,7 +43,7 @@ class Windows:
         ends = 0.5 * (inside[:, 0] + inside[:, -1])
         return (ends + inside[:, 1:-1].sum(axis=1)) / self.steps
 
-    def rate(self, values: ArrayLike) -> NDArray[np.float64]:
+    def rate(self, values: ArrayLike) -> FloatArray:
         """Change of a value from the first to the last row of each window, per hour.
 
         Examples
@@ -54,7 +55,7 @@ class Windows:
         hours = self.steps * self.step / HOUR
         return (known[self.first + self.steps] - known[self.first]) / hours
 
-    def at(self, chosen: NDArray[np.bool_]) -> Windows:
+    def at(self, chosen: BoolArray) -> Windows:
         """Those that are chosen."""
         return Windows(self.first[chosen], self.steps, self.step)
 

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from macroslip.errors import InputError
+from macroslip.errors import InputError, on_one_line
 
 #: End of the names of files that are being written; a file with it was never finished.
 UNFINISHED = ".part"
@@ -186,6 +186,15 @@ def new_file(path: Path, *, force: bool) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
+def write_new(path: Path, content: str | bytes, *, force: bool) -> None:
+    """Write a file whole or not at all, as `new_file` does; text in UTF-8."""
+    with new_file(path, force=force) as temporary:
+        if isinstance(content, bytes):
+            temporary.write_bytes(content)
+        else:
+            temporary.write_text(content, encoding="utf-8", errors="backslashreplace")
+
+
 def unfinished(path: Path) -> Path:
     """A name in the same folder for a file that is being written; no other command has it."""
     # Of a long name a part: it may take all the bytes that a name can have.
@@ -215,5 +224,5 @@ def reading(path: Path, remedy: str) -> Iterator[None]:
             isinstance(error, OSError) and error.errno is not None
         ):  # libraries use the class for damage too
             raise
-        fault = f"it is damaged ({type(error).__name__}: {' '.join(str(error).split())})"
+        fault = f"it is damaged ({type(error).__name__}: {on_one_line(error)})"
         raise InputError(fault, where=str(path), remedy=remedy) from error

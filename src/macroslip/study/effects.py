@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +11,8 @@ from numpy.typing import ArrayLike
 from macroslip.errors import InputError
 from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.year import DESIGN_COLUMNS, LIVES, designs, year
+from macroslip.study.labels import labels_over, sampled_parameters
+from macroslip.study.year import DESIGN_UNITS, designs, year
 
 #: Quantiles of a quantity over the sample, and points below which nothing is said.
 QUANTILES = (0.05, 0.5, 0.95)
@@ -71,13 +71,6 @@ def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.
     return effect, error
 
 
-def sampled_parameters(study: xr.Dataset) -> list[str]:
-    """Keys that the study file samples, in `open_study`'s dataset."""
-    variations = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
-    ranges = (variations.get("sample") or {}).get("ranges") or {}
-    return [str(key) for key in ranges if key in study.coords]
-
-
 def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.Dataset:
     """Sensitivity of the criteria and lives of a year to each sampled parameter.
 
@@ -100,18 +93,11 @@ def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.D
         )
     annual = year(study, replace(aggregation, by=()))
     table, _ = designs(annual)
-    labels = [
-        str(name)
-        for name, coordinate in annual.coords.items()
-        if coordinate.dims == ("group",) and name not in names
-    ]
+    labels = [name for name in labels_over(annual, "group") if name not in names]
     table["_block"] = table.groupby(labels, dropna=False, sort=False).ngroup()
-    units = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
-        LIVES, "h"
-    )
     quantities = [
         name
-        for name in units
+        for name in DESIGN_UNITS
         if name in table and np.isfinite(table[name].to_numpy()).sum() >= _FEWEST
     ]
     shape = len(quantities), len(names)
@@ -151,6 +137,6 @@ def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.D
             "quantity": quantities,
             "parameter": names,
             "quantile": list(QUANTILES),
-            "units": ("quantity", [units[name] for name in quantities]),
+            "units": ("quantity", [DESIGN_UNITS[name] for name in quantities]),
         },
     )

@@ -13,10 +13,11 @@ import xarray as xr
 from macroslip.storage.files import write_durably
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.database import Outcome
-from macroslip.study.effects import effects, sampled_parameters
+from macroslip.study.effects import effects
 from macroslip.study.exceedance import exceedance, load_spectrum
+from macroslip.study.labels import sampled_parameters
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
-from macroslip.study.year import DESIGN_COLUMNS, EXPONENTS, LARGEST, LIVES, SUMS, designs, year
+from macroslip.study.year import DESIGN_UNITS, EXPONENTS, LARGEST, LIVES, SUMS, designs, year
 
 FORMATS = ("csv", "parquet")
 
@@ -69,12 +70,9 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
     spread = percentiles(study, aggregation)
     frames["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
     whole = year(study, aggregation)
-    units = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
-        LIVES, "h"
-    )
     ranked = designs(whole)[0].dropna(axis="columns", how="all")
     frames["designs"] = ranked.rename(
-        columns={name: f"{name} [{unit}]" for name, unit in units.items() if unit != "1"}
+        columns={name: f"{name} [{unit}]" for name, unit in DESIGN_UNITS.items() if unit != "1"}
     )
     if sampled_parameters(study):
         drivers = effects(study, aggregation)

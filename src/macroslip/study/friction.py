@@ -18,10 +18,10 @@ from macroslip.errors import InputError
 from macroslip.result.run_input import stored_settings
 from macroslip.scada.friction_table import FrictionTable
 from macroslip.scada.speed_exponents import speed_exponents
+from macroslip.study.labels import CHOICES, events_of_runs, is_parameter, labels_over
 from macroslip.study.reader import open_study, stored_results
 from macroslip.study.settings import read_loads
 from macroslip.study.study_file import Study, study_of
-from macroslip.study.weights import is_parameter
 
 #: Labels by which the runs of a study are sorted into a table.
 WIND = "wind_speed"
@@ -64,7 +64,7 @@ def friction_table(directory: str | PathLike[str]) -> FrictionTable:
     study = open_study(directory)
     where = str(directory)
     _check_labels(study, where)
-    production = study.isel(case=np.flatnonzero(_is_production(study)))
+    production = study.isel(case=np.flatnonzero(events_of_runs(study) == ""))
     _check_loads(production, where)
     settings = _first_settings(directory)
     if settings["laws"]["rolling"] == "none":
@@ -104,11 +104,10 @@ def _check_labels(study: xr.Dataset, where: str) -> None:
                 remedy=_REMEDY,
             )
     varied = [
-        str(name)
-        for name in study.coords
-        if study[name].dims == ("case",)
-        and name not in (OIL, SUPPLY)
-        and (name in ("bearing", "lubricant", "model") or is_parameter(study, str(name)))
+        name
+        for name in labels_over(study)
+        if name not in (OIL, SUPPLY)
+        and (name in CHOICES or is_parameter(study, name))
         and np.unique(study[name].values.astype(str)).size > 1
     ]
     if varied:
@@ -118,13 +117,6 @@ def _check_labels(study: xr.Dataset, where: str) -> None:
             allowed=f"{OIL} and {SUPPLY}: one bearing is put beside the measured one",
             remedy="Run a study of one design.",
         )
-
-
-def _is_production(study: xr.Dataset) -> np.ndarray:
-    """True for runs of a mean wind, which are no events."""
-    if "event" not in study.coords:
-        return np.ones(study.sizes["case"], dtype=bool)
-    return study.event.values.astype(str) == ""
 
 
 def _check_loads(study: xr.Dataset, where: str) -> None:

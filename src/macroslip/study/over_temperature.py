@@ -21,8 +21,10 @@ from scipy.optimize import brentq
 from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.result.criteria import YEARLY
+from macroslip.study.labels import events_of_runs, labels_over, stored_study
 from macroslip.study.temperature_shares import TemperatureShares
 from macroslip.study.weights import LossOfHeat, Weighting, bin_numbers, binned, stored_weighting
+from macroslip.study.year import LIVES
 
 #: Attribute of a study whose cases are means over temperatures of the oil, and what it then lacks.
 MIXED = "mixed_temperatures"
@@ -38,7 +40,6 @@ FEWEST = 4
 _SHARE_OUTSIDE = 1e-3
 #: Labels that are the same, or of no use, in all runs of a series.
 _OF_A_RUN = ("case", "run", "key", "outcome", "reason", LABEL)
-_LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
 #: Beginnings of the names of what grows by factors.
 _BY_FACTORS = (
     "energy_",
@@ -46,7 +47,7 @@ _BY_FACTORS = (
     "peak_power_",
     "friction_power",
     "contact_torque",
-    *_LIVES,
+    *LIVES,
 )
 _BY_FACTORS += tuple(yearly.run_name for yearly in YEARLY if yearly.by_factors)
 #: Extremes of a run: that of any temperature which occurs counts.
@@ -73,11 +74,7 @@ class RunsOverTemperature:
         if LABEL not in study.coords:
             check_varied(0)
         at = kelvin(study[LABEL].values.astype(float), study[LABEL].attrs.get("units", "K"))
-        names = [
-            str(name)
-            for name in study.coords
-            if study[name].dims == ("case",) and name not in _OF_A_RUN
-        ]
+        names = [name for name in labels_over(study) if name not in _OF_A_RUN]
         labels = study[names].reset_coords()[names].to_dataframe() if names else None
         number = (
             np.zeros(at.size, dtype=int)
@@ -149,16 +146,14 @@ class RunsOverTemperature:
             If a balance lies outside the temperatures of the runs.
         """
         first = self.study.isel(case=self.runs[:, 0])
-        is_wind = np.full(self.runs.shape[0], fill_value=True)
-        if "event" in first.coords:
-            is_wind = first["event"].values.astype(str) == ""
+        is_wind = events_of_runs(first) == ""
         centres = bin_numbers(first[field].values, width) * width
-        found = {}
+        temperatures = {}
         for centre in np.unique(centres[is_wind]).tolist():
             inside = is_wind & (centres == centre)
             powers = self.study["friction_power"].values[self.runs[inside]].mean(axis=0)
-            found[centre] = self._balance_of(powers, loss, f"{centre:g}")
-        return found
+            temperatures[centre] = self._balance_of(powers, loss, f"{centre:g}")
+        return temperatures
 
     def _balance_of(self, powers: np.ndarray, loss: LossOfHeat, centre: str) -> float:
         """Temperature [K] of balance from friction powers [W] at those of the runs."""
@@ -228,7 +223,7 @@ class RunsOverTemperature:
         if "key" in kept.coords:
             empty = np.full(len(worst), "", dtype=object)
             coordinates["key"] = ("case", empty, dict(self.study["key"].attrs))
-        content = json.loads(self.study.attrs.get("study", "{}"))
+        content = stored_study(self.study)
         (content.get("variations") or {}).get("grid", {}).pop(LABEL, None)
         attributes = {"study": json.dumps(content), MIXED: 1}
         return kept.assign_coords(coordinates).assign(data).assign_attrs(attributes)
@@ -236,15 +231,11 @@ class RunsOverTemperature:
     def _shares(self, shares: TemperatureShares, field: str, width: float) -> np.ndarray:
         """Share of the time of each series at each temperature, shape (series, temperatures)."""
         first = self.study.isel(case=self.runs[:, 0])
-        number = self.runs.shape[0]
-        events = (
-            first["event"].values.astype(str) if "event" in first.coords else np.full(number, "")
-        )
         centres = bin_numbers(first[field].values, width) * width
         return np.array(
             [
                 shares.of_event(event) if event else shares.of_wind(centre, width)
-                for event, centre in zip(events, centres, strict=True)
+                for event, centre in zip(events_of_runs(first), centres, strict=True)
             ]
         )
 
@@ -323,7 +314,7 @@ def _mean(name: str, values: np.ndarray, share: np.ndarray) -> np.ndarray:
         return np.where(weight > 0.0, values, -np.inf).max(axis=1)
     if name in _LEAST:
         return np.where(weight > 0.0, values, np.inf).min(axis=1)
-    if name in _LIVES:
+    if name in LIVES:
         with np.errstate(divide="ignore"):
             return 1.0 / (weight / values).sum(axis=1)
     return (weight * values).sum(axis=1)

@@ -16,6 +16,7 @@ from macroslip.result.criteria import CRITERIA, YEARLY
 from macroslip.scada.bins import JointShares
 from macroslip.scada.reader import Scada
 from macroslip.study.aggregation import Aggregation
+from macroslip.study.labels import events_of_runs
 from macroslip.study.over_temperature import RunsOverTemperature, check_span
 from macroslip.study.reader import open_study
 from macroslip.study.temperature_shares import TemperatureShares
@@ -172,9 +173,7 @@ def _weighting(study: xr.Dataset) -> Weighting:
 
 def _centres(study: xr.Dataset, weighting: Weighting) -> np.ndarray:
     """Middles of the bins of wind speed of a study's production [m/s]."""
-    speeds = study[weighting.field].values.astype(float)
-    if "event" in study.coords:
-        speeds = speeds[study["event"].values.astype(str) == ""]
+    speeds = study[weighting.field].values.astype(float)[events_of_runs(study) == ""]
     if not speeds.size:
         raise InputError("the study has no runs of production, only events", where="--study")
     return np.unique(bin_numbers(speeds, weighting.width)) * weighting.width
@@ -214,12 +213,10 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
     errors: dict[str, np.ndarray] = {}
     for name, rate in powers.items():
         values = rate.transpose("case", "row").values
-        mean, runs, _ = bins.means(values)
-        square, _, _ = bins.means(values**2)
-        several = (runs > 1)[:, :, None]
-        spread = np.maximum(square - mean**2, 0.0)
+        mean, runs, spread = bins.spreads(values)
+        several = runs > 1
         with np.errstate(invalid="ignore", divide="ignore"):
-            variance = np.where(several, share**2 * spread / (runs - 1.0)[:, :, None], 0.0)
+            variance = np.where(several, share**2 * spread / (runs - 1.0), 0.0)
             total = np.nansum(share * mean, axis=1)
             relative = np.sqrt(variance.sum(axis=1)) / total
         worse = total.argmax(axis=1)

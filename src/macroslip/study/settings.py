@@ -168,9 +168,7 @@ class Setting:
             read_entry(key, self.entry, known[key], Source())
         except InputError as problem:
             part = f"{problem.where.rpartition('.')[2]} " if problem.where else ""
-            raise InputError(
-                part + problem.fault, allowed=problem.allowed, remedy=problem.remedy
-            ) from None
+            raise problem.but(fault=part + problem.fault, where="") from None
 
 
 def _field_key(key: str) -> str:

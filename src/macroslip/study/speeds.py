@@ -11,6 +11,7 @@ import xarray as xr
 from macroslip.constants import RPM
 from macroslip.scada.bins import load_speeds
 from macroslip.scada.reader import Scada
+from macroslip.study.labels import events_of_runs
 from macroslip.study.reader import open_study
 from macroslip.study.weights import Weighting, bin_numbers, stored_weighting
 
@@ -48,8 +49,7 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
             OF_STUDY: study["shaft_speed_mean"].values / RPM,
         }
     )
-    if "event" in study.coords:
-        speeds = speeds[study["event"].values.astype(str) == ""]
+    speeds = speeds[events_of_runs(study) == ""]
     turning = scada.turning[scada.kept].to_numpy()
     measured = pd.DataFrame(
         {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -23,6 +22,13 @@ from macroslip.input.units import CONDUCTANCE, NUMBER, TEMPERATURE
 from macroslip.result.variables import described
 from macroslip.scada.bins import JointShares
 from macroslip.scada.reader import Scada
+from macroslip.study.labels import (
+    CHOICES,
+    events_of_runs,
+    is_parameter,
+    labels_over,
+    stored_study,
+)
 from macroslip.study.loads_list import Load
 from macroslip.study.temperature_shares import ByWind, MeasuredYear, TemperatureShares
 
@@ -375,7 +381,7 @@ class Weighting:
 
 def stored_weighting(study: xr.Dataset) -> Weighting | None:
     """The weighting in the study file of `open_study`'s dataset; None where there is none."""
-    content = json.loads(study.attrs.get("study", "{}")).get("weights")
+    content = stored_study(study).get("weights")
     return None if content is None else form_from(Weighting).read(content, IN_FILE)
 
 
@@ -553,6 +559,16 @@ class Binning(Bins):
         with np.errstate(invalid="ignore"):
             return total / used.reshape(*shape, *[1] * (total.ndim - 2)), used, left_out
 
+    def spreads(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Mean ⟨x⟩ of the values of each row of rollers in each cell, runs, and ⟨x²⟩ − ⟨x⟩².
+
+        Values have the shape (runs, rows), means and spreads (groups, bins, rows), and the numbers
+        of runs (groups, bins, 1). The variance of a mean of n runs is the spread over n − 1.
+        """
+        mean, runs, _ = self.means(values)
+        square, _, _ = self.means(values**2)
+        return mean, runs[:, :, None], np.maximum(square - mean**2, 0.0)
+
 
 def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
     """Sum of values (groups, bins, ...) over bins by their probability.
@@ -588,11 +604,7 @@ def binned(
     InputError
         If there is no such label, or the field is no number.
     """
-    labels = [
-        str(name)
-        for name in study.coords
-        if study[name].dims == ("case",) and name not in _NO_LABELS
-    ]
+    labels = [name for name in labels_over(study) if name not in _NO_LABELS]
     for name, option in (*([(field, "field")] if field else []), *((extra, "by") for extra in by)):
         if name not in labels:
             raise InputError(
@@ -610,11 +622,7 @@ def binned(
     )
     labels_of_runs = pd.DataFrame({name: study[name].values for name in separate})
     count = study.sizes["case"]
-    events = (
-        [str(event) for event in study["event"].values]
-        if field and "event" in labels
-        else [""] * count
-    )
+    events = events_of_runs(study).tolist() if field else [""] * count
     lengths = study["window_length"].to_series().groupby(events).mean() if any(events) else {}
     if field is None:
         bins = Bins(
@@ -636,21 +644,6 @@ def binned(
     )
 
 
-def is_parameter(study: xr.Dataset, label: str) -> bool:
-    """True if the study varies the key that a label names, such as `drivetrain.tilt` or `oil_supply`.
-
-    Fields of loads have no dot.
-    """
-    variations = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
-    keys = (
-        variations.get("grid") or {},
-        (variations.get("sample") or {}).get("ranges") or {},
-        *(variations.get("list") or []),
-    )
-    return "." in label or any(label in section for section in keys)
-
-
-CHOICES = ("bearing", "lubricant", "model")
 _NO_LABELS = ("case", "run", "loads", "outcome", "reason", "key")
 #: Probability of all wind speeds of a study below which it counts as none: 1e-9 of a year is 30 ms.
 _LEAST = 1e-9

@@ -196,10 +196,7 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
     try:
         return replace(case, loads=loads)
     except InputError as problem:
-        where = f"{loads.source}, {problem.where}"
-        raise InputError(
-            problem.fault, where=where, allowed=problem.allowed, remedy=problem.remedy
-        ) from None
+        raise problem.but(where=f"{loads.source}, {problem.where}") from None
 
 
 @functools.lru_cache(maxsize=2)

@@ -16,7 +16,8 @@ from macroslip.loads.bundled import EVENTS
 from macroslip.result.criteria import YEARLY
 from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.weights import CHOICES, Binning, weighted
+from macroslip.study.labels import CHOICES, labels_over
+from macroslip.study.weights import Binning, weighted
 
 #: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
 LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
@@ -51,6 +52,10 @@ DESIGN_COLUMNS = {
     **{yearly.name: Column(yearly.drawn, yearly.unit, yearly.meaning) for yearly in YEARLY},
     "peak": Column("largest", "W", "largest power"),
 }
+#: Units of the numbers in the table of `designs`.
+DESIGN_UNITS = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
+    LIVES, "h"
+)
 
 
 def year(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
@@ -108,15 +113,14 @@ def _in_a_year(rates: np.ndarray, share: np.ndarray) -> np.ndarray:
 def _energies(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any]:
     """Energies of a mean roller with their scatter, and numbers of runs."""
     power = _by_row(study, "energy_mean") / study.window_length.values[:, None]
-    mean, runs, left_out = bins.means(power)
-    square, _, _ = bins.means(power**2)
+    _, runs, left_out = bins.means(power)
+    mean, runs_of_rows, spread = bins.spreads(power)
     energy = _in_a_year(mean, share)
     total = energy.sum(axis=1)
-    several = (runs > 1)[:, :, None]
+    several = runs_of_rows > 1
     weight = share[:, None]
     with np.errstate(invalid="ignore", divide="ignore"):
-        # Variance of a mean of n runs: s²/n, with s² = n/(n − 1) (<P²> − <P>²).
-        variance = np.maximum(square - mean**2, 0.0) / (runs - 1.0)[:, :, None]
+        variance = spread / (runs_of_rows - 1.0)
         of_bins = np.where(several, (YEAR * weight) ** 2 * variance, 0.0)
         scatter = np.sqrt(of_bins.sum(axis=1)) / total
     has_scatter = np.any(several & (weight > 0.0), axis=1)[:, 0]
@@ -180,11 +184,7 @@ def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     `DESIGN_COLUMNS` and the lives [h]. Energy and entries are of both rows, the others of the worse
     one. NaN where something is not known; a criterion that no run has is left out.
     """
-    labels = {
-        str(name): coordinate.values
-        for name, coordinate in annual.coords.items()
-        if coordinate.dims == ("group",)
-    }
+    labels = {name: annual[name].values for name in labels_over(annual, "group")}
     table = pd.DataFrame(labels, index=range(annual.sizes["group"]))
     notes = []
     missing = []

@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from macroslip.arrays import FloatArray
 from macroslip.bearing import Bearing
 from macroslip.contact.rolling import replenishment
 from macroslip.errors import InputError
@@ -99,10 +100,10 @@ class _Operation(NamedTuple):
     bore: float
     outside: float
     width: float
-    speed: NDArray[np.float64]
+    speed: FloatArray
     viscosity: float
-    radial_load: NDArray[np.float64]
-    axial_load: NDArray[np.float64]
+    radial_load: FloatArray
+    axial_load: FloatArray
 
     @property
     def mean_diameter(self) -> float:
@@ -155,7 +156,7 @@ def _constants(series: str, table: Mapping[str, tuple]) -> tuple:
     return table[series]
 
 
-_Torque = float | NDArray[np.float64]
+_Torque = float | FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -394,7 +395,7 @@ def skf_torque(
     )
 
 
-def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> NDArray[np.float64]:
+def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> FloatArray:
     """φ_ish φ_rs M_rr [N mm]; G_rr is the smaller of the catalogue's G_rr.e and G_rr.l."""
     r1, r2, r3, r4 = constants
     d_m = case.mean_diameter
@@ -413,7 +414,7 @@ def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> NDArr
     return heating * filled * least * flow**0.6
 
 
-def _skf_sliding(case: _Operation, constants: tuple, film: float) -> NDArray[np.float64]:
+def _skf_sliding(case: _Operation, constants: tuple, film: float) -> FloatArray:
     """M_sl [N mm]; G_sl is the smaller of the catalogue's G_sl.e and G_sl.l."""
     s1, s2, s3, s4 = constants
     d_m = case.mean_diameter
@@ -427,7 +428,7 @@ def _skf_sliding(case: _Operation, constants: tuple, film: float) -> NDArray[np.
     return least * (boundary * touching + (1 - boundary) * film)
 
 
-def _oil_bath_drag(case: _Operation, bath: OilBath) -> NDArray[np.float64]:
+def _oil_bath_drag(case: _Operation, bath: OilBath) -> FloatArray:
     """Drag torque of the rollers in an oil bath by the SKF model [N mm].
 
         M_drag = 4 V_M K_roll C_w B d_m⁴ n² + 1.093e-7 n² d_m³ (n d_m² f_t/ν)^(−1.379) R_s
@@ -463,8 +464,8 @@ def _oil_bath_drag(case: _Operation, bath: OilBath) -> NDArray[np.float64]:
 class TorqueHistory(NamedTuple):
     """A torque [N m], against the rotation, at times [s]."""
 
-    time: NDArray[np.float64]
-    torque: NDArray[np.float64]
+    time: FloatArray
+    torque: FloatArray
 
 
 def torque_histories(

@@ -28,6 +28,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.arrays import FloatArray
 from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit
 from macroslip.bearing.sampled import (
     E_ROUNDING,
@@ -178,7 +179,7 @@ class EstimatedTaperedBearing(NamedTuple):
     """A tapered roller bearing from its maker's page."""
 
     bearing: TaperedBearing  #: The medians, with ranges in their provenance
-    samples: Mapping[str, NDArray[np.float64]]  #: Every inner dimension [SI], by key of the bearing
+    samples: Mapping[str, FloatArray]  #: Every inner dimension [SI], by key of the bearing
 
 
 def _cotangent_factor(rows: int) -> float:
@@ -233,10 +234,10 @@ def estimate_tapered_bearing(
     return EstimatedTaperedBearing(_record(page, drawn, name, title), drawn)
 
 
-def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:
+def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     """Sample dimensions that the page leaves open; number and size of the rollers follow."""
 
-    def between(accepted: Accepted) -> NDArray[np.float64]:
+    def between(accepted: Accepted) -> FloatArray:
         return rng.uniform(*accepted, SAMPLES)
 
     alpha = _angles(page, E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES))
@@ -269,7 +270,7 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, NDArray[np.f
     return drawn | {"row_offset": _row_offset(page, drawn, between(RIB), between(GAP))}
 
 
-def _angles(page: TaperedPage, rounding: NDArray) -> NDArray[np.float64]:
+def _angles(page: TaperedPage, rounding: NDArray) -> FloatArray:
     """Angle of the outer raceway [rad] from the axial factor, within its rounding."""
     if page.axial_factor_e is not None:
         return np.arctan((page.axial_factor_e + rounding) / 1.5)
@@ -283,7 +284,7 @@ def _pitch_of_limit(page: TaperedPage) -> float:
     return 0.1 * (page.static_load_rating / (8.2 * page.fatigue_load_limit)) ** (1.0 / 0.3)
 
 
-def _load_centre(drawn: Mapping[str, NDArray]) -> NDArray[np.float64]:
+def _load_centre(drawn: Mapping[str, NDArray]) -> FloatArray:
     """Distance of the load centre behind the rollers' middles [m]."""
     beta = np.vectorize(half_cone_angle)(
         drawn["roller_diameter"], 2.0 * drawn["pitch_radius"], drawn["outer_angle"]
@@ -295,7 +296,7 @@ def _load_centre(drawn: Mapping[str, NDArray]) -> NDArray[np.float64]:
 
 def _row_offset(
     page: TaperedPage, drawn: Mapping[str, NDArray], rib: NDArray, gap: NDArray
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Axial distance of the rollers' middles from the mid-plane [m]."""
     if page.distance is not None:
         return np.full(SAMPLES, 0.5 * page.distance)
@@ -309,9 +310,7 @@ def _row_offset(
     return reach + gap * drawn["roller_length"]
 
 
-def _fitting(
-    page: TaperedPage, drawn: dict[str, NDArray[np.float64]]
-) -> dict[str, NDArray[np.float64]]:
+def _fitting(page: TaperedPage, drawn: dict[str, FloatArray]) -> dict[str, FloatArray]:
     """Keep the samples whose parts fit into the bearing."""
     length = drawn["roller_length"]
     diameter = drawn["roller_diameter"]

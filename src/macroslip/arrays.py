@@ -1,0 +1,7 @@
+"""Types of arrays in signatures."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
