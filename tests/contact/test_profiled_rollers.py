@@ -13,7 +13,12 @@ from scipy.optimize import brentq
 from macroslip import Bearing, BearingLoads, Case, InputError, Laws, Lubricant
 from macroslip.contact.interface import highest_load, truncation_load
 from macroslip.contact.laws import prepare
-from macroslip.contact.line_approach import line_approach, line_load, line_loads
+from macroslip.contact.line_approach import (
+    line_approach,
+    line_approaches,
+    line_load,
+    line_loads,
+)
 from macroslip.contact.line_rolling import LineContact, line_film, line_traction
 from macroslip.contact.strips import PreparedStrips, load_at_pressure, strip_approach, strips_of
 from macroslip.contact.traction import chord_stress
@@ -98,6 +103,8 @@ def test_work_slope_and_inverse_belong_to_the_load(profile):
     assert back.growth == pytest.approx(found.load / (approach * slope), rel=1e-5)
     loads = line_loads(*own, np.array([-1e-6, 0.0, approach]))
     assert loads[0].tolist() == [0.0, 0.0, found.load]
+    approaches = line_approaches(*own, np.array([-1.0, 0.0, found.load]))
+    assert approaches.tolist() == [0.0, 0.0, back.approach]
 
 
 def test_strips_converge_to_the_line():

@@ -212,6 +212,6 @@ def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
     # The window has no complete orbit, so that no time of wear is given: the place that wears most decides it.
     assert "wear_time" not in skewed and "wear_time" not in held
     assert float(skewed.asperity_work_rate.max()) > float(held.asperity_work_rate.max())
-    shape, place = laws.inner.shape, np.linspace(-0.03, 0.03, 4 * STATIONS)
-    slip = slip_profile(shape, place, np.ones_like(place), np.ones(STATIONS), angle)
+    place = np.linspace(-0.03, 0.03, 4 * STATIONS)
+    slip = slip_profile(laws.inner, place, np.ones_like(place), np.ones(STATIONS), angle)
     assert slip.min() >= angle

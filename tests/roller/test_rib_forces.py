@@ -10,7 +10,7 @@ from macroslip import Laws, Lubricant
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.compiled import jit
 from macroslip.contact.rib import rib_contact, rib_state
-from macroslip.contact.strips import PreparedStrips, strip_approach
+from macroslip.contact.strips import PreparedStrips, ellipse_load, strip_approach
 from macroslip.contact.table import table_box
 from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces
 from macroslip.roller.model import roller_model, with_tables
@@ -129,8 +129,8 @@ def newtonian_slope(load):
 
         def along(station, law=law, strips=strips, approach=approach):
             drop = float(strips.profile(station))
-            per_length = strips.coefficient * max(approach - drop, 1e-15) ** strips.exponent
-            ellipse = np.array(law._as_ellipse(per_length))
+            per_length = strips.coefficient * max(approach - drop, 1e-15) ** (10 / 9)
+            ellipse = np.array(ellipse_load(law.interface.hertz, per_length))
             film = float(super(PreparedStrips, law).film_thickness(ellipse, abs(RING_SPEED)))
             pressure = math.sqrt(per_length * strips.curvature * strips.modulus / (2.0 * math.pi))
             width = math.sqrt(8.0 * per_length / (math.pi * strips.modulus * strips.curvature))

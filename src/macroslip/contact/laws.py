@@ -6,8 +6,8 @@ They give values on arrays, from which tables are made.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass, fields, replace
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -35,6 +35,8 @@ POCKET_GAP = 0.25e-3
 #: Largest S of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an
 #: engineering estimate.
 _SPAR_END = 7.0
+#: What is read of a contact as one of another kind.
+Kind = TypeVar("Kind", bound="PreparedContact")
 
 
 @dataclass(frozen=True)
@@ -92,6 +94,11 @@ class PreparedContact:
             rolling = at_oil_gap(rolling, oil_gap)
         film = oil_gap if math.isfinite(self.oil_gap) else math.inf
         return replace(self, oil_gap=film, rolling=rolling)
+
+    def as_kind(self, kind: type[Kind], **changes: Any) -> Kind:
+        """The same contact as one of another kind, with these values changed or added."""
+        values = {member.name: getattr(self, member.name) for member in fields(PreparedContact)}
+        return kind(**(values | changes))
 
     def film_in_range(self, load, entrainment_speed) -> np.ndarray:
         """Whether the film law, without its corrections, is in its range."""

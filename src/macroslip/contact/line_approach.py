@@ -18,6 +18,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from scipy.interpolate import BSpline
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.line import PALMGREN_EXPONENT
@@ -96,12 +97,14 @@ _WORKS = spline_coefficients(np.log(profile_sum(np.exp(_AXIS.nodes), PALMGREN_EX
 
 def _inverse() -> tuple[Axis, np.ndarray]:
     """Axis of ln Φ and the spline of ln x over it."""
-    ends = [_on_spline(_AXIS, _LOADS, end)[0] for end in (_LOWEST, _HIGHEST)]
+    knots = _AXIS.first + np.arange(-3, _AXIS.cells + 4) / _AXIS.per_spacing
+    value = BSpline(knots, _LOADS, 3)
+    slope = value.derivative()
+    ends = value([_LOWEST, _HIGHEST])
     line = axis(ends[0], ends[1], _SPACING)
     place = np.interp(line.nodes, ends, [_LOWEST, _HIGHEST])
     for _ in range(_ITERATIONS):
-        found = np.array([_on_spline(_AXIS, _LOADS, one) for one in place])
-        place = place - (found[:, 0] - line.nodes) / found[:, 1]
+        place = place - (value(place) - line.nodes) / slope(place)
     return line, spline_coefficients(place, 1)
 
 
@@ -217,4 +220,18 @@ def line_loads(line_stiffness, profile_depth, approach):
             found[0, n] = one.load
             found[1, n] = one.slope
             found[2, n] = one.work
+    return found
+
+
+@jit
+def line_approaches(line_stiffness, profile_depth, loads):
+    """Approaches of `line_approach` [m] under many loads [N]; 0 where Q is not above 0.
+
+    Returns an array of shape (n,) from loads of shape (n,).
+    """
+    found = np.zeros(loads.size)
+    for n in range(loads.size):
+        if loads[n] > 0.0:
+            log_load = math.log(loads[n])
+            found[n] = line_approach(line_stiffness, profile_depth, log_load).approach
     return found

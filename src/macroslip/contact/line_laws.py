@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 from macroslip.bearing import Bearing
@@ -11,13 +11,16 @@ from macroslip.contact.interface import ContactShape
 from macroslip.contact.laws import PreparedContact, PreparedLaws
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.rolling import prepare_rolling
-from macroslip.contact.strips import PreparedStrips, Strips, equivalent_ellipse, strips_of
+from macroslip.contact.strips import (
+    REFERENCE_LOAD_PER_LENGTH,
+    PreparedStrips,
+    Strips,
+    equivalent_ellipse,
+    strips_of,
+)
 from macroslip.contact.traction import prepare_fluid
 from macroslip.lubricant import Lubricant
 
-#: Load per length for which the ellipse stands that a cylindrical roller's line contact has in film
-#: laws [N/m].
-_REFERENCE = 1e6
 #: Drop at the ends of the crown that a straight roller has in the gap beside its contact [m]: far
 #: below every film.
 _NO_DROP = 1e-9
@@ -46,7 +49,7 @@ def cylindrical_laws(
         No contact has a closed form: the paper's film is sheared strip by strip.
     """
     sheared = sheared_film(laws, lubricant)
-    load = _REFERENCE * bearing.roller_length
+    load = REFERENCE_LOAD_PER_LENGTH * bearing.roller_length
     inner, outer = (
         raceway_by_strips(law, strips, laws, sheared, load)
         for law, strips in zip((ellipses.inner, ellipses.outer), strips_of(bearing), strict=True)
@@ -103,6 +106,11 @@ def raceway_by_strips(
         oil_gap=interface.lubricant.oil_gap if law.rolling is None else law.rolling.oil_gap,
         heating=laws.inlet_heating,
     )
-    values = {one.name: getattr(law, one.name) for one in fields(law)}
-    values |= {"interface": interface, "shape": shape, "rolling": rolling}
-    return PreparedStrips(**(values | sheared), strips=strips)
+    return law.as_kind(
+        PreparedStrips,
+        interface=interface,
+        shape=shape,
+        rolling=rolling,
+        strips=strips,
+        **sheared,
+    )

@@ -8,8 +8,8 @@ slides along the line but for the profile and for slip of the whole roller:
 
     v(ζ) = Δu (1 + ζ/A − P/(2r)) + u2 κ P(ζ)/2,
 
-with A the distance of the apex, infinite for a cylinder, r the roller's radius at its middle and κ the curvature sum there;
-the interface lies midway between roller and raceway. Each strip is a chord of pressure √(1 − x²/b²)
+with A the distance of the apex, infinite for a cylinder, r the roller's radius at its middle and κ
+the curvature sum there; the interface lies midway between roller and raceway. Each strip is a chord of pressure √(1 − x²/b²)
 with film and asperities of its own load and speed. What its stress does to the roller's spin goes
 with its radius, and what it does to the orbit with the radius of the ring there, both (1 + ζ/A).
 
@@ -21,7 +21,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -38,6 +37,7 @@ from macroslip.contact.line import (
     line_pressure,
     palmgren_coefficient,
 )
+from macroslip.contact.line_approach import line_approaches, line_load
 from macroslip.contact.line_rolling import raceway_curvatures
 from macroslip.contact.patch import chord_stress_at, film_node, graded_rule
 from macroslip.contact.rolling import LOG_SLICE, RollingNumbers, light_contact
@@ -46,9 +46,8 @@ from macroslip.contact.traction import ChordTable, chord_table
 #: Load of a roller for which the ellipse stands that has the pressure, the width and the approach of
 #: a line contact [N].
 REFERENCE_LOAD = 1e5
-#: Approaches between which loads are known [m], and their number.
-_APPROACHES = (1e-10, 2e-3)
-_KNOTS = 2000
+#: Load per length for which that ellipse stands at a cylindrical roller of any size [N/m].
+REFERENCE_LOAD_PER_LENGTH = 1e6
 #: Nodes of each of the three pieces of a line between its ends and its stations of pure rolling.
 _NODES, _WEIGHTS = graded_rule(12)
 #: Iterations for a station of pure rolling; each is exact but for the taper.
@@ -60,8 +59,7 @@ class Strips(NamedTuple):
 
     length: float  #: L, effective [m]
     depth: float  #: d of the profile P = d ln 1/(1 − (2ζ/L)²) [m]; 0 of a straight roller
-    coefficient: float  #: c of q = c (δ − P)^n [N/m^(1+n)]
-    exponent: float  #: n [-]
+    coefficient: float  #: c of q = c (δ − P)^n, n = 10/9 [N/m^(1+n)]
     curvature: float  #: κ, sum of both bodies' curvatures in the plane of rolling [1/m]
     modulus: float  #: Effective modulus E' [Pa]
     radius: float  #: r at the roller's middle [m]
@@ -72,6 +70,10 @@ class Strips(NamedTuple):
         """Drop P of the contour at stations ζ [m]."""
         relative = 2.0 * np.asarray(station) / self.length
         return -self.depth * np.log1p(-np.minimum(relative * relative, 1.0 - 1e-15))
+
+    def load_per_length(self, approach):
+        """Load per length q [N/m] of a strip that is pressed by δ − P ≥ 0 [m]."""
+        return self.coefficient * np.asarray(approach) ** PALMGREN_EXPONENT
 
     def reach(self, drop):
         """Station ζ ≥ 0 up to which the profile drops by less than P ≥ 0 [m]."""
@@ -113,7 +115,6 @@ def strips_of(bearing: Bearing | TaperedBearing) -> tuple[Strips, Strips]:
             length=bearing.roller_length,
             depth=depth,
             coefficient=palmgren_coefficient(bearing.roller_length),
-            exponent=PALMGREN_EXPONENT,
             curvature=curvature,
             modulus=modulus,
             radius=radius,
@@ -124,31 +125,26 @@ def strips_of(bearing: Bearing | TaperedBearing) -> tuple[Strips, Strips]:
     return inner, outer
 
 
-@lru_cache(maxsize=64)
-def _approach_knots(strips: Strips) -> tuple[np.ndarray, np.ndarray]:
-    """Rising ln Q and ln δ of a line contact."""
-    approach = np.geomspace(*_APPROACHES, _KNOTS)
-    nodes, weights = np.polynomial.legendre.leggauss(48)
-    station = strips.reach(approach)[:, None] * nodes
-    pressed = np.maximum(approach[:, None] - strips.profile(station), 0.0)
-    load = strips.coefficient * (pressed**strips.exponent * weights).sum(axis=1)
-    return np.log(load * strips.reach(approach)), np.log(approach)
-
-
 def strip_approach(strips: Strips, load) -> np.ndarray:
-    """Approach δ of an aligned roller [m] under loads Q > 0 [N], without profile.
+    """Approach δ of an aligned roller [m] under loads Q [N], without profile; 0 where Q is not above 0.
 
     Examples
     --------
     >>> from macroslip.contact.line import palmgren_coefficient
-    >>> line = Strips(0.107, 2.17e-5, palmgren_coefficient(0.107), 10 / 9, 34.8, 230.8e9, 0.031, 1.23)
+    >>> line = Strips(0.107, 2.17e-5, palmgren_coefficient(0.107), 34.8, 230.8e9, 0.031, 1.23)
     >>> round(1e6 * float(strip_approach(line, 1e5)), 1)
     40.0
     """
-    if strips.depth == 0.0:
-        return (np.asarray(load) / (strips.coefficient * strips.length)) ** (1.0 / strips.exponent)
-    log_load, log_approach = _approach_knots(strips)
-    return np.exp(np.interp(np.log(load), log_load, log_approach))
+    load = np.asarray(load, dtype=float)
+    stiffness = strips.coefficient * strips.length
+    # Of ring, roller and ring each contact takes half.
+    both = line_approaches(stiffness, strips.depth, load.ravel())
+    return 0.5 * both.reshape(load.shape)
+
+
+def middle_load(strips: Strips, load) -> np.ndarray:
+    """Load per length of the middle strip [N/m] under loads Q [N] of an aligned roller."""
+    return strips.load_per_length(strip_approach(strips, load))
 
 
 def equivalent_ellipse(strips: Strips, load: float = REFERENCE_LOAD) -> HertzContact:
@@ -157,7 +153,7 @@ def equivalent_ellipse(strips: Strips, load: float = REFERENCE_LOAD) -> HertzCon
     It gives film laws, which take ellipses, the right load per length and pressure at every load.
     """
     approach = float(strip_approach(strips, load))
-    largest = strips.coefficient * approach**strips.exponent
+    largest = float(strips.load_per_length(approach))
     root = load ** (1.0 / 3.0)
     return HertzContact(
         semi_axis_across=0.75 * load / largest / root,
@@ -167,22 +163,25 @@ def equivalent_ellipse(strips: Strips, load: float = REFERENCE_LOAD) -> HertzCon
     )
 
 
+def ellipse_load(hertz: HertzContact, per_length):
+    """Load of the ellipse whose w = 3Q/(4a) is a load per length [N], at loads per length [N/m]."""
+    return (per_length * hertz.semi_axis_across / 0.75) ** 1.5
+
+
 def load_at_pressure(strips: Strips, pressure: float) -> float:
     """Load [N] at which an aligned roller's largest pressure is the given one [Pa].
 
     Examples
     --------
     >>> from macroslip.contact.line import palmgren_coefficient
-    >>> line = Strips(0.107, 2.17e-5, palmgren_coefficient(0.107), 10 / 9, 34.8, 230.8e9, 0.031, 1.23)
+    >>> line = Strips(0.107, 2.17e-5, palmgren_coefficient(0.107), 34.8, 230.8e9, 0.031, 1.23)
     >>> round(load_at_pressure(line, 1.637e9) / 1e3)
     174
     """
     per_length = 2.0 * math.pi * pressure**2 / (strips.curvature * strips.modulus)
-    if strips.depth == 0.0:
-        return per_length * strips.length
-    approach = (per_length / strips.coefficient) ** (1.0 / strips.exponent)
-    log_load, log_approach = _approach_knots(strips)
-    return math.exp(float(np.interp(math.log(approach), log_approach, log_load)))
+    approach = (per_length / strips.coefficient) ** (1.0 / PALMGREN_EXPONENT)
+    stiffness = strips.coefficient * strips.length
+    return float(line_load(stiffness, strips.depth, 2.0 * approach).load)
 
 
 class StripTraction(NamedTuple):
@@ -200,14 +199,9 @@ class PreparedStrips(PreparedContact):
 
     strips: Strips
 
-    def _as_ellipse(self, per_length):
-        """Load of the ellipse whose w = 3Q/(4a) is a load per length [N]."""
-        return (per_length * self.interface.hertz.semi_axis_across / 0.75) ** 1.5
-
     def _middle(self, load):
         """Load of the ellipse that stands for the middle strip under loads Q > 0 [N]."""
-        approach = strip_approach(self.strips, load)
-        return self._as_ellipse(self.strips.coefficient * approach**self.strips.exponent)
+        return ellipse_load(self.interface.hertz, middle_load(self.strips, load))
 
     def film_thickness(self, load, entrainment_speed) -> np.ndarray:
         """Film thickness of the middle strip [m], at Q > 0 [N] and u_e [m/s]."""
@@ -234,9 +228,9 @@ class PreparedStrips(PreparedContact):
         growth = 1.0 + station * strips.taper if self.shape.microslip else np.ones(station.shape)
         drop = strips.profile(station)
         pressed = np.maximum(approach[..., None, None] - drop, 1e-15)
-        per_length = strips.coefficient * pressed**strips.exponent
+        per_length = strips.load_per_length(pressed)
         entrainment = np.abs(ring_speed - 0.5 * slip)[..., None, None] * growth
-        ellipse = self._as_ellipse(per_length)
+        ellipse = ellipse_load(self.interface.hertz, per_length)
         film = super().film_thickness(ellipse, entrainment)
         share = super().asperity_share(ellipse, np.maximum(entrainment, 1e-12), film)
         local = self._local_slip(ring_speed, slip, drop, growth)
@@ -300,7 +294,7 @@ class PreparedStrips(PreparedContact):
         """
         load, mean_speed = np.broadcast_arrays(np.asarray(load, dtype=float), mean_speed)
         reach, approach = self._reach(load)
-        middle = self.strips.coefficient * approach**self.strips.exponent
+        middle = self.strips.load_per_length(approach)
         conductance, _, film = light_contact(
             self._slender(load, reach, middle, 0.0), load, mean_speed
         )

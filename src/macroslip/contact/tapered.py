@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -90,19 +90,17 @@ def _rib(law: PreparedContact, bearing: TaperedBearing, sheared: dict[str, Any])
         rolling_radius=1.0 / row.rib_rolling_curvature,
         roughness=bearing.rib_roughness,
     )
-    values = {member.name: getattr(law, member.name) for member in fields(law)}
-    values |= {
-        "name": "rib",
-        "interface": interface,
-        "shape": ContactShape(False, math.inf, math.inf, math.inf, 0.0, 0.0),
+    return law.as_kind(
+        PreparedRib,
+        **sheared,
+        name="rib",
+        interface=interface,
+        shape=ContactShape(False, math.inf, math.inf, math.inf, 0.0, 0.0),
         # It tells tables of different ribs apart.
-        "film_name": f"chittenden {bearing.rib_oil_supply!r} {row.rib_lateral_curvature!r}",
-        "oil_gap": math.inf,
-        "thermal_loading": 0.0,
-        "rolling": None,
-    }
-    return PreparedRib(
-        **(values | sheared),
+        film_name=f"chittenden {bearing.rib_oil_supply!r} {row.rib_lateral_curvature!r}",
+        oil_gap=math.inf,
+        thermal_loading=0.0,
+        rolling=None,
         lateral_radius=1.0 / row.rib_lateral_curvature,
         oil_supply=bearing.rib_oil_supply,
     )

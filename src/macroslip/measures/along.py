@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.line import PALMGREN_EXPONENT, half_width, line_pressure
 from macroslip.contact.line_approach import line_approach
 from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
 from macroslip.contact.strips import PreparedStrips, Strips
@@ -49,7 +50,7 @@ ALONG = np.dtype(
 )
 
 
-_NO_LINE = Strips(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_NO_LINE = Strips(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Contact(NamedTuple):
@@ -155,21 +156,27 @@ def _line_under(line, load):
     across = 0.5 * line.length
     if line.depth > 0.0:
         across *= math.sqrt(-math.expm1(-each / line.depth))
-    return _Line(each, across, line.coefficient * each**line.exponent)
+    return _Line(each, across, line.coefficient * each**PALMGREN_EXPONENT)
 
 
 @jit_inline
-def _line_chord(line, under, state, station):
-    """Chord of a line contact; state is that of `power_along`."""
+def _line_chord(line, under, state, station, microslip):
+    """Chord of a line contact; state is that of `power_along`.
+
+    Without microslip all of it has the slip of the middle.
+    """
     relative = 2.0 * station / line.length
     drop = -line.depth * math.log1p(-min(relative * relative, 1.0 - 1e-15))
-    load = line.coefficient * max(under.approach - drop, 1e-15) ** line.exponent
-    slip = state[2] * (1.0 - 0.5 * drop / line.radius) + 0.5 * state[1] * line.curvature * drop
+    load = line.coefficient * max(under.approach - drop, 1e-15) ** PALMGREN_EXPONENT
+    slip = state[2]
+    if microslip:
+        slip *= 1.0 - 0.5 * drop / line.radius
+        slip += 0.5 * state[1] * line.curvature * drop
     return _Chord(
         load / under.largest,
         load,
-        math.sqrt(8.0 * load / (math.pi * line.modulus * line.curvature)),
-        math.sqrt(load * line.curvature * line.modulus / (2.0 * math.pi)),
+        half_width(load, line.curvature, line.modulus),
+        line_pressure(load, line.curvature, line.modulus),
         slip,
         abs(slip),
     )
@@ -257,17 +264,16 @@ def power_along(maps, interface, contact, state, sample, passes, along):
             along.density[k] = 0.0
             continue
         if contact.lined:
-            chord = _line_chord(contact.line, under, state, station)
+            chord = _line_chord(contact.line, under, state, station, patch.microslip)
         else:
             chord = _ellipse_chord(patch, line, load, across, root, station)
         height = chord.height
         speed = chord.speed
-        half_width = chord.half_width
         asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
         per_length = 0.75 * height / across * sample.at.power[interface]
         if contact.chorded:
             stress = chord_stress_at(contact.chords, node, chord.pressure, speed)
-            per_length = (1.0 - share) * 2.0 * half_width * stress * speed + asperities
+            per_length = (1.0 - share) * 2.0 * chord.half_width * stress * speed + asperities
         elif contact.limit > 0.0:
             per_length = (1.0 - share) * 0.75 * height / across * load * speed
             per_length *= _saturating_friction(contact, speed, entrainment)
@@ -283,13 +289,13 @@ def power_along(maps, interface, contact, state, sample, passes, along):
             spent = times[class_of(SLIP_EDGES, math.copysign(speed, chord.slip) / entrainment)]
             spent[0] += span * covered
             spent[1] += passes * covered / STATIONS
-        density = per_length / (2.0 * half_width)
+        density = per_length / (2.0 * chord.half_width)
         along.density[k] = density
         # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
         if per_length * density > hottest:
             hottest = per_length * density
             hot[0] = per_length
-            hot[1] = half_width
+            hot[1] = chord.half_width
         densest = max(densest, density)
         fastest = max(fastest, speed)
     along.regime = 1 if film >= contact.roughness else 0

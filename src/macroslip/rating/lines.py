@@ -7,8 +7,16 @@ from numpy.typing import NDArray
 
 from macroslip.bearing import Bearing
 from macroslip.contact.interface import Interface, interfaces
-from macroslip.contact.line import line_pressure, strip_places
-from macroslip.contact.strips import Strips, equivalent_ellipse, strip_approach, strips_of
+from macroslip.contact.line import PALMGREN_EXPONENT, line_pressure, strip_places
+from macroslip.contact.strips import (
+    REFERENCE_LOAD_PER_LENGTH,
+    Strips,
+    ellipse_load,
+    equivalent_ellipse,
+    middle_load,
+    strip_approach,
+    strips_of,
+)
 from macroslip.lubricant import Lubricant
 from macroslip.rating.iso import LAMINAE, ring_ratings
 from macroslip.rating.tapered import StripRating, strip_damage
@@ -34,16 +42,14 @@ def loads_of_strips(strips: Strips, load: NDArray[np.float64], count: int) -> ND
 
     Examples
     --------
-    >>> line = Strips(0.1, 2e-5, 6e10, 10 / 9, 34.8, 230.8e9, 0.031, 0.0)
+    >>> line = Strips(0.1, 2e-5, 6e10, 34.8, 230.8e9, 0.031, 0.0)
     >>> loads_of_strips(line, np.array(1e5), 4).round().tolist()
     [20985.0, 29015.0, 29015.0, 20985.0]
     """
     load = np.asarray(load, dtype=float)
-    pressed = np.zeros(load.shape)
-    loaded = load > 0.0
-    pressed[loaded] = strip_approach(strips, load[loaded])
+    pressed = strip_approach(strips, load)
     drop = strips.profile(strip_places(strips.length, count))
-    parts = np.maximum(pressed[..., None] - drop, 0.0) ** strips.exponent
+    parts = np.maximum(pressed[..., None] - drop, 0.0) ** PALMGREN_EXPONENT
     # Strips that are few carry a little less or more than the line that they stand for.
     total = parts.sum(axis=-1)
     scale = np.divide(load, total, out=np.zeros(load.shape), where=total > 0.0)
@@ -86,22 +92,18 @@ def line_rating(
     pressure = np.zeros((1, 2))
     if largest > 0.0:
         pressure[0] = [
-            line_pressure(_middle(line, largest), line.curvature, line.modulus) for line in lines
+            line_pressure(middle_load(line, largest), line.curvature, line.modulus)
+            for line in lines
         ]
     return StripRating(damage, pressure)
-
-
-def _middle(strips: Strips, load):
-    """Load per length of the middle strip under loads Q > 0 [N/m]."""
-    return strips.coefficient * strip_approach(strips, load) ** strips.exponent
 
 
 def line_interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Interface]:
     """Raceways with ellipses that have the load per length of line contacts, for film laws.
 
-    The load of the ellipse is that of `ellipse_load`.
+    The load of the ellipse is that of `film_load`.
     """
-    load = 1e6 * bearing.roller_length
+    load = REFERENCE_LOAD_PER_LENGTH * bearing.roller_length
     inner, outer = (
         raceway._replace(hertz=equivalent_ellipse(strips, load))
         for raceway, strips in zip(
@@ -111,9 +113,9 @@ def line_interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, 
     return inner, outer
 
 
-def ellipse_load(interface: Interface, strips: Strips, load) -> NDArray[np.float64]:
+def film_load(interface: Interface, strips: Strips, load) -> NDArray[np.float64]:
     """Load of the ellipse whose load per length is that of a line's middle strip [N].
 
     At loads Q > 0 [N] of the roller.
     """
-    return (_middle(strips, load) * interface.hertz.semi_axis_across / 0.75) ** 1.5
+    return ellipse_load(interface.hertz, middle_load(strips, load))

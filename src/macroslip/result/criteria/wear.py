@@ -10,8 +10,8 @@ import xarray as xr
 
 from macroslip.bearing import geometry
 from macroslip.constants import YEAR
-from macroslip.contact.interface import ContactShape
 from macroslip.contact.laws import PreparedContact
+from macroslip.contact.line import PALMGREN_EXPONENT
 from macroslip.contact.strips import PreparedStrips, strip_approach
 from macroslip.damage import wear
 from macroslip.errors import InputError
@@ -115,10 +115,7 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
         contour, stiffness = _slices(law, load, along, curved.lateral)
         pressed = wear.slice_loads(contour, load, stiffness, width)
         mapped = result.surface_work.isel(raceway=i).sum("angle").values
-        if isinstance(law, PreparedStrips):
-            slip = _fitted_slip(0.5 * law.strips.curvature * contour, pressed, mapped, skew)
-        else:
-            slip = slip_profile(law.shape, along, pressed, mapped, skew)
+        slip = slip_profile(law, along, pressed, mapped, skew)
         total = (pressed * slip).sum() / _SLICES
         ring = work[i].sum() / total
         roller = on_roller[i].sum() / total
@@ -137,7 +134,7 @@ def _slices(
     if isinstance(law, PreparedStrips):
         strips = law.strips
         approach = float(strip_approach(strips, load))
-        slope = strips.exponent * strips.coefficient * approach ** (strips.exponent - 1.0)
+        slope = PALMGREN_EXPONENT * float(strips.load_per_length(approach)) / approach
         return strips.profile(along), slope
     half_length = law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
     return 0.5 * curvature * along**2, wear.hertz_slices(load, half_length, curvature)
@@ -159,14 +156,14 @@ def working_skew(row: xr.Dataset) -> float:
 
 
 def slip_profile(
-    shape: ContactShape, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
+    law: PreparedContact, along: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
 ) -> np.ndarray:
     """|v| along the roller over the ring's speed [-], with the slip of the middle that fits best.
 
     Parameters
     ----------
-    shape : ContactShape
-        Of the raceway contact.
+    law : PreparedContact
+        Of the raceway.
     along : ndarray, shape (n,)
         Places of the slices along the roller [m].
     pressed : ndarray, shape (n,)
@@ -180,19 +177,9 @@ def slip_profile(
     -------
     ndarray, shape (n,)
     """
-    if not shape.microslip:
-        return np.ones_like(along)
-    curvature = shape.curvature_ratio / (2.0 * shape.contour_radius)
-    microslip = curvature * along**2 - shape.spin_ratio * along
-    return _fitted_slip(microslip, pressed, work, skew)
-
-
-def _fitted_slip(
-    microslip: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float
-) -> np.ndarray:
-    """`slip_profile` of a microslip over the ring's speed [-]; a straight roller has none."""
+    microslip = _microslip(law, along)
     if not microslip.any():
-        return np.ones_like(microslip)
+        return np.ones_like(along)
     largest = np.abs(microslip[pressed > 0.0]).max()
     middle = np.linspace(-1.0, 1.0, _TRIED)[:, None] * largest
     slips = np.hypot(microslip + middle, skew)
@@ -200,6 +187,17 @@ def _fitted_slip(
     profiles /= profiles.sum(axis=1, keepdims=True)
     error = ((profiles - work / work.sum()) ** 2).sum(axis=1)
     return slips[int(np.argmin(error))]
+
+
+def _microslip(law: PreparedContact, along: np.ndarray) -> np.ndarray:
+    """Slip along the roller over the ring's speed [-], of a middle that rolls; 0 without microslip."""
+    shape = law.shape
+    if not shape.microslip:
+        return np.zeros_like(along)
+    if isinstance(law, PreparedStrips):
+        return 0.5 * law.strips.curvature * law.strips.profile(along)
+    curvature = shape.curvature_ratio / (2.0 * shape.contour_radius)
+    return curvature * along**2 - shape.spin_ratio * along
 
 
 def _years(variables: Mapping[str, np.ndarray]) -> float:
