@@ -1,51 +1,109 @@
-"""Power along rollers that touch a raceway along a line, beside that of the whole contact."""
+"""Strips along rollers that touch a raceway along a line, beside the whole contact."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from macroslip import Bearing, Laws, Lubricant
-from macroslip.measures.along import ALONG, STATIONS, contacts_of, power_along
+from macroslip.bearing.kinds import read_bearing
+from macroslip.measures.along import ALONG, STATIONS, contacts_of
+from macroslip.measures.along_line import line_power_along, strips_along
 from macroslip.measures.maps import MAPS
 from macroslip.measures.samples import SAMPLE
 from macroslip.roller.model import roller_model
 
-CYLINDER = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
-CROWNED = Bearing.read(CYLINDER)
-BEARING = CROWNED.replace(roller_crown_radius=None, roller_profile="logarithmic")
-OIL = Lubricant.read("vg320-mineral").at(333.15)
-LOAD = 60e3
-SPEED = -0.8
-SLIP = 2e-3
+DATA = Path(__file__).parents[2] / "validation" / "data"
+CROWNED = Bearing.read(DATA / "cylindrical-160.yaml")
+#: Bearing, oil and u2 [m/s] by the shape of the roller.
+ROLLERS = {
+    "tapered": (
+        read_bearing("tdo-main-bearing"),
+        Lubricant.read("vg460-pao").at(308.15),
+        0.24,
+    ),
+    "logarithmic": (
+        CROWNED.replace(roller_crown_radius=None, roller_profile="logarithmic"),
+        Lubricant.read("vg320-mineral").at(333.15),
+        -0.8,
+    ),
+    "straight": (
+        CROWNED.replace(roller_crown_radius=None, roller_profile="straight"),
+        Lubricant.read("vg320-mineral").at(333.15),
+        -0.8,
+    ),
+}
+#: Shapes, loads [N] and slips [m/s].
+STATES = [
+    ("tapered", 20e3, 1e-3),
+    ("tapered", 100e3, 0.0),
+    ("tapered", 100e3, -5e-5),
+    ("tapered", 235e3, 2e-5),
+    ("tapered", 300e3, 1e-2),
+    ("logarithmic", 60e3, 2e-3),
+    ("logarithmic", 60e3, 0.0),
+    ("logarithmic", 5e3, -1e-2),
+    ("straight", 60e3, 2e-3),
+]
 
 
-def distribution(law, contact):
-    """Record of `ALONG` of a loaded raceway."""
-    sample = np.zeros(1, SAMPLE)[0]
-    film = law.film_thickness(np.array([LOAD]), np.array([abs(SPEED)]))
-    sample["film"][0] = film[0]
-    sample["share"][0] = law.asperity_share(np.array([LOAD]), np.array([abs(SPEED)]), film)[0]
-    sample["time"] = 1.0
-    sample["at"]["elastic_load"] = LOAD
+def laws_of(shape, *, microslip=True):
+    """Laws of a roller."""
+    bearing, oil, _ = ROLLERS[shape]
+    chosen = Laws.physical().but(microslip=microslip)
+    return roller_model(bearing, oil, 1, tilt=0.0, laws=chosen).laws
+
+
+def booked(laws, state):
+    """Strips of the inner raceway, and records of `ALONG` and `MAPS`, at Q, u2 and Δu."""
+    strips = strips_along(laws.inner, *(np.array([value]) for value in state))[0]
+    maps = np.zeros(1, MAPS)[0]
     along = np.zeros(1, ALONG)[0]
-    power_along(np.zeros(1, MAPS)[0], 0, contact, (LOAD, SPEED, SLIP), sample, 2.0, along)
-    return along
+    sample = np.zeros(1, SAMPLE)[0]
+    sample["film"][0] = 1e-6
+    sample["time"] = 1.0
+    sample["at"]["elastic_load"] = state[0]
+    line_power_along(maps, 0, contacts_of(laws)[0], state, sample, 2.0, strips, along)
+    return strips, along, maps
 
 
 @pytest.mark.parametrize("microslip", [True, False])
-def test_power_of_all_stations_is_that_of_the_contact(microslip):
-    """∫τ v dA of the contact's own graded quadrature; without microslip v is Δu all along the line."""
-    chosen = replace(Laws.physical(), microslip=microslip)
-    laws = roller_model(BEARING, OIL, 1, tilt=0.0, laws=chosen).laws
+@pytest.mark.parametrize(("shape", "load", "slip"), STATES)
+def test_strips_carry_the_load_and_dissipate_the_power_of_the_contact(shape, load, slip, microslip):
+    """Power of all strips beside ∫τ v dA of the contact's own graded quadrature.
+
+    Without microslip v is Δu all along the line.
+    """
+    bearing, _, speed = ROLLERS[shape]
+    laws = laws_of(shape, microslip=microslip)
     law = laws.inner
-    along = distribution(law, contacts_of(laws)[0])
-    whole = law.tractions(np.array([LOAD]), np.array([SPEED]), np.array([SLIP]))
-    # v = Δu (1 − P/(2r)) + u2 κ P/2, of which ∫τ dA and ∫τ P/(2r) dA are known.
-    rolling = SPEED * law.strips.curvature * law.strips.radius
-    expected = SLIP * float((whole.pull - whole.lag)[0]) + rolling * float(whole.lag[0])
-    width = BEARING.roller_length / STATIONS
-    assert along["total"] * width == pytest.approx(abs(expected), rel=0.03)
+    strips, along, maps = booked(laws, (load, speed, slip))
+    width = bearing.roller_length / STATIONS
+    carried = float((strips["load"] * strips["covered"]).sum()) * width
+    assert carried == pytest.approx(load, rel=0.01)
+    whole = law.tractions(*(np.array([value]) for value in (load, speed, slip)))
+    # v = Δu (1 + ζ/A − P/(2r)) + u2 κ P/2, of which ∫τ (1 + ζ/A) dA and ∫τ P/(2r) dA are known.
+    rolling = speed * law.strips.curvature * law.strips.radius
+    expected = slip * float((whole.pull - whole.lag)[0]) + rolling * float(whole.lag[0])
+    assert along["total"] * width == pytest.approx(expected, rel=0.03)
     if not microslip:
-        assert along["work_total"] == pytest.approx(LOAD * SLIP, rel=0.01)
+        assert along["work_total"] == pytest.approx(load * abs(slip), rel=0.01)
+    # All of the time and both passes belong to strips that touch.
+    touching = float(strips["covered"].sum()) / STATIONS
+    assert maps["film_slip"][0, ..., 0].sum() == pytest.approx(touching)
+    assert maps["film_slip"][0, ..., 1].sum() == pytest.approx(2.0 * touching)
+
+
+def test_two_stations_of_a_gripped_roller_roll_without_slip():
+    """At no slip in the mean the middle of the roller is slower than the ends, or faster."""
+    state = (np.array([200e3]), np.array([0.24]), np.array([-2e-5]))
+    strips = strips_along(laws_of("tapered").inner, *state)[0]
+    signs = np.sign(strips["slip"][strips["covered"] > 0.0])
+    assert np.count_nonzero(np.diff(signs)) == 2
+
+
+def test_a_straight_roller_is_pressed_and_slips_alike_all_along():
+    strips = booked(laws_of("straight"), (60e3, -0.8, 2e-3))[0]
+    for name in ("covered", "load", "film", "share", "slip", "pressure"):
+        assert np.ptp(strips[name]) <= 1e-12 * abs(strips[name][0])
+    assert strips["slip"][0] == 2e-3

@@ -9,7 +9,12 @@ from macroslip import BearingLoads, Case, HubLoads, InputError, Laws, Lubricant,
 from macroslip.bearing.kinds import read_bearing
 from macroslip.bearing.tapered import tapered_geometry
 from macroslip.case.parts import Traces, Window
+from macroslip.constants import YEAR
+from macroslip.contact.rib import rib_contact
 from macroslip.loads import Drivetrain
+from macroslip.report.answer import answer
+from macroslip.report.result_numbers import row_numbers
+from macroslip.result.damage import damage
 from macroslip.result.tapered_case import tapered_ring_motion
 from macroslip.ring.tapered import tapered_balance, tapered_ring
 from macroslip.whole.cage import Cage
@@ -77,6 +82,53 @@ def test_idle_rollers_slip_and_preloaded_ones_do_not():
     }
     assert below[0.0] == pytest.approx(24.0, abs=1.5)
     assert below[0.3e-3] == 0.0
+    # One load zone an orbit in the row that the thrust unloads; entries and maps know it.
+    for preload, entries in ((0.0, 1.0), (0.3e-3, 0.0)):
+        result = found[preload]
+        assert result.sizes["orbit"] == 1
+        assert (result.entries.sel(row="upwind") == entries).all()
+        mapped = result.surface_energy.sum(("angle", "station", "slip_sign", "film_regime"))
+        spent = result.energy.sel(interface=["inner", "outer"]).sum("roller")
+        assert mapped.values == pytest.approx(spent.values, rel=1e-6)
+    assert float(damage(found[0.0]).sel(criterion="entry_slide_roll_ratio").value) > 0.05
+    assert float(damage(found[0.3e-3]).sel(criterion="wear_time").value) > 20.0
+    (sentence,) = [one for one in answer(found[0.3e-3]) if "preload" in one]
+    assert "With 0.3 mm of preload, 0 downwind and 0 upwind of 34 rollers are in the" in sentence
+    numbers = row_numbers(found[0.3e-3])[0]
+    assert numbers["rib"] == float(found[0.3e-3].rib_energy.sel(row="downwind")[0])
+
+
+@pytest.mark.slow
+def test_wear_of_the_rib_is_that_of_its_asperities_energy():
+    """Thrust alone: all rollers alike, and a rib whose film is a tenth of a full one.
+
+    Steps give the energy of asperities, µ_b X F v_f of a roller. Over the width 2b of the ellipse
+    and the circumference of the rib it wears 3/(πb) times as deep in the middle as in the mean,
+    F = 2π/3 a b p0, and Z rollers pass.
+    """
+    result = simulate(
+        case(force=(0.0, 0.0, 700e3), bearing=MAIN.replace(rib_oil_supply=0.1), gravity=False)
+    )
+    bearing = read_bearing("tdo-main-bearing")
+    row = tapered_geometry(bearing)
+    span = result.attrs["window_end"] - result.attrs["window_start"]
+    contact = rib_contact(bearing, OIL.at(308.15))
+    for name in ("downwind", "upwind"):
+        of_row = result.sel(row=name)
+        pressed = OIL.boundary_friction * span
+        work = float(of_row.rib_asperity_energy.mean()) / pressed
+        half_width = contact.hertz.semi_axis_across * float(of_row.largest_rib_force) ** (1 / 3)
+        expected = 34 * 3.0 * work / (math.pi * half_width * 2.0 * math.pi * row.rib_radius)
+        found = float(of_row.rib_asperity_work.sel(rib_surface="rib"))
+        assert found == pytest.approx(expected, rel=0.01)
+    criteria = damage(result)
+    faster = float(result.rib_asperity_work.max())
+    years = float(criteria.sel(criterion="rib_wear_time").value)
+    assert years == pytest.approx(1e-5 / (1e-17 * faster) / YEAR)
+    smearing = float(criteria.sel(criterion="rib_pressure_speed").value)
+    assert smearing == pytest.approx(
+        float(result.rib_pressure.max()) * float(row.rib_sliding_speed(SPEED)), rel=1e-6
+    )
 
 
 @pytest.mark.slow
@@ -194,9 +246,3 @@ def test_loads_beyond_all_steel_are_refused():
 def test_cage_of_a_whole_bearing_is_refused():
     with pytest.raises(InputError, match="do not use it"):
         case(cage=Cage(mass=60.0))
-
-
-def test_osculations_of_a_tapered_bearing_are_refused(tmp_path):
-    (tmp_path / "mine.yaml").write_text(f"{MAIN.as_yaml()}\nosculation_inner: 0.98\n")
-    with pytest.raises(InputError, match="has no osculation_inner: its rollers touch along lines"):
-        read_bearing(tmp_path / "mine.yaml")

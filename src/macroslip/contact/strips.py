@@ -193,6 +193,17 @@ class StripTraction(NamedTuple):
     asperity_power: np.ndarray  #: Power that asperities dissipate [W]
 
 
+class StripStates(NamedTuple):
+    """Load, film and slip of strips, arrays of one shape."""
+
+    per_length: np.ndarray  #: q, load per length [N/m]
+    film: np.ndarray  #: Film thickness [m]
+    share: np.ndarray  #: Asperities' share of the load [-]
+    slip: np.ndarray  #: v, positive where the ring is faster [m/s]
+    half_width: np.ndarray  #: b [m]
+    pressure: np.ndarray  #: Largest pressure of the strip's chord [Pa]
+
+
 @dataclass(frozen=True)
 class PreparedStrips(PreparedContact):
     """The laws of a line contact of a roller with a raceway."""
@@ -221,28 +232,20 @@ class PreparedStrips(PreparedContact):
 
     def tractions(self, load, ring_speed, slip) -> StripTraction:
         """Traction by the laws, at loads Q > 0 [N], u2 and Δu of either sign [m/s], of one shape."""
-        strips = self.strips
         reach, approach = self._reach(load)
         station, weight = self._stations(reach, ring_speed, slip)
-        shape = station.shape[-2:]
-        growth = 1.0 + station * strips.taper if self.shape.microslip else np.ones(station.shape)
-        drop = strips.profile(station)
-        pressed = np.maximum(approach[..., None, None] - drop, 1e-15)
-        per_length = strips.load_per_length(pressed)
-        entrainment = np.abs(ring_speed - 0.5 * slip)[..., None, None] * growth
-        ellipse = ellipse_load(self.interface.hertz, per_length)
-        film = super().film_thickness(ellipse, entrainment)
-        share = super().asperity_share(ellipse, np.maximum(entrainment, 1e-12), film)
-        local = self._local_slip(ring_speed, slip, drop, growth)
-        width = half_width(per_length, strips.curvature, strips.modulus)
-        pressure = line_pressure(per_length, strips.curvature, strips.modulus)
+        of_contact = (approach, np.asarray(ring_speed), np.asarray(slip))
+        strip = self.strip_states(station, *(values[..., None, None] for values in of_contact))
+        local = strip.slip
         stress = _stresses(
-            chord_table(self.fluid), *(values.ravel() for values in (pressure, film, np.abs(local)))
+            chord_table(self.fluid),
+            *(values.ravel() for values in (strip.pressure, strip.film, np.abs(local))),
         ).reshape(local.shape)
-        carried = self.boundary_friction * share * per_length
+        carried = self.boundary_friction * strip.share * strip.per_length
         rough = carried * np.clip(local / self.full_slip, -1.0, 1.0) * weight
-        force = (1.0 - share) * 2.0 * width * stress * np.copysign(weight, local) + rough
-        half_drop = 0.5 * drop / strips.radius if self.shape.microslip else np.zeros(shape)
+        sheared = (1.0 - strip.share) * 2.0 * strip.half_width * stress
+        force = sheared * np.copysign(weight, local) + rough
+        growth, half_drop = self._cone_and_drop(station)
         axes = (-2, -1)
         return StripTraction(
             (force * growth).sum(axis=axes),
@@ -256,14 +259,46 @@ class PreparedStrips(PreparedContact):
         approach = strip_approach(self.strips, np.asarray(load, dtype=float))
         return self.strips.reach(approach), approach
 
-    def _local_slip(self, ring_speed, slip, drop, growth) -> np.ndarray:
-        """Slip v(ζ) [m/s] over states, pieces and nodes."""
-        slip = np.asarray(slip)[..., None, None]
-        if not self.shape.microslip:
-            return slip * growth
+    def strip_states(self, station, approach, ring_speed, slip) -> StripStates:
+        """Load, film and slip of strips, of arrays that broadcast.
+
+        Parameters
+        ----------
+        station : ndarray
+            Stations ζ from the roller's middle to its large end [m].
+        approach : ndarray
+            Approach δ of roller and raceway without profile [m].
+        ring_speed, slip : ndarray
+            u2 and Δu of the roller's middle, of either sign [m/s].
+
+        Returns
+        -------
+        StripStates
+        """
         strips = self.strips
-        rolling = 0.5 * strips.curvature * np.asarray(ring_speed)[..., None, None]
-        return slip * (growth - 0.5 * drop / strips.radius) + rolling * drop
+        growth, half_drop = self._cone_and_drop(station)
+        pressed = np.maximum(approach - strips.profile(station), 1e-15)
+        per_length = strips.load_per_length(pressed)
+        entrainment = np.abs(ring_speed - 0.5 * slip) * growth
+        ellipse = ellipse_load(self.interface.hertz, per_length)
+        film = super().film_thickness(ellipse, entrainment)
+        share = super().asperity_share(ellipse, np.maximum(entrainment, 1e-12), film)
+        rolling = ring_speed * strips.curvature * strips.radius
+        return StripStates(
+            per_length=per_length,
+            film=film,
+            share=share,
+            slip=slip * (growth - half_drop) + rolling * half_drop,
+            half_width=half_width(per_length, strips.curvature, strips.modulus),
+            pressure=line_pressure(per_length, strips.curvature, strips.modulus),
+        )
+
+    def _cone_and_drop(self, station) -> tuple[np.ndarray, np.ndarray]:
+        """1 + ζ/A and P/(2r) at stations [-]; slip that is the same all over has neither."""
+        if not self.shape.microslip:
+            return np.ones(station.shape), np.zeros(station.shape)
+        half_drop = 0.5 * self.strips.profile(station) / self.strips.radius
+        return 1.0 + station * self.strips.taper, half_drop
 
     def _stations(self, reach, ring_speed, slip) -> tuple[np.ndarray, np.ndarray]:
         """Stations [m] and weights [m] of a quadrature that is graded towards pure rolling.

@@ -8,10 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.line import PALMGREN_EXPONENT, half_width, line_pressure
-from macroslip.contact.line_approach import line_approach
 from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
-from macroslip.contact.strips import PreparedStrips, Strips
 from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 
@@ -26,7 +23,7 @@ FILM_EDGES = (0.5, 1.0, 1.5, 2.0, 3.0, 5.0)
 SLIP_EDGES = (-0.1, -0.03, -0.01, -0.003, -0.001, 0.0, 0.001, 0.003, 0.01, 0.03, 0.1)
 #: Least share of asperities by which their energy is spread along the roller: quotients of less
 #: overflow.
-_LEAST_SHARE = 1e-30
+LEAST_SHARE = 1e-30
 #: How power lies along the roller at a raceway, at a sample.
 ALONG = np.dtype(
     [
@@ -44,13 +41,12 @@ ALONG = np.dtype(
         ("rough_total", "f8"),
         # Sum of ∫ p |v| dA [W].
         ("work_total", "f8"),
+        # Largest power per length times power per area of a station [W²/m³].
+        ("hottest", "f8"),
         # Film regime: 1 where Λ is 1 and above, 0 below.
         ("regime", "i8"),
     ]
 )
-
-
-_NO_LINE = Strips(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Contact(NamedTuple):
@@ -63,8 +59,6 @@ class Contact(NamedTuple):
     saturation: float  #: Kellström's slide-roll ratio from which on it is reached [-]
     roughness: float  #: Composite RMS roughness [m]
     effusivity: float  #: Thermal effusivity of its steel [J/(m² K s^½)]
-    lined: bool  #: Whether roller and raceway touch along a line
-    line: Strips  #: That line contact; without meaning otherwise
 
 
 def contacts_of(laws: PreparedLaws) -> tuple[Contact, Contact, Contact]:
@@ -82,8 +76,6 @@ def contacts_of(laws: PreparedLaws) -> tuple[Contact, Contact, Contact]:
             saturation,
             law.interface.roughness,
             law.effusivity,
-            isinstance(law, PreparedStrips),
-            law.strips if isinstance(law, PreparedStrips) else _NO_LINE,
         )
 
     return contact(laws.inner), contact(laws.outer), contact(laws.cage)
@@ -105,7 +97,7 @@ def _parabola(line, first, station):
 
 
 @jit_inline
-def _entrainment(ring_speed, slip):
+def signed_entrainment(ring_speed, slip):
     """Entrainment speed with its sign, not slower than films are followed [m/s]."""
     mean = ring_speed - 0.5 * slip
     return math.copysign(max(abs(mean), LOWEST_SPEED), mean)
@@ -129,80 +121,80 @@ def _covered(k, width, half_length, middle, across):
     return 0.5 * (first + last), (last - first) / width
 
 
-class _Line(NamedTuple):
-    """A line contact under a load."""
+class Station(NamedTuple):
+    """A station along the roller as it is booked."""
 
-    approach: float  #: Of roller and ring [m]
-    across: float  #: Half of the length that touches [m]
-    largest: float  #: Largest load per length [N/m]
-
-
-class _Chord(NamedTuple):
-    """A chord across a contact at a station."""
-
-    height: float  #: Load per length over the largest [-]
-    load: float  #: Load per length [N/m]
-    half_width: float  #: [m]
-    pressure: float  #: Largest [Pa]
-    slip: float  #: In rolling [m/s]
-    speed: float  #: Size of the slip in rolling and along the roller [m/s]
+    number: int
+    covered: float  #: Part of it that touches [-]
+    width: float  #: Of a whole station [m]
+    load: float  #: Per length [N/m]
+    half_width: float  #: Of the contact along rolling [m]
+    slip: float  #: With its sign [m/s]
+    speed: float  #: Of slip, across rolling too [m/s]
+    power: float  #: Per length [W/m]
+    asperities: float  #: Their part of the power per length [W/m]
 
 
 @jit_inline
-def _line_under(line, load):
-    """Approach, length and largest load per length of a line contact under a load Q > 0 [N]."""
-    stiffness = line.coefficient * line.length
-    each = 0.5 * line_approach(stiffness, line.depth, math.log(load)).approach
-    across = 0.5 * line.length
-    if line.depth > 0.0:
-        across *= math.sqrt(-math.expm1(-each / line.depth))
-    return _Line(each, across, line.coefficient * each**PALMGREN_EXPONENT)
+def begin_along(along):
+    """Set the sums over stations to zero."""
+    along.total = 0.0
+    along.rough_total = 0.0
+    along.work_total = 0.0
+    along.hottest = 0.0
 
 
 @jit_inline
-def _line_chord(line, under, state, station, microslip):
-    """Chord of a line contact; state is that of `power_along`.
+def leave_station(along, k):
+    """Note that a station does not touch."""
+    along.power[k] = 0.0
+    along.rough[k] = 0.0
+    along.work[k] = 0.0
+    along.density[k] = 0.0
 
-    Without microslip all of it has the slip of the middle.
+
+@jit_inline
+def book_station(along, station, hot, times, passed):
+    """Add a station's power to those along the roller.
+
+    Parameters
+    ----------
+    along : record of `ALONG`
+        Power, work and density of the station, and sums, are written.
+    station : Station
+    hot : ndarray
+        Power per length [W/m] and half-width [m] of the hottest station are written.
+    times : ndarray, shape (classes of slip, 2)
+        Times under load [s] and passes [-] of the film's class; the station's are added.
+    passed : tuple of float
+        Time [s] and passes [-] since the sample before, entrainment speed with its sign [m/s].
     """
-    relative = 2.0 * station / line.length
-    drop = -line.depth * math.log1p(-min(relative * relative, 1.0 - 1e-15))
-    load = line.coefficient * max(under.approach - drop, 1e-15) ** PALMGREN_EXPONENT
-    slip = state[2]
-    if microslip:
-        slip *= 1.0 - 0.5 * drop / line.radius
-        slip += 0.5 * state[1] * line.curvature * drop
-    return _Chord(
-        load / under.largest,
-        load,
-        half_width(load, line.curvature, line.modulus),
-        line_pressure(load, line.curvature, line.modulus),
-        slip,
-        abs(slip),
-    )
-
-
-@jit_inline
-def _ellipse_chord(patch, line, load, across, root, station):
-    """Chord of an ellipse of semi-axis `across`; `line` has the parabolas of the sample's slip."""
-    height = 1.0 - (station - line[0]) * (station - line[0]) / (across * across)
-    local = _parabola(line, 1, station)
-    chord = math.sqrt(height)
-    return _Chord(
-        height,
-        0.75 * height / across * load,
-        patch.along * root * chord,
-        patch.pressure * root * chord,
-        local,
-        math.hypot(local, _parabola(line, 4, station)),
-    )
+    k = station.number
+    # Of power only its share of all stations counts; of p |v| its size does.
+    along.power[k] = math.copysign(station.power * station.covered, station.slip)
+    along.rough[k] = station.asperities * station.covered
+    along.work[k] = station.load * station.speed * station.covered * station.width
+    along.total += abs(along.power[k])
+    along.rough_total += along.rough[k]
+    along.work_total += along.work[k]
+    if passed[0] > 0.0:
+        ratio = math.copysign(station.speed, station.slip) / passed[2]
+        spent = times[class_of(SLIP_EDGES, ratio)]
+        spent[0] += passed[0] / STATIONS * station.covered
+        spent[1] += passed[1] * station.covered / STATIONS
+    density = station.power / (2.0 * station.half_width)
+    along.density[k] = density
+    # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
+    if station.power * density > along.hottest:
+        along.hottest = station.power * density
+        hot[0] = station.power
+        hot[1] = station.half_width
+    return density
 
 
 @jit
 def power_along(maps, interface, contact, state, sample, passes, along):
     """Distribution of power along the roller at a loaded raceway, and its hottest station.
-
-    Along a line contact film and share of asperities are those of its middle.
 
     Parameters
     ----------
@@ -233,69 +225,43 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     film = sample.film[interface]
     share = sample.share[interface]
     load = state[0]
-    entrainment = _entrainment(state[1], state[2])
+    entrainment = signed_entrainment(state[1], state[2])
     times = maps.film_slip[interface, class_of(FILM_EDGES, film / contact.roughness)]
-    span = (sample.time - sample.since) / STATIONS
+    span = sample.time - sample.since
     root = load ** (1.0 / 3.0)
     across = patch.across * root
-    under = _Line(0.0, across, 0.0)
-    if contact.lined:
-        under = _line_under(contact.line, load)
-        across = under.across
     line = sample.lines[interface]
     width = 2.0 * patch.half_length / STATIONS
     node = film_node(contact.chords, film)
-    boundary = 0.75 * patch.boundary_friction * max(share, _LEAST_SHARE) * load / across
-    if contact.lined:
-        boundary = patch.boundary_friction * max(share, _LEAST_SHARE) * under.largest
-    hot = sample.hot[interface]
-    hottest = 0.0
+    boundary = 0.75 * patch.boundary_friction * max(share, LEAST_SHARE) * load / across
+    passed = (span if sample.at.elastic_load > 0.0 else 0.0, passes, entrainment)
     densest = 0.0
     fastest = 0.0
-    along.total = 0.0
-    along.rough_total = 0.0
-    along.work_total = 0.0
+    begin_along(along)
     for k in range(STATIONS):
         station, covered = _covered(k, width, patch.half_length, line[0], across)
         if covered < 1e-6:
-            along.power[k] = 0.0
-            along.rough[k] = 0.0
-            along.work[k] = 0.0
-            along.density[k] = 0.0
+            leave_station(along, k)
             continue
-        if contact.lined:
-            chord = _line_chord(contact.line, under, state, station, patch.microslip)
-        else:
-            chord = _ellipse_chord(patch, line, load, across, root, station)
-        height = chord.height
-        speed = chord.speed
+        height = 1.0 - (station - line[0]) * (station - line[0]) / (across * across)
+        local = _parabola(line, 1, station)
+        speed = math.hypot(local, _parabola(line, 4, station))
+        chord = math.sqrt(height)
+        half_width = patch.along * root * chord
         asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
         per_length = 0.75 * height / across * sample.at.power[interface]
         if contact.chorded:
-            stress = chord_stress_at(contact.chords, node, chord.pressure, speed)
-            per_length = (1.0 - share) * 2.0 * chord.half_width * stress * speed + asperities
+            stress = chord_stress_at(contact.chords, node, patch.pressure * root * chord, speed)
+            per_length = (1.0 - share) * 2.0 * half_width * stress * speed + asperities
         elif contact.limit > 0.0:
             per_length = (1.0 - share) * 0.75 * height / across * load * speed
             per_length *= _saturating_friction(contact, speed, entrainment)
             per_length += asperities
-        # Of power only its share of all stations counts; of p |v| its size does.
-        along.power[k] = math.copysign(per_length * covered, chord.slip)
-        along.rough[k] = asperities * covered
-        along.work[k] = chord.load * speed * covered * width
-        along.total += abs(along.power[k])
-        along.rough_total += along.rough[k]
-        along.work_total += along.work[k]
-        if sample.at.elastic_load > 0.0:
-            spent = times[class_of(SLIP_EDGES, math.copysign(speed, chord.slip) / entrainment)]
-            spent[0] += span * covered
-            spent[1] += passes * covered / STATIONS
-        density = per_length / (2.0 * chord.half_width)
-        along.density[k] = density
-        # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
-        if per_length * density > hottest:
-            hottest = per_length * density
-            hot[0] = per_length
-            hot[1] = chord.half_width
+        of_length = 0.75 * height / across * load
+        booked = Station(
+            k, covered, width, of_length, half_width, local, speed, per_length, asperities
+        )
+        density = book_station(along, booked, sample.hot[interface], times, passed)
         densest = max(densest, density)
         fastest = max(fastest, speed)
     along.regime = 1 if film >= contact.roughness else 0

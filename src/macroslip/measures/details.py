@@ -20,6 +20,7 @@ from macroslip.contact.flash import flash_temperature
 from macroslip.contact.patch import fine_power, patch_power
 from macroslip.contact.strips import PreparedStrips
 from macroslip.measures.along import STATIONS, power_along
+from macroslip.measures.along_line import STRIP, line_power_along, strips_along
 from macroslip.measures.extremes import EXTREMES, heat_entries, raise_extremes, sample_cage
 from macroslip.measures.maps import MAPS, PER_ANGLE, spread
 from macroslip.measures.samples import MEMORY, SAMPLE, begin, choose
@@ -99,11 +100,20 @@ def _over(part, total):
     return part / total if total > 0.0 else 0.0
 
 
+@jit_inline
+def _power_along(maps, interface, contact, state, sample, passes, strips, along):
+    """Distribution of power along the roller of either contact: an ellipse has no strips."""
+    if len(strips) > 0:
+        return line_power_along(maps, interface, contact, state, sample, passes, strips, along)
+    return power_along(maps, interface, contact, state, sample, passes, along)
+
+
 @jit
-def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry_extreme):
+def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extreme, entry_extreme):
     """Spread the energies of samples and raise the extremes.
 
-    What is hottest is written to the samples.
+    What is hottest is written to the samples. Strips are those of line contacts, over sample,
+    raceway and station; an ellipse has none.
     """
     body, tables = roller
     for n in range(samples.size):
@@ -131,8 +141,9 @@ def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry
             late = 0.0
             late_rough = 0.0
             if load > 0.0:
-                densest, fastest, mean = power_along(
-                    maps, i, contacts[i], states[i], sample, abs(end - start) / SECTORS, after
+                passes = abs(end - start) / SECTORS
+                densest, fastest, mean = _power_along(
+                    maps, i, contacts[i], states[i], sample, passes, strips[n, i], after
                 )
                 film_ratio = sample.film[i] / contacts[i].roughness
                 raise_extremes(extreme, sample.orbit, i, densest, fastest / mean, film_ratio)
@@ -145,18 +156,17 @@ def _spread_samples(samples, contacts, roller, start_angle, maps, extreme, entry
                         of_sector[k] = max(of_sector[k], after.density[k])
                 late = sample.mean_time[i] if before.total > 0.0 else 1.0
                 late_rough = sample.mean_time[i] if before.rough_total > 0.0 else 1.0
-            half_span = 0.5 * span
             work_after = after.work_total if load > 0.0 else 0.0
             spent = (
                 _over((1.0 - late) * sample.energy[i], before.total),
                 _over(late * sample.energy[i], after.total),
                 _over((1.0 - late_rough) * sample.rough[i], before.rough_total),
                 _over(late_rough * sample.rough[i], after.rough_total),
-                half_span,
-                half_span if load > 0.0 else 0.0,
+                0.5 * span,
+                0.5 * span if load > 0.0 else 0.0,
             )
             spread(maps, i, (start, end), sample.mean_time[i], spent, before, after)
-            work = half_span * (before.work_total + work_after)
+            work = 0.5 * span * (before.work_total + work_after)
             maps.working_load[i, 0] += work * load
             maps.working_load[i, 1] += work
             if load > 0.0:
@@ -252,6 +262,7 @@ class ContactSampler:
         roller = self._roller.body[0], self._roller.tables.ctypes.data
         _spread_samples(
             samples,
+            self._strips(samples["at"]),
             self._contacts,
             roller,
             self._start_angle,
@@ -272,6 +283,19 @@ class ContactSampler:
         self._heat(rows[:under_way])
         self._entering = rows[under_way:]
         self._check_quadrature(samples)
+
+    def _strips(self, at: np.ndarray) -> np.ndarray:
+        """Strips of line contacts, of `STRIP` and shape (samples, 2, STATIONS); of ellipses none."""
+        laws = self._laws.inner, self._laws.outer
+        along_line = isinstance(laws[0], PreparedStrips)
+        strips = np.zeros((at.size, len(RACEWAYS), STATIONS if along_line else 0), STRIP)
+        if not along_line:
+            return strips
+        for i, (name, law) in enumerate(zip(RACEWAYS, laws, strict=True)):
+            loaded = at[f"{name}_load"] > 0.0
+            state = (at[f"{name}_{field}"][loaded] for field in ("load", "speed", "slip"))
+            strips[loaded, i] = strips_along(law, *state)
+        return strips
 
     def _heat(self, rows: np.ndarray) -> None:
         """Find how hot the raceways became in entries that have ended."""

@@ -68,8 +68,8 @@ def answer(result: xr.Dataset, criteria: Sequence[Mapping[str, Any]] = ()) -> li
             f"{failed} of {result.status.size} rollers FAILED; every mean they enter is missing."
         )
     sentences += [row_sentence(row_slip(result, row)) for row in result.row.values.tolist()]
-    sentences += tapered_sentences(result)
-    return [*sentences, *_films(result), *_nearest(criteria)]
+    films = " ".join([*tapered_sentences(result), *_films(result)])
+    return [*sentences, *filter(None, [films]), *_nearest(criteria)]
 
 
 def row_slip(result: xr.Dataset, row: str) -> RowSlip:

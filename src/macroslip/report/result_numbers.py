@@ -38,10 +38,11 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
     """The main numbers of each row of a result; None where one is not known.
 
     Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface`
-    with the largest energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W],
-    the median over the orbits; `spin` [1], the lowest over pure rolling; `outside` [%], the share
-    of loaded time outside the film formula's range, of the raceway with more, and `outside_most`
-    [%] of any roller and interface; and how many `failed` of the `rollers`.
+    with the largest energy and its `share` [%]; `rib` [J], the energy at a tapered roller's rib
+    besides; `peak` [W], the largest power, and `typical` [W], the median over the orbits; `spin`
+    [1], the lowest over pure rolling; `outside` [%], the share of loaded time outside the film
+    formula's range, of the raceway with more, and `outside_most` [%] of any roller and interface;
+    and how many `failed` of the `rollers`.
     """
     return [_of_row(result.sel(row=name)) for name in result.row.values]
 
@@ -68,6 +69,7 @@ def _of_row(row: xr.Dataset) -> dict[str, Any]:
         "most": _known(energy.max()),
         "interface": interface,
         "share": share,
+        "rib": _known(row.get("rib_energy", unknown).mean(skipna=False)),
         "peak": _known(largest_peaks.max()),
         "typical": _known(peaks.max("interface").median()),
         "spin": _known(spin_ratios.min()),

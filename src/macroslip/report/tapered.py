@@ -40,7 +40,7 @@ def _preload(result: xr.Dataset) -> str:
     preload = float(result.preload)
     word = "preload" if preload >= 0.0 else "play"
     change = float(result.preload_change)
-    by = f", {1e3 * change:+.3g} mm of it by the temperature difference" if change else ""
+    by = f" ({1e3 * change:+.3g} mm of it by the temperature difference)" if change else ""
     size = number(1e3 * abs(preload), 3)
     grip = float(result.grip_load)
     if not np.isfinite(grip):
@@ -50,7 +50,7 @@ def _preload(result: xr.Dataset) -> str:
         for row, count in result.rollers_below_grip.to_series().items()
     )
     return (
-        f"With {size} mm of {word}{by} {below} of {result.attrs['rollers_per_row']} rollers are in "
+        f"With {size} mm of {word}{by}, {below} of {result.attrs['rollers_per_row']} rollers are in "
         f"the mean below {number(1e-3 * grip, 3)} kN, from where on a raceway grips."
     )
 

@@ -26,7 +26,6 @@ _NO_DETAILS = (
     "with microslip or asperities, such "
     "as laws: {model: physical}, with contact_details: true; of a study, keep has to name them."
 )
-_NO_MAPS = "Of tapered rollers no maps of the raceways are kept, from which criteria of damage are computed."
 _FEW_ROLLERS = (
     "Of {all} rollers a row {some} were simulated, {reason}: values at the outer raceway may be "
     "off by several times, because "
@@ -92,8 +91,7 @@ def damage(
         not exist, or numbers out of range.
     """
     if "surface_work" not in result:
-        missing = _NO_MAPS if "rib_energy" in result else _NO_DETAILS
-        raise InputError(missing, allowed="results of contacts with microslip or asperities")
+        raise InputError(_NO_DETAILS, allowed="results of contacts with microslip or asperities")
     own = dict(thresholds or {})
     _check_thresholds(own)
     evaluation = Evaluation(
@@ -259,7 +257,7 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
 def lines(result: xr.Dataset) -> tuple[list[dict[str, Any]], list[str]]:
     """The answer of a result: a dictionary for each criterion, and sentences on what is missing."""
     if "surface_work" not in result:
-        return [], [_NO_MAPS if "rib_energy" in result else _NO_DETAILS]
+        return [], [_NO_DETAILS]
     if not stored_settings(result):
         return [], ["The result does not hold its input, which criteria of damage need."]
     return criterion_lines(damage(result))

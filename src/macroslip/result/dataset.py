@@ -40,6 +40,7 @@ from macroslip.result import skew, surface_maps, tapered_case
 from macroslip.result.cage_variables import cage_values, open_books
 from macroslip.result.heat_balance import operating_rings
 from macroslip.result.prepared import Prepared
+from macroslip.result.tapered_ribs import RIB_SURFACES
 from macroslip.result.variables import (
     ASPERITIES,
     COUNTS,
@@ -258,6 +259,8 @@ def _coordinates(ready: Prepared) -> dict[str, Any]:
     curved = ready.model.curved
     raceways = curved or case.dynamics == WHOLE_BEARING
     coordinates = roller_coordinates(case, ready.edges, curved=curved, raceways=raceways)
+    if ready.tapered is not None and case.laws.asperities != "none":
+        coordinates["rib_surface"] = list(RIB_SURFACES)
     if ready.edges.size == 1 or case.laws.skew != "none":
         coordinates["position"] = _positions()
     if case.traces is not None:
@@ -398,7 +401,10 @@ def roller_coordinates(
         coordinates["mechanism"] = list(MECHANISMS)
     if curved and case.contact_details:
         middles = ((np.arange(STATIONS) + 0.5) / STATIONS - 0.5) * case.bearing.roller_length
-        about_station = described("m", "place along the roller's axis z'")
+        axis = "the roller's axis z'"
+        if case.bearing.kind == "tapered":
+            axis = "the roller from its middle to its large end"
+        about_station = described("m", f"place along {axis}")
         coordinates["station"] = ("station", middles, about_station)
         coordinates |= surface_maps.coordinates(case.bearing)
     return coordinates

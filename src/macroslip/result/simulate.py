@@ -78,7 +78,7 @@ def simulate(
         ready.edges,
         ready.highest_speed,
         ready.trace_time,
-        case.contact_details and ready.model.curved and ready.tapered is None,
+        case.contact_details and ready.model.curved,
         # Beside the steps of a whole bearing samples cost little.
         spacing=0.05 if whole else 1.0,
     )  # fmt: skip

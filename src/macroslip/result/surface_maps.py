@@ -21,6 +21,7 @@ import xarray as xr
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
+from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.constants import SECTORS
 from macroslip.errors import InputError
 from macroslip.measures.along import FILM_EDGES, SLIP_EDGES, STATIONS
@@ -56,7 +57,7 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
     return maps
 
 
-def coordinates(bearing: Bearing) -> dict[str, Any]:
+def coordinates(bearing: Bearing | TaperedBearing) -> dict[str, Any]:
     """Angles, areas of the cells, and names of the parts of the energy."""
     angle = (np.arange(SECTORS) + 0.5) * (2.0 * math.pi / SECTORS)
     about = {
@@ -69,11 +70,14 @@ def coordinates(bearing: Bearing) -> dict[str, Any]:
     width = bearing.roller_length / STATIONS
     radii = (geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing))
     lean = math.sin(bearing.contact_angle)
+
+    def radii_along(row: str, radius: float) -> np.ndarray:
+        if isinstance(bearing, TaperedBearing):
+            return radius * (1.0 + middles / tapered_geometry(bearing).apex_distance)
+        return radius - AXIAL_SIGNS[row] * middles * lean
+
     areas = [
-        [
-            (radius - AXIAL_SIGNS[row] * middles * lean) * (2.0 * math.pi / SECTORS) * width
-            for radius in radii
-        ]
+        [radii_along(row, radius) * (2.0 * math.pi / SECTORS) * width for radius in radii]
         for row in row_names(bearing)
     ]
     area = {"units": "m2", "long_name": "area of a place of the raceway"}

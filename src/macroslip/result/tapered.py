@@ -18,6 +18,7 @@ from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.line import strip_places
 from macroslip.contact.line_rolling import line_contacts, line_film, rolling_resistance
 from macroslip.errors import InputError
+from macroslip.loads import Drivetrain
 from macroslip.loads.history import HubLoads
 from macroslip.loads.moment_bearing import moment_bearing_load
 from macroslip.lubricant import Lubricant
@@ -156,6 +157,30 @@ class TaperedMount:
                 remedy="A single row carries thrust one way only: give the distance of two.",
             )
 
+    @classmethod
+    def of(cls, drivetrain: Drivetrain) -> TaperedMount:
+        """How the drivetrain of a case holds its shaft.
+
+        Weight and tilt of the shaft are not part of it: they are in the load on the bearing.
+
+        Parameters
+        ----------
+        drivetrain : Drivetrain
+            Of a mount that a tapered roller bearing can have.
+
+        Returns
+        -------
+        TaperedMount
+        """
+        if drivetrain.mount == "two-bearings":
+            rear = drivetrain.front_to_rear or 0.0
+            return cls(drivetrain.hub_to_bearing, front_to_rear=rear, rows_each=1)
+        return cls(
+            drivetrain.hub_to_bearing,
+            support_stiffness=drivetrain.gearbox_stiffness or 0.0,
+            bearing_to_support=drivetrain.bearing_to_gearbox or 0.0,
+        )
+
     @property
     def middle(self) -> float:
         """From the hub centre to the middle of all rows [m], about which moments are taken."""
@@ -188,15 +213,19 @@ class TaperedMount:
             return bearing.replace(row_offset=0.5 * self.front_to_rear)
         return bearing
 
-    def ring(self, bearing: TaperedBearing, ring_thickness: float | None) -> TaperedRing:
+    def ring(self, bearing: TaperedBearing, ring_thickness: float | None = None) -> TaperedRing:
         """Numbers of the balance of all rows on the shaft.
 
         Parameters
         ----------
         bearing : TaperedBearing
             As `mounted`, with its preload.
-        ring_thickness : float or None
+        ring_thickness : float, optional
             As in `tapered_ring`.
+
+        Returns
+        -------
+        TaperedRing
         """
         support = gearbox_support(self.support_stiffness, self.bearing_to_support)
         ring = tapered_ring(bearing, support=support, ring_thickness=ring_thickness)

@@ -6,22 +6,29 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
-from macroslip.contact.rib import rib_contact, rib_state
+from macroslip.bearing.tapered import TaperedBearing
 from macroslip.contact.strips import load_at_pressure, strips_of
 from macroslip.contact.traction import HIGHEST_PRESSURE
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads
-from macroslip.result.tapered import warmed
+from macroslip.result.tapered import TaperedMount, warmed
 from macroslip.result.tapered_checks import check_moment, check_preload
-from macroslip.result.tapered_ribs import LEAST_SPEED
+from macroslip.result.tapered_ribs import rib_values as history_of_ribs
 from macroslip.ring.grip import grip_load
-from macroslip.ring.tapered import ROW_SIGNS, gearbox_support, tapered_ring
+from macroslip.ring.tapered import ROW_SIGNS, tapered_ring
 from macroslip.ring.tapered_motion import TaperedMotion, tapered_motion
 
 if TYPE_CHECKING:
     from macroslip.case.case import Case
     from macroslip.result.prepared import Prepared
+
+#: Variables of the ribs' history whose largest value in the window a result has.
+_RIB_EXTREMES = (
+    "rib_pressure",
+    "rib_pressure_speed",
+    "rib_pass_energy",
+    "rib_flash_temperature",
+)
 
 
 def warm_bearing(case: Case) -> TaperedBearing:
@@ -29,11 +36,14 @@ def warm_bearing(case: Case) -> TaperedBearing:
 
     Two single rows of its kind, at their distance, where the mount has them.
     """
-    bearing = case.bearing
-    drivetrain = case.drivetrain
-    if isinstance(case.loads, HubLoads) and drivetrain.mount == "two-bearings":
-        bearing = bearing.replace(row_offset=0.5 * (drivetrain.front_to_rear or 0.0))
-    return warmed(bearing, case.temperature_difference)
+    mount = _mount_of(case)
+    mounted = case.bearing if mount is None else mount.mounted(case.bearing)
+    return warmed(mounted, case.temperature_difference)
+
+
+def _mount_of(case: Case) -> TaperedMount | None:
+    """How the shaft of a case is held; None where the force on the bearing is given."""
+    return TaperedMount.of(case.drivetrain) if isinstance(case.loads, HubLoads) else None
 
 
 def tapered_ring_motion(case: Case) -> TaperedMotion:
@@ -55,12 +65,9 @@ def tapered_ring_motion(case: Case) -> TaperedMotion:
     MacroslipError
         If a balance was not found.
     """
-    support = None
-    drivetrain = case.drivetrain
-    if isinstance(case.loads, HubLoads) and drivetrain.gearbox_stiffness is not None:
-        support = gearbox_support(drivetrain.gearbox_stiffness, drivetrain.bearing_to_gearbox)
+    mount = _mount_of(case)
     warm = warm_bearing(case)
-    ring = tapered_ring(warm, support=support)
+    ring = tapered_ring(warm) if mount is None else mount.ring(warm)
     check_preload(warm, ring)
     check_moment(warm, ring, case.ring_moments)
     ring_motion = tapered_motion(case.ring_loads, case.ring_moments, ring)
@@ -126,7 +133,7 @@ def ring_values(ready: Prepared) -> dict[str, Any]:
         "largest_tilt": np.array(np.hypot(*balance.displacement[inside, 3:].T).max()),
         "preload": np.array(warm.preload),
         "preload_change": np.array(warm.preload - case.bearing.preload),
-        **_rib_extremes(ready, _by_row(balance.rib_force[inside]), speed),
+        **_rib_window(ready, _by_row(balance.rib_force[inside]), speed),
     }
 
 
@@ -135,20 +142,20 @@ def _by_row(values: np.ndarray) -> np.ndarray:
     return values.reshape(len(values), len(ROW_SIGNS), -1)
 
 
-def _rib_extremes(ready: Prepared, force: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
-    """Extremes at the ribs over the window, of rollers that roll."""
-    row = tapered_geometry(ready.case.bearing)
-    contact = rib_contact(ready.case.bearing, ready.case.oil)
-    largest = force.max(axis=2)
-    entrainment = np.maximum(row.rib_entrainment_speed(speed), LEAST_SPEED)[:, None]
-    sliding = row.rib_sliding_speed(speed)[:, None]
-    rib = rib_state(contact, largest, entrainment, sliding, ready.case.laws)
-    # The film thins with load, and with speed: a shaft at rest has none.
-    turning = (speed > 0.0)[:, None] & (largest > 0.0)
-    ratio = np.where(turning, rib.film_ratio, np.inf).min(axis=0)
+def _rib_window(ready: Prepared, force: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
+    """Extremes and mean work at the ribs over the window, of rollers that roll."""
+    case = ready.case
+    ribs = history_of_ribs(case.bearing, case.oil, force, speed, case.laws)
+    # A shaft at rest has no film.
+    turning = (speed > 0.0)[:, None]
+    ratio = np.where(turning, ribs["rib_film_ratio"], np.inf).min(axis=0)
+    worn = {}
+    if case.laws.asperities != "none":
+        work = np.where(turning[..., None], ribs["rib_asperity_work"], 0.0)
+        worn["rib_asperity_work"] = work.mean(axis=0)
     return {
-        "largest_rib_force": largest.max(axis=0),
-        "rib_pressure": rib.pressure.max(axis=0),
-        "rib_pressure_speed": (rib.pressure * sliding).max(axis=0),
+        "largest_rib_force": force.max(axis=(0, 2)),
         "min_rib_film_ratio": np.where(np.isfinite(ratio), ratio, np.nan),
+        **{name: ribs[name].max(axis=0) for name in _RIB_EXTREMES},
+        **worn,
     }

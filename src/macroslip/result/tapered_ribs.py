@@ -8,6 +8,7 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.rib import RibContact, RibState, rib_contact, rib_state
 from macroslip.damage.rib import pass_energy, rib_flash_temperature
 from macroslip.lubricant import Lubricant
@@ -50,7 +51,11 @@ def _speeds(bearing: TaperedBearing, shaft_speed: np.ndarray) -> _Speeds:
 
 
 def rib_values(
-    bearing: TaperedBearing, lubricant: Lubricant, rib_force: np.ndarray, shaft_speed: np.ndarray
+    bearing: TaperedBearing,
+    lubricant: Lubricant,
+    rib_force: np.ndarray,
+    shaft_speed: np.ndarray,
+    laws: Laws | None = None,
 ) -> dict[str, Any]:
     """Friction, pressure and flash temperature of the ribs, by variable of `tapered_history`.
 
@@ -63,6 +68,8 @@ def rib_values(
         F_f of every roller [N].
     shaft_speed : ndarray, shape (time,)
         Speed of the inner ring [rad/s], not negative.
+    laws : Laws, optional
+        Laws of the film's shear; `Laws.physical()` without them.
 
     Returns
     -------
@@ -72,7 +79,7 @@ def rib_values(
     speeds = _speeds(bearing, shaft_speed)
     entrainment = 0.5 * (speeds.rib + speeds.roller)
     contact = rib_contact(bearing, lubricant)
-    coefficient = _film_coefficient(contact, rib_force, entrainment, speeds.sliding)
+    coefficient = _film_coefficient(contact, rib_force, entrainment, speeds.sliding, laws)
     rib = rib_state(contact, rib_force, entrainment, speeds.sliding, film_coefficient=coefficient)
     pressed = rib.pressure > 0.0
     total = rib_force.sum(axis=2)
@@ -94,7 +101,11 @@ def rib_values(
 
 
 def _film_coefficient(
-    contact: RibContact, load: np.ndarray, entrainment: np.ndarray, sliding: np.ndarray
+    contact: RibContact,
+    load: np.ndarray,
+    entrainment: np.ndarray,
+    sliding: np.ndarray,
+    laws: Laws | None,
 ) -> np.ndarray:
     """Friction of the films over their loads [-], by a spline over load and speed.
 
@@ -112,6 +123,7 @@ def _film_coefficient(
         loads[:, None],
         parts * max(entrainment.flat[fastest], LEAST_SPEED),
         parts * max(sliding.flat[fastest], LEAST_SPEED),
+        laws,
     )
     boundary = contact.lubricant.boundary_friction * state.asperity_share
     film = (state.friction_coefficient - boundary) / (1.0 - state.asperity_share)

@@ -16,6 +16,7 @@ CURVED_TRACES = "with `traces`, where slip may vary along the roller, or asperit
 SKEW = "with `laws: {skew: quasi-static}`"
 SKEW_TRACES = "with `laws: {skew: quasi-static}` and `traces`"
 TAPERED = "in a tapered roller bearing"
+TAPERED_ASPERITIES = "in a tapered roller bearing, with a law of asperities"
 TAPERED_TRACES = "in a tapered roller bearing, with `traces`"
 WHOLE = "with `dynamics: whole-bearing`"
 WHOLE_TRACES = "with `dynamics: whole-bearing` and `traces`"
@@ -173,6 +174,28 @@ _TABLE = (
         "W/m2",
         TAPERED,
         "largest pressure at the ribs times sliding speed in pure rolling, in the window",
+    ),
+    Variable(
+        "rib_pass_energy",
+        _ROWS,
+        "J/m2",
+        TAPERED,
+        "largest pressure times slip that a place of the rib gets in a pass, in the window",
+    ),
+    Variable(
+        "rib_flash_temperature",
+        _ROWS,
+        "K",
+        TAPERED,
+        "largest flash temperature at the ribs in the window, in pure rolling",
+    ),
+    Variable(
+        "rib_asperity_work",
+        (*_ROWS, "rib_surface"),
+        "W/m2",
+        TAPERED_ASPERITIES,
+        "asperities' pressure times slip per time, mean over the window: depth of wear a second "
+        "over k",
     ),
     Variable(
         "min_rib_film_ratio",

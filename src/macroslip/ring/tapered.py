@@ -275,10 +275,10 @@ def tapered_balance(
 
     >>> pair = tapered_ring(TaperedBearing.read("32216-pair"))
     >>> thrust = np.array([[0.0, 0.0, 6000.0]])
-    >>> found = tapered_balance(pair, np.zeros(1), thrust, np.zeros((1, 2)))
-    >>> [round(float(q[0, 0]), 2) for q in (found.outer_load, found.inner_load, found.rib_force)]
+    >>> balance = tapered_balance(pair, np.zeros(1), thrust, np.zeros((1, 2)))
+    >>> [round(float(q[0, 0]), 2) for q in (balance.outer_load, balance.inner_load, balance.rib_force)]
     [1390.8, 1386.99, 101.91]
-    >>> float(found.outer_load[0, 16:].max())
+    >>> float(balance.outer_load[0, 16:].max())
     0.0
     """
     count = len(shaft_angle)

@@ -140,6 +140,25 @@ def test_what_cannot_be_built_is_refused_with_the_key(change, words):
         MAIN.replace(**change)
 
 
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("osculation: 0.97", "line 2: .*has no osculation: its rollers touch along lines.*Remove"),
+        ("osculation_outer: 0.97", "line 2: .*has no osculation_outer: .*preload in place of"),
+        ("diametral_clearance: 0.1 mm", "line 2: .*has no diametral_clearance"),
+        (
+            "skew: 3 mrad",
+            "line 2: skew is no property of a tapered.*rib.*not computed.*Remove skew",
+        ),
+    ],
+)
+def test_keys_that_other_kinds_have_are_refused_in_a_sentence(tmp_path, line, words):
+    path = tmp_path / "own.yaml"
+    path.write_text(f"kind: tapered\n{line}\n", encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        TaperedBearing.read(path)
+
+
 def test_the_angle_of_the_inner_raceway_may_be_written_where_it_shares_the_apex():
     inner = tapered_geometry(MAIN).inner_angle
     assert MAIN.replace(inner_angle=inner).inner_angle == inner

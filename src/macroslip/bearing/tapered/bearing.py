@@ -35,6 +35,7 @@ _Optional = float | None
 _ANGLE_ROUNDING = math.radians(0.02)
 #: Keys that bearings of other kinds have.
 _OF_OTHERS = (
+    "osculation",
     "osculation_inner",
     "osculation_outer",
     "diametral_clearance",
@@ -169,16 +170,26 @@ class TaperedBearing(Record):
     def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
         """Build a bearing from the content of a file, as `Record.from_dict` does.
 
-        Raises InputError, in one sentence, for osculations or clearances of other kinds of bearings.
+        Raises InputError, in one sentence, for osculations or clearances of other kinds of bearings,
+        and for a skew.
         """
+        where = source or Source()
         strange = [key for key in _OF_OTHERS if key in entries]
         if strange:
             raise InputError(
                 f"a tapered roller bearing has no {' and no '.join(strange)}: its rollers touch along "
                 "lines, and it has a preload",
-                where=(source or Source()).where(strange[0]),
+                where=where.where(strange[0]),
                 allowed="kind: tapered without them, with preload in place of a clearance",
                 remedy=f"Remove {' and '.join(strange)}.",
+            )
+        if "skew" in entries:
+            raise InputError(
+                "skew is no property of a tapered roller bearing: the friction of the rib turns its "
+                "rollers, and by how much is not computed",
+                where=where.where("skew"),
+                allowed="kind: tapered without it; rollers stand straight",
+                remedy="Remove skew.",
             )
         return super().from_dict(entries, source)
 

@@ -15,7 +15,7 @@ from macroslip.result.variables import described
 
 _NO_ENTRIES = (
     "No roller entered a load zone in a complete orbit of the window, so nothing is said of "
-    "smearing."
+    "smearing at the raceways."
 )
 _OVER = ("row", "raceway")
 

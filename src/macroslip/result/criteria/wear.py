@@ -32,7 +32,7 @@ _TRIED = 401
 _SLICES = 4
 #: Number of the depth of 10 µm, and of the middle coefficient k of a run.
 _TEN_MICROMETRES = wear.DEPTHS.index(1e-5)
-_MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
+MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
 _NO_WEAR = (
     "Wear was not computed, since without asperities nothing touches: choose their law, laws: "
     "{asperities: masjedi-khonsari} "
@@ -182,7 +182,7 @@ def slip_profile(
         return np.ones_like(along)
     largest = np.abs(microslip[pressed > 0.0]).max()
     middle = np.linspace(-1.0, 1.0, _TRIED)[:, None] * largest
-    slips = np.hypot(microslip + middle, skew)
+    slips = np.hypot(microslip + middle * _growth(law, along), skew)
     profiles = (slips * pressed).reshape(_TRIED, STATIONS, _SLICES).sum(axis=-1)
     profiles /= profiles.sum(axis=1, keepdims=True)
     error = ((profiles - work / work.sum()) ** 2).sum(axis=1)
@@ -198,6 +198,13 @@ def _microslip(law: PreparedContact, along: np.ndarray) -> np.ndarray:
         return 0.5 * law.strips.curvature * law.strips.profile(along)
     curvature = shape.curvature_ratio / (2.0 * shape.contour_radius)
     return curvature * along**2 - shape.spin_ratio * along
+
+
+def _growth(law: PreparedContact, along: np.ndarray) -> np.ndarray:
+    """Radius along the roller over that of its middle [-]; the slip of the middle grows with it."""
+    if isinstance(law, PreparedStrips):
+        return 1.0 + along * law.strips.taper
+    return np.ones_like(along)
 
 
 def _years(variables: Mapping[str, np.ndarray]) -> float:
@@ -227,7 +234,7 @@ def _wear_rate(criteria: xr.Dataset, _: xr.Dataset) -> xr.DataArray | None:
     if "asperity_work_rate" not in criteria:
         return None
     work = criteria.asperity_work_rate.max(["surface", "station"], skipna=False)
-    return _MIDDLE_COEFFICIENT * work
+    return MIDDLE_COEFFICIENT * work
 
 
 CRITERIA = (

@@ -1,0 +1,120 @@
+"""Criteria of smearing and wear at the ribs of a tapered roller bearing.
+
+A rib slides in pure rolling at every loaded roller, so that nothing hangs on entries into a load
+zone. No published limit of smearing is known to hold beyond the rig that it is from.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import xarray as xr
+
+from macroslip.constants import YEAR
+from macroslip.damage import wear
+from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest_of
+from macroslip.result.criteria.evaluation import Evaluation
+from macroslip.result.criteria.wear import DESIGN_LIFE, MIDDLE_COEFFICIENT
+from macroslip.result.variables import described
+
+#: Depth of wear whose time is told [m].
+_DEPTH = 1e-5
+
+
+def _of_result(name: str) -> Callable[[Evaluation], Variables]:
+    """The variable of the result, where it has one."""
+
+    def variables(evaluation: Evaluation) -> Variables:
+        if name not in evaluation.result:
+            return {}
+        values = evaluation.result[name]
+        return {name: (("row",), values.values, dict(values.attrs))}
+
+    return variables
+
+
+def _wear_time(evaluation: Evaluation) -> Variables:
+    """Time until the surface of the rib contact that wears faster has worn by 10 µm."""
+    if "rib_asperity_work" not in evaluation.result or not evaluation.tells_of_year:
+        return {}
+    work = evaluation.result.rib_asperity_work.max("rib_surface").values
+    with np.errstate(divide="ignore"):
+        times = _DEPTH / (np.array(evaluation.wear_coefficients) * work[:, None])
+    meaning = "time like this window until the rib or the rollers' ends have worn by 10 um"
+    return {"rib_wear_time": (("row", "wear_coefficient"), times, described("s", meaning))}
+
+
+def _years(variables: Mapping[str, np.ndarray]) -> float:
+    """Time to 10 µm at the middle coefficient, of the row that wears faster [years]."""
+    if "rib_wear_time" not in variables:
+        return math.nan
+    times = variables["rib_wear_time"]
+    return float(times[:, times.shape[1] // 2].min()) / YEAR
+
+
+def _wear_rate(_: xr.Dataset, result: xr.Dataset) -> xr.DataArray | None:
+    """Growth of wear at the middle coefficient [m/s]; None where there is no rib."""
+    if "rib_asperity_work" not in result:
+        return None
+    return MIDDLE_COEFFICIENT * result.rib_asperity_work.max("rib_surface")
+
+
+CRITERIA = (
+    Criterion(
+        order=15,
+        name="rib_pressure_speed",
+        mechanism="smearing",
+        quantity="pressure times speed at the rib",
+        unit="W/m2",
+        variables=_of_result("rib_pressure_speed"),
+        value=largest_of("rib_pressure_speed"),
+        reference=math.nan,
+        compared_with="",
+        factor=2.0,
+        reason="height and sphere of the rib contact",
+    ),
+    Criterion(
+        order=16,
+        name="rib_flash_temperature",
+        mechanism="smearing",
+        quantity="flash temperature at the rib",
+        unit="K",
+        variables=_of_result("rib_flash_temperature"),
+        value=largest_of("rib_flash_temperature"),
+        reference=math.nan,
+        compared_with="",
+        factor=10.0,
+        reason="oil at the rib",
+    ),
+    Criterion(
+        order=45,
+        name="rib_wear_time",
+        mechanism="wear",
+        quantity="time to 10 µm at the rib, middle k",
+        unit="year",
+        variables=_wear_time,
+        value=_years,
+        reference=DESIGN_LIFE,
+        compared_with="design life, IEC 61400",
+        factor=10.0,
+        reason="k; oil at the rib on top",
+        lowest=True,
+        references=(wear.REFERENCE,),
+        yearly=(
+            Yearly(
+                run_name="rib_wear_rate",
+                run_unit="m/s",
+                run_meaning="growth of wear of the rib or the rollers' ends at k = 1e-17 m2/N",
+                of_run=_wear_rate,
+                name="rib_wear",
+                drawn="max",
+                year_unit="m",
+                year_meaning="depth of wear of the rib or the rollers' ends at k = 1e-17 m2/N",
+                unit="m/year",
+                meaning="wear of the ribs at k = 1e-17 m²/N",
+            ),
+        ),
+    ),
+)
