@@ -25,7 +25,7 @@ from macroslip.storage.waiting import COMPILING, tell
 
 #: Options of everything that is compiled; division by zero gives inf or NaN as in NumPy. Nothing
 #: that is compiled so is called from C, and an entry for that would be a twelfth of the work.
-_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 #: Functions that a first case compiles, nearly the same of every model. A whole bearing has its own.
 _ABOUT = {"imposed": 150, "whole": 190}
@@ -83,10 +83,10 @@ def jit(function: Callable) -> Callable:
         # Numba refuses to store a function that has no file, and one whose folder in ours cannot be
         # written.
         with _kept_in(folder), contextlib.suppress(RuntimeError):
-            dispatcher = numba.njit(cache=True, **_OPTIONS)(function)
+            dispatcher = numba.njit(cache=True, **OPTIONS)(function)
             if _is_kept(dispatcher, folder):
                 return dispatcher
-    return numba.njit(**_OPTIONS)(function)
+    return numba.njit(**OPTIONS)(function)
 
 
 @contextlib.contextmanager
@@ -173,7 +173,7 @@ def jit_inline(function: Callable) -> Callable:
     chooses where it stays a call, because parts copied into all their callers are optimised anew in
     each.
     """
-    return register_jitable(**_OPTIONS)(function)
+    return register_jitable(**OPTIONS)(function)
 
 
 def jit_evaluation(function: Callable) -> Callable:
@@ -181,4 +181,4 @@ def jit_evaluation(function: Callable) -> Callable:
 
     Its results are many numbers: handing them up in memory would cost as much as computing them.
     """
-    return register_jitable(**_OPTIONS, forceinline=True)(function)
+    return register_jitable(**OPTIONS, forceinline=True)(function)

@@ -17,6 +17,7 @@ from macroslip.contact.look_up import (
     TRACTION,
     Traction,
     contact_load,
+    contact_speeds,
     in_plane,
     log_load,
     log_speed,
@@ -75,7 +76,8 @@ class Table:
 @jit
 def look_up(table, tables, load, ring_speed, slip, found):
     for n in range(load.size):
-        one = traction(table, tables, contact_load(load[n]), ring_speed[n], slip[n])
+        speeds = contact_speeds(ring_speed[n], slip[n], 0)
+        one = traction(table, tables, contact_load(load[n]), speeds)
         for k in range(len(one)):
             found[n, k] = one[k]
 

@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 
 from macroslip.bearing.geometry import initial_angles
 from macroslip.compiled import jit
-from macroslip.contact.look_up import contact_load, log_speed
+from macroslip.contact.look_up import contact_load, contact_speeds, log_speed
 from macroslip.contact.mechanisms import Laws
 from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.film_sharing import film_load
@@ -33,8 +33,8 @@ def raceway(body, law, tables, load, speed, slip):
     """Spin force, pull [N] and power [W] of a raceway contact with its oil."""
     if load <= 0.0:
         return 0.0, 0.0, 0.0
-    log_mean = log_speed(speed - 0.5 * slip)
-    found = raceway_forces(body, law, tables, contact_load(load), speed, slip, log_mean)
+    speeds = contact_speeds(speed, slip, body.closed_form)
+    found = raceway_forces(body, law, tables, contact_load(load), speeds)
     spin = found.friction + found.shear
     pull = found.pull
     power = found.friction * slip + speed * (

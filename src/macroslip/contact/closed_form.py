@@ -31,6 +31,7 @@ from scipy.special import roots_jacobi, zeta
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
+from macroslip.elementary import exponential
 
 #: Power series of g, (−4)^n (n!)²/(2n + 1)!, and B up to which it is used; what its last term
 #: leaves out is below 1e-16.
@@ -74,7 +75,7 @@ def moment_of_coth(u):
         for k in range(_M_SERIES.size - 1, -1, -1):
             total = total * u * u + _M_SERIES[k]
         return total * u * u
-    decay = power = math.exp(-2.0 * u)
+    decay = power = exponential(-2.0 * u)
     n = 1.0
     while power > 1e-18:
         total += power * (u * u + (u + 0.5 / n) / n) / n
@@ -104,7 +105,7 @@ def _patch_by_rule(p, heating):
     by_slip = 0.0
     by_pressure = 0.0
     for k in range(_PLACES.size):
-        growth = math.exp(p * _PLACES[k])
+        growth = exponential(p * _PLACES[k])
         g, slope = _reduction(heating * growth)
         share = growth * _WEIGHTS[k]
         value += share * g
@@ -187,7 +188,7 @@ def patch_integral(pressure_exponent, root_heating):
     """
     p = pressure_exponent
     heating = root_heating * root_heating
-    growth = math.exp(0.5 * p)
+    growth = exponential(0.5 * p)
     q1 = root_heating * growth
     if p >= _LEAST_P and q1 * q1 < _COOL:
         return _patch_by_series(p, heating, growth * growth)

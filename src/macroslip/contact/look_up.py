@@ -19,7 +19,13 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_evaluation, jit_inline
-from macroslip.contact.spline import CHANNELS, splines_in_cube, splines_in_square
+from macroslip.contact.spline import (
+    CHANNELS,
+    splines_along_first,
+    splines_in_cube,
+    splines_in_square,
+)
+from macroslip.elementary import exponential, logarithm
 
 #: w0 [m/s]: speed below which a contact counts as at rest.
 REST_SPEED = 1e-6
@@ -115,20 +121,20 @@ def cell_of(axis, coordinate):
 @jit_evaluation
 def log_load(load):
     """Ln Q of a load [N] that may be none."""
-    return math.log(max(load, _LEAST_LOAD))
+    return logarithm(max(load, _LEAST_LOAD))
 
 
 @jit_evaluation
 def log_speed(speed):
     """Ln |u| of a speed [m/s] that may be none."""
-    return math.log(max(abs(speed), _LEAST_SPEED))
+    return logarithm(max(abs(speed), _LEAST_SPEED))
 
 
 @jit_evaluation
 def contact_load(load):
     """Load Q > 0 [N] with its logarithm and its cube root."""
-    logarithm = math.log(load)
-    return ContactLoad(load, logarithm, math.exp(logarithm * (1.0 / 3.0)))
+    log_load = logarithm(load)
+    return ContactLoad(load, log_load, exponential(log_load * (1.0 / 3.0)))
 
 
 @jit_evaluation
@@ -170,11 +176,50 @@ def in_plane(plane, tables, log_load, log_speed):
     )
 
 
-class _Rolling(NamedTuple):
-    """Speed and slip ratio of a contact, with derivatives by slip v and ring speed u2."""
+@jit_evaluation
+def along_load(plane, tables, log_load, log_speed):
+    """Four quantities of a plane over load and speed, and their derivatives by load.
 
-    speed: float  #: w [m/s]
-    ratio: float  #: y [-]
+    Parameters
+    ----------
+    plane : record of `PLANE`
+        Where the plane stands in the tables, and its axes.
+    tables : int or ndarray
+        The flat array of tables, or its address.
+    log_load : float
+        ln Q of the load [N].
+    log_speed : float
+        ln |u| of the speed [m/s].
+
+    Returns
+    -------
+    value, by_load : tuple of four floats
+        As those of `in_plane`.
+    """
+    i, t, slope = cell_of(plane.load, log_load)
+    j, u, _ = cell_of(plane.speed, log_speed)
+    stride = CHANNELS * (plane.speed.cells + 3)
+    value, first = splines_along_first(
+        tables, plane.start + i * stride + CHANNELS * j, stride, t, u
+    )  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    return value, (first[0] * slope, first[1] * slope, first[2] * slope, first[3] * slope)
+
+
+class ContactSpeeds(NamedTuple):
+    """Speeds of a raceway contact, and the coordinates of the tables that follow from them.
+
+    Contacts of the same ring speed u2 and slip v share them.
+    """
+
+    ring: float  #: u2 [m/s]
+    slip: float  #: v = Δu in the middle of the contact [m/s]
+    mean: float  #: Mean speed of the surfaces u2 − v/2, with its sign [m/s]
+    log_mean: float  #: Logarithm of its magnitude [ln m/s]
+    #: w [m/s] and w^(1/4), y [-], and their derivatives by v and u2 at |u2| and v sign u2; all 0
+    #: where the closed form serves.
+    speed: float
+    root_speed: float
+    ratio: float
     speed_by_slip: float  #: [-]
     speed_by_ring: float  #: [-]
     ratio_by_slip: float  #: [s/m]
@@ -182,16 +227,39 @@ class _Rolling(NamedTuple):
 
 
 @jit_evaluation
-def _rolling(ring, sliding):
-    """Speed and slip ratio at |u2| and v sign u2 [m/s]."""
+def contact_speeds(ring_speed, slip, closed_form):
+    """Speeds of a raceway contact.
+
+    Parameters
+    ----------
+    ring_speed, slip : float
+        u2 and Δu in the middle of the contact [m/s], of either sign.
+    closed_form : int
+        1 where the closed form of traction serves and no table of traction is looked up.
+
+    Returns
+    -------
+    ContactSpeeds
+    """
+    mean = ring_speed - 0.5 * slip
+    log_mean = log_speed(mean)
+    if closed_form:
+        return ContactSpeeds(ring_speed, slip, mean, log_mean, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    ring = abs(ring_speed)
+    sliding = slip * math.copysign(1.0, ring_speed)
     speed = math.sqrt(ring * ring + 0.25 * sliding * sliding + REST_SPEED * REST_SPEED)
     per_speed = 1.0 / speed
     per_sum = 1.0 / (speed + ring)
     ratio = 2.0 * sliding * per_sum
     speed_by_slip = 0.25 * sliding * per_speed
     speed_by_ring = ring * per_speed
-    return _Rolling(
+    return ContactSpeeds(
+        ring_speed,
+        slip,
+        mean,
+        log_mean,
         speed,
+        math.sqrt(math.sqrt(speed)),
         ratio,
         speed_by_slip,
         speed_by_ring,
@@ -217,11 +285,11 @@ def arsinh(z, root):
         for k in range(_ARSINH_SERIES.size - 1, -1, -1):
             total = total * square + _ARSINH_SERIES[k]
         return total * z
-    return math.copysign(math.log(abs(z) + root), z)
+    return math.copysign(logarithm(abs(z) + root), z)
 
 
 @jit_evaluation
-def traction(table, tables, load, ring_speed, slip):
+def traction(table, tables, load, at):
     """Traction of a raceway contact from its table.
 
     Parameters
@@ -231,32 +299,30 @@ def traction(table, tables, load, ring_speed, slip):
         The flat array of tables, or its address.
     load : ContactLoad
         Q > 0.
-    ring_speed, slip : float
-        u2 and Δu in the middle of the contact [m/s], of either sign.
+    at : ContactSpeeds
+        With the coordinates of tables.
 
     Returns
     -------
     Traction
     """
-    sign = math.copysign(1.0, ring_speed)
-    at = _rolling(abs(ring_speed), slip * sign)
+    sign = math.copysign(1.0, at.ring)
     z = (at.ratio - table.middle) / table.scale
     size = math.sqrt(z * z + 1.0)
-    root_speed = math.sqrt(math.sqrt(at.speed))
     root = load.root
     i, t, load_slope = cell_of(table.load, load.logarithm + table.stretch * root)
-    k, s, speed_slope = cell_of(table.speed, root_speed)
+    k, s, speed_slope = cell_of(table.speed, at.root_speed)
     j, u, ratio_slope = cell_of(table.ratio, arsinh(z, size))
     inner = CHANNELS * (table.ratio.cells + 3)
     outer = inner * (table.speed.cells + 3)
     start = table.start + i * outer + k * inner + CHANNELS * j
     value, first, second, third = splines_in_cube(tables, start, (outer, inner), (t, s, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
-    if ring_speed == 0.0 and slip == 0.0:
+    if at.ring == 0.0 and at.slip == 0.0:
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)
     # Derivatives of the coordinates by Q, by w and by y.
     load_slope *= 1.0 + table.stretch * root * (1.0 / 3.0)
-    speed_slope *= 0.25 * root_speed / at.speed
+    speed_slope *= 0.25 * at.root_speed / at.speed
     ratio_slope /= table.scale * size
     heavy = load.load * root * root
     pull_by_w = load.load * second[0] * speed_slope
@@ -307,7 +373,7 @@ def rising_slip(table, tables, load, speed):
         Size of the slip [m/s], > 0.
     """
     ln_load = log_load(load)
-    stretched = ln_load + table.stretch * math.exp(ln_load * (1.0 / 3.0))
+    stretched = ln_load + table.stretch * exponential(ln_load * (1.0 / 3.0))
     row = _nearest_node(table.load, stretched)
     column = _nearest_node(table.speed, math.sqrt(math.sqrt(speed)))
     return tables[table.rising + row * (table.speed.cells + 1) + column] * speed

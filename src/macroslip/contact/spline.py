@@ -2,9 +2,9 @@
 
 A spline of n nodes along an axis has n + 2 coefficients there. Tables of a contact hold four
 splines on one grid, their coefficients next to each other in one flat array, so that a look-up sums
-four numbers at a time in a vector register. This is the only file that writes instructions for the
-compiler: its vectors take a third of the time of plain loops. The order of all sums is fixed, so
-results are the same on processors with registers of any length.
+four numbers at a time in a vector register. Beside `macroslip.elementary` this is the only file
+that writes instructions for the compiler: its vectors take a third of the time of plain loops. The
+order of all sums is fixed, so results are the same on processors with registers of any length.
 
 de Boor, A Practical Guide to Splines, Springer (1978), doi:10.1007/978-1-4612-6333-3.
 """
@@ -301,6 +301,51 @@ def splines_in_square(typingctx, table, start, stride, t, u):
     arguments_taken = (types.intp, types.intp, types.float64, types.float64)
     return (
         (types.UniTuple(_FOUR, 3)(table, *arguments_taken), _generate) if _is_flat(table) else None
+    )
+
+
+@intrinsic
+def splines_along_first(typingctx, table, start, stride, t, u):
+    """Four cubic splines over two axes and their derivatives along the first.
+
+    As `splines_in_square`, in little more than half of its sums: along the second axis first.
+
+    Parameters
+    ----------
+    typingctx : Context
+        Of numba, which leaves it out of a call.
+    table : int or ndarray, shape (n,)
+        The flat coefficients, or their address.
+    start : int
+        Number of the cell's first coefficient.
+    stride : int
+        Numbers from one node of the first axis to the next; 4 along the second.
+    t, u : float
+        Places in the cell [-], 0 to 1.
+
+    Returns
+    -------
+    value, by_t : tuple of four floats
+        Values of the splines, and their derivatives by t.
+    """
+
+    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        write = _Vectors(builder)
+        address = _place(context, builder, table, arguments[0], arguments[1])
+        step = builder.mul(arguments[2], ir.Constant(_SIZE, 8))
+        z = write.weights(_CUBIC, arguments[4])
+        sums = [write.sum(z, nodes) for nodes in write.lines(address, step)]
+        fours = [
+            context.make_tuple(
+                builder, _FOUR, write.lanes(write.sum(write.weights(terms, arguments[3]), sums))
+            )
+            for terms in (_CUBIC, _QUADRATIC)
+        ]
+        return context.make_tuple(builder, signature.return_type, fours)
+
+    arguments_taken = (types.intp, types.intp, types.float64, types.float64)
+    return (
+        (types.UniTuple(_FOUR, 2)(table, *arguments_taken), _generate) if _is_flat(table) else None
     )
 
 

@@ -74,7 +74,7 @@ def set_step(path, now, attempt, length, held):
     attempt.scale = 1.0 / (length * path.body.mobility)
     attempt.held = 1 if held else 0
     interval = now.interval
-    films = now.at.film_balance
+    films = now.at.log_film_balance
     for k in range(3):
         attempt.weights[k] = SIMPSON[k] if held else WEIGHTS[k]
         if held and k == 0:
@@ -85,10 +85,10 @@ def set_step(path, now, attempt, length, held):
         # The last stage is the end, without rounding.
         attempt.times[k] = now.time + (length if k == 2 else part * length)
         interval = interval_of(path.motion, attempt.times[k], interval)
-        # The search for the films' load begins with that of the stage before.
-        attempt.at[k].film_balance = films
+        # The search for the films' load begins where that of the stage before ended.
+        attempt.at[k].log_film_balance = films
         locate(path, attempt.times[k], interval, attempt.at[k])
-        films = attempt.at[k].film_balance
+        films = attempt.at[k].log_film_balance
     attempt.end_interval = interval
 
 
@@ -227,7 +227,7 @@ def sample_between(path, now, attempt, part, sample):
         Its conditions, slip and rate are written.
     """
     time = now.time + part * attempt.length
-    sample.at.film_balance = attempt.at[1].film_balance
+    sample.at.log_film_balance = attempt.at[1].log_film_balance
     locate(path, time, interval_of(path.motion, time, now.interval), sample.at)
     increment, sample.rate = collocation(
         part, attempt.increment[0], attempt.increment[1], attempt.increment[2]

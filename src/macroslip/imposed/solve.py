@@ -378,6 +378,9 @@ def integrate(path, stops, classes, work, steps):
         path.start_angle,
         path.limits,
     )
+    stops = uncounted(stops)  # pyright: ignore[reportCallIssue]
+    classes = uncounted(classes)  # pyright: ignore[reportCallIssue]
+    steps = uncounted(steps)  # pyright: ignore[reportCallIssue]
     limits = path.limits
     now = work.now
     attempt = work.attempt

@@ -186,7 +186,7 @@ def locate(path, time, interval, at):
     interval : int
         Index of the sample interval that holds the time.
     at : record of `macroslip.mechanics.spin.CONDITIONS`
-        Is written; its film load is where the search for the new one begins.
+        Is written; its film balance is where the search for the new one begins.
     """
     write_conditions(
         path.body, path.tables, path.start_angle, instant(path.motion, interval, time), at

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.look_up import contact_load, log_speed
+from macroslip.contact.look_up import contact_load, contact_speeds
 from macroslip.imposed import tuning
 from macroslip.mechanics.elastic import approach_under_load
 from macroslip.mechanics.loads import elastic_approach
@@ -52,13 +52,9 @@ def relaxation_rate(body, tables, load, ring_speed):
     rate = 0.0
     normal = contact_load(load)
     for _ in range(20):
-        log_mean = log_speed(ring_speed - 0.5 * slip)
-        inner = raceway_traction(
-            body.inner, tables, body.closed_form, normal, ring_speed, slip, log_mean
-        )
-        outer = raceway_traction(
-            body.outer, tables, body.closed_form, normal, ring_speed, slip, log_mean
-        )
+        speeds = contact_speeds(ring_speed, slip, body.closed_form)
+        inner = raceway_traction(body.inner, tables, body.closed_form, normal, speeds)
+        outer = raceway_traction(body.outer, tables, body.closed_form, normal, speeds)
         rest = inner.pull - inner.lag + outer.pull - outer.lag
         slope = inner.pull_by_slip - inner.lag_by_slip + outer.pull_by_slip - outer.lag_by_slip
         rate = body.mobility * slope

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.line_approach import line_approach
-from macroslip.contact.look_up import in_plane, log_load
+from macroslip.contact.look_up import along_load, in_plane, log_load
+from macroslip.elementary import exponential, logarithm
 
 #: Entrainment speed below which film formulas are not followed further [m/s].
 LOWEST_SPEED = 1e-6
@@ -26,43 +29,66 @@ _ITERATIONS = 60
 _CONVERGED = 2e-5
 
 
+#: Number of body forces for which the play is known from which on films carry nothing, and a margin
+#: on that play for the splines of the films.
+REACH_NODES = 32
+_REACH_MARGIN = 1.001
+
+
+class _Films(NamedTuple):
+    """Films and elastic approach of a roller under a load q of the lighter raceway."""
+
+    height: float  #: Of both films together [m]
+    growth: float  #: d(ln height)/d(ln q) [-]
+    approach: float  #: Elastic approach δ [m]
+    exponent: float  #: d(ln δ)/d(ln q) [-]
+
+
 @jit_inline
-def _log_film_excess(body, tables, log_q, outward, play, log_u):
-    """Ln of the films' height over their space at a load q of the lighter one, and d/d(ln q)."""
-    root = math.exp(log_q * (1.0 / 3.0))
-    load = root * root * root
-    inner_load = load - min(outward, 0.0)
-    outer_load = load + max(outward, 0.0)
-    log_inner = log_q if outward >= 0.0 else math.log(inner_load)
-    log_outer = log_q if outward <= 0.0 else math.log(outer_load)
-    inner, inner_slope, _ = in_plane(body.inner.oil, tables, log_inner, log_u)
-    outer, outer_slope, _ = in_plane(body.outer.oil, tables, log_outer, log_u)
-    inner_film = math.exp(inner[2])
-    outer_film = math.exp(outer[2])
-    films = inner_film + outer_film
-    growth = inner_film * inner_slope[2] * load / inner_load
-    growth += outer_film * outer_slope[2] * load / outer_load
+def _films_under(body, tables, log_q, outward, log_u):
+    """Films and elastic approach under a load q of the lighter raceway, whose ln is given."""
+    root = exponential(log_q * (1.0 / 3.0))
+    lighter = root * root * root
+    heavier = lighter + abs(outward)
+    log_heavier = logarithm(heavier)
+    # d(ln Q)/d(ln q) of the heavier load Q; 1 of the lighter one.
+    share = lighter / heavier
+    outside = outward > 0.0
+    log_inner = log_q if outside else log_heavier
+    log_outer = log_heavier if outside else log_q
+    inner, inner_slope = along_load(body.inner.oil, tables, log_inner, log_u)
+    outer, outer_slope = along_load(body.outer.oil, tables, log_outer, log_u)
+    inner_film = exponential(inner[2])
+    outer_film = exponential(outer[2])
+    height = inner_film + outer_film
+    growth = inner_film * inner_slope[2] * (1.0 if outside else share)
+    growth += outer_film * outer_slope[2] * (share if outside else 1.0)
     approach = body.compliance * root * root
     exponent = 2.0 / 3.0
     if body.line_stiffness > 0.0:
         approach, exponent = line_approach(body.line_stiffness, body.profile_depth, log_q)
-    space = play + approach
-    slope = growth / films - exponent * approach / space
-    return math.log(films / (FLOW * space)), slope
+    return _Films(height, growth / height, approach, exponent)
 
 
-class FilmLoad(NamedTuple):
-    """Load that the films on both raceways of a roller carry beside elastic load and body force."""
+@jit_inline
+def _log_excess(films, play):
+    """Ln of the films' height over their space in a play [m], and its slope by ln q."""
+    space = play + films.approach
+    slope = films.growth - films.exponent * films.approach / space
+    return logarithm(films.height / (FLOW * space)), slope
 
-    load: float  #: q ≥ 0 [N]
-    #: Load at which films and space are equal [N], where the search a moment later begins: q where
-    #: there is play, and that of closed play where the rings press on the roller
-    balance: float
+
+@jit_inline
+def _reach(body, outward):
+    """Play [m] from which on films carry nothing: that of the next smaller body force known."""
+    part = min(abs(outward) * body.per_body_force, 1.0)
+    node = int(math.sqrt(part) * (REACH_NODES - 1))
+    return body.film_reach[1 if outward < 0.0 else 0, node]
 
 
 @jit
-def film_balance(body, tables, play, outward, ring_speed, guess):
-    """Load q of the lighter of a roller's two raceway films that fill the space between rings [N].
+def log_film_balance(body, tables, play, outward, ring_speed, log_q):
+    """Ln q of the load of the lighter of a roller's two films that fill the space between rings.
 
     A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the
     body force,
@@ -70,7 +96,8 @@ def film_balance(body, tables, play, outward, ring_speed, guess):
         [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
 
     h the film of the volume flow of a roller whose surface is at rest, u = u2/2, and in place of
-    (q/K)^(2/3) the approach under q where contacts are lines. A roller without load turns slowly; one that grips has left its play, where q counts for little.
+    (q/K)^(2/3) the approach under q where contacts are lines. A roller without load turns slowly;
+    one that grips has left its play, where q counts for little.
 
     Parameters
     ----------
@@ -83,22 +110,23 @@ def film_balance(body, tables, play, outward, ring_speed, guess):
         Body force B along the contact normal, positive outward [N].
     ring_speed : float
         u2 [m/s]; below twice `LOWEST_SPEED` films are those of this speed.
-    guess : float
-        Load at which the search begins [N], such as the load a moment before; 1 N where it is 0.
+    log_q : float
+        Where the search begins [ln N], such as the balance of a moment before.
 
     Returns
     -------
     float
-        q [N], to a relative error of 1e-9; 1e-9 N where the play is wider than the oil reaches.
+        ln q, q in N, to an error of 1e-9; that of 1e-9 N where the play is wider than the oil
+        reaches.
     """
-    if play >= body.film_reach:
-        return math.exp(_LIGHTEST)
-    log_u = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
+    if play >= _reach(body, outward):
+        return _LIGHTEST
+    log_u = logarithm(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     low = _LIGHTEST - 1.0
     high = _HEAVIEST
-    log_q = math.log(guess) if guess > 0.0 else 0.0
     for _ in range(_ITERATIONS):
-        excess, slope = _log_film_excess(body, tables, log_q, outward, play, log_u)
+        films = _films_under(body, tables, log_q, outward, log_u)
+        excess, slope = _log_excess(films, play)
         if excess > 0.0:
             low = log_q
         else:
@@ -115,7 +143,18 @@ def film_balance(body, tables, play, outward, ring_speed, guess):
         log_q = following
         if change < _CONVERGED:
             break
-    return math.exp(log_q)
+    return log_q
+
+
+def reach_forces(largest: float) -> np.ndarray:
+    """Body forces for which the reach of films is kept, from 0 to the largest [N].
+
+    Examples
+    --------
+    >>> reach_forces(961.0)[:3]
+    array([0., 1., 4.])
+    """
+    return largest * (np.arange(REACH_NODES) / (REACH_NODES - 1)) ** 2
 
 
 @jit
@@ -135,12 +174,12 @@ def film_reach(body, tables, outward, ring_speed):
     Returns
     -------
     float
-        The play [m], above which films carry nothing; it is less at lower speeds.
+        The play [m], from which on films carry nothing; it is less at lower speeds.
     """
-    log_u = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
+    log_u = logarithm(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     inner = in_plane(body.inner.oil, tables, log_load(_LIGHTEST_LOAD + max(-outward, 0.0)), log_u)
     outer = in_plane(body.outer.oil, tables, log_load(_LIGHTEST_LOAD + max(outward, 0.0)), log_u)
-    return (math.exp(inner[0][2]) + math.exp(outer[0][2])) / FLOW
+    return _REACH_MARGIN * (exponential(inner[0][2]) + exponential(outer[0][2])) / FLOW
 
 
 @jit
@@ -163,13 +202,23 @@ def film_load_is_negligible(body, tables, load, outward, ring_speed):
     -------
     bool
     """
-    log_u = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
-    log_q = math.log(NEGLIGIBLE * load)
-    return _log_film_excess(body, tables, log_q, outward, 0.0, log_u)[0] <= 0.0
+    log_u = logarithm(max(0.5 * abs(ring_speed), LOWEST_SPEED))
+    log_q = logarithm(NEGLIGIBLE * load)
+    films = _films_under(body, tables, log_q, outward, log_u)
+    return _log_excess(films, 0.0)[0] <= 0.0
+
+
+class FilmLoad(NamedTuple):
+    """Load that the films on both raceways of a roller carry beside elastic load and body force."""
+
+    load: float  #: q ≥ 0 [N]
+    #: Logarithm of the load at which films and space are equal [ln N], where the search a moment
+    #: later begins: q where there is play, that of closed play where the rings press on the roller
+    log_balance: float
 
 
 @jit_inline
-def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
+def film_load(body, tables, load, approach, outward, ring_speed, log_balance=0.0):
     """Load of the films on either raceway beside the elastic load and the body force.
 
     As the play vanishes q rises to a load q0 that films carry without play; a roller that the rings
@@ -188,21 +237,21 @@ def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
         Body force along the contact normal, positive outward [N].
     ring_speed : float
         u2 [m/s].
-    guess : float
-        Load at which the search begins [N], such as the `balance` a moment before; 1 N where it
-        is 0.
+    log_balance : float
+        Where the search for the load begins [ln N], such as the `log_balance` of a moment before.
 
     Returns
     -------
     FilmLoad
     """
     if not body.oily or load >= body.faded_load:
-        return FilmLoad(0.0, guess)
-    balance = film_balance(body, tables, max(-approach, 0.0), outward, ring_speed, guess)
+        return FilmLoad(0.0, log_balance)
+    play = max(-approach, 0.0)
+    log_q = log_film_balance(body, tables, play, outward, ring_speed, log_balance)
     # Films vanish in proportion to speed below the lowest one that the formulas are used at.
-    carried = balance * min(1.0, 0.5 * abs(ring_speed) / LOWEST_SPEED)
+    carried = exponential(log_q) * min(1.0, 0.5 * abs(ring_speed) / LOWEST_SPEED)
     if load <= 0.0:
-        return FilmLoad(carried, balance)
+        return FilmLoad(carried, log_q)
     if carried <= NEGLIGIBLE * load:
-        return FilmLoad(0.0, balance)
-    return FilmLoad(carried * math.exp(-load / carried), balance)
+        return FilmLoad(0.0, log_q)
+    return FilmLoad(carried * exponential(-load / carried), log_q)

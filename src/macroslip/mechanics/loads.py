@@ -17,7 +17,7 @@ class OrbitLoads(NamedTuple):
     #: Elastic approach δ of ring, roller and ring [m]; negative where there is play
     approach: float
     elastic_load: float  #: Load Q that the rings press on the roller [N]
-    film_balance: float  #: Where the next search for the films' load begins [N]
+    log_film_balance: float  #: Where the next search for the films' load begins [ln N]
     inner_load: float  #: Normal load of the inner raceway, with body forces and films [N]
     outer_load: float  #: Normal load of the outer raceway, with body forces and films [N]
     tangential: float  #: F_g,x' + F_d,x', along +x' [N]
@@ -65,7 +65,7 @@ def tangential_body_force(body, cosine, orbital_speed):
 
 
 @jit_evaluation
-def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
+def roller_loads(body, tables, cosine, sine, now, orbital_speed, log_balance):
     """Loads on a roller at the orbital position cos φ, sin φ.
 
     Parameters
@@ -79,9 +79,9 @@ def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
         The ring's motion.
     orbital_speed : float
         Ω [rad/s].
-    guess : float
-        Load at which the search for the films' load begins [N], such as the `film_balance` of a
-        moment before; 1 N where it is 0.
+    log_balance : float
+        Where the search for the films' load begins [ln N], such as the `log_film_balance` of a
+        moment before.
 
     Returns
     -------
@@ -91,11 +91,11 @@ def roller_loads(body, tables, cosine, sine, now, orbital_speed, guess):
     pressed = elastic_load(body, approach)
     outward = normal_body_force(body, sine, orbital_speed)
     ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
-    films = film_load(body, tables, pressed, approach, outward, ring_speed, guess)
+    films = film_load(body, tables, pressed, approach, outward, ring_speed, log_balance)
     return OrbitLoads(
         approach,
         pressed,
-        films.balance,
+        films.log_balance,
         pressed + films.load - min(outward, 0.0),
         pressed + films.load + max(outward, 0.0),
         tangential_body_force(body, cosine, orbital_speed),

@@ -61,7 +61,7 @@ _NO_OIL = RacewayOil(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @jit_evaluation
-def raceway_traction(law, tables, closed_form, load, ring_speed, slip, log_mean):
+def raceway_traction(law, tables, closed_form, load, speeds):
     """Traction of a raceway contact, from its table or by the closed form.
 
     Parameters
@@ -72,18 +72,15 @@ def raceway_traction(law, tables, closed_form, load, ring_speed, slip, log_mean)
     closed_form : int
         1 where slip is the same all over and the closed form serves.
     load : macroslip.contact.look_up.ContactLoad
-    ring_speed, slip : float
-        u2 and Δu in the middle of the contact [m/s].
-    log_mean : float
-        Logarithm of the mean speed |u2 − Δu/2|.
+    speeds : macroslip.contact.look_up.ContactSpeeds
 
     Returns
     -------
     macroslip.contact.look_up.Traction
     """
     if closed_form:
-        mean = ring_speed - 0.5 * slip
-        uniform = uniform_traction(law, tables, load, slip, abs(mean), log_mean)
+        mean = speeds.mean
+        uniform = uniform_traction(law, tables, load, speeds.slip, abs(mean), speeds.log_mean)
         by_speed = math.copysign(1.0, mean) * uniform.by_entrainment
         return Traction(
             uniform.force,
@@ -97,14 +94,14 @@ def raceway_traction(law, tables, closed_form, load, ring_speed, slip, log_mean)
             uniform.by_load,
             0.0,
         )
-    if ring_speed == 0.0 and slip == 0.0:
+    if speeds.ring == 0.0 and speeds.slip == 0.0:
         # At rest nothing pulls, while tables end at a ring that creeps.
         return _NO_TRACTION
-    return traction(law.traction, tables, load, ring_speed, slip)
+    return traction(law.traction, tables, load, speeds)
 
 
 @jit_evaluation
-def raceway_oil(law, tables, load, ring_speed, slip, log_mean):
+def raceway_oil(law, tables, load, speeds):
     """Shear of the film outside the contact ellipse and rolling resistance of a raceway contact.
 
     Parameters
@@ -113,19 +110,17 @@ def raceway_oil(law, tables, load, ring_speed, slip, log_mean):
     tables : int
         Address of the flat array of tables.
     load : macroslip.contact.look_up.ContactLoad
-    ring_speed, slip : float
-        u2 and Δu in the middle of the contact [m/s].
-    log_mean : float
-        Logarithm of the mean speed |u2 − Δu/2|.
+    speeds : macroslip.contact.look_up.ContactSpeeds
 
     Returns
     -------
     RacewayOil
     """
-    value, by_load, by_speed = in_plane(law.oil, tables, load.logarithm, log_mean)
+    value, by_load, by_speed = in_plane(law.oil, tables, load.logarithm, speeds.log_mean)
     conductance = value[0]
     resistance = value[1]
-    mean = ring_speed - 0.5 * slip
+    slip = speeds.slip
+    mean = speeds.mean
     if abs(mean) < LOWEST_SPEED:
         # Near rest, resistance goes with speed.
         per_mean = math.copysign(1.0 / LOWEST_SPEED, mean)
@@ -152,7 +147,7 @@ def raceway_oil(law, tables, load, ring_speed, slip, log_mean):
 
 
 @jit_evaluation
-def raceway_forces(body, law, tables, load, ring_speed, slip, log_mean):
+def raceway_forces(body, law, tables, load, speeds):
     """Forces of a loaded raceway contact on the roller.
 
     Beside its shear the inclined pressure of rolling resistance pushes the roller's centre
@@ -167,19 +162,17 @@ def raceway_forces(body, law, tables, load, ring_speed, slip, log_mean):
         Address of the flat array of tables.
     load : macroslip.contact.look_up.ContactLoad
         Q > 0.
-    ring_speed, slip : float
-        u2 and Δu in the middle of the contact [m/s], (28)-(31).
-    log_mean : float
-        Logarithm of the mean speed |u2 − Δu/2|.
+    speeds : macroslip.contact.look_up.ContactSpeeds
+        u2 and Δu in the middle of the contact, (28)-(31).
 
     Returns
     -------
     RacewayForces
     """
-    film = raceway_traction(law, tables, body.closed_form, load, ring_speed, slip, log_mean)
+    film = raceway_traction(law, tables, body.closed_form, load, speeds)
     oil = _NO_OIL
     if body.oily:
-        oil = raceway_oil(law, tables, load, ring_speed, slip, log_mean)
+        oil = raceway_oil(law, tables, load, speeds)
     push = law.push
     return RacewayForces(
         film.pull - film.lag + oil.sliding,

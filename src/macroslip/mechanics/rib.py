@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from macroslip.compiled import jit_evaluation
-from macroslip.contact.look_up import contact_load, traction
+from macroslip.contact.look_up import contact_load, contact_speeds, traction
 
 
 class RibForces(NamedTuple):
@@ -48,7 +48,8 @@ def rib_forces(rib, tables, elastic_load, ring_speed, slip):
     surface = rib.speed * ring_speed
     sliding = surface - rib.arm * (ring_speed - slip)
     load = contact_load(rib.share * elastic_load)
-    friction = traction(rib.traction, tables, load, surface, sliding)
+    speeds = contact_speeds(surface, sliding, 0)
+    friction = traction(rib.traction, tables, load, speeds)
     return RibForces(
         friction.pull,
         rib.arm * friction.pull_by_slip,

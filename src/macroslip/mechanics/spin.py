@@ -5,12 +5,11 @@ The spin obeys I_z' dω/dt = r (F_i + F_o + F_c).
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.look_up import ContactLoad, log_load, log_speed
+from macroslip.contact.look_up import ContactLoad, contact_speeds, log_load, log_speed
+from macroslip.elementary import cosine_and_sine, exponential
 from macroslip.mechanics.cage import cage_forces, cage_load
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.power import raceway_power
@@ -33,9 +32,9 @@ CONDITIONS = np.dtype(
         ("outer_load", "f8"),
         # F_g,x' + F_d,x', along +x' [N].
         ("tangential", "f8"),
-        # Load at which films fill the space between the rings [N], where the next search for the
-        # films' load begins.
-        ("film_balance", "f8"),
+        # Logarithm of the load at which films fill the space between the rings [ln N], where the
+        # next search for the films' load begins.
+        ("log_film_balance", "f8"),
         # Logarithms [ln N] and cube roots [N^(1/3)] of the normal loads.
         ("log_inner_load", "f8"),
         ("log_outer_load", "f8"),
@@ -93,24 +92,23 @@ def write_conditions(body, tables, start_angle, now, at):
     now : macroslip.ring.orbit.Instant
         The ring's motion.
     at : record of `CONDITIONS`
-        Is written; its film load is where the search for the new one begins.
+        Is written; its film balance is where the search for the new one begins.
     """
     orbital_speed = body.orbit_ratio * now.shaft_speed
     angle = start_angle + body.orbit_ratio * now.shaft_angle
-    cosine = math.cos(angle)
-    sine = math.sin(angle)
-    loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.film_balance)
+    cosine, sine = cosine_and_sine(angle)
+    loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.log_film_balance)
     at.ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
     at.approach = loads.approach
     at.elastic_load = loads.elastic_load
-    at.film_balance = loads.film_balance
+    at.log_film_balance = loads.log_film_balance
     at.inner_load = loads.inner_load
     at.outer_load = loads.outer_load
     at.tangential = loads.tangential
     at.log_inner_load = log_load(loads.inner_load)
     at.log_outer_load = log_load(loads.outer_load)
-    at.root_inner_load = math.exp(at.log_inner_load * (1.0 / 3.0))
-    at.root_outer_load = math.exp(at.log_outer_load * (1.0 / 3.0))
+    at.root_inner_load = exponential(at.log_inner_load * (1.0 / 3.0))
+    at.root_outer_load = exponential(at.log_outer_load * (1.0 / 3.0))
 
 
 @jit
@@ -136,15 +134,15 @@ def slip_forces(body, tables, at, slip, forces):
     """
     ring_speed = at.ring_speed
     surface = surface_speed(ring_speed, slip)
-    log_mean = log_speed(ring_speed - 0.5 * slip)
+    speeds = contact_speeds(ring_speed, slip, body.closed_form)
     inner = NO_RACEWAY_FORCES
     outer = NO_RACEWAY_FORCES
     if at.inner_load > 0.0:
         load = ContactLoad(at.inner_load, at.log_inner_load, at.root_inner_load)
-        inner = raceway_forces(body, body.inner, tables, load, ring_speed, slip, log_mean)
+        inner = raceway_forces(body, body.inner, tables, load, speeds)
     if at.outer_load > 0.0:
         load = ContactLoad(at.outer_load, at.log_outer_load, at.root_outer_load)
-        outer = raceway_forces(body, body.outer, tables, load, ring_speed, slip, log_mean)
+        outer = raceway_forces(body, body.outer, tables, load, speeds)
     push = cage_load(at.tangential, inner.pull, outer.pull)
     push_by_slip = inner.pull_by_slip - outer.pull_by_slip
     if body.ribbed:

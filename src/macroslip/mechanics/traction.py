@@ -8,6 +8,7 @@ from typing import NamedTuple
 from macroslip.compiled import jit_evaluation
 from macroslip.contact.closed_form import patch_integral
 from macroslip.contact.look_up import in_plane
+from macroslip.elementary import exponential
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 
 
@@ -75,7 +76,7 @@ def uniform_traction(law, tables, load, slip, entrainment_speed, log_entrainment
     film, film_by_load, film_by_speed = in_plane(law.film, tables, load.logarithm, log_entrainment)
     exponent = law.pressure_exponent * load.root
     patch, by_log_slip, by_exponent = patch_integral(exponent, law.heating * abs(slip))
-    viscous = law.conductance * load.root * load.root * math.exp(-film[0])
+    viscous = law.conductance * load.root * load.root * exponential(-film[0])
     force = viscous * patch * slip
     per_load = 1.0 / load.load
     by_load = (2.0 / 3.0 - film_by_load[0]) * force

@@ -29,7 +29,12 @@ from macroslip.contact.table import (
     write_traction,
 )
 from macroslip.lubricant import Lubricant
-from macroslip.mechanics.film_sharing import film_load_is_negligible, film_reach
+from macroslip.mechanics.film_sharing import (
+    REACH_NODES,
+    film_load_is_negligible,
+    film_reach,
+    reach_forces,
+)
 from macroslip.ring.balance import RingGeometry
 
 #: Least load of planes [N], and least speed of oil's as part of the fastest.
@@ -78,7 +83,11 @@ BODY = np.dtype(
         # K^(−2/3): elastic approach over load^(2/3) [m/N^(2/3)]
         ("compliance", "f8"),
         ("faded_load", "f8"),  # elastic load from which on the films' load is negligible [N]
-        ("film_reach", "f8"),  # play from which on films carry nothing at any speed [m]
+        # Reciprocal of the largest body force along the contact normal [1/N], 0 without one.
+        ("per_body_force", "f8"),
+        # Play from which on films carry nothing at any speed, by raceway that the body force loads
+        # (outer, inner) and by its size, as `reach_forces` has it [m].
+        ("film_reach", "f8", (2, REACH_NODES)),
         ("highest_load", "f8"),  # of the tables [N]
         ("highest_speed", "f8"),  # of the tables, w [m/s]
         ("inner", CONTACT),
@@ -303,9 +312,11 @@ def with_tables(
         rollers[row] = Roller(body, flat)
     if body[0]["oily"]:
         load = _faded_load(rollers, model, box)
-        reach = _film_reach(rollers, model, box)
+        most = _largest_body_force(model, box)
+        reach = _film_reach(rollers, most, box)
         for roller in rollers.values():
             roller.body[0]["faded_load"] = load
+            roller.body[0]["per_body_force"] = 1.0 / most if most > 0.0 else 0.0
             roller.body[0]["film_reach"] = reach
     typical = max((error.typical for error in errors), default=0.0)
     worst = max((error.worst for error in errors), default=0.0)
@@ -379,10 +390,9 @@ def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
             body[name]["traction"]["side"] = math.copysign(1.0, shape.spin_ratio)
 
 
-def _body_forces(model: RollerModel, box: Box) -> tuple[float, float, float]:
-    """Body force along the contact normal [N] at its least, where it vanishes and at its most."""
-    most = body_force(model, box.fastest / (model.orbit_ratio * model.outer_radius))
-    return -most, 0.0, most
+def _largest_body_force(model: RollerModel, box: Box) -> float:
+    """Largest body force along the contact normal in all states of the box [N]."""
+    return body_force(model, box.fastest / (model.orbit_ratio * model.outer_radius))
 
 
 def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
@@ -391,22 +401,29 @@ def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> flo
     Films grow with speed, and carry more the less the body force presses on one of them.
     """
     roller = next(iter(rollers.values()))
+    most = _largest_body_force(model, box)
     load = 1.0
     while not all(
         film_load_is_negligible(
             roller.body[0], roller.tables.ctypes.data, load, outward, box.fastest
         )
-        for outward in _body_forces(model, box)
+        for outward in (-most, 0.0, most)
     ):
         load *= 1.1
     return load
 
 
-def _film_reach(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
-    """Play [m] from which on films carry no load, for all states of the box: films grow with speed."""
+def _film_reach(rollers: dict[str, Roller], most: float, box: Box) -> np.ndarray:
+    """Plays from which on films carry no load, as `film_reach` of `BODY` has them [m].
+
+    Films grow with speed, and shrink with the body force that presses on one of them.
+    """
     roller = next(iter(rollers.values()))
     body = roller.body[0]
     tables = roller.tables.ctypes.data
-    return max(
-        film_reach(body, tables, outward, box.fastest) for outward in _body_forces(model, box)
+    return np.array(
+        [
+            [film_reach(body, tables, way * force, box.fastest) for force in reach_forces(most)]
+            for way in (1.0, -1.0)
+        ]
     )

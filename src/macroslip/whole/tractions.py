@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import address_of, call_at, jit, jit_inline
-from macroslip.contact.look_up import contact_load, log_speed
+from macroslip.contact.look_up import contact_load, contact_speeds, log_speed
 from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.power import RacewayPower, raceway_power
@@ -86,7 +86,7 @@ CONDITIONS = np.dtype(
             "inner_speed",  # speed u2 of the inner raceway past its centre [m/s]
             "outer_speed",  # speed u2 of the outer raceway past its centre [m/s]
             "ring",  # speed Ω_in r~_in of the inner ring's surface [m/s]
-            "film_balance",  # where the next search for the films' load begins [N]
+            "log_film_balance",  # where the next search for the films' load begins [ln N]
             "turning_inner",  # S_i [N]
             "turning_outer",  # S_o [N]
             "pull_inner",  # P_i [N]
@@ -162,7 +162,7 @@ def locate(assembly, now, which, rollers, cages, conditions, turn):
         Lags and displacements [m].
     conditions : ndarray of `CONDITIONS`, shape (n,)
         Filled with angles, loads [N] and speeds [m/s]; the search for the films' load begins with
-        the `film_balance` there.
+        the `log_film_balance` there.
     turn : ndarray, shape (2,)
         Filled with the angles by which the cages' pockets have turned [rad].
     """
@@ -192,9 +192,9 @@ def locate(assembly, now, which, rollers, cages, conditions, turn):
             x, y = cosine * half - sine * ahead, sine * half + cosine * ahead
             ring = now.shaft_speed * position.inner_radius
             orbit = 0.5 * (own[0] - own[1] + ring) / pitch
-            loads = roller_loads(body, tables, x, y, now, orbit, at.film_balance)
+            loads = roller_loads(body, tables, x, y, now, orbit, at.log_film_balance)
             at.ring = ring
-            at.film_balance = loads.film_balance
+            at.log_film_balance = loads.log_film_balance
             at.elastic_load = loads.elastic_load
             at.inner_load = loads.inner_load
             at.outer_load = loads.outer_load
@@ -208,8 +208,8 @@ def _evaluate_raceway(body, law, tables, load, speed, slip, linear):
     """Evaluate a raceway contact at its load [N], ring speed and slip [m/s] into its record."""
     forces = NO_RACEWAY_FORCES
     if load > 0.0:
-        log_mean = log_speed(speed - 0.5 * slip)
-        forces = raceway_forces(body, law, tables, contact_load(load), speed, slip, log_mean)
+        speeds = contact_speeds(speed, slip, body.closed_form)
+        forces = raceway_forces(body, law, tables, contact_load(load), speeds)
     linear.slip = slip
     linear.load = load
     linear.speed = speed
