@@ -23,6 +23,7 @@ from macroslip.contact.look_up import (
     log_speed,
     rising_slip,
     traction,
+    traction_cell,
 )
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.table import (
@@ -77,7 +78,8 @@ class Table:
 def look_up(table, tables, load, ring_speed, slip, found):
     for n in range(load.size):
         speeds = contact_speeds(ring_speed[n], slip[n], 0)
-        one = traction(table, tables, contact_load(load[n]), speeds)
+        pressed = contact_load(load[n])
+        one = traction(table, tables, pressed, speeds, traction_cell(table, pressed, speeds))
         for k in range(len(one)):
             found[n, k] = one[k]
 

@@ -19,7 +19,7 @@ from macroslip.contact.look_up import contact_load, contact_speeds, log_speed
 from macroslip.contact.mechanisms import Laws
 from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.film_sharing import film_load
-from macroslip.mechanics.raceway import raceway_forces
+from macroslip.mechanics.raceway import raceway_forces, raceway_state
 from macroslip.whole.cage import Cage
 from macroslip.whole.pocket import guide_force, pocket_force
 
@@ -34,7 +34,8 @@ def raceway(body, law, tables, load, speed, slip):
     if load <= 0.0:
         return 0.0, 0.0, 0.0
     speeds = contact_speeds(speed, slip, body.closed_form)
-    found = raceway_forces(body, law, tables, contact_load(load), speeds)
+    state = raceway_state(law, tables, body.closed_form, contact_load(load), speeds)
+    found = raceway_forces(body, law, tables, state, speeds)
     spin = found.friction + found.shear
     pull = found.pull
     power = found.friction * slip + speed * (

@@ -288,8 +288,54 @@ def arsinh(z, root):
     return math.copysign(logarithm(abs(z) + root), z)
 
 
+class TractionCell(NamedTuple):
+    """Cell of a table of traction, and the place in it."""
+
+    start: int  #: Number of its first coefficient
+    strides: tuple[int, int]  #: From one node to the next along load and speed
+    place: tuple[float, float, float]  #: Along load, speed and slip ratio [-], 0 to 1
+    load_slope: float  #: Of the place along the load by ln Q + k Q^(1/3)
+    speed_slope: float  #: Of the place along the speed by w^(1/4)
+    ratio_slope: float  #: Of the place along the slip ratio by y
+
+
+#: What stands for a cell where the closed form serves, and for a plane where it does not.
+NO_CELL = TractionCell(0, (0, 0), (0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
+NO_PLANE = ((0.0, 0.0, 0.0, 0.0),) * 3
+
+
 @jit_evaluation
-def traction(table, tables, load, at):
+def traction_cell(table, load, at):
+    """Cell of a contact in its table of traction.
+
+    Contacts look up side by side what their cells are computed for first.
+
+    Parameters
+    ----------
+    table : record of `TRACTION`
+    load : ContactLoad
+        Q > 0.
+    at : ContactSpeeds
+        With the coordinates of tables.
+
+    Returns
+    -------
+    TractionCell
+    """
+    z = (at.ratio - table.middle) / table.scale
+    size = math.sqrt(z * z + 1.0)
+    i, t, load_slope = cell_of(table.load, load.logarithm + table.stretch * load.root)
+    k, s, speed_slope = cell_of(table.speed, at.root_speed)
+    j, u, ratio_slope = cell_of(table.ratio, arsinh(z, size))
+    inner = CHANNELS * (table.ratio.cells + 3)
+    outer = inner * (table.speed.cells + 3)
+    start = table.start + i * outer + k * inner + CHANNELS * j
+    ratio_slope /= table.scale * size
+    return TractionCell(start, (outer, inner), (t, s, u), load_slope, speed_slope, ratio_slope)
+
+
+@jit_evaluation
+def traction(table, tables, load, at, cell):
     """Traction of a raceway contact from its table.
 
     Parameters
@@ -301,29 +347,22 @@ def traction(table, tables, load, at):
         Q > 0.
     at : ContactSpeeds
         With the coordinates of tables.
+    cell : TractionCell
 
     Returns
     -------
     Traction
     """
     sign = math.copysign(1.0, at.ring)
-    z = (at.ratio - table.middle) / table.scale
-    size = math.sqrt(z * z + 1.0)
     root = load.root
-    i, t, load_slope = cell_of(table.load, load.logarithm + table.stretch * root)
-    k, s, speed_slope = cell_of(table.speed, at.root_speed)
-    j, u, ratio_slope = cell_of(table.ratio, arsinh(z, size))
-    inner = CHANNELS * (table.ratio.cells + 3)
-    outer = inner * (table.speed.cells + 3)
-    start = table.start + i * outer + k * inner + CHANNELS * j
-    value, first, second, third = splines_in_cube(tables, start, (outer, inner), (t, s, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    value, first, second, third = splines_in_cube(tables, cell.start, cell.strides, cell.place)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     if at.ring == 0.0 and at.slip == 0.0:
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)
     # Derivatives of the coordinates by Q, by w and by y.
-    load_slope *= 1.0 + table.stretch * root * (1.0 / 3.0)
-    speed_slope *= 0.25 * at.root_speed / at.speed
-    ratio_slope /= table.scale * size
+    load_slope = cell.load_slope * (1.0 + table.stretch * root * (1.0 / 3.0))
+    speed_slope = cell.speed_slope * 0.25 * at.root_speed / at.speed
+    ratio_slope = cell.ratio_slope
     heavy = load.load * root * root
     pull_by_w = load.load * second[0] * speed_slope
     pull_by_y = load.load * third[0] * ratio_slope

@@ -16,7 +16,7 @@ from macroslip.contact.look_up import contact_load, contact_speeds
 from macroslip.imposed import tuning
 from macroslip.mechanics.elastic import approach_under_load
 from macroslip.mechanics.loads import elastic_approach
-from macroslip.mechanics.raceway import raceway_traction
+from macroslip.mechanics.raceway import raceway_state, raceway_traction
 from macroslip.ring.orbit import instant
 
 FREE = 0
@@ -53,8 +53,10 @@ def relaxation_rate(body, tables, load, ring_speed):
     normal = contact_load(load)
     for _ in range(20):
         speeds = contact_speeds(ring_speed, slip, body.closed_form)
-        inner = raceway_traction(body.inner, tables, body.closed_form, normal, speeds)
-        outer = raceway_traction(body.outer, tables, body.closed_form, normal, speeds)
+        at_inner = raceway_state(body.inner, tables, body.closed_form, normal, speeds)
+        at_outer = raceway_state(body.outer, tables, body.closed_form, normal, speeds)
+        inner = raceway_traction(body.inner, tables, body.closed_form, at_inner, speeds)
+        outer = raceway_traction(body.outer, tables, body.closed_form, at_outer, speeds)
         rest = inner.pull - inner.lag + outer.pull - outer.lag
         slope = inner.pull_by_slip - inner.lag_by_slip + outer.pull_by_slip - outer.lag_by_slip
         rate = body.mobility * slope

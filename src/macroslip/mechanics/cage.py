@@ -50,7 +50,8 @@ def _closed_form_friction(law, tables, load, surface_speed, log_surface):
     # Slip at the cage is −u1, and the raceways' slip slows the roller's surface.
     entrainment = 0.5 * abs(surface_speed)
     log_entrainment = log_surface - math.log(2.0)
-    uniform = uniform_traction(law, tables, load, -surface_speed, entrainment, log_entrainment)
+    film = in_plane(law.film, tables, load.logarithm, log_entrainment)
+    uniform = uniform_traction(law, film, load, -surface_speed, entrainment)
     by_slip = uniform.by_slip - math.copysign(0.5, surface_speed) * uniform.by_entrainment
     return CageFriction(uniform.force, by_slip, uniform.by_load, uniform.asperity_power)
 

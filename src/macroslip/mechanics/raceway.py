@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from macroslip.compiled import jit_evaluation
-from macroslip.contact.look_up import Traction, in_plane, traction
+from macroslip.contact.look_up import (
+    NO_CELL,
+    NO_PLANE,
+    ContactLoad,
+    Traction,
+    TractionCell,
+    in_plane,
+    traction,
+    traction_cell,
+)
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 from macroslip.mechanics.traction import uniform_traction
 
@@ -60,8 +69,46 @@ class RacewayOil(NamedTuple):
 _NO_OIL = RacewayOil(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
+class RacewayState(NamedTuple):
+    """State of a raceway contact: its load, and what of its tables is looked up by it."""
+
+    load: ContactLoad
+    #: Cell in the table of traction
+    cell: TractionCell
+    #: Film and share of asperities by `in_plane`, where the closed form of traction serves
+    film: tuple[Any, Any, Any]
+
+
 @jit_evaluation
-def raceway_traction(law, tables, closed_form, load, speeds):
+def raceway_state(law, tables, closed_form, load, speeds):
+    """State of a raceway contact.
+
+    Those of both raceways are found before the forces of either, so that the processor works at
+    both at once.
+
+    Parameters
+    ----------
+    law : record of `macroslip.roller.model.CONTACT`
+    tables : int
+        Address of the flat array of tables.
+    closed_form : int
+        1 where slip is the same all over and the closed form of traction serves.
+    load : macroslip.contact.look_up.ContactLoad
+        Q ≥ 0.
+    speeds : macroslip.contact.look_up.ContactSpeeds
+
+    Returns
+    -------
+    RacewayState
+    """
+    if closed_form:
+        film = in_plane(law.film, tables, load.logarithm, speeds.log_mean)
+        return RacewayState(load, NO_CELL, film)
+    return RacewayState(load, traction_cell(law.traction, load, speeds), NO_PLANE)
+
+
+@jit_evaluation
+def raceway_traction(law, tables, closed_form, state, speeds):
     """Traction of a raceway contact, from its table or by the closed form.
 
     Parameters
@@ -71,7 +118,8 @@ def raceway_traction(law, tables, closed_form, load, speeds):
         Address of the flat array of tables.
     closed_form : int
         1 where slip is the same all over and the closed form serves.
-    load : macroslip.contact.look_up.ContactLoad
+    state : RacewayState
+        Of a load > 0.
     speeds : macroslip.contact.look_up.ContactSpeeds
 
     Returns
@@ -80,7 +128,7 @@ def raceway_traction(law, tables, closed_form, load, speeds):
     """
     if closed_form:
         mean = speeds.mean
-        uniform = uniform_traction(law, tables, load, speeds.slip, abs(mean), speeds.log_mean)
+        uniform = uniform_traction(law, state.film, state.load, speeds.slip, abs(mean))
         by_speed = math.copysign(1.0, mean) * uniform.by_entrainment
         return Traction(
             uniform.force,
@@ -97,7 +145,7 @@ def raceway_traction(law, tables, closed_form, load, speeds):
     if speeds.ring == 0.0 and speeds.slip == 0.0:
         # At rest nothing pulls, while tables end at a ring that creeps.
         return _NO_TRACTION
-    return traction(law.traction, tables, load, speeds)
+    return traction(law.traction, tables, state.load, speeds, state.cell)
 
 
 @jit_evaluation
@@ -147,7 +195,7 @@ def raceway_oil(law, tables, load, speeds):
 
 
 @jit_evaluation
-def raceway_forces(body, law, tables, load, speeds):
+def raceway_forces(body, law, tables, state, speeds):
     """Forces of a loaded raceway contact on the roller.
 
     Beside its shear the inclined pressure of rolling resistance pushes the roller's centre
@@ -160,8 +208,8 @@ def raceway_forces(body, law, tables, load, speeds):
         Of the raceway: `body.inner` or `body.outer`.
     tables : int
         Address of the flat array of tables.
-    load : macroslip.contact.look_up.ContactLoad
-        Q > 0.
+    state : RacewayState
+        Of a load > 0.
     speeds : macroslip.contact.look_up.ContactSpeeds
         u2 and Δu in the middle of the contact, (28)-(31).
 
@@ -169,10 +217,10 @@ def raceway_forces(body, law, tables, load, speeds):
     -------
     RacewayForces
     """
-    film = raceway_traction(law, tables, body.closed_form, load, speeds)
+    film = raceway_traction(law, tables, body.closed_form, state, speeds)
     oil = _NO_OIL
     if body.oily:
-        oil = raceway_oil(law, tables, load, speeds)
+        oil = raceway_oil(law, tables, state.load, speeds)
     push = law.push
     return RacewayForces(
         film.pull - film.lag + oil.sliding,

@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from macroslip.compiled import jit_evaluation
-from macroslip.contact.look_up import contact_load, contact_speeds, traction
+from macroslip.contact.look_up import contact_load, contact_speeds, traction, traction_cell
 
 
 class RibForces(NamedTuple):
@@ -49,7 +49,8 @@ def rib_forces(rib, tables, elastic_load, ring_speed, slip):
     sliding = surface - rib.arm * (ring_speed - slip)
     load = contact_load(rib.share * elastic_load)
     speeds = contact_speeds(surface, sliding, 0)
-    friction = traction(rib.traction, tables, load, speeds)
+    cell = traction_cell(rib.traction, load, speeds)
+    friction = traction(rib.traction, tables, load, speeds, cell)
     return RibForces(
         friction.pull,
         rib.arm * friction.pull_by_slip,

@@ -13,7 +13,7 @@ from macroslip.elementary import cosine_and_sine, exponential
 from macroslip.mechanics.cage import cage_forces, cage_load
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.power import raceway_power
-from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
+from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces, raceway_state
 from macroslip.mechanics.rib import NO_RIB_FORCES, rib_forces
 from macroslip.mechanics.speeds import outer_ring_speed, surface_speed
 
@@ -135,21 +135,24 @@ def slip_forces(body, tables, at, slip, forces):
     ring_speed = at.ring_speed
     surface = surface_speed(ring_speed, slip)
     speeds = contact_speeds(ring_speed, slip, body.closed_form)
+    log_surface = log_speed(surface)
     inner = NO_RACEWAY_FORCES
     outer = NO_RACEWAY_FORCES
+    inner_load = ContactLoad(at.inner_load, at.log_inner_load, at.root_inner_load)
+    outer_load = ContactLoad(at.outer_load, at.log_outer_load, at.root_outer_load)
+    inner_state = raceway_state(body.inner, tables, body.closed_form, inner_load, speeds)
+    outer_state = raceway_state(body.outer, tables, body.closed_form, outer_load, speeds)
     if at.inner_load > 0.0:
-        load = ContactLoad(at.inner_load, at.log_inner_load, at.root_inner_load)
-        inner = raceway_forces(body, body.inner, tables, load, speeds)
+        inner = raceway_forces(body, body.inner, tables, inner_state, speeds)
     if at.outer_load > 0.0:
-        load = ContactLoad(at.outer_load, at.log_outer_load, at.root_outer_load)
-        outer = raceway_forces(body, body.outer, tables, load, speeds)
+        outer = raceway_forces(body, body.outer, tables, outer_state, speeds)
     push = cage_load(at.tangential, inner.pull, outer.pull)
     push_by_slip = inner.pull_by_slip - outer.pull_by_slip
     if body.ribbed:
         push += _add_rib(
             body.rib, tables, at, slip, inner.friction_by_slip, outer.friction_by_slip, forces
         )
-    cage = cage_forces(body, tables, abs(push), surface, log_speed(surface))
+    cage = cage_forces(body, tables, abs(push), surface, log_surface)
     cage_by_push = cage.friction_by_load + cage.resistance_by_load
     cage_by_push = cage_by_push if push >= 0.0 else -cage_by_push
     forces.inner = inner.friction

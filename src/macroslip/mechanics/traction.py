@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit_evaluation
 from macroslip.contact.closed_form import patch_integral
-from macroslip.contact.look_up import in_plane
 from macroslip.elementary import exponential
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
 
@@ -55,25 +54,26 @@ def asperity_friction(law, share, load, slip):
 
 
 @jit_evaluation
-def uniform_traction(law, tables, load, slip, entrainment_speed, log_entrainment):
+def uniform_traction(law, film_plane, load, slip, entrainment_speed):
     """Traction of a heated Barus film (27) over the Hertz ellipse, F = 2π a b (η0 Δu/h) Φ.
 
     Parameters
     ----------
     law : record of `macroslip.roller.model.CONTACT`
-    tables : int
-        Address of the flat array of tables.
+    film_plane : tuple of three tuples of float
+        Logarithm of the film [ln m] and share of asperities, with their derivatives by load and
+        speed, as `in_plane` gives them; below `LOWEST_SPEED` those of this speed.
     load : ContactLoad
     slip : float
         Δu [m/s].
-    entrainment_speed, log_entrainment : float
-        u_e ≥ 0 [m/s] and its logarithm; below `LOWEST_SPEED` the film is that of this speed.
+    entrainment_speed : float
+        u_e ≥ 0 [m/s].
 
     Returns
     -------
     UniformTraction
     """
-    film, film_by_load, film_by_speed = in_plane(law.film, tables, load.logarithm, log_entrainment)
+    film, film_by_load, film_by_speed = film_plane
     exponent = law.pressure_exponent * load.root
     patch, by_log_slip, by_exponent = patch_integral(exponent, law.heating * abs(slip))
     viscous = law.conductance * load.root * load.root * exponential(-film[0])

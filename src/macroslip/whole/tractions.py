@@ -16,7 +16,7 @@ from macroslip.contact.look_up import contact_load, contact_speeds, log_speed
 from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.loads import roller_loads
 from macroslip.mechanics.power import RacewayPower, raceway_power
-from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces
+from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces, raceway_state
 from macroslip.mechanics.speeds import inner_ring_speed, outer_ring_speed
 from macroslip.roller.model import BODY, CONTACT
 from macroslip.whole import tuning
@@ -209,7 +209,8 @@ def _evaluate_raceway(body, law, tables, load, speed, slip, linear):
     forces = NO_RACEWAY_FORCES
     if load > 0.0:
         speeds = contact_speeds(speed, slip, body.closed_form)
-        forces = raceway_forces(body, law, tables, contact_load(load), speeds)
+        state = raceway_state(law, tables, body.closed_form, contact_load(load), speeds)
+        forces = raceway_forces(body, law, tables, state, speeds)
     linear.slip = slip
     linear.load = load
     linear.speed = speed
