@@ -1,8 +1,11 @@
 """Studies of tapered roller bearings: keys of their own are varied as those of others."""
 
+from pathlib import Path
+
+import numpy as np
 import pytest
 
-from macroslip import InputError
+from macroslip import InputError, compare, open_study, run_study
 from macroslip.bearing.kinds import read_bearing
 from macroslip.study.settings import Setting, replaced
 from macroslip.study.study_file import study_of
@@ -41,12 +44,38 @@ def test_a_value_that_no_bearing_has_is_refused():
         Setting("bearing.prelode", 0.1, "mm").checked()
 
 
-def test_bearings_of_two_kinds_are_no_study():
-    with pytest.raises(InputError, match="bearings of one kind"):
+def test_bearings_with_one_row_and_with_two_are_no_study():
+    cylindrical = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
+    with pytest.raises(InputError, match="bearings with as many rows as each other"):
         study_of(
             {
                 "loads": {"bundled": ["14B"]},
                 "case": CASE,
-                "bearings": ["tdo-main-bearing", "skf-240-600-bc"],
+                "bearings": ["tdo-main-bearing", str(cylindrical)],
             }
         )
+
+
+@pytest.mark.slow
+def test_a_spherical_and_a_tapered_bearing_are_designs_of_one_study(tmp_path):
+    """Two bearings of two rows on one drivetrain: numbers that one of them lacks are missing there."""
+    study = study_of(
+        {
+            "loads": {"bundled": ["14B"]},
+            "case": CASE
+            | {
+                "loads": {"start": "100 s", "end": "103 s"},
+                "drivetrain": {"mount": "three-point", "gearbox_stiffness": "100 MN/m"},
+                "rollers": [0],
+            },
+            "bearings": ["skf-240-600-bc", "tdo-main-bearing"],
+        }
+    )
+    ended = run_study(study, tmp_path / "out")
+    assert (ended.progress.computed, ended.progress.failed) == (2, 0)
+    stored = open_study(tmp_path / "out")
+    ribs = stored.rib_energy.sum(("row", "roller")).values
+    assert np.isnan(ribs[0]) or ribs[0] == 0.0
+    assert ribs[1] > 0.0
+    compared = compare(stored, by="bearing")
+    assert {"skf-240-600-bc", "tdo-main-bearing"} <= set(compared.design)

@@ -425,11 +425,14 @@ def _dynamics(case: Case) -> Iterator[InputError]:
     if case.dynamics == IMPOSED_ORBIT:
         used = (*SKEW_KEYS, "gap") if skews else SKEW_KEYS
         if replace(case.cage, **{name: getattr(default, name) for name in used}) != default:
+            tapered = case.bearing.kind == "tapered"
+            never = ", which tapered roller bearings do not have" if tapered else ""
+            remedy = "Remove" if tapered else "Set dynamics: whole-bearing, or remove"
             yield InputError(
                 "a cage is described, but rollers on imposed orbits do not use it",
                 where="cage",
-                allowed="with dynamics: whole-bearing",
-                remedy="Set dynamics: whole-bearing, or remove the cage.",
+                allowed=f"with dynamics: whole-bearing{never}",
+                remedy=f"{remedy} the cage.",
             )
         if skews:
             yield from _raised(case.cage.check_fit, case.bearing)

@@ -67,6 +67,7 @@ class Drivetrain:
     gearbox_stiffness : float [N/m]
         Three-point mount of a main bearing that carries moments, which makes the shaft statically
         indeterminate: stiffness of the gearbox's support across the shaft, above 0 up to 1e11 N/m.
+        Beside another bearing no load depends on it.
     front_to_rear : float [m]
         Four-point mount: centre of the front to centre of the rear main bearing, above 0 up to
         20 m. Two bearings: that of the middles of both rows' rollers.

@@ -40,7 +40,7 @@ def _preload(result: xr.Dataset) -> str:
     preload = float(result.preload)
     word = "preload" if preload >= 0.0 else "play"
     change = float(result.preload_change)
-    by = f" ({1e3 * change:+.3g} mm of it by the temperature difference)" if change else ""
+    by = f" ({1e3 * change:+.3g} mm by the temperature difference)" if change else ""
     size = number(1e3 * abs(preload), 3)
     grip = float(result.grip_load)
     if not np.isfinite(grip):

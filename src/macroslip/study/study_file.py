@@ -474,13 +474,14 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         for noun in RECORDS
         if f"{noun}s" in values
     }
-    kinds = sorted({bearing.kind for bearing in (records.get("bearing") or {}).values()})
-    if len(kinds) > 1:
+    bearings = (records.get("bearing") or {}).values()
+    if len({bearing.rows for bearing in bearings}) > 1:
+        kinds = sorted({bearing.kind for bearing in bearings})
         problems.append(
             location.inside("bearings").problem(
                 f"there are {' and '.join(kinds)} roller bearings, whose rows of rollers differ",
-                "bearings of one kind",
-                "Make a study of each kind.",
+                "bearings with as many rows as each other",
+                "Make a study of each number of rows.",
             )
         )
     variations = values.get("variations", Variations())
