@@ -139,7 +139,9 @@ def test_bearings_that_do_not_align_themselves_are_refused():
     from macroslip import Bearing
 
     cylindrical = case([0.0, -10e3, 0.0], bearing=Bearing.read(CYLINDRICAL))
-    with pytest.raises(InputError, match="stiffness against tilting is not modelled"):
+    with pytest.raises(
+        InputError, match="cylindrical roller bearing, whose stiffness is not computed"
+    ):
         ring_stiffness({"one": cylindrical})
 
 

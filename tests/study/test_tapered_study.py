@@ -79,3 +79,4 @@ def test_a_spherical_and_a_tapered_bearing_are_designs_of_one_study(tmp_path):
     assert ribs[1] > 0.0
     compared = compare(stored, by="bearing")
     assert {"skf-240-600-bc", "tdo-main-bearing"} <= set(compared.design)
+    assert any("ribs, rolling resistance" in note for note in compared.attrs["notes"])

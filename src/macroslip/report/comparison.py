@@ -177,6 +177,7 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
         notes.append(
             "The windows differ, because orbits or loads do; energies are compared by the hour."
         )
+    notes += _between_kinds(results)
     if len({tuple(result.roller.values.tolist()) for result in results.values()}) > 1:
         notes.append("The results have different rollers; the mean is over those that each has.")
     failed = [name for name, result in results.items() if bool((result.status != 0).any())]
@@ -286,6 +287,20 @@ def _table(
     return table
 
 
+def _between_kinds(results: Mapping[str, xr.Dataset]) -> list[str]:
+    """Sentence on what energies leave out, where a tapered bearing stands beside another kind."""
+    has_ribs = {
+        "rib_energy" in result and bool(result.rib_energy.notnull().any())
+        for result in results.values()
+    }
+    if len(has_ribs) < 2:
+        return []
+    return [
+        "Energies are those of a mean roller's sliding at raceways and cage. What differs between the "
+        "kinds of bearings is no part of them: ribs, rolling resistance and the number of rollers."
+    ]
+
+
 def compare_designs(
     study: xr.Dataset,
     by: Sequence[str] | None = None,
@@ -380,6 +395,7 @@ def _design_notes(
         notes.append(
             "The designs have different loads, so their numbers differ for that reason too."
         )
+    notes += _between_kinds(parts)
     names_by_keys: dict[frozenset[str], list[str]] = {}
     for name, part in parts.items():
         if "key" in part.coords and all(part.key.values.astype(str)):

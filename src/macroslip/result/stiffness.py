@@ -129,8 +129,8 @@ def _points(name: str, case: Case) -> list[dict[str, Any]]:
     """Operating points of a case."""
     if case.bearing.kind != "spherical":
         raise InputError(
-            f"{case.bearing.name} is a {case.bearing.kind} roller bearing, whose stiffness against "
-            "tilting is not modelled",
+            f"{case.bearing.name} is a {case.bearing.kind} roller bearing, whose stiffness is not "
+            "computed",
             where=name,
             allowed="double-row spherical roller bearings",
         )
