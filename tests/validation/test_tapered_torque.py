@@ -16,7 +16,7 @@ def test_the_page_quotes_what_is_computed():
 
 @pytest.mark.parametrize(
     ("law", "ratios"),
-    [("zhou-hoeprich", (1522, 3231, 3892)), ("goksem-hargreaves", (2164, 4664, 5682))],
+    [("Zhou and Hoeprich", (1522, 3231, 3892)), ("Goksem and Hargreaves", (2164, 4664, 5682))],
 )
 def test_torques_are_those_of_an_independent_program(law, ratios):
     speeds = [rpm * 3.141592653589793 / 30.0 for rpm in (500.0, 2000.0, 4000.0)]
