@@ -323,6 +323,8 @@ def plain(value: float) -> str:
     """A number with two digits, three from 100 on, and less than a hundredth in powers of ten."""
     if value != 0.0 and abs(value) < 0.01:
         return f"{value:.1e}".replace("e-0", "e-")
+    if abs(value) >= 1000.0:
+        return f"{float(f'{value:.2g}'):,.0f}"
     return f"{value:.3g}" if abs(value) >= 99.5 else f"{value:.2g}"
 
 
