@@ -19,7 +19,7 @@ from macroslip.study.weights import (
     Rate,
     Weibull,
     Year,
-    bin_numbers,
+    bin_centres,
     binned,
     stored_weighting,
 )
@@ -123,9 +123,9 @@ def test_bins_hold_what_their_probability_says():
     weibull = Weibull(9.5, 2.0)
     drawn = weibull_min(2.0, scale=9.5).rvs(200_000, random_state=1)
     for width in (1.0, 2.0):
-        numbers, counts = np.unique(bin_numbers(drawn, width), return_counts=True)
-        for number, count in zip(numbers, counts, strict=True):
-            probability = weibull.probability(number * width, width)
+        centres, counts = np.unique(bin_centres(drawn, width), return_counts=True)
+        for centre, count in zip(centres, counts, strict=True):
+            probability = weibull.probability(centre, width)
             assert count / drawn.size == pytest.approx(
                 probability, abs=5.0 * np.sqrt(probability / drawn.size) + 1e-5
             )

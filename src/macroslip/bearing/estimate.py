@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -34,9 +34,13 @@ from macroslip.bearing.sampled import (
     E_ROUNDING,
     SAMPLES,
     Accepted,
+    Rollers,
+    check_bore,
+    check_positive,
     entry,
     fitting,
     short_number,
+    stated,
     within,
 )
 from macroslip.errors import InputError
@@ -114,15 +118,8 @@ class MakersPage:
     bpfi: float | None = None
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{field.name} is {value!r}", allowed="a finite number above 0")
-        if not self.bore < self.outside:
-            raise InputError(
-                f"bore is {1e3 * self.bore:g} mm",
-                allowed=f"below the outside diameter, {1e3 * self.outside:g} mm",
-            )
+        check_positive(self)
+        check_bore(self.bore, self.outside)
         if self.shoulder is not None and not self.bore < self.shoulder < self.outside:
             allowed = (
                 f"between bore and outside diameter, {1e3 * self.bore:g} mm and "
@@ -214,15 +211,11 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
 
     Diameter, number and length of the rollers follow from them.
     """
-
-    def between(accepted: Accepted) -> FloatArray:
-        return rng.uniform(*accepted, SAMPLES)
-
     height = 0.5 * (page.outside - page.bore)
     e = page.axial_factor_e + E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
     alpha = np.arctan(e / 1.5)
-    edge = page.width * (0.5 - between(CHAMFER))
-    wall = between(OUTER_WALL)
+    edge = page.width * (0.5 - CHAMFER.drawn(rng))
+    wall = OUTER_WALL.drawn(rng)
     sphere = (
         0.5 * page.outside - wall * height
         if page.shoulder is None
@@ -231,12 +224,12 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     drawn = {
         "contact_angle": alpha,
         "outer_raceway_radius": sphere,
-        "osculation": between(OSCULATION),
-        "diametral_clearance": page.bore * between(CLEARANCE),
+        "osculation": OSCULATION.drawn(rng),
+        "diametral_clearance": page.bore * CLEARANCE.drawn(rng),
     }
-    inside = 0.5 * page.bore + height * between(INNER_WALL)
-    rating = page.static_load_rating * between(STATIC_RATING)
-    spacing = between(SPACING)
+    inside = 0.5 * page.bore + height * INNER_WALL.drawn(rng)
+    rating = page.static_load_rating * STATIC_RATING.drawn(rng)
+    spacing = SPACING.drawn(rng)
     cosine = np.cos(alpha)
     diameter = np.full(SAMPLES, 0.5 * height)
     count = np.zeros(SAMPLES)
@@ -369,11 +362,12 @@ def _published(page: MakersPage) -> dict[str, dict]:
     }
     scales = {"mm": 1e3, "kN": 1e-3}
     return {
-        key: {"value": short_number(value * scales.get(unit, 1.0)), "unit": unit, "tag": "V",
-              "note": f"maker's page, {symbol}"}
+        key: stated(
+            short_number(value * scales.get(unit, 1.0)), unit, "V", f"maker's page, {symbol}"
+        )
         for key, (value, unit, symbol) in published.items()
         if value is not None
-    }  # fmt: skip
+    }
 
 
 def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
@@ -381,37 +375,18 @@ def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
 
     They follow by the standards from the median geometry.
     """
-    alpha = math.radians(entries["contact_angle"]["value"])
-    diameter = 1e-3 * entries["roller_diameter"]["value"]
-    length = 1e-3 * entries["roller_length"]["value"]
-    pitch = 2e-3 * entries["pitch_radius"]["value"]
-    count = entries["rollers_per_row"]["value"]
+    rollers = Rollers.of(entries, "contact_angle")
     ratings = {}
     if page.dynamic_load_rating is None:
-        rating = dynamic_load_rating(ROWS, count, diameter, length, alpha, pitch)
+        rating = dynamic_load_rating(ROWS, *rollers)
         note = "ISO 281 from the estimated inside; makers publish up to a third more"
-        ratings["dynamic_load_rating"] = {
-            "value": round(rating / 1e3),
-            "unit": "kN",
-            "tag": "D",
-            "note": note,
-        }
+        ratings["dynamic_load_rating"] = stated(round(rating / 1e3), "kN", "D", note)
     if page.fatigue_load_limit is None:
-        limit = fatigue_load_limit(page.static_load_rating, pitch)
-        ratings["fatigue_load_limit"] = {
-            "value": round(limit / 1e3),
-            "unit": "kN",
-            "tag": "D",
-            "note": "ISO 281",
-        }
+        limit = fatigue_load_limit(page.static_load_rating, rollers.pitch)
+        ratings["fatigue_load_limit"] = stated(round(limit / 1e3), "kN", "D", "ISO 281")
     for name, factor in (("y1", 0.45), ("y2", 0.67), ("y0", 0.44)):
         if getattr(page, f"axial_factor_{name}") is None:
-            value = round(factor / math.tan(alpha), 2)
+            value = round(factor / math.tan(rollers.contact_angle), 2)
             note = f"{factor} cot(contact angle)"
-            ratings[f"axial_factor_{name}"] = {
-                "value": value,
-                "unit": "1",
-                "tag": "D",
-                "note": note,
-            }
+            ratings[f"axial_factor_{name}"] = stated(value, "1", "D", note)
     return ratings

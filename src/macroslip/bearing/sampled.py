@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from dataclasses import fields
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,27 @@ class Accepted(NamedTuple):
 
     low: float
     high: float
+
+    def drawn(self, rng: np.random.Generator) -> FloatArray:
+        """Samples of the proportion, uniform within it, shape (`SAMPLES`,)."""
+        return rng.uniform(self.low, self.high, SAMPLES)
+
+
+def check_positive(page: Any) -> None:
+    """Refuse a number of a maker's page that is not above 0; a missing one is None."""
+    for field in fields(page):
+        value = getattr(page, field.name)
+        if isinstance(value, int | float) and not (math.isfinite(value) and value > 0.0):
+            raise InputError(f"{field.name} is {value!r}", allowed="a finite number above 0")
+
+
+def check_bore(bore: float, outside: float) -> None:
+    """Refuse a bore [m] that is not below the outside diameter [m]."""
+    if not bore < outside:
+        raise InputError(
+            f"bore is {1e3 * bore:g} mm",
+            allowed=f"below the outside diameter, {1e3 * outside:g} mm",
+        )
 
 
 def within(values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0) -> BoolArray:
@@ -102,6 +124,32 @@ def entry(value: float, samples: NDArray, unit: str, digits: int, tag: str, note
     middle = written(value)
     return {"value": middle, "unit": unit, "tag": tag, "note": note,
             "range": [min(low, middle), max(high, middle)]}  # fmt: skip
+
+
+def stated(value: float, unit: str, tag: str, note: str) -> dict[str, Any]:
+    """An entry of a bearing file for a value that is not sampled."""
+    return {"value": value, "unit": unit, "tag": tag, "note": note}
+
+
+class Rollers(NamedTuple):
+    """Number and size of the rollers as load ratings take them."""
+
+    per_row: int
+    diameter: float  #: Dw [m]
+    length: float  #: L [m]
+    contact_angle: float  #: alpha [rad]
+    pitch: float  #: Dpw [m]
+
+    @classmethod
+    def of(cls, entries: Mapping[str, Any], angle: str) -> Rollers:
+        """From the entries of a bearing file in mm and degrees; `angle` is the key of alpha."""
+        return cls(
+            per_row=entries["rollers_per_row"]["value"],
+            diameter=1e-3 * entries["roller_diameter"]["value"],
+            length=1e-3 * entries["roller_length"]["value"],
+            contact_angle=math.radians(entries[angle]["value"]),
+            pitch=2e-3 * entries["pitch_radius"]["value"],
+        )
 
 
 def short_number(number: float) -> float:

@@ -87,7 +87,7 @@ def _of_one_row(case: Case) -> Iterator[InputError]:
 
 def _no_thrust(loads: BearingLoads) -> Iterator[InputError]:
     """Yield an axial load, which rollers without contact angle do not carry."""
-    axial = np.abs(loads.force[:, 2]).max()
+    axial = np.abs(loads.axial_load).max()
     if axial > _NO_THRUST * np.abs(loads.force).max():
         yield InputError(
             f"the load has an axial part of up to {axial:.4g} N, "

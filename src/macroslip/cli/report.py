@@ -43,7 +43,7 @@ def report(
 ) -> None:
     """Make one self-contained HTML page on results."""
     require(FIGURES)
-    from macroslip.study.reader import is_study, open_study
+    from macroslip.study.reader import incomplete_runs, is_study, open_study
 
     results = paths[0]
     of_study = len(paths) == 1 and is_study(results)
@@ -52,7 +52,6 @@ def report(
     if len(paths) > 1:
         return compare(paths, output=output, title=title or "", force=force, quiet=quiet)
     from macroslip.report.study_page import study_page
-    from macroslip.study.database import Outcome
     from macroslip.study.result_files import CASES
     from macroslip.study.store import parts
 
@@ -66,7 +65,7 @@ def report(
         check_new_file(output, force=force, inputs=inputs)
     if of_study:
         study = open_study(results)
-        number = int((study.outcome != str(Outcome.COMPLETED)).sum())
+        number = incomplete_runs(study).sizes["case"]
         failed = f"{number} of {study.sizes['case']} runs failed or are missing" if number else ""
         page = study_page(
             study, title=title or study.attrs["title"] or _TITLE, weights=wind_of(weibull)

@@ -33,7 +33,6 @@ def heat(
 ) -> None:
     """Fit the heat balance of a main bearing, beside rivals, and write its index over time."""
     require(FIGURES)
-    from macroslip.report.heat_figures import model_name
     from macroslip.report.heat_page import heat_page, heat_sentences
     from macroslip.scada.description import ScadaDescription
     from macroslip.storage.files import write_durably
@@ -62,7 +61,7 @@ def heat(
         typer.echo(sentence)
     print_notes(fitted.notes)
     rows = [
-        [model_name(fit), f"{fit.residual:.4f}"]
+        [fit.model.title, f"{fit.residual:.4f}"]
         for fit in sorted(fitted.fits, key=lambda fit: fit.residual)
     ]
     headings = ["model", "root mean square of the residual [K/h]"]

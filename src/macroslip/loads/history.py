@@ -66,13 +66,16 @@ _READERS |= dict.fromkeys(_TABLES, read_hub_table)
 _READERS_OF_OTHER_POINTS = (read_openfast, read_hawc2, read_hub_table)
 
 
+_Components = Mapping[str, tuple[str, str, str]]
+
+
 class History:
     """Checks, windows and printed form that both kinds of loads share."""
 
     __slots__ = ()
 
     #: Fields of shape (n, 3), and the names of their components.
-    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]]
+    _VECTORS: ClassVar[_Components]
     #: Highest shaft speed [rad/s].
     _FASTEST: ClassVar[float] = 100.0
     time: FloatArray
@@ -196,7 +199,7 @@ class HubLoads(History):
         sample.
     """
 
-    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {
+    _VECTORS: ClassVar[_Components] = {
         "force": ("fx", "fy", "fz"),
         "moment": ("mx", "my", "mz"),
     }
@@ -365,7 +368,7 @@ class BearingLoads(History):
         As in `HubLoads`.
     """
 
-    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("F_X0", "F_Y0", "F_Z0")}
+    _VECTORS: ClassVar[_Components] = {"force": ("F_X0", "F_Y0", "F_Z0")}
     #: Shafts of gearboxes and generators turn faster than rotors.
     _FASTEST: ClassVar[float] = 400.0
     time: FloatArray
@@ -373,6 +376,21 @@ class BearingLoads(History):
     force: FloatArray
     source: str
     event: bool = False
+
+    @property
+    def radial_load(self) -> FloatArray:
+        """√(F_X0² + F_Y0²), shape (n,) [N]."""
+        return np.hypot(self.force[:, 0], self.force[:, 1])
+
+    @property
+    def axial_load(self) -> FloatArray:
+        """F_Z0, shape (n,) [N]."""
+        return self.force[:, 2]
+
+    def resampled(self, time: FloatArray, shaft_speed: FloatArray) -> BearingLoads:
+        """The same loads at other times [s], interpolated linearly, with the speed there [rad/s]."""
+        components = [np.interp(time, self.time, component) for component in self.force.T]
+        return BearingLoads(time, shaft_speed, np.column_stack(components), self.source)
 
     @classmethod
     def constant(

@@ -66,10 +66,7 @@ def roller_load_history(
     roller_load = elastic_loads(loads, ring, motion)
     by_roller = isinstance(loads, RollerLoads)
     known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row) if by_roller else loads
-    force = np.column_stack(
-        [np.interp(motion.time, known.time, component) for component in known.force.T]
-    )
-    finer = BearingLoads(motion.time, motion.shaft_speed, force, loads.source)
+    finer = known.resampled(motion.time, motion.shaft_speed)
     return finer, np.moveaxis(roller_load, 0, -1).reshape(bearing.rows, bearing.rollers_per_row, -1)
 
 
@@ -125,7 +122,7 @@ def rate(
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
              _spectra(history, wohler_exponents))  # fmt: skip
     variables = {name: value for part in parts for name, value in part.items()}
-    edges = _class_edges(history)
+    edges = history.class_edges
     coordinates = {
         "row": list(row_names(bearing)),
         "raceway": list(RACEWAYS),
@@ -162,10 +159,20 @@ class _History(NamedTuple):
     roller_load: FloatArray  #: Q [N] over (row, roller, sample)
     duration: FloatArray  #: Time that every sample represents [s]
     revolutions: FloatArray  #: Turns of the shaft that every sample represents [-]
-    radial: FloatArray  #: Fr [N]
-    axial: FloatArray  #: Fa [N]
     equivalent: EquivalentLoads
     strips: StripRating | None = None  #: Of rollers that touch along a line
+
+    @property
+    def load_series(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Loads [N] in the order of `LOADS`."""
+        return self.loads.radial_load, self.loads.axial_load, self.equivalent.dynamic
+
+    @property
+    def class_edges(self) -> FloatArray:
+        """Edges of the classes of load [N]."""
+        low = min(load.min() for load in self.load_series)
+        high = max(load.max() for load in self.load_series)
+        return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
 
     @property
     def viscosity_ratio(self) -> float:
@@ -216,8 +223,6 @@ def _history(
             "contamination",
         )
     duration = sample_durations(loads.time)
-    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
-    axial = loads.force[:, 2]
     return _History(
         bearing=bearing,
         lubricant=lubricant,
@@ -227,9 +232,7 @@ def _history(
         roller_load=roller_load,
         duration=duration,
         revolutions=duration * np.abs(loads.shaft_speed) / (2.0 * math.pi),
-        radial=radial,
-        axial=axial,
-        equivalent=equivalent_loads(bearing, radial, axial),
+        equivalent=equivalent_loads(bearing, loads.radial_load, loads.axial_load),
     )
 
 
@@ -379,17 +382,9 @@ def _contacts(history: _History) -> dict[str, tuple]:
     }
 
 
-def _class_edges(history: _History) -> FloatArray:
-    reach = [history.radial, history.axial, history.equivalent.dynamic]
-    low = min(load.min() for load in reach)
-    high = max(load.max() for load in reach)
-    return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
-
-
 def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple]:
-    edges = _class_edges(history)
-    # In the order of `LOADS`.
-    loads = (history.radial, history.axial, history.equivalent.dynamic)
+    edges = history.class_edges
+    loads = history.load_series
     times = [load_duration(load, history.duration, edges) for load in loads]
     turns = [load_duration(load, history.revolutions, edges) for load in loads]
     total = history.duration.sum()

@@ -13,6 +13,7 @@ import xarray as xr
 from macroslip.damage.micropitting import share_below
 from macroslip.measures.along import FILM_EDGES
 from macroslip.report.page import number
+from macroslip.report.result_numbers import known
 from macroslip.report.tapered import tapered_sentences
 from macroslip.result.orbit import in_window
 
@@ -75,14 +76,14 @@ def answer(result: xr.Dataset, criteria: Sequence[Mapping[str, Any]] = ()) -> li
 def row_slip(result: xr.Dataset, row: str) -> RowSlip:
     """Load and slip of a row, from the rating and the traces as far as the result has them."""
     of_row = result.sel(row=row)
-    loaded = _known(of_row.get("loaded_share"))
-    lowest = _known(of_row.min_spin_ratio.min()) if "min_spin_ratio" in of_row else None
+    loaded = known(of_row.get("loaded_share"))
+    lowest = known(of_row.min_spin_ratio.min()) if "min_spin_ratio" in of_row else None
     if "spin" not in of_row or not in_window(of_row).sizes["time"]:
         return RowSlip(row, loaded, lowest, None, None)
     traces = in_window(of_row)
     load = traces.roller_load
     if loaded is None:
-        loaded = _known((load > 0.0).mean())
+        loaded = known((load > 0.0).mean())
     rolling = abs(traces.spin_pure)
     # Where the shaft hardly turns, a roller at rest is no sign of slip.
     turns = (rolling > 0.0) & (rolling >= _SLOW * rolling.max())
@@ -98,12 +99,8 @@ def row_slip(result: xr.Dataset, row: str) -> RowSlip:
     length = float(traces.time[-1] - traces.time[0])
     is_part = traces.time[-1] < _TRACED * result.attrs["window_end"]
     return RowSlip(
-        row, loaded, lowest, _known(pressed.mean()), without_load, length if is_part else None
+        row, loaded, lowest, known(pressed.mean()), without_load, length if is_part else None
     )
-
-
-def _known(value: xr.DataArray | None) -> float | None:
-    return float(value) if value is not None and bool(np.isfinite(value)) else None
 
 
 def row_sentence(slip: RowSlip) -> str:
@@ -190,7 +187,7 @@ def _films(result: xr.Dataset) -> list[str]:
     worst = mixed.where(mixed == mixed.max(), drop=True).isel(row=0, raceway=0)
     least = None
     if result.sizes["orbit"]:
-        least = _known(result.min_film_ratio.sel(interface=result.raceway.values).min())
+        least = known(result.min_film_ratio.sel(interface=result.raceway.values).min())
     if worst == 0.0:
         orbits = "" if least is None else f", {number(least, 2)} at least in complete orbits"
         return [f"Loaded contacts run on a full film (Λ above {_FULL_FILM:g}{orbits})."]

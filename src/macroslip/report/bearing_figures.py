@@ -34,11 +34,13 @@ from macroslip.report.style import (
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
     from matplotlib.projections.polar import PolarAxes
 
     from macroslip.bearing import Bearing
 
 _ANGLE = "angle from the bottom, top at 180 [°]"
+_ALONG = "place along the roller [mm]"
 _QUARTERS = [0, 90, 180, 270, 360]
 _SPLIT = ("slip_sign", "film_regime")
 _PARTS = {
@@ -93,6 +95,12 @@ def _round(axes: PolarAxes, zero: str, quarters: Sequence[str], title: str) -> P
     return axes
 
 
+def _whole_orbit(axes: Axes) -> None:
+    """The horizontal axis from 0 to 360 degrees."""
+    axes.set_xlim(0.0, 360.0)
+    axes.set_xticks(_QUARTERS)
+
+
 def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     """Median film thickness of a row at each interface over the orbit, with the range of 5 to 95 %.
 
@@ -106,8 +114,7 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
         style = INTERFACE[interface]
         axes.fill_between(angle, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
         axes.plot(angle, middle, label=interface, linewidth=1.6, **style)
-    axes.set_xlim(0.0, 360.0)
-    axes.set_xticks(_QUARTERS)
+    _whole_orbit(axes)
     if not (thickness > 0.0).any():
         return finish(axes, _ANGLE, "film thickness [µm]", f"{row} row, never touched")
     log_ticks(axes)
@@ -132,9 +139,7 @@ def plot_load_zone(axes: Axes, load: xr.DataArray, row: str) -> Axes:
     extent = (float(of_row.time[0]), float(of_row.time[-1]), 0.0, 360.0)
     _heat_map(axes, of_row.values.T, extent, "roller load [kN]", least=1e-3)
     axes.set_yticks(_QUARTERS)
-    finish(axes, "time [s]", "angle from the bottom [°]", f"{row} row")
-    axes.spines[["top", "right"]].set_visible(True)
-    return axes
+    return _framed(finish(axes, "time [s]", "angle from the bottom [°]", f"{row} row"))
 
 
 def plot_bearing(
@@ -166,19 +171,23 @@ def plot_bearing(
         centre = 2.0 * k * reach
         for ring in (outer, geometry.inner_contact_radius(bearing)):
             axes.add_patch(Circle((centre, 0.0), ring, fill=False, edgecolor=GREY, linewidth=1.2))
-        directions = np.array(
-            [-np.sin(np.radians(of_row.angle)), -np.cos(np.radians(of_row.angle))]
-        )
-        ends = np.multiply.outer([1.06 * outer, 1.06 * outer], np.ones(directions.shape[1]))
-        ends[1] += 0.3 * outer * of_row.roller_load.values / most
+        angle = np.radians(of_row.angle.values)
+        x = -np.sin(angle)
+        y = -np.cos(angle)
+        inner_end = np.full(angle.size, 1.06 * outer)
+        outer_end = inner_end + 0.3 * outer * of_row.roller_load.values / most
+        spokes = np.stack([inner_end, outer_end])
         axes.plot(
-            centre + ends * directions[0],
-            ends * directions[1],
+            centre + spokes * x,
+            spokes * y,
             color=GREY,
             linewidth=3.0,
             solid_capstyle="butt",
         )
-        rollers += [Circle((centre + pitch * x, pitch * y), radius) for x, y in directions.T]
+        rollers += [
+            Circle((centre + pitch * to_right, pitch * up), radius)
+            for to_right, up in zip(x, y, strict=True)
+        ]
         axes.text(centre, 0.0, row, ha="center", va="center", fontsize=LABEL)
     shown = PatchCollection(rollers, cmap="cividis", edgecolor=BLACK, linewidth=0.6)
     shown.set_array(100.0 * still.slip.transpose("row", "roller").values.ravel())
@@ -190,11 +199,7 @@ def plot_bearing(
         aspect="equal",
     )
     axes.axis("off")
-    scale = axes.figure.colorbar(
-        shown, ax=axes, orientation="horizontal", pad=0.02, shrink=0.7, aspect=30
-    )
-    scale.set_label("slip / speed [%]", fontsize=LABEL)
-    scale.ax.tick_params(labelsize=SMALL)
+    _colour_scale(axes, shown, "slip / speed [%]", orientation="horizontal", shrink=0.7, aspect=30)
     axes.set_title(
         f"{float(still.time):.2f} s; spokes: load, to {1e-3 * most:.3g} kN",
         fontsize=LABEL,
@@ -277,13 +282,18 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
         peak = peak[np.isfinite(peak)]
         if peak.size:
             share = np.append(1.0, 1.0 - np.arange(peak.size) / peak.size)
-            style = {key: ROW[row][key] for key in ("color", "linestyle")}
+            style = _line_of(row)
             power = np.append(0.5 * peak[0], peak)
             axes.step(power, share, where="pre", label=f"{row} row", linewidth=1.6, **style)
     axes.set(xscale="log", yscale="log")
     # Powers within a decade would be written one over the other.
     axes.xaxis.set_minor_formatter(LogFormatter(minor_thresholds=(0.5, 0.25)))
     return finish(axes, r"$P_\mathrm{max}$ of an orbit [W]", "share of orbits above [–]")
+
+
+def _line_of(row: str) -> dict[str, Any]:
+    """Colour and dashes of a row, without its marker."""
+    return {key: ROW[row][key] for key in ("color", "linestyle")}
 
 
 def plot_by_mechanism(axes: Axes, energy: xr.DataArray) -> Axes:
@@ -342,6 +352,12 @@ def raceways(values: xr.DataArray) -> dict[str, xr.DataArray]:
     }
 
 
+def _framed(axes: Axes) -> Axes:
+    """The axes with lines all round, as a map needs them."""
+    axes.spines[["top", "right"]].set_visible(True)
+    return axes
+
+
 def plot_map(
     axes: Axes, values: xr.DataArray, units: str, title: str, *, difference: bool = False
 ) -> Axes:
@@ -368,9 +384,7 @@ def plot_map(
     shown = values.transpose("station", "angle").values[:, order]
     _heat_map(axes, shown, extent, units, least=1e-30, difference=difference)
     axes.set_xticks([-180, -90, 0, 90, 180])
-    finish(axes, "angle from the bottom [°]", "place along the roller [mm]", title)
-    axes.spines[["top", "right"]].set_visible(True)
-    return axes
+    return _framed(finish(axes, "angle from the bottom [°]", _ALONG, title))
 
 
 def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str) -> Axes:
@@ -411,9 +425,8 @@ def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str
         range(1, len(SLIP_EDGES) + 1), [f"{edge:g}" for edge in SLIP_EDGES], rotation=60
     )
     axes.set_yticks(range(1, len(FILM_EDGES) + 1), [f"{edge:g}" for edge in FILM_EDGES])
-    finish(axes, "slide-roll ratio, ring − roller [1]", "Λ [1]", f"{title} [% of {units}]")
-    axes.spines[["top", "right"]].set_visible(True)
-    return axes
+    label = "slide-roll ratio, ring − roller [1]"
+    return _framed(finish(axes, label, "Λ [1]", f"{title} [% of {units}]"))
 
 
 def plot_along_roller(axes: Axes, density: xr.DataArray, row: str) -> Axes:
@@ -429,7 +442,7 @@ def plot_along_roller(axes: Axes, density: xr.DataArray, row: str) -> Axes:
         values = part_density.sum([dim for dim in _SPLIT if dim in part_density.dims]).values
         axes.plot(along, values, label=name, linewidth=1.5, **style)
     axes.set_ylim(bottom=0.0)
-    return finish(axes, "place along the roller [mm]", "energy per area [J/mm²]", f"{row} row")
+    return finish(axes, _ALONG, "energy per area [J/mm²]", f"{row} row")
 
 
 def plot_load_duration(axes: Axes, result: xr.Dataset) -> Axes:
@@ -467,13 +480,13 @@ def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
     raceway_loss = float(abs(result.book_raceway_loss[-1]))
     pocket_loss = float(abs(result.pocket_loss[-1]))
     spent = raceway_loss + pocket_loss or 1.0
-    for values, label, style in (
-        (result.momentum_residual / impulse, "angular momentum", {"color": BLUE, "linestyle": "-"}),
-        (result.energy_residual / spent, "energy", {"color": ORANGE, "linestyle": "--"}),
-    ):
-        axes.plot(
-            result.book_time.values, np.maximum(np.abs(values.values), 1e-17), label=label, **style
-        )
+    residuals = {
+        "angular momentum": (result.momentum_residual / impulse, BLUE, "-"),
+        "energy": (result.energy_residual / spent, ORANGE, "--"),
+    }
+    for label, (residual, colour, dashes) in residuals.items():
+        size = np.maximum(np.abs(residual.values), 1e-17)
+        axes.plot(result.book_time.values, size, label=label, color=colour, linestyle=dashes)
     axes.set_yscale("log")
     return finish(axes, "time [s]", "residual / passed through [–]")
 
@@ -485,13 +498,12 @@ def plot_slip_over_orbit(axes: Axes, slip: xr.DataArray) -> Axes:
     """
     for row in slip.row.values.tolist():
         low, middle, high = 100.0 * slip.sel(row=row).transpose("quantile", "angle").values
-        style = {key: ROW[row][key] for key in ("color", "linestyle")}
+        style = _line_of(row)
         axes.fill_between(
             slip.angle.values, low, high, color=style["color"], alpha=0.18, linewidth=0.0
         )
         axes.plot(slip.angle.values, middle, label=f"{row} row", linewidth=1.6, **style)
-    axes.set_xlim(0.0, 360.0)
-    axes.set_xticks(_QUARTERS)
+    _whole_orbit(axes)
     return finish(axes, _ANGLE, "slip / speed [%]")
 
 
@@ -512,18 +524,29 @@ def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
             colour = ORANGE if own > 1.0 else BLUE
             bar = [[own - own / sure], [own * sure - own]]
             axes.errorbar(own, -line, xerr=bar, color=colour, marker="o", capsize=3)
-        label = str(title) if has_reference else f"{title} (no reference)"
-        axes.annotate(
-            label,
-            (0.01, -line),
-            xycoords=("axes fraction", "data"),
-            xytext=(0, 7),
-            textcoords="offset points",
-            fontsize=SMALL,
-            color=BLACK if has_reference else GREY,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
-        )
-    axes.set_ylim(-known.sizes["criterion"] + 0.4, 0.9)
+            _name_line(axes, line, str(title))
+        else:
+            _name_line(axes, line, f"{title} (no reference)", color=GREY)
+    return _finish_lines(axes, 0.4 - known.sizes["criterion"])
+
+
+def _name_line(axes: Axes, line: int, name: str, color: str = BLACK) -> None:
+    """Write a name above a line of a chart whose lines are numbered downwards."""
+    axes.annotate(
+        name,
+        (0.01, -line),
+        xycoords=("axes fraction", "data"),
+        xytext=(0, 7),
+        textcoords="offset points",
+        fontsize=SMALL,
+        color=color,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+    )
+
+
+def _finish_lines(axes: Axes, bottom: float) -> Axes:
+    """Axes of criteria over their references, a line each."""
+    axes.set_ylim(bottom, 0.9)
     axes.set_yticks([])
     axes.margins(x=0.15)
     finish(axes, "value / reference [–]", "")
@@ -548,30 +571,17 @@ def plot_criteria_side_by_side(
     axes.set_xscale("log")
     gap = 0.5 / max(len(judged), 1)
     for k, (name, lines) in enumerate(judged.items()):
-        places = [-titles.index(title) - gap * k for title in lines]
+        heights = [-titles.index(title) - gap * k for title in lines]
         ratio = np.clip([line["ratio"] for line in lines.values()], _LEAST_RATIO, None)
         factor = np.array([line["factor"] for line in lines.values()])
         bars = [ratio - ratio / factor, ratio * factor - ratio]
         colour = f"C{k % 10}"
         axes.errorbar(
-            ratio, places, xerr=bars, color=colour, marker="o", linestyle="", capsize=3, label=name
+            ratio, heights, xerr=bars, color=colour, marker="o", linestyle="", capsize=3, label=name
         )
     for line, title in enumerate(titles):
-        axes.annotate(
-            title,
-            (0.01, -line),
-            xycoords=("axes fraction", "data"),
-            xytext=(0, 7),
-            textcoords="offset points",
-            fontsize=SMALL,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
-        )
-    axes.set_ylim(-len(titles) + 0.4 - gap, 0.9)
-    axes.set_yticks([])
-    axes.margins(x=0.15)
-    finish(axes, "value / reference [–]", "")
-    axes.spines["left"].set_visible(False)
-    return axes
+        _name_line(axes, line, title)
+    return _finish_lines(axes, 0.4 - len(titles) - gap)
 
 
 def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
@@ -591,9 +601,7 @@ def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
                 **style,
             )
     years = ", ".join(f"{age / YEAR:g}" for age in depth.age.values)
-    return finish(
-        axes, "place along the roller [mm]", "depth of wear [µm]", f"{row} row, after {years} years"
-    )
+    return finish(axes, _ALONG, "depth of wear [µm]", f"{row} row, after {years} years")
 
 
 def _row_bars(
@@ -602,21 +610,18 @@ def _row_bars(
     """Of each row the positions and width of its bars, its name, and its style."""
     rows = values.row.values.tolist()
     width = 0.8 / len(rows)
-    places = np.arange(values.sizes[over])
-    return [
-        (
-            places + width * (k - 0.5 * (len(rows) - 1)),
-            0.9 * width,
-            row,
-            {
-                "color": ROW[row]["color"],
-                "edgecolor": "white",
-                "label": f"{row} row",
-                "hatch": "///" if k else None,
-            },
-        )
-        for k, row in enumerate(rows)
-    ]
+    middles = np.arange(values.sizes[over])
+    bars = []
+    for k, row in enumerate(rows):
+        style = {
+            "color": ROW[row]["color"],
+            "edgecolor": "white",
+            "label": f"{row} row",
+            "hatch": "///" if k else None,
+        }
+        offset = width * (k - 0.5 * (len(rows) - 1))
+        bars.append((middles + offset, 0.9 * width, row, style))
+    return bars
 
 
 def _values_above(
@@ -650,7 +655,12 @@ def _heat_map(
         interpolation="nearest",
         rasterized=True,
     )
-    scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
+    _colour_scale(axes, image, label)
+
+
+def _colour_scale(axes: Axes, shown: ScalarMappable, label: str, **options: Any) -> None:
+    """Scale of the colours of an image or of patches, beside the axes or below."""
+    scale = axes.figure.colorbar(shown, ax=axes, pad=0.02, **options)
     scale.set_label(label, fontsize=LABEL)
     scale.ax.tick_params(labelsize=SMALL)
 
@@ -676,7 +686,6 @@ def plot_skew_over_orbit(axes: Axes, result: xr.Dataset) -> Axes:
             angle[order], of_row.skew_power_by_position.values[order], color=colour, linestyle="--"
         )
     axes.axhline(0.0, color="0.6", linewidth=0.6)
-    axes.set_xlim(0.0, 360.0)
-    axes.set_xticks([0.0, 90.0, 180.0, 270.0, 360.0])
+    _whole_orbit(axes)
     power.set_ylabel("added power, dashed [W]")
-    return finish(axes, "angle from the bottom, top at 180 [°]", "skew [mrad]")
+    return finish(axes, _ANGLE, "skew [mrad]")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from macroslip.constants import YEAR
+from macroslip.constants import HOUR, YEAR
 from macroslip.errors import InputError
 from macroslip.input.units import with_unit
 from macroslip.report.accessor import open_result
@@ -20,7 +20,7 @@ from macroslip.report.result_numbers import estimated_values
 from macroslip.report.run_names import as_groups, study_about
 from macroslip.result.damage import lines
 from macroslip.result.plausibility import doubtful_result
-from macroslip.result.run_input import stored_settings
+from macroslip.result.run_input import leaves, stored_settings, window_length
 from macroslip.study.aggregation import aggregation_in_use
 from macroslip.study.labels import sampled_parameters
 from macroslip.study.over_temperature import weighted_study
@@ -116,10 +116,13 @@ def _opened(result: xr.Dataset | str | Path) -> xr.Dataset:
 
 def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     """Compare results by name; as `compare`."""
-    inputs = {name: dict(_leaves(stored_settings(result))) for name, result in results.items()}
+    inputs = {
+        name: {key: _written(leaf) for key, leaf in leaves(stored_settings(result))}
+        for name, result in results.items()
+    }
     differ = {}
     for key in dict.fromkeys(itertools.chain(*inputs.values())):
-        values = {name: leaves.get(key, "–") for name, leaves in inputs.items()}
+        values = {name: of_result.get(key, "–") for name, of_result in inputs.items()}
         if len(set(map(repr, values.values()))) > 1:
             differ[key] = values
     numbers = {name: _numbers(result) for name, result in results.items()}
@@ -146,16 +149,12 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     )
 
 
-def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Values of nested sections by keys with dots; of a sourced value, number and unit."""
-    if not isinstance(value, Mapping):
-        yield key, value
-    elif "value" in value and "tag" in value:
-        unit = value.get("unit", "1")
-        yield key, value["value"] if unit == "1" else with_unit(value["value"], unit)
-    else:
-        for name, inner in value.items():
-            yield from _leaves(inner, f"{key}.{name}" if key else str(name))
+def _written(leaf: Any) -> Any:
+    """A value of an input; of one with its source, number and unit."""
+    if not isinstance(leaf, Mapping):
+        return leaf
+    unit = leaf.get("unit", "1")
+    return leaf["value"] if unit == "1" else with_unit(leaf["value"], unit)
 
 
 def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list[str]:
@@ -201,7 +200,7 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
 
 def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
     """Headline numbers of a result by quantity and unit."""
-    hours = (result.attrs["window_end"] - result.attrs["window_start"]) / 3600.0
+    hours = window_length(result) / HOUR
     energy = result.energy.sum("interface", skipna=False).mean("roller", skipna=False) / hours
     peak = result["window_peak_power" if "window_peak_power" in result else "peak_power"]
     numbers = {(ENERGY, "J/h"): float(energy.sum(skipna=False))}

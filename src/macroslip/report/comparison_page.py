@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from macroslip.constants import HOUR
 from macroslip.report import bearing_figures as draw
 from macroslip.report.page import Opening, Table, number, render, sections, words
 from macroslip.report.ranking import ranking_sentences
@@ -23,6 +24,7 @@ from macroslip.report.style import (
     scaled,
     years,
 )
+from macroslip.result.run_input import window_length
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -117,7 +119,7 @@ def _maps(results: Mapping[str, xr.Dataset]) -> tuple[list[Picture], bool]:
     rates = {}
     for name, result in results.items():
         if "surface_energy" in result:
-            hours = (result.attrs["window_end"] - result.attrs["window_start"]) / 3600.0
+            hours = window_length(result) / HOUR
             density = energy_density(result) / (hours * result.sizes["roller"])
             rates[name] = draw.raceways(density)
     if len(rates) < 2:

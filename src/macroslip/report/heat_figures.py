@@ -45,11 +45,6 @@ OVER: Mapping[str, tuple[str, str, float, float, float]] = MappingProxyType(
 )  # fmt: skip
 
 
-def model_name(fit: HeatFit) -> str:
-    """Name of a model with its supply of oil."""
-    return f"{fit.model.name}, {fit.model.supply}" if fit.model.supply else fit.model.name
-
-
 def plot_root_mean_squares(axes: Axes, heat: BearingHeat) -> Axes:
     """Root mean square of the residuals of the reference, a bar a model, the least at the top."""
     fits = sorted(heat.fits, key=lambda fit: -fit.residual)
@@ -57,7 +52,7 @@ def plot_root_mean_squares(axes: Axes, heat: BearingHeat) -> Axes:
     axes.barh(range(len(fits)), [fit.residual for fit in fits], height=0.4, color=colours)
     for line, fit in enumerate(fits):
         axes.annotate(
-            model_name(fit),
+            fit.model.title,
             (0.0, line + 0.25),
             xytext=(3, 0),
             textcoords="offset points",
@@ -111,10 +106,7 @@ def plot_index(axes: Axes, heat: BearingHeat, column: str = "r") -> Axes:
     column : str
         `r`, or `r_sibling`.
     """
-    weeks = heat.index[heat.index["period"] == "week"]
-    for model, table in weeks.groupby("model", sort=False):
-        style = {**MODEL[str(model)], "markersize": 3}
-        axes.plot(table["start"], table[column], label=str(model), **style)
+    _plot_index_column(axes, heat, "week", column, markersize=3)
     axes.axhline(1.0, color=BLACK, linewidth=0.8)
     # A model that expects hardly any heat in some week would flatten all others.
     axes.set_ylim(*np.clip(axes.get_ylim(), *_SHOWN_INDEX))
@@ -125,14 +117,22 @@ def plot_index(axes: Axes, heat: BearingHeat, column: str = "r") -> Axes:
 
 def plot_cusum(axes: Axes, heat: BearingHeat, column: str = "cusum") -> Axes:
     """Cumulative sum of the daily index above 1.10, a line a model; as `plot_index`."""
-    days = heat.index[heat.index["period"] == "day"]
-    for model, table in days.groupby("model", sort=False):
-        style = {**MODEL[str(model)], "marker": ""}
-        axes.plot(table["start"], table[column], label=str(model), **style)
+    days = _plot_index_column(axes, heat, "day", column, marker="")
     axes.axhline(FLAGGED, color=BLACK, linewidth=0.8)
     axes.set_ylim(0.0, max(1.5 * FLAGGED, min(float(days[column].max()), 6.0 * FLAGGED)))
     _dates(axes)
     return finish(axes, "", "cumulative sum [-]")
+
+
+def _plot_index_column(
+    axes: Axes, heat: BearingHeat, period: str, column: str, **style: Any
+) -> pd.DataFrame:
+    """Plot a column of the index over time, a line a model; returns the rows of the period."""
+    rows = heat.index.loc[heat.index["period"] == period]
+    for model, of_model in rows.groupby("model", sort=False):
+        of_line = {**MODEL[str(model)], **style}
+        axes.plot(of_model["start"], of_model[column], label=str(model), **of_line)
+    return rows
 
 
 def _dates(axes: Axes) -> None:

@@ -210,7 +210,7 @@ def fit_table(heat: BearingHeat) -> Table:
     for fit in sorted(heat.fits, key=lambda fit: fit.residual):
         for position, (name, value) in enumerate(fit.values.items()):
             factor, unit = _SHOWN.get(name, (1.0, PARAMETERS[name][0]))
-            head = (draw.model_name(fit), f"{fit.residual:.4f}") if position == 0 else ("", "–")
+            head = (fit.model.title, f"{fit.residual:.4f}") if position == 0 else ("", "–")
             constant = PARAMETERS[name][1]
             shown = (number(factor * value, 3), number(factor * fit.errors[name], 2))
             rows.append((*head, constant, *shown, unit))

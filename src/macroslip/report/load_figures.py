@@ -22,10 +22,9 @@ _SPECTRUM_PIECE = 100.0
 
 def plot_bearing_load(axes: Axes, loads: BearingLoads) -> Axes:
     """Radial load and thrust on the main bearing [kN] over time."""
-    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
-    thrust = loads.force[:, 2]
-    axes.plot(loads.time, radial / 1e3, color=BLUE, linewidth=0.8, label="radial load")
-    axes.plot(loads.time, thrust / 1e3, color=ORANGE, linewidth=0.8, label="thrust")
+    radial = loads.radial_load / 1e3
+    axes.plot(loads.time, radial, color=BLUE, linewidth=0.8, label="radial load")
+    axes.plot(loads.time, loads.axial_load / 1e3, color=ORANGE, linewidth=0.8, label="thrust")
     axes.legend(frameon=False, fontsize=9, loc="upper right")
     return finish(axes, "time [s]", "load [kN]", "load on the main bearing")
 
@@ -38,16 +37,10 @@ def plot_shaft_speed(axes: Axes, loads: BearingLoads) -> Axes:
 
 def plot_direction(axes: Axes, loads: BearingLoads) -> Axes:
     """Radial load in the plane of the bearing [kN], looking downwind: X0 points to the left."""
-    axes.plot(
-        loads.force[:, 0] / 1e3, loads.force[:, 1] / 1e3, color=BLUE, linewidth=0.4, alpha=0.6
-    )
-    axes.plot(
-        loads.force[:, 0].mean() / 1e3,
-        loads.force[:, 1].mean() / 1e3,
-        color=ORANGE,
-        marker="o",
-        label="mean",
-    )
+    to_left, up, _ = loads.force.T / 1e3
+    mean_to_left, mean_up, _ = loads.force.mean(axis=0) / 1e3
+    axes.plot(to_left, up, color=BLUE, linewidth=0.4, alpha=0.6)
+    axes.plot(mean_to_left, mean_up, color=ORANGE, marker="o", label="mean")
     axes.invert_xaxis()
     axes.axhline(0.0, color=BLACK, linewidth=0.5)
     axes.axvline(0.0, color=BLACK, linewidth=0.5)
@@ -62,10 +55,9 @@ def plot_spectrum(axes: Axes, loads: BearingLoads) -> Axes:
 
     step = float(np.median(np.diff(loads.time)))
     piece = min(loads.time.size, max(8, round(_SPECTRUM_PIECE / step)))
-    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
     for values, color, name in (
-        (radial, BLUE, "radial load"),
-        (loads.force[:, 2], ORANGE, "thrust"),
+        (loads.radial_load, BLUE, "radial load"),
+        (loads.axial_load, ORANGE, "thrust"),
     ):
         frequency, density = welch(values / 1e3, 1.0 / step, nperseg=piece)
         if np.any(density[1:] > 0.0):
@@ -114,7 +106,7 @@ def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
     plot_direction(axes[2], loads)
     plot_spectrum(axes[3], loads)
     plot_empty_row(axes[4], time, carried, float(np.mean(carried <= 0.0)))
-    radial = np.hypot(loads.force[:, 0], loads.force[:, 1]) / 1e3
+    radial = loads.radial_load / 1e3
     exceeded = np.sort(radial)[::-1]
     axes[5].plot(np.linspace(0.0, 100.0, exceeded.size), exceeded, color=BLUE, linewidth=1.2)
     finish(axes[5], "share of time [%]", "radial load exceeded [kN]", "load duration")

@@ -13,7 +13,7 @@ from macroslip.constants import HOURS_A_YEAR
 from macroslip.imposed.status import Status
 from macroslip.report.page import Table, number
 from macroslip.report.style import years
-from macroslip.result.run_input import stored_settings
+from macroslip.result.run_input import stored_settings, window_length
 from macroslip.study.summary import RATING_VARIABLES
 
 #: Keys of a case in which a result on imposed orbits may differ from the coupled one it is compared
@@ -51,7 +51,7 @@ def _of_row(row: xr.Dataset) -> dict[str, Any]:
     unknown = xr.full_like(row.energy, np.nan)
     energy = row.energy.sum("interface", skipna=False)
     by_interface = row.energy.mean("roller", skipna=False)
-    total = _known(energy.mean(skipna=False))
+    total = known(energy.mean(skipna=False))
     interface = ""
     share = None
     if total:
@@ -65,23 +65,24 @@ def _of_row(row: xr.Dataset) -> dict[str, Any]:
     return {
         "name": row.row.item(),
         "energy": total,
-        "least": _known(energy.min()),
-        "most": _known(energy.max()),
+        "least": known(energy.min()),
+        "most": known(energy.max()),
         "interface": interface,
         "share": share,
-        "rib": _known(row.get("rib_energy", unknown).mean(skipna=False)),
-        "peak": _known(largest_peaks.max()),
-        "typical": _known(peaks.max("interface").median()),
-        "spin": _known(spin_ratios.min()),
-        "outside": _known(at_raceways.mean("roller").max()),
-        "outside_most": _known(outside.max()),
+        "rib": known(row.get("rib_energy", unknown).mean(skipna=False)),
+        "peak": known(largest_peaks.max()),
+        "typical": known(peaks.max("interface").median()),
+        "spin": known(spin_ratios.min()),
+        "outside": known(at_raceways.mean("roller").max()),
+        "outside_most": known(outside.max()),
         "failed": int((row.status != 0).sum()),
         "rollers": int(row.sizes["roller"]),
     }
 
 
-def _known(value: xr.DataArray) -> float | None:
-    return float(value) if bool(np.isfinite(value)) else None
+def known(value: xr.DataArray | None) -> float | None:
+    """A number; None where it is missing or not finite."""
+    return float(value) if value is not None and bool(np.isfinite(value)) else None
 
 
 def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
@@ -215,7 +216,7 @@ def comparison_table(result: xr.Dataset, imposed: xr.Dataset) -> Table:
 
 def pocket_table(result: xr.Dataset) -> Table:
     """Forces of the spars of a whole bearing."""
-    span = result.attrs["window_end"] - result.attrs["window_start"]
+    span = window_length(result)
     largest = result.largest_pocket_force.max("roller")
     mean = result.pocket_impulse.mean("roller") / span
     contact = 100.0 * result.pocket_contact_time.mean("roller") / span

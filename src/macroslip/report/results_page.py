@@ -21,7 +21,7 @@ from macroslip.report.style import OPENING, ROUND, Picture, compared, picture, r
 from macroslip.result.damage import damage, lines
 from macroslip.result.orbit import orbit_profile
 from macroslip.result.plausibility import doubtful_result
-from macroslip.result.run_input import run_input
+from macroslip.result.run_input import run_input, window_length
 from macroslip.result.surface_maps import energy_density, roller_energy_density
 
 if TYPE_CHECKING:
@@ -225,7 +225,7 @@ def _numbers(results: Mapping[str, xr.Dataset], is_alone: bool) -> Markup:
         (result,) = results.values()
         seconds = None
         if "window_end" in result.attrs:
-            seconds = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
+            seconds = window_length(result)
         losses = text.losses(
             numbers.row_numbers(result),
             seconds,

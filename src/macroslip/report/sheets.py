@@ -6,7 +6,7 @@ Every table has its units in the header, and the last one is the input with its 
 from __future__ import annotations
 
 import json
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -15,7 +15,7 @@ import xarray as xr
 from macroslip.input.record import TAGS
 from macroslip.machine import machine
 from macroslip.report.result_numbers import row_numbers
-from macroslip.result.run_input import stored_settings
+from macroslip.result.run_input import leaves, stored_settings
 from macroslip.study.export import as_table
 
 #: Name of the last sheet.
@@ -181,29 +181,28 @@ def origin_sheet(
     ]
     for name, dataset in datasets.items():
         lines.append((name, "computed by", dataset.attrs.get("source", "not given"), "", "", ""))
-        lines += [(name, *line) for line in _input_lines(stored_settings(dataset))]
+        inputs = leaves(stored_settings(dataset))
+        lines += [(name, key, *_input_cells(leaf)) for key, leaf in inputs]
         cited = dataset.attrs.get("citations", "").splitlines()
         lines += [(name, "cites", citation, "", "", "") for citation in dict.fromkeys(cited)]
     return pd.DataFrame(lines, columns=_ORIGIN_COLUMNS)
 
 
-def _input_lines(value: Any, key: str = "") -> Iterator[tuple[str, Any, str, str, str]]:
-    """Key, value, unit, origin and note of every value in nested sections.
+def _input_cells(leaf: Any) -> tuple[Any, str, str, str]:
+    """Value, unit, origin and note of an input.
 
     Examples
     --------
-    >>> list(_input_lines({"loads": {"samples": 2}, "rollers": [0, 7]}))
-    [('loads.samples', 2, 'SI', '', ''), ('rollers', '[0, 7]', '', '', '')]
+    >>> _input_cells(2), _input_cells([0, 7])
+    ((2, 'SI', '', ''), ('[0, 7]', '', '', ''))
     """
-    if isinstance(value, Mapping) and {"value", "tag"} <= value.keys():
-        tag = str(value["tag"])
-        origin = TAGS.get(tag, tag)
-        yield key, value["value"], str(value.get("unit", "1")), origin, str(value.get("note", ""))
-    elif isinstance(value, Mapping):
-        for name, inner in value.items():
-            yield from _input_lines(inner, f"{key}.{name}" if key else str(name))
-    elif isinstance(value, int | float) and not isinstance(value, bool):
-        yield key, value, _SI, "", ""
-    else:
-        text = value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
-        yield key, "none" if value is None else text, "", "", ""
+    if isinstance(leaf, Mapping):
+        tag = str(leaf["tag"])
+        unit = str(leaf.get("unit", "1"))
+        return leaf["value"], unit, TAGS.get(tag, tag), str(leaf.get("note", ""))
+    if isinstance(leaf, int | float) and not isinstance(leaf, bool):
+        return leaf, _SI, "", ""
+    if leaf is None:
+        return "none", "", "", ""
+    text = leaf if isinstance(leaf, str) else json.dumps(leaf, ensure_ascii=False)
+    return text, "", "", ""

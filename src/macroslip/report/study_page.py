@@ -36,9 +36,10 @@ from macroslip.study.database import Outcome
 from macroslip.study.effects import effects
 from macroslip.study.exceedance import exceedance
 from macroslip.study.export import as_table
-from macroslip.study.labels import sampled_parameters
+from macroslip.study.labels import labels_over, sampled_parameters
 from macroslip.study.lifetime import lifetime_energy, weighted_maps, worst
 from macroslip.study.over_temperature import weighted_study
+from macroslip.study.reader import incomplete_runs
 from macroslip.study.weights import (
     IEC_CLASSES,
     BinProbabilities,
@@ -486,11 +487,10 @@ def _has_one_value(label: xr.DataArray) -> bool:
 
 
 def _failures(study: xr.Dataset) -> Table | None:
-    failed = study.isel(case=np.flatnonzero(study.outcome.values != str(Outcome.COMPLETED)))
+    failed = incomplete_runs(study)
     if not failed.sizes["case"]:
         return None
-    labels = [name for name, label in failed.coords.items() if label.dims == ("case",)]
-    frame = failed[labels].reset_coords().to_dataframe().reset_index()
+    frame = failed[labels_over(failed)].reset_coords().to_dataframe().reset_index()
     columns = [name for name in frame if name not in INTERNAL]
     return _table(
         frame[[*columns, "outcome", "reason"]], "Runs without a result, or with rollers that failed"

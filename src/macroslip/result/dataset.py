@@ -229,7 +229,7 @@ def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
     loads = case.ring_loads
     band = _DEAD_BAND * static_load_rating_of(case.bearing)
     travelled = travel_rate(motion.time, motion.displacement[:, 2], start, ready.end)
-    reversals = reversal_rate(loads.time, loads.force[:, 2], band, start, ready.end)
+    reversals = reversal_rate(loads.time, loads.axial_load, band, start, ready.end)
     return {"axial_travel": np.array(travelled), "thrust_reversals": np.array(reversals)}
 
 

@@ -18,6 +18,7 @@ from macroslip.case.case import Case
 from macroslip.case.parts import Heat
 from macroslip.errors import InputError
 from macroslip.input.record import quantities
+from macroslip.result.run_input import window_length
 
 #: Thermal expansion of bearing steel from 20 to 100 degC [1/K].
 EXPANSION = 11.9e-6
@@ -166,12 +167,11 @@ def bearing_friction_power(result: xr.Dataset) -> float:
         fault = "a roller failed, so that the friction of the bearing is not known"
         remedy = "Give a temperature, or remove what made the roller fail."
         raise InputError(fault, where=_BALANCE, remedy=remedy)
-    span = result.attrs["window_end"] - result.attrs["window_start"]
     energy = float(result.energy.sum() + result.rolling_energy.sum())
     if "rib_energy" in result:
         energy += float(result.rib_energy.sum())
     share = result.attrs["rollers_per_row"] / result.sizes["roller"]
-    return share * energy / span + result.attrs["drag_power"]
+    return share * energy / window_length(result) + result.attrs["drag_power"]
 
 
 def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, bool]:

@@ -59,11 +59,7 @@ def _load_history(case: Case) -> tuple[BearingLoads, FloatArray, StripRating | N
         return *roller_load_history(case.bearing, case.oil, case.ring_loads), None
     ring_motion = tapered_ring_motion(case)
     motion = ring_motion.motion
-    known = case.ring_loads
-    force = np.column_stack(
-        [np.interp(motion.time, known.time, component) for component in known.force.T]
-    )
-    loads = BearingLoads(motion.time, motion.shaft_speed, force, known.source)
+    loads = case.ring_loads.resampled(motion.time, motion.shaft_speed)
     pressed = np.moveaxis(ring_motion.balance.outer_load, 0, -1)
     strips = strip_rating(case.bearing, ring_motion.ring, ring_motion.balance, motion.shaft_angle)
     return loads, pressed.reshape(case.bearing.rows, case.bearing.rollers_per_row, -1), strips

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
@@ -107,6 +107,26 @@ def stored_settings(result: xr.Dataset) -> dict[str, Any]:
     except (KeyError, TypeError, ValueError):
         return {}
     return settings if isinstance(settings, dict) else {}
+
+
+def window_length(result: xr.Dataset) -> float:
+    """Length of the window [s]."""
+    return float(result.attrs["window_end"] - result.attrs["window_start"])
+
+
+def leaves(settings: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Values in nested sections by keys with dots; a value with its source is one of them.
+
+    Examples
+    --------
+    >>> list(leaves({"loads": {"samples": 2}, "width": {"value": 0.2, "tag": "V"}}))
+    [('loads.samples', 2), ('width', {'value': 0.2, 'tag': 'V'})]
+    """
+    if isinstance(settings, Mapping) and not {"value", "tag"} <= settings.keys():
+        for name, section in settings.items():
+            yield from leaves(section, f"{key}.{name}" if key else str(name))
+    else:
+        yield key, settings
 
 
 @contextmanager

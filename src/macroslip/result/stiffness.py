@@ -141,7 +141,7 @@ def _points(name: str, case: Case) -> list[dict[str, Any]]:
             allowed="loads at the hub or on the bearing",
         )
     force = case.bearing_loads.force
-    radial = np.hypot(force[:, 0], force[:, 1])
+    radial = case.bearing_loads.radial_load
     chosen = {
         "mean load": force.mean(axis=0),
         "least radial load": force[int(radial.argmin())],

@@ -53,7 +53,7 @@ class JointShares:
         InputError
             If the rotor turns in no row that is used.
         """
-        used = scada.data[scada.kept]
+        used = scada.used_rows
         turning = scada.turning[scada.kept].to_numpy()
         if not turning.any():
             raise InputError("the rotor turns in no row that is used", where="rated.rotor_speed")
@@ -124,7 +124,7 @@ def load_speeds(scada: Scada) -> np.ndarray:
     turbine: the wind that gives another rotor the same share of its rated power. At rated power it
     is the measured one, w_r at least.
     """
-    used = scada.data[scada.kept]
+    used = scada.used_rows
     measured = used["wind_speed"].to_numpy()
     if scada.description.load_by == "wind":
         return measured
@@ -177,7 +177,7 @@ def histogram(scada: Scada, width: float = 2.0) -> pd.DataFrame:
         and `bearing_temperature [degC]`, middles of the bins; `share` of the rows with data, which
         add up to 1; and `hours [h]` of the record.
     """
-    used = scada.data[scada.kept]
+    used = scada.used_rows
     speeds = np.floor(load_speeds(scada) / width + 0.5) * width
     celsius = used["bearing_temperature"].to_numpy() - ZERO_CELSIUS
     table = pd.DataFrame(

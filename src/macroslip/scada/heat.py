@@ -218,7 +218,7 @@ def _chosen(fits: Sequence[HeatFit], analysed: _Analysed) -> HeatFit:
 
 def _marks(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
     """Doubts about a fit, a sentence each."""
-    of = f"{fit.model.name}, {fit.model.supply}" if fit.model.supply else fit.model.name
+    of = fit.model.title
     marks = []
     if fit.model.has_capacity and not fit.values["capacity"] > 0.0:
         marks.append(f"{of}: the heat falls where the computed friction rises.")

@@ -45,6 +45,11 @@ class HeatModel:
     sources: Mapping[str, FloatArray]
 
     @property
+    def title(self) -> str:
+        """Name, with the supply of oil where it has one."""
+        return f"{self.name}, {self.supply}" if self.supply else self.name
+
+    @property
     def has_capacity(self) -> bool:
         """True if its heat is known in W, so that a fit finds the heat capacity."""
         return "capacity" in self.sources

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -32,6 +33,8 @@ QUANTITIES = {
 FATES = ("no time", "repeated hour", "duplicate", *FILTERS, "kept", "jump", "absent")
 #: Values that a message about a turbine lists.
 _LISTED = 10
+#: Share of a month without data from which on a note says so.
+_MOST_MISSING = 0.3
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,11 @@ class Scada:
     def hours(self) -> float:
         """Hours with data that no filter drops."""
         return float(self.kept.sum()) * self.step / HOUR
+
+    @property
+    def used_rows(self) -> pd.DataFrame:
+        """Rows that no filter drops."""
+        return self.data.loc[self.kept]
 
     @property
     def kept(self) -> pd.Series:
@@ -220,12 +228,16 @@ def _order(
         notes.append("The files have no time: their rows are taken to follow one another.")
     gone = np.any(list(fates.values()), axis=0)
     months = np.where(utc.isna(), "", np.asarray(utc.strftime("%Y-%m"), dtype=object))
-    table = [
+    return order[~gone[order]], _counted(months, fates), notes
+
+
+def _counted(months: np.ndarray, fates: Mapping[str, np.ndarray]) -> list[tuple[str, str, int]]:
+    """Month, outcome and number of rows, from the month of each row and the rows of an outcome."""
+    return [
         (str(month), fate, int(count))
         for fate, rows in fates.items()
         for month, count in pd.Series(months[rows]).value_counts().items()
     ]
-    return order[~gone[order]], table, notes
 
 
 def _repeated_hours(
@@ -247,10 +259,7 @@ def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) 
     sorted_out = dict(dropped_by_filter(data["filter"].cat.codes.to_numpy() - 1))
     sorted_out["kept"] = kept
     sorted_out["jump"] = kept & data["jump"].to_numpy()
-    table = list(fates)
-    for fate, rows in sorted_out.items():
-        counts = pd.Series(months[rows]).value_counts()
-        table += [(str(month), fate, int(count)) for month, count in counts.items()]
+    table = [*fates, *_counted(months, sorted_out)]
     steps = pd.date_range(data.index[0], data.index[-1], freq=pd.Timedelta(seconds=step))
     expected = pd.Series(steps.strftime("%Y-%m")).value_counts()
     present = pd.Series(months).value_counts()
@@ -261,17 +270,21 @@ def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) 
     return frame.sort_values(["month", "filter"], ignore_index=True)
 
 
-def _missing_months(counts: pd.DataFrame, most: float = 0.3) -> list[str]:
-    """Months of whose time more than a share is without data, in a sentence."""
+def _missing_months(counts: pd.DataFrame) -> list[str]:
+    """Months of whose time more than `_MOST_MISSING` is without data, in a sentence."""
     table = rows_by_month(counts)
     expected = table.drop(columns=["jump", "duplicate", "no time"]).sum(axis=1)
     missing = 1.0 - table["kept"].to_numpy() / expected.to_numpy()
     months = [
         f"{month} ({100.0 * share:.0f} %)"
         for month, share in zip(table.index, missing.tolist(), strict=True)
-        if share > most
+        if share > _MOST_MISSING
     ]
-    return [f"More than 30 % is missing in {', '.join(months)}."] if months else []
+    return (
+        [f"More than {100.0 * _MOST_MISSING:.0f} % is missing in {', '.join(months)}."]
+        if months
+        else []
+    )
 
 
 def rows_by_month(counts: pd.DataFrame) -> pd.DataFrame:

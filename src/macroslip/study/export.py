@@ -6,17 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 
 from macroslip.storage.files import write_durably
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.database import Outcome
 from macroslip.study.effects import effects
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.labels import sampled_parameters
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
+from macroslip.study.reader import incomplete_runs
 from macroslip.study.year import DESIGN_UNITS, EXPONENTS, LARGEST, LIVES, SUMS, designs, year
 
 FORMATS = ("csv", "parquet")
@@ -64,7 +63,7 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
             summary, [*by_row, *(name for name in summary.data_vars if name not in by_row)]
         )
     }
-    failed = summary.isel(case=np.flatnonzero(summary.outcome.values != str(Outcome.COMPLETED)))
+    failed = incomplete_runs(summary)
     frames["failures"] = failed.drop_vars([*failed.data_vars, "row"]).to_dataframe().reset_index()
     frames["worst"] = as_table(worst(study), by_row)
     spread = percentiles(study, aggregation)

@@ -197,9 +197,9 @@ def _loads_of_histories(study: Study) -> Iterator[dict[str, float]]:
         read.add(run.load.name)
         case, cut = study.case_of(run)
         history = read_loads(study.loads.source, study.path_of(run.load), cut)
-        force = replace(case, loads=history).bearing_loads.force
+        loads = replace(case, loads=history).bearing_loads
         yield {
             "wind_speed": float(run.load.fields[WIND]),
-            "radial_load": float(np.hypot(force[:, 0], force[:, 1]).mean()),
-            "axial_load": float(np.abs(force[:, 2]).mean()),
+            "radial_load": float(loads.radial_load.mean()),
+            "axial_load": float(np.abs(loads.axial_load).mean()),
         }

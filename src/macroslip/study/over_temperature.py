@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import xarray as xr
@@ -23,7 +24,7 @@ from macroslip.errors import InputError
 from macroslip.result.criteria import YEARLY
 from macroslip.study.labels import events_of_runs, labels_over, stored_study
 from macroslip.study.temperature_shares import TemperatureShares
-from macroslip.study.weights import LossOfHeat, Weighting, bin_numbers, binned, stored_weighting
+from macroslip.study.weights import LossOfHeat, Weighting, bin_centres, binned, stored_weighting
 from macroslip.study.year import LIVES
 
 #: Attribute of a study whose cases are means over temperatures of the oil, and what it then lacks.
@@ -98,6 +99,11 @@ class RunsOverTemperature:
             )
         return cls(study, temperatures, np.array(ordered))
 
+    @cached_property
+    def first_runs(self) -> xr.Dataset:
+        """The run of each series at its lowest temperature."""
+        return self.study.isel(case=self.runs[:, 0])
+
     def values(self, name: str, at: np.ndarray) -> np.ndarray:
         """A variable over (case) or (case, row) of each series at temperatures.
 
@@ -145,9 +151,8 @@ class RunsOverTemperature:
         InputError
             If a balance lies outside the temperatures of the runs.
         """
-        first = self.study.isel(case=self.runs[:, 0])
-        is_wind = events_of_runs(first) == ""
-        centres = bin_numbers(first[field].values, width) * width
+        is_wind = events_of_runs(self.first_runs) == ""
+        centres = bin_centres(self.first_runs[field].values, width)
         temperatures = {}
         for centre in np.unique(centres[is_wind]).tolist():
             inside = is_wind & (centres == centre)
@@ -201,7 +206,6 @@ class RunsOverTemperature:
         """
         share = self._shares(shares, field, width)
         at = shares.temperatures
-        first = self.study.isel(case=self.runs[:, 0])
         data = {}
         for name, variable in self.study.data_vars.items():
             if not set(variable.dims) <= {"case", "row"} or "case" not in variable.dims:
@@ -214,7 +218,7 @@ class RunsOverTemperature:
             next((status for status in row if status != "completed"), "completed")
             for row in outcome
         ]
-        kept = first.drop_vars([LABEL, *first.data_vars])
+        kept = self.first_runs.drop_vars([LABEL, *self.study.data_vars])
         kept = kept.drop_vars([n for n in kept.coords if not set(kept[n].dims) <= {"case", "row"}])
         coordinates = {
             "outcome": ("case", np.array(worst, dtype=object), dict(self.study.outcome.attrs)),
@@ -230,8 +234,8 @@ class RunsOverTemperature:
 
     def _shares(self, shares: TemperatureShares, field: str, width: float) -> np.ndarray:
         """Share of the time of each series at each temperature, shape (series, temperatures)."""
-        first = self.study.isel(case=self.runs[:, 0])
-        centres = bin_numbers(first[field].values, width) * width
+        first = self.first_runs
+        centres = bin_centres(first[field].values, width)
         return np.array(
             [
                 shares.of_event(event) if event else shares.of_wind(centre, width)

@@ -21,7 +21,7 @@ from xarray.core import (
 
 from macroslip.result.variables import described
 from macroslip.storage.files import DATABASE, MANIFEST, reading
-from macroslip.study.database import DAMAGED, read_runs
+from macroslip.study.database import DAMAGED, Outcome, read_runs
 from macroslip.study.result_files import read_result
 from macroslip.study.store import REMEDY, read_manifest
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES, rows_with_numbers
@@ -69,6 +69,11 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     manifest, runs = _read(directory)
     with reading(directory, REMEDY):
         return _dataset(directory, manifest, runs)
+
+
+def incomplete_runs(study: xr.Dataset) -> xr.Dataset:
+    """Runs that failed, were not computed, or have rollers that failed."""
+    return study.isel(case=np.flatnonzero(study.outcome.values != str(Outcome.COMPLETED)))
 
 
 def _dataset(directory: Path, manifest: Mapping[str, Any], runs: pd.DataFrame) -> xr.Dataset:

@@ -26,7 +26,7 @@ from macroslip.study.weights import (
     Weibull,
     Weighting,
     Year,
-    bin_numbers,
+    bin_centres,
     stored_weighting,
 )
 from macroslip.study.year import DESIGN_COLUMNS, design_names, designs, year
@@ -176,7 +176,7 @@ def _centres(study: xr.Dataset, weighting: Weighting) -> np.ndarray:
     speeds = study[weighting.field].values.astype(float)[events_of_runs(study) == ""]
     if not speeds.size:
         raise InputError("the study has no runs of production, only events", where="--study")
-    return np.unique(bin_numbers(speeds, weighting.width)) * weighting.width
+    return np.unique(bin_centres(speeds, weighting.width))
 
 
 def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from macroslip.scada.bins import load_speeds
 from macroslip.scada.reader import Scada
 from macroslip.study.labels import events_of_runs
 from macroslip.study.reader import open_study
-from macroslip.study.weights import Weighting, bin_numbers, stored_weighting
+from macroslip.study.weights import Weighting, bin_centres, stored_weighting
 
 #: Difference from which on a note says so.
 _MOST = 0.1
@@ -45,7 +45,7 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
     width = weighting.width
     speeds = pd.DataFrame(
         {
-            WIND: bin_numbers(study[weighting.field].values, width) * width,
+            WIND: bin_centres(study[weighting.field].values, width),
             OF_STUDY: study["shaft_speed_mean"].values / RPM,
         }
     )
@@ -53,8 +53,8 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
     turning = scada.turning[scada.kept].to_numpy()
     measured = pd.DataFrame(
         {
-            WIND: bin_numbers(load_speeds(scada)[turning], width) * width,
-            MEASURED: scada.data[scada.kept]["rotor_speed"].to_numpy()[turning] / RPM,
+            WIND: bin_centres(load_speeds(scada)[turning], width),
+            MEASURED: scada.used_rows["rotor_speed"].to_numpy()[turning] / RPM,
         }
     )
     groups = measured.groupby(WIND)[MEASURED]

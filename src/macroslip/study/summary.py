@@ -18,6 +18,7 @@ from macroslip.result.criteria import YEARLY
 from macroslip.result.damage import damage
 from macroslip.result.heat_balance import bearing_friction_power
 from macroslip.result.rating import rate_case
+from macroslip.result.run_input import window_length
 
 _INTERFACES = ("inner", "outer", "cage")
 _OVER = "over all rollers and complete orbits"
@@ -172,7 +173,7 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
         unknown
         | by_row
         | {
-            "window_length": float(result.attrs["window_end"] - result.attrs["window_start"]),
+            "window_length": window_length(result),
             "orbits": float(result.sizes["orbit"]),
             "loads_length": loads.duration,
             "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
@@ -242,10 +243,8 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     >>> float(found.load_cycles.sum()), f"{float(found.load_range[most]):.3g} N"
     (10.0, '9.17e+04 N')
     """
-    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
-    axial = loads.force[:, 2]
     counts = []
-    for series in (radial, axial):
+    for series in (loads.radial_load, loads.axial_load):
         ranges = rainflow_ranges(series) if np.ptp(series) >= RANGE_EDGES[0] else []
         in_class, _ = np.histogram(ranges, RANGE_EDGES)
         counts.append(in_class.astype(float))

@@ -385,17 +385,17 @@ def stored_weighting(study: xr.Dataset) -> Weighting | None:
     return None if content is None else form_from(Weighting).read(content, IN_FILE)
 
 
-def bin_numbers(values: ArrayLike, width: float) -> np.ndarray:
-    """Number of the bin of each value.
+def bin_centres(values: ArrayLike, width: float) -> np.ndarray:
+    """Middle of the bin of each value, a multiple k of the width.
 
-    Bin k reaches from (k − ½) to (k + ½) widths, its lower edge included.
+    The bin reaches from (k − ½) to (k + ½) widths, its lower edge included.
 
     Examples
     --------
-    >>> bin_numbers([10.9, 11.0, 12.9, 13.0], 2.0).tolist()
-    [5.0, 6.0, 6.0, 7.0]
+    >>> bin_centres([10.9, 11.0, 12.9, 13.0], 2.0).tolist()
+    [10.0, 12.0, 12.0, 14.0]
     """
-    return np.floor(np.asarray(values, dtype=float) / width + 0.5)
+    return np.floor(np.asarray(values, dtype=float) / width + 0.5) * width
 
 
 @dataclass(frozen=True)
@@ -432,22 +432,21 @@ class Bins:
         """
         named = np.asarray(events, dtype=object)
         calm = named == ""
-        numbers, inside = np.unique(
-            bin_numbers(np.asarray(values, dtype=float)[calm], width), return_inverse=True
-        )
+        centres = bin_centres(np.asarray(values, dtype=float)[calm], width)
+        centres, bin_of_value = np.unique(centres, return_inverse=True)
         names = list(dict.fromkeys(named[~calm].tolist()))
-        positions = np.empty(named.size, dtype=int)
-        positions[calm] = inside
-        positions[~calm] = [numbers.size + names.index(event) for event in named[~calm]]
+        bins = np.empty(named.size, dtype=int)
+        bins[calm] = bin_of_value
+        bins[~calm] = [centres.size + names.index(event) for event in named[~calm]]
         return cls(
-            centres=np.concatenate([numbers * width, np.full(len(names), np.nan)]),
+            centres=np.concatenate([centres, np.full(len(names), np.nan)]),
             width=width,
-            events=np.array([""] * numbers.size + names, dtype=object),
+            events=np.array([""] * centres.size + names, dtype=object),
             # An event without a result has no length: any weight above 0 makes what it enters NaN.
             lengths=np.nan_to_num(
-                [0.0] * numbers.size + [lengths[name] for name in names], nan=1.0
+                [0.0] * centres.size + [lengths[name] for name in names], nan=1.0
             ),
-            bin=positions,
+            bin=bins,
         )
 
     def probabilities(self, weights: Weights) -> np.ndarray:

@@ -510,15 +510,13 @@ def torque_histories(
     end = min(
         (float(history.time[-1]) for history in computed.values()), default=float(loads.time[-1])
     )
-    here = (loads.time >= start) & (loads.time <= end)
-    force = loads.force[here]
-    time = loads.time[here]
+    common = (loads.time >= start) & (loads.time <= end)
     operation = (
         bearing,
         lubricant,
-        np.hypot(force[:, 0], force[:, 1]),
-        force[:, 2],
-        loads.shaft_speed[here],
+        loads.radial_load[common],
+        loads.axial_load[common],
+        loads.shaft_speed[common],
     )
     skf = skf_torque(*operation)
     by_handbook = {
@@ -526,4 +524,5 @@ def torque_histories(
         "SKF, all": skf.total,
         "Palmgren, all": palmgren_torque(*operation).total,
     }
+    time = loads.time[common]
     return simulated | {name: TorqueHistory(time, torque) for name, torque in by_handbook.items()}

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -34,9 +34,13 @@ from macroslip.bearing.sampled import (
     E_ROUNDING,
     SAMPLES,
     Accepted,
+    Rollers,
+    check_bore,
+    check_positive,
     entry,
     fitting,
     short_number,
+    stated,
     within,
 )
 from macroslip.bearing.tapered.bearing import ARRANGEMENTS, TaperedBearing
@@ -119,10 +123,7 @@ class TaperedPage:
 
     def __post_init__(self) -> None:
         """InputError for numbers that no page has, that are missing, or contradict each other."""
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, float) and not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{field.name} is {value!r}", allowed="a finite number above 0")
+        check_positive(self)
         if self.arrangement not in ARRANGEMENTS:
             raise InputError(
                 f"arrangement is {self.arrangement!r}", allowed=" or ".join(ARRANGEMENTS)
@@ -138,11 +139,7 @@ class TaperedPage:
 
     def _check_size(self) -> None:
         if self.bore is not None and self.outside is not None:
-            if not self.bore < self.outside:
-                raise InputError(
-                    f"bore is {1e3 * self.bore:g} mm",
-                    allowed=f"below the outside diameter, {1e3 * self.outside:g} mm",
-                )
+            check_bore(self.bore, self.outside)
         elif self.fatigue_load_limit is None:
             raise InputError(
                 "the size of the bearing is not given",
@@ -236,18 +233,14 @@ def estimate_tapered_bearing(
 
 def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     """Sample dimensions that the page leaves open; number and size of the rollers follow."""
-
-    def between(accepted: Accepted) -> FloatArray:
-        return rng.uniform(*accepted, SAMPLES)
-
     alpha = _angles(page, E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES))
     if page.bore is not None and page.outside is not None:
-        pitch = 0.5 * (page.bore + page.outside) * between(PITCH)
+        pitch = 0.5 * (page.bore + page.outside) * PITCH.drawn(rng)
     else:
-        pitch = _pitch_of_limit(page) * between(PITCH_OF_LIMIT)
-    rating = page.static_load_rating * between(STATIC_RATING)
-    spacing = between(SPACING)
-    slenderness = between(SLENDERNESS)
+        pitch = _pitch_of_limit(page) * PITCH_OF_LIMIT.drawn(rng)
+    rating = page.static_load_rating * STATIC_RATING.drawn(rng)
+    spacing = SPACING.drawn(rng)
+    slenderness = SLENDERNESS.drawn(rng)
     diameter = 0.1 * pitch
     for _ in range(30):
         count = np.pi / np.arcsin(np.minimum(spacing * diameter / pitch, 1.0))
@@ -263,11 +256,11 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:
         "roller_length": rating / (44e6 * page.rows * count * np.cos(alpha) * diameter * room),
         "outer_angle": alpha,
         "pitch_radius": 0.5 * pitch,
-        "preload": pitch * between(_PRELOAD) if page.rows == 2 else np.zeros(SAMPLES),
-        "sphere_ratio": between(SPHERE_RATIO),
-        "contact_height": diameter * between(CONTACT_HEIGHT),
+        "preload": pitch * _PRELOAD.drawn(rng) if page.rows == 2 else np.zeros(SAMPLES),
+        "sphere_ratio": SPHERE_RATIO.drawn(rng),
+        "contact_height": diameter * CONTACT_HEIGHT.drawn(rng),
     }
-    return drawn | {"row_offset": _row_offset(page, drawn, between(RIB), between(GAP))}
+    return drawn | {"row_offset": _row_offset(page, drawn, RIB.drawn(rng), GAP.drawn(rng))}
 
 
 def _angles(page: TaperedPage, rounding: NDArray) -> FloatArray:
@@ -354,12 +347,8 @@ def _record(
     entries = {key: entry(np.median(drawn[key]), drawn[key], *how) for key, how in _WRITTEN.items()}
     if page.distance is not None:
         middle = short_number(500.0 * page.distance)
-        entries["row_offset"] = {
-            "value": middle, "unit": "mm", "tag": "U", "note": "half the distance of both rows",
-        }  # fmt: skip
-        entries["preload"] = {
-            "value": 0, "unit": "mm", "tag": "E", "note": "a choice: neither preload nor play",
-        }  # fmt: skip
+        entries["row_offset"] = stated(middle, "mm", "U", "half the distance of both rows")
+        entries["preload"] = stated(0, "mm", "E", "a choice: neither preload nor play")
     known = TaperedBearing.read(_STEEL_OF).as_dict()
     rib = {key: entry(np.median(drawn[key]), drawn[key], *how) for key, how in _RIB.items()}
     rib |= {key: known["rib"][key] for key in ("oil_supply", "roughness")}
@@ -398,30 +387,24 @@ def _published(page: TaperedPage) -> dict[str, dict]:
             ),
         }  # fmt: skip
     return {
-        key: {"value": short_number(float(f"{value * scales[unit]:.5g}")), "unit": unit, "tag": tag,
-              "note": note}
+        key: stated(short_number(float(f"{value * scales[unit]:.5g}")), unit, tag, note)
         for key, (value, unit, tag, note) in values.items()
         if value is not None
-    }  # fmt: skip
+    }
 
 
 def _ratings(page: TaperedPage, entries: Mapping[str, dict]) -> dict[str, dict]:
     """Entries of C and C_u where the page leaves them out, by ISO 281 from the medians."""
-    alpha = math.radians(entries["outer_angle"]["value"])
-    diameter = 1e-3 * entries["roller_diameter"]["value"]
-    length = 1e-3 * entries["roller_length"]["value"]
-    pitch = 2e-3 * entries["pitch_radius"]["value"]
-    count = entries["rollers_per_row"]["value"]
+    rollers = Rollers.of(entries, "outer_angle")
     ratings = {}
     if page.dynamic_load_rating is None:
-        rating = dynamic_load_rating(2, count, diameter, length, alpha, pitch, kind="tapered")
+        rating = dynamic_load_rating(2, *rollers, kind="tapered")
         note = "ISO 281 from the estimated inside; makers publish up to 40 % more"
         ratings["dynamic_load_rating"] = (rating, note)
     if page.fatigue_load_limit is None:
         both = page.static_load_rating * (2.0 if page.rows == 1 else 1.0)
-        ratings["fatigue_load_limit"] = (fatigue_load_limit(both, pitch), "ISO 281")
+        ratings["fatigue_load_limit"] = (fatigue_load_limit(both, rollers.pitch), "ISO 281")
     return {
-        key: {"value": short_number(float(f"{1e-3 * value:.4g}")), "unit": "kN", "tag": "D",
-              "note": note}
+        key: stated(short_number(float(f"{1e-3 * value:.4g}")), "kN", "D", note)
         for key, (value, note) in ratings.items()
-    }  # fmt: skip
+    }

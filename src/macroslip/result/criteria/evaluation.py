@@ -11,7 +11,7 @@ import xarray as xr
 from macroslip.bearing import geometry
 from macroslip.measures.along import STATIONS
 from macroslip.result.criteria.criterion import Criterion, Threshold
-from macroslip.result.run_input import RunInput
+from macroslip.result.run_input import RunInput, window_length
 
 #: Surfaces whose damage is computed.
 SURFACES = ("inner", "outer", "roller")
@@ -58,7 +58,7 @@ class Evaluation:
         self.wear_coefficients = wear_coefficients
         self.wear_is_asked_for = wear_is_asked_for
         self.bearing = run_input.bearing
-        self.seconds = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
+        self.seconds = window_length(result)
         self.all_rollers = self.bearing.rollers_per_row / result.sizes["roller"]
         first = next(iter(run_input.models.values()))
         self.boundary_friction = first.laws.inner.boundary_friction

@@ -12,6 +12,7 @@ from macroslip.damage import micropitting
 from macroslip.measures.along import FILM_EDGES, SLIP_EDGES
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest, largest_of
 from macroslip.result.criteria.evaluation import Evaluation
+from macroslip.result.run_input import window_length
 from macroslip.result.variables import described
 
 _NO_THIN_FILMS = (
@@ -57,8 +58,7 @@ def _mixed_film_time(_: xr.Dataset, result: xr.Dataset) -> xr.DataArray:
     """Share of a roller's time with load and Λ < 1 [-], over row, at the raceway with more."""
     thin = result.film_slip_time.isel(film_class=slice(_BELOW_ONE))
     time = thin.sum(["film_class", "slip_class"], skipna=False)
-    window = result.attrs["window_end"] - result.attrs["window_start"]
-    return (time / (window * result.sizes["roller"])).max("raceway", skipna=False)
+    return (time / (window_length(result) * result.sizes["roller"])).max("raceway", skipna=False)
 
 
 CRITERIA = (
