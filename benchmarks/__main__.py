@@ -124,16 +124,16 @@ def _limits(summary: dict[str, Any]) -> None:
             least=False,
         ),
     ]
-    for model, one in speed.items():
+    for model, numbers in speed.items():
         prefix = "" if model == "paper" else f"{model}_"
-        errors = f"errors up to {one['largest_energy_error']:.1e} (energy), {one['largest_spin_error']:.1e} (spin); "
+        errors = f"errors up to {numbers['largest_energy_error']:.1e} (energy), {numbers['largest_spin_error']:.1e} (spin); "
         name = f"{model} model, simulated over CPU time"
         rows.append(
             _line(
                 name,
-                one["factor"],
+                numbers["factor"],
                 targets[f"{prefix}real_time_factor"],
-                f"{errors}median {number(one['median'])}",
+                f"{errors}median {number(numbers['median'])}",
             )
         )
     slow = speed["physical"]

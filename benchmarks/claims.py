@@ -38,7 +38,7 @@ def exponents() -> None:
     """Power of both raceways of a gripped roller over its load, without the oil beside the ellipse."""
     box = table_box(np.array([RING]), 100e3, 2e-5)
     roller = with_tables({"downwind": _MODEL}, box)[0]["downwind"]
-    at, forces, found = np.zeros(1, CONDITIONS), np.zeros(1, FORCES), np.zeros(3)
+    at, forces, power_parts = np.zeros(1, CONDITIONS), np.zeros(1, FORCES), np.zeros(3)
     at["ring_speed"] = RING
 
     def raceways(load: float, slip: float) -> float:
@@ -49,8 +49,8 @@ def exponents() -> None:
     def power(load: float) -> float:
         slip = brentq(lambda v: raceways(load, v), -0.1, 0.1, xtol=1e-13)
         raceways(load, slip)
-        powers(roller.body[0], at[0], forces[0], slip, found)
-        return found[0] + found[1]
+        powers(roller.body[0], at[0], forces[0], slip, power_parts)
+        return power_parts[0] + power_parts[1]
 
     powers_at = {load: power(load) for load in (10e3, 50e3, 100e3)}
     for low, high in itertools.pairwise(powers_at):
@@ -79,10 +79,11 @@ def _strained_power(shape, side, load: float, ring: float) -> float:
     across, along = (
         getattr(side.hertz, f"semi_axis_{way}") * load ** (1.0 / 3.0) for way in ("across", "along")
     )
-    place = min(across, shape.half_length) * np.linspace(-1.0, 1.0, 40_001)
-    root = np.sqrt(np.maximum(1.0 - (place / across) ** 2, 0.0))
+    position = min(across, shape.half_length) * np.linspace(-1.0, 1.0, 40_001)
+    root = np.sqrt(np.maximum(1.0 - (position / across) ** 2, 0.0))
     base = ring * (
-        shape.curvature_ratio * place**2 / (2.0 * shape.contour_radius) - shape.spin_ratio * place
+        shape.curvature_ratio * position**2 / (2.0 * shape.contour_radius)
+        - shape.spin_ratio * position
     )
     saturating = OIL.limiting_shear * abs(ring) * along * root / side.rolling_radius
 
@@ -147,7 +148,7 @@ def thrust() -> None:
     """Sliding torque over thrust at 200 kN radial load, beside SKF's."""
     from benchmarks.friction_torque import steady
 
-    low, high = (steady(radial=200e3, thrust=one) for one in (100e3, 250e3))
+    low, high = (steady(radial=200e3, thrust=axial) for axial in (100e3, 250e3))
     print(
         f"sliding from 100 to 250 kN thrust at 200 kN: {low.sliding:.0f} to {high.sliding:.0f} N m, "
         f"{high.sliding / low.sliding:.1f} times; SKF {high.skf_sliding / low.skf_sliding:.1f} times"
@@ -190,9 +191,9 @@ def temperature() -> None:
             raceways.append(float(down.sel(interface=["inner", "outer"]).sum()))
         print(
             f"12B, {name}: "
-            + ", ".join(f"{one:.0f}" for one in whole)
+            + ", ".join(f"{energy:.0f}" for energy in whole)
             + " J an orbit at 20, 35 and 50 °C, of which "
-            "raceways " + ", ".join(f"{one:.0f}" for one in raceways),
+            "raceways " + ", ".join(f"{energy:.0f}" for energy in raceways),
             flush=True,
         )
 
@@ -223,8 +224,8 @@ def rheology() -> None:
 
 
 CLAIMS = {
-    one.__name__: one
-    for one in (exponents, compliance, asperities, drag, rows, thrust, temperature, rheology)
+    claim.__name__: claim
+    for claim in (exponents, compliance, asperities, drag, rows, thrust, temperature, rheology)
 }
 
 if __name__ == "__main__":

@@ -111,9 +111,10 @@ def _own_entry(history: History, reference: Reference) -> Entry:
 def _accurate_settings(entry: Entry) -> list[Setting]:
     """Settings that were accurate enough, cheap ones first."""
     good = sorted(
-        (one for one in entry.outcomes if one.error <= ASKED), key=lambda one: one.seconds
+        (outcome for outcome in entry.outcomes if outcome.error <= ASKED),
+        key=lambda outcome: outcome.seconds,
     )
-    return [one.setting for one in good]
+    return [outcome.setting for outcome in good]
 
 
 def _euler_entry(
@@ -152,34 +153,34 @@ def as_plain(histories: list[History], results: dict[str, list[Entry] | None]) -
     titles = {OWN: (OWN_TITLE, math.nan)} | {
         rival.key: (rival.title, rival.target) for rival in RIVALS
     }
-    found: dict[str, Any] = {}
+    methods: dict[str, Any] = {}
     for key, entries in results.items():
         title, target = titles[key]
-        found[key] = {"title": title, "target": target, "installed": entries is not None}
+        methods[key] = {"title": title, "target": target, "installed": entries is not None}
         if entries is None:
             continue
-        found[key]["ratio"] = spread([entry.ratio for entry in entries])
-        found[key]["not_reached"] = [
+        methods[key]["ratio"] = spread([entry.ratio for entry in entries])
+        methods[key]["not_reached"] = [
             history.name
             for history, entry in zip(histories, entries, strict=True)
             if not entry.reached
         ]
-        found[key]["histories"] = {
+        methods[key]["histories"] = {
             history.name: _entry_as_plain(entry)
             for history, entry in zip(histories, entries, strict=True)
         }
-    return found
+    return methods
 
 
 def _entry_as_plain(entry: Entry) -> dict[str, Any]:
     best = entry.best._asdict() | {"setting": in_words(entry.best.setting)}
     # Columns, because there may be hundreds of runs.
     runs = {
-        name: [getattr(one, name) for one in entry.outcomes]
+        name: [getattr(outcome, name) for outcome in entry.outcomes]
         for name in Measurement._fields
         if name != "setting"
     }
-    runs = {"setting": [in_words(one.setting) for one in entry.outcomes]} | runs
+    runs = {"setting": [in_words(outcome.setting) for outcome in entry.outcomes]} | runs
     return best | {
         "reached": entry.reached,
         "extrapolated": entry.extrapolated,

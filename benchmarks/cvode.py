@@ -44,8 +44,8 @@ def solve(
     data = pack(history)
     enough = rtol * reference.energy
 
-    def rate(time, state, found):
-        rates(time, state, found, data)
+    def rate(time, state, derivative):
+        rates(time, state, derivative, data)
 
     def slopes(time, state, rate, matrix):
         jacobian(time, state, matrix, data)
@@ -67,17 +67,17 @@ def solve(
     for end in (*edges, history.end):
         inside = history.marks[marked:][history.marks[marked:] < end]
         for time in (*inside, end):
-            found = solver.step(time, tstop=end)
-            while not found.success and restarts > 0:
+            step = solver.step(time, tstop=end)
+            while not step.success and restarts > 0:
                 restarts -= 1
-                solver.init_step(found.t, found.y)
-                found = solver.step(time, tstop=end)
-            if not found.success:
+                solver.init_step(step.t, step.y)
+                step = solver.step(time, tstop=end)
+            if not step.success:
                 return Solution(np.full(3, np.nan), slip, evaluations(data))
             if time != end:
-                slip[marked] = found.y[0]
+                slip[marked] = step.y[0]
                 marked += 1
-        state = found.y
+        state = step.y
         if stops == "restart" and end != history.end:
             solver.init_step(end, state)
     return Solution(state[1:], slip, evaluations(data))

@@ -33,7 +33,7 @@ def _library() -> ctypes.CDLL | None:
             if "libsundials" in file.name
         ]
         wanted = ("core", "nvecserial", "sunmatrixdense", "sunlinsoldense", "cvode")
-        found = {
+        libraries = {
             part: ctypes.CDLL(str(file.locate()))
             for part in wanted
             for file in files
@@ -41,7 +41,7 @@ def _library() -> ctypes.CDLL | None:
         }
     except (ImportError, OSError):
         return None
-    if set(found) != set(wanted):
+    if set(libraries) != set(wanted):
         return None
     functions = type("Functions", (), {})()
     for part, name, result, arguments in (
@@ -72,7 +72,7 @@ def _library() -> ctypes.CDLL | None:
         ("cvode", "CVode", _INT, (_POINTER, _DOUBLE, _POINTER, _POINTER, _INT)),
         ("cvode", "CVodeFree", None, (_POINTER,)),
     ):
-        function = getattr(found[part], name)
+        function = getattr(libraries[part], name)
         function.restype, function.argtypes = result, arguments
         setattr(functions, name, function)
     return functions
@@ -91,13 +91,13 @@ def _callbacks(length: int) -> tuple[int, int, tuple]:
     pointer, number = numba.types.voidptr, numba.types.double
 
     @numba.cfunc(numba.types.int32(number, pointer, pointer, pointer))
-    def rate(time, state, found, data):
+    def rate(time, state, derivative, data):
         d = numba.carray(data, (length,), np.float64)
-        rates(time, numba.carray(values(state), (4,)), numba.carray(values(found), (4,)), d)
+        rates(time, numba.carray(values(state), (4,)), numba.carray(values(derivative), (4,)), d)
         return 0
 
     @numba.cfunc(numba.types.int32(number, *([pointer] * 7)))
-    def slopes(time, state, found, matrix, data, first, second, third):
+    def slopes(time, state, derivative, matrix, data, first, second, third):
         d = numba.carray(data, (length,), np.float64)
         # SUNDIALS stores columns.
         columns = numba.carray(entries(matrix), (4, 4))

@@ -34,23 +34,27 @@ class States(NamedTuple):
 
 
 @jit
-def _stations_again(body, tables, motion, start_angle, times, found, rounds):
+def _stations_again(body, tables, motion, start_angle, times, stations, rounds):
     interval = 0
     for r in range(rounds):
         for k in range(times.size):
             interval = interval_of(motion, times[k], interval)
             write_conditions(
-                body, tables, start_angle + 1e-9 * r, instant(motion, interval, times[k]), found[k]
+                body,
+                tables,
+                start_angle + 1e-9 * r,
+                instant(motion, interval, times[k]),
+                stations[k],
             )
 
 
 @jit
-def _forces_again(body, tables, stations, slips, found, rounds):
+def _forces_again(body, tables, stations, slips, forces, rounds):
     for r in range(rounds):
         # Another slip each round, so that no round can be spared.
         factor = 1.0 + 1e-9 * r
         for k in range(slips.size):
-            slip_forces(body, tables, stations[k], slips[k] * factor, found[k])
+            slip_forces(body, tables, stations[k], slips[k] * factor, forces[k])
 
 
 @jit
@@ -127,13 +131,13 @@ def evaluation_times(histories: list[History], tolerance: float) -> dict[str, fl
         held = states.only(pressed & (np.abs(states.slips) < _GRIPPED * speed))
         free = states.only(~pressed & (np.abs(states.slips) > _COASTING * speed))
         roller, room = _arguments(history), np.zeros(_STATES, FORCES)
-        for found, chosen in ((alone, states), (gripped, held), (coasting, free)):
-            found.append(
+        for nanoseconds, chosen in ((alone, states), (gripped, held), (coasting, free)):
+            nanoseconds.append(
                 _nanoseconds(_forces_again, *roller, *chosen, room, count=chosen.slips.size)
             )
         times = np.linspace(history.start, history.end, _STATES)
-        place = (*roller, history.motion, history.start_angle, times, states.stations.copy())
-        stations.append(_nanoseconds(_stations_again, *place, count=times.size))
+        arguments = (*roller, history.motion, history.start_angle, times, states.stations.copy())
+        stations.append(_nanoseconds(_stations_again, *arguments, count=times.size))
         runs = [
             timed(partial(own.integrate, history, tolerance, np.empty(0))) for _ in range(_REPEATS)
         ]

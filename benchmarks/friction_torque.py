@@ -69,8 +69,8 @@ def torque(case: Case, loads: BearingLoads) -> Torque:
         result[name].sum(("row", "roller")) * scale for name in ("energy", "rolling_energy")
     )
     raceways = ["inner", "outer"]
-    given = BEARING, case.oil, np.hypot(force[:, 0], force[:, 1]), force[:, 2], speed
-    skf, palmgren = skf_torque(*given), palmgren_torque(*given)
+    operation = BEARING, case.oil, np.hypot(force[:, 0], force[:, 1]), force[:, 2], speed
+    skf, palmgren = skf_torque(*operation), palmgren_torque(*operation)
     return Torque(
         float(energy.sel(interface=raceways).sum()),
         float(rolling.sel(interface=raceways).sum()),
@@ -104,7 +104,7 @@ SWEEPS = {
 
 def curves(output: str | None) -> None:
     """Print and draw the four curves."""
-    found = {
+    torques = {
         key: [steady(**{key: float(value)}) for value in values]
         for key, (_, values, _, _) in SWEEPS.items()
     }
@@ -113,24 +113,30 @@ def curves(output: str | None) -> None:
     )
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for key, (name, values, unit, factor) in SWEEPS.items():
-        for value, one in zip(values, found[key], strict=True):
+        for value, at_point in zip(values, torques[key], strict=True):
             shown = value - 273.15 if unit == "degC" else value * factor
-            own = (one.sliding, one.rolling, one.cage, one.drag, one.total)
-            others = (one.skf_sliding, one.skf_rolling, one.skf_drag, one.skf, one.palmgren)
+            own = (at_point.sliding, at_point.rolling, at_point.cage, at_point.drag, at_point.total)
+            others = (
+                at_point.skf_sliding,
+                at_point.skf_rolling,
+                at_point.skf_drag,
+                at_point.skf,
+                at_point.palmgren,
+            )
             print(
                 f"| {name} | {shown:g} {unit} | "
                 + " | ".join(f"{part:.0f}" for part in (*own, *others))
                 + " |"
             )
     if output:
-        _draw(found, output)
+        _draw(torques, output)
 
 
 @program_style()
-def _draw(found: dict[str, list[Torque]], output: str) -> None:
+def _draw(torques: dict[str, list[Torque]], output: str) -> None:
     figure, axes = new_figure(13.0, 3.6, 1, 4, sharey=True)
     for axis, (key, (name, values, unit, factor)) in zip(axes, SWEEPS.items(), strict=True):
-        place = values - 273.15 if unit == "degC" else values * factor
+        abscissa = values - 273.15 if unit == "degC" else values * factor
         lines = (
             ("sliding", "C0", "-"), ("rolling", "C1", "-"), ("cage", "C2", "-"), ("total", "k", "-"),
             ("skf_sliding", "C0", "--"), ("skf_rolling", "C1", "--"), ("skf", "k", "--"), ("palmgren", "C4", ":"),
@@ -142,7 +148,11 @@ def _draw(found: dict[str, list[Torque]], output: str) -> None:
                 .replace("skf", "SKF, all")
             )
             axis.plot(
-                place, [getattr(one, part) for one in found[key]], style, color=colour, label=label
+                abscissa,
+                [getattr(at_point, part) for at_point in torques[key]],
+                style,
+                color=colour,
+                label=label,
             )
         axis.set_xlabel(f"{name} [{unit.replace('degC', '°C')}]")
     axes[0].set_ylabel("friction torque [N m]")
@@ -166,9 +176,12 @@ def over_wind(oil_supply: str | float) -> Iterator[OverWind]:
             hub = HubLoads.bundled(f"{speed}{turbulence}").window(0.0, WINDOW)
             case = Case(loads=hub, rollers=ROLLERS, laws=Laws.physical(), oil_supply=oil_supply)
             loads = main_bearing_load(hub, case.drivetrain)
-            one = torque(case, loads)
+            parts_of_torque = torque(case, loads)
             yield OverWind(
-                f"{speed}{turbulence}", speed, one, one.total * float(np.mean(loads.shaft_speed))
+                f"{speed}{turbulence}",
+                speed,
+                parts_of_torque,
+                parts_of_torque.total * float(np.mean(loads.shaft_speed)),
             )
 
 
@@ -179,10 +192,15 @@ def print_ratios(every: list[OverWind]) -> None:
         ("rolling over M_rr", "rolling", "skf_rolling"),
         ("total over SKF's", "total", "skf"),
     ):
-        ratio = np.array([getattr(one.torque, own) / getattr(one.torque, other) for one in every])
+        ratio = np.array(
+            [getattr(of_case.torque, own) / getattr(of_case.torque, other) for of_case in every]
+        )
         print(f"{name}: {ratio.mean():.2f}, {ratio.min():.2f} to {ratio.max():.2f}")
-    speeds = sorted({one.speed for one in every})
-    mean = [float(np.mean([one.power for one in every if one.speed == speed])) for speed in speeds]
+    speeds = sorted({of_case.speed for of_case in every})
+    mean = [
+        float(np.mean([of_case.power for of_case in every if of_case.speed == speed]))
+        for speed in speeds
+    ]
     print(
         "power [W] over wind speed: "
         + ", ".join(f"{v} m/s {p:.0f}" for v, p in zip(speeds, mean, strict=True))
@@ -200,13 +218,25 @@ def wind() -> None:
     )
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     every = []
-    for found in over_wind("skf"):
-        every.append(found)
-        one = found.torque
-        parts = (one.sliding, one.rolling, one.cage, one.drag, one.total)
-        others = (one.skf_sliding, one.skf_rolling, one.skf, one.palmgren, found.power)
+    for of_case in over_wind("skf"):
+        every.append(of_case)
+        parts_of_torque = of_case.torque
+        parts = (
+            parts_of_torque.sliding,
+            parts_of_torque.rolling,
+            parts_of_torque.cage,
+            parts_of_torque.drag,
+            parts_of_torque.total,
+        )
+        others = (
+            parts_of_torque.skf_sliding,
+            parts_of_torque.skf_rolling,
+            parts_of_torque.skf,
+            parts_of_torque.palmgren,
+            of_case.power,
+        )
         print(
-            f"| {found.name} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |",
+            f"| {of_case.name} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |",
             flush=True,
         )
     print_ratios(every)
@@ -239,13 +269,13 @@ def compare_inlets() -> None:
         ("`skf`, limiting shear", oil, "skf", {"rheology": "limiting-shear"}),
     ):
         laws = Laws.physical().but(**changes)
-        one = torque(
+        parts_of_torque = torque(
             Case(loads=loads, rollers=ROLLERS, laws=laws, lubricant=lubricant, oil_supply=supply),
             loads,
         )
         print(
-            f"| {name} | {one.sliding:.0f} | {one.rolling:.0f} | {one.cage:.0f} | {one.total:.0f} | "
-            f"{one.rolling / one.skf_rolling:.2f} | {one.total / one.skf:.2f} |",
+            f"| {name} | {parts_of_torque.sliding:.0f} | {parts_of_torque.rolling:.0f} | {parts_of_torque.cage:.0f} | {parts_of_torque.total:.0f} | "
+            f"{parts_of_torque.rolling / parts_of_torque.skf_rolling:.2f} | {parts_of_torque.total / parts_of_torque.skf:.2f} |",
             flush=True,
         )
 
@@ -256,8 +286,8 @@ if __name__ == "__main__":
     )
     parser.add_argument("what", choices=("curves", "wind", "inlets", "supplies"))
     parser.add_argument("-o", "--output", help="picture of the curves")
-    given = parser.parse_args()
-    if given.what == "curves":
-        curves(given.output)
+    options = parser.parse_args()
+    if options.what == "curves":
+        curves(options.output)
     else:
-        {"wind": wind, "inlets": compare_inlets, "supplies": supplies}[given.what]()
+        {"wind": wind, "inlets": compare_inlets, "supplies": supplies}[options.what]()

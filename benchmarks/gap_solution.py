@@ -141,6 +141,6 @@ def exit_shear(x: Array, faces: Array, width: Array, field: Array, lowest: Array
     last = field.shape[0] - 1 - np.argmax(field[::-1] > 0.0, axis=0)
     station = np.arange(field.shape[1])
     end, before = np.sqrt(field[last - 1, station]), np.sqrt(field[last - 2, station])
-    place = x[last - 1] + end * (x[last - 1] - x[last - 2]) / (before - end)
+    boundary = x[last - 1] + end * (x[last - 1] - x[last - 2]) / (before - end)
     root = np.sqrt(lowest)
-    return (np.arctan(place / root) + 0.5 * math.pi) / root
+    return (np.arctan(boundary / root) + 0.5 * math.pi) / root

@@ -41,9 +41,9 @@ def slices(kappa: float) -> np.ndarray:
     )
 
 
-def entry(place: tuple[float, float]) -> tuple[float, ...]:
+def entry(node: tuple[float, float]) -> tuple[float, ...]:
     """One line of the table: ln(1 + κ), √s, the three ratios and the grid error."""
-    log_curvature, root_aspect = place
+    log_curvature, root_aspect = node
     if root_aspect == 0.0:
         return log_curvature, root_aspect, 1.0, 1.0, 1.0, 0.0
     kappa = math.expm1(log_curvature)

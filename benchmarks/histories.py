@@ -70,10 +70,10 @@ class History(NamedTuple):
 def fixed_histories(*, quick: bool) -> list[History]:
     """The histories of the comparison: six of 30 s, or two of 20 s in the quick run."""
     cases, start, length = QUICK if quick else FULL
-    found = []
+    histories = []
     for number, name in enumerate(cases):
-        found += histories_of(name, start, start + length, [7 * number])
-    return found
+        histories += histories_of(name, start, start + length, [7 * number])
+    return histories
 
 
 def long_histories(*, quick: bool, laws: Laws = Laws.paper()) -> list[History]:
@@ -120,7 +120,7 @@ def histories_of(
     case = Case(loads=HubLoads.bundled(name).window(start, end), laws=laws)
     ready = prepare(case)
     motion, (made, _) = ready.motion, with_tables(ready.models, ready.box)
-    found = []
+    histories = []
     length = motion.time[-1] - motion.time[0]
     for row in ROWS:
         roller = made[row]
@@ -137,10 +137,10 @@ def histories_of(
             edges = load_edges(roller, motion, angle)
             marks = _coast_middles(roller, motion, angle, edges)
             title = f"{name} {row}, roller {number}, {length:g} s"
-            found.append(
+            histories.append(
                 History(title, ready.models[row], roller, motion, angle, limits, edges, marks)
             )
-    return found
+    return histories
 
 
 @jit
@@ -155,25 +155,25 @@ def load_edges(roller: Roller, motion: Motion, start_angle: float) -> np.ndarray
     """
     body, classes = roller.body[0], np.empty(motion.time.size - 1, np.int8)
     classify(body, motion, start_angle, np.inf, classes)
-    found = []
+    edges = []
     for k in np.flatnonzero(classes == EDGE):
         low, high = motion.time[k], motion.time[k + 1]
         ends = [_approach(body, motion, start_angle, k, time) for time in (low, high)]
         if ends[0] * ends[1] < 0.0:
-            found.append(edge_time(body, motion, start_angle, k, low, high))
-    return np.array(found)
+            edges.append(edge_time(body, motion, start_angle, k, low, high))
+    return np.array(edges)
 
 
 def _coast_middles(
     roller: Roller, motion: Motion, start_angle: float, edges: np.ndarray
 ) -> np.ndarray:
     bounds = np.concatenate([[motion.time[0]], edges, [motion.time[-1]]])
-    found = []
+    middles = []
     for low, high in itertools.pairwise(bounds):
         middle = 0.5 * (low + high)
         interval = int(np.searchsorted(motion.time, middle, side="right")) - 1
         free = _approach(roller.body[0], motion, start_angle, interval, middle) < 0.0
         if free and high - low > _SHORTEST_COAST:
             parts = int(np.ceil((high - low) / _LONGEST_STRETCH))
-            found += [low + (high - low) * (part + 0.5) / parts for part in range(parts)]
-    return np.array(found)
+            middles += [low + (high - low) * (part + 0.5) / parts for part in range(parts)]
+    return np.array(middles)

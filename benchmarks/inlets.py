@@ -58,9 +58,11 @@ def main() -> None:
             oil, speed = case.oil, float(abs(loads.shaft_speed).mean())
             here, full = contacts(case).inner, contacts(flooded).inner
             film, height = here.film_thickness(*LOADED), full.film_thickness(*LOADED)
-            rolling, most = (light_contact(one.rolling, *LOADED)[1] for one in (here, full))
+            rolling, most = (
+                light_contact(interface.rolling, *LOADED)[1] for interface in (here, full)
+            )
             (_, held, thin), (_, flood, thick) = (
-                light_contact(one.rolling, *IDLE) for one in (here, full)
+                light_contact(interface.rolling, *IDLE) for interface in (here, full)
             )
             bore, outside = case.bearing.bore_diameter, case.bearing.outside_diameter
             filled = replenishment(oil.viscosity / oil.density, speed, bore, outside)

@@ -100,8 +100,8 @@ def open_it(directory: Path) -> None:
     """Open a study and look at its summary."""
     from macroslip import open_study
 
-    found = open_study(directory)
-    assert bool((found.outcome == "completed").all()) and float(found.energy_mean.mean()) > 0.0
+    opened = open_study(directory)
+    assert bool((opened.outcome == "completed").all()) and float(opened.energy_mean.mean()) > 0.0
 
 
 def aggregate_it(directory: Path) -> None:
@@ -110,11 +110,11 @@ def aggregate_it(directory: Path) -> None:
     from macroslip.study.reader import open_study
     from macroslip.study.weights import Weibull
 
-    found = tables(
+    frames = tables(
         open_study(directory),
         Aggregation(Weibull(9.5, 2.0), years=20.0, field="wind_speed", width=2.0, by=()),
     )
-    write_tables(found, directory.parent / "tables", "parquet")
+    write_tables(frames, directory.parent / "tables", "parquet")
 
 
 STEPS = {"open": open_it, "aggregate": aggregate_it}
@@ -126,10 +126,10 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--cases", type=int, default=100_000)
     parser.add_argument("--step", choices=STEPS, help=argparse.SUPPRESS)
     parser.add_argument("--directory", type=Path, help=argparse.SUPPRESS)
-    given = parser.parse_args(arguments)
-    if given.step:
+    options = parser.parse_args(arguments)
+    if options.step:
         start, used = time.perf_counter(), time.process_time()
-        STEPS[given.step](given.directory)
+        STEPS[options.step](options.directory)
         print(
             json.dumps(
                 {
@@ -142,7 +142,7 @@ def main(arguments: list[str] | None = None) -> None:
         return
     with tempfile.TemporaryDirectory() as folder:
         directory = Path(folder) / "out"
-        work, start = study(given.cases), time.perf_counter()
+        work, start = study(options.cases), time.perf_counter()
         write_study(directory, work)
         size = sum(path.stat().st_size for path in directory.rglob("*") if path.is_file())
         print(

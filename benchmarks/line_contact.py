@@ -72,7 +72,7 @@ def grid(half_width: float, nodes: int) -> Array:
     return half_width * np.concatenate([inlet[::-1], core, outlet])
 
 
-def deformation(place: Array) -> Array:
+def deformation(position: Array) -> Array:
     """Matrix of (2/π) ∫ φ_j(S) ln|X_i − S| dS for the hat functions φ_j of the nodes."""
 
     def zeroth(t: Array) -> Array:
@@ -81,13 +81,13 @@ def deformation(place: Array) -> Array:
     def first(t: Array) -> Array:
         return 0.5 * t * t * (np.log(np.abs(t) + (t == 0.0)) - 0.5)
 
-    left, right = place[:-1], place[1:]
+    left, right = position[:-1], position[1:]
     width = right - left
-    t_left = left[None, :] - place[:, None]
-    t_right = right[None, :] - place[:, None]
+    t_left = left[None, :] - position[:, None]
+    t_right = right[None, :] - position[:, None]
     whole = zeroth(t_right) - zeroth(t_left)
     moment = first(t_right) - first(t_left) - t_left * whole
-    matrix = np.zeros((place.size, place.size))
+    matrix = np.zeros((position.size, position.size))
     matrix[:, 1:] += moment / width
     matrix[:, :-1] += whole - moment / width
     return 2.0 / math.pi * matrix
@@ -261,9 +261,9 @@ def inlet_share(solution: LineContact, load: float) -> float:
     """N_F of the inlet, ½ ∫ (h − h*) dp up to X = −0.9 in Moes' groups."""
     scale = 0.5 * math.sqrt(8.0 * load / math.pi) * load / math.pi
     middle = 0.5 * (solution.gap[1:] + solution.gap[:-1])
-    place = 0.5 * (solution.place[1:] + solution.place[:-1])
+    position = 0.5 * (solution.place[1:] + solution.place[:-1])
     work = (middle - solution.film * math.pi / (4.0 * load)) * np.diff(solution.pressure)
-    return scale * float(work[place < -0.9].sum())
+    return scale * float(work[position < -0.9].sum())
 
 
 def roelands(load: float, alpha: float, exponent: float) -> Callable:
@@ -331,10 +331,10 @@ def main() -> None:
     )
     materials = [1.0, 2.0, 4.0, 7.0, 10.0, 13.4, 18.0]
     for load in (0.1, 0.3, 0.6, 1.5, 3.0, 6.0, 11.0, 20.0, 32.0, 60.0):
-        found = [solve_line(load, 0.0, 500), *climb(load, materials, 500)]
+        solutions = [solve_line(load, 0.0, 500), *climb(load, materials, 500)]
         ratios = [
             line_rolling("whole-film", load, max(material, 1e-12)) / solution.rolling
-            for material, solution in zip([0.0, *materials], found, strict=True)
+            for material, solution in zip([0.0, *materials], solutions, strict=True)
         ]
         print(f"{load:5.1f}", " ".join(f"{ratio:6.3f}" for ratio in ratios), flush=True)
 

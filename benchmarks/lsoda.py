@@ -33,12 +33,12 @@ def _pieces(address, bounds, marks, data, rtol, atol, slip):
         low = np.searchsorted(marks, bounds[k], side="right")
         high = np.searchsorted(marks, bounds[k + 1], side="left")
         times = np.concatenate((bounds[k : k + 1], marks[low:high], bounds[k + 1 : k + 2]))
-        found, success = lsoda(address, state, times, data, rtol, atol, _MOST_STEPS)
+        states, success = lsoda(address, state, times, data, rtol, atol, _MOST_STEPS)
         if not success:
             state[:] = np.nan
             break
-        slip[low:high] = found[1:-1, 0]
-        state = found[-1].copy()
+        slip[low:high] = states[1:-1, 0]
+        state = states[-1].copy()
     return state
 
 

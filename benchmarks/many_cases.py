@@ -59,17 +59,17 @@ def timed_study(folder: Path, work, skip: int, **options) -> dict[str, float]:
         **options,
     )
     wall = time.perf_counter() - started
-    found = open_study(out)
-    assert (found.outcome == "completed").all()
+    opened = open_study(out)
+    assert (opened.outcome == "completed").all()
     size = sum(path.stat().st_size for path in out.glob("cases/*/*.nc"))
     return {
         "rate": steady(marks, skip),
         "wall_s": wall,
-        "overhead": float(found.other_seconds.sum() / found.simulate_seconds.sum()),
-        "other_ms": 1e3 * float(found.other_seconds.median()),
-        "simulate_s": float(found.simulate_seconds.median()),
-        "bytes_per_case": size / found.sizes["case"],
-        "database_bytes_per_case": (out / "study.sqlite").stat().st_size / found.sizes["case"],
+        "overhead": float(opened.other_seconds.sum() / opened.simulate_seconds.sum()),
+        "other_ms": 1e3 * float(opened.other_seconds.median()),
+        "simulate_s": float(opened.simulate_seconds.median()),
+        "bytes_per_case": size / opened.sizes["case"],
+        "database_bytes_per_case": (out / "study.sqlite").stat().st_size / opened.sizes["case"],
     }
 
 
@@ -88,7 +88,7 @@ def hashing(threads: int) -> float:
 def speed(folder: Path, quick: bool) -> dict[str, float]:
     """One and two threads, one and two workers, in turn."""
     work = study(16 if quick else 48)
-    found: dict[str, list] = {"hashing": []}
+    rounds: dict[str, list] = {"hashing": []}
     options = {
         "one thread": {"threads": 1},
         "two threads": {"threads": 2},
@@ -96,35 +96,35 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
         "two workers": {"workers": 2, "threads": 1},
     }
     for _ in range(1 if quick else ROUNDS):
-        found["hashing"].append(hashing(1) / hashing(2))
-        for name, given in options.items():
-            found.setdefault(name, []).append(timed_study(folder, work, 4, **given))
-    best = {name: max(one["rate"] for one in found[name]) for name in options}
-    overheads = [one["overhead"] for one in found["one thread"]]
+        rounds["hashing"].append(hashing(1) / hashing(2))
+        for name, arguments in options.items():
+            rounds.setdefault(name, []).append(timed_study(folder, work, 4, **arguments))
+    best = {name: max(measured["rate"] for measured in rounds[name]) for name in options}
+    overheads = [measured["overhead"] for measured in rounds["one thread"]]
     return {
         "two_threads_over_one": best["two threads"] / best["one thread"],
         "two_threads_over_one_best_round": max(
             b["rate"] / a["rate"]
-            for a, b in zip(found["one thread"], found["two threads"], strict=False)
+            for a, b in zip(rounds["one thread"], rounds["two threads"], strict=False)
         ),
         "two_workers_over_one": best["two workers"] / best["one worker"],
         "two_workers_over_one_best_round": max(
             b["rate"] / a["rate"]
-            for a, b in zip(found["one worker"], found["two workers"], strict=False)
+            for a, b in zip(rounds["one worker"], rounds["two workers"], strict=False)
         ),
         "one_worker_over_this_process": best["one worker"] / best["one thread"],
-        "hashing_two_over_one": max(found["hashing"]),
+        "hashing_two_over_one": max(rounds["hashing"]),
         "overhead": min(overheads),
         "overhead_worst_round": max(overheads),
-        "overhead_two_workers": min(one["overhead"] for one in found["two workers"]),
+        "overhead_two_workers": min(measured["overhead"] for measured in rounds["two workers"]),
         **{
-            key: found["one thread"][0][key]
+            key: rounds["one thread"][0][key]
             for key in ("other_ms", "simulate_s", "bytes_per_case", "database_bytes_per_case")
         },
         "wall_beyond_steady_two_workers_s": min(
-            one["wall_s"] - len(work) / one["rate"] for one in found["two workers"]
+            measured["wall_s"] - len(work) / measured["rate"] for measured in rounds["two workers"]
         ),
-        "rounds": found,
+        "rounds": rounds,
     }
 
 
@@ -213,7 +213,7 @@ def scheduler(quick: bool) -> dict[str, float]:
         (500 if quick else 3000),
         {"run": "0" * 32, "load": "x" * 120, "settings": [["a.b", 1.0, "mm"]] * 3},
     )
-    found = {}
+    times = {}
     with (
         LocalCluster(
             n_workers=2,
@@ -234,8 +234,8 @@ def scheduler(quick: bool) -> dict[str, float]:
                 pool.submit([task] * free)
                 sent += free
                 done += len(pool.wait())
-            found[f"runs_per_second_bundles_of_{bundle}"] = done / (time.perf_counter() - started)
-    return found
+            times[f"runs_per_second_bundles_of_{bundle}"] = done / (time.perf_counter() - started)
+    return times
 
 
 def coordinator(folder: Path, quick: bool) -> dict[str, float]:
@@ -295,30 +295,30 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("-o", "--output", type=Path, default=Path("many_cases.json"))
     parser.add_argument("--only", choices=("speed", "scheduler", "memory", "coordinator"))
-    given = parser.parse_args()
-    if given.only in (None, "scheduler"):
+    options = parser.parse_args()
+    if options.only in (None, "scheduler"):
         require(SCHEDULER)
-    found: dict[str, object] = {"cores": usable_processors(), "load_before": os.getloadavg()[0]}
+    measured: dict[str, object] = {"cores": usable_processors(), "load_before": os.getloadavg()[0]}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run_study(study(1, 5.0), folder / "compile")
         parts = {
-            "speed": lambda: speed(folder, given.quick),
-            "scheduler": lambda: scheduler(given.quick),
-            "memory": lambda: memory(given.quick),
-            "coordinator": lambda: coordinator(folder, given.quick),
+            "speed": lambda: speed(folder, options.quick),
+            "scheduler": lambda: scheduler(options.quick),
+            "memory": lambda: memory(options.quick),
+            "coordinator": lambda: coordinator(folder, options.quick),
         }
         for name, measure in parts.items():
-            if given.only in (None, name):
-                found[name] = measure()
+            if options.only in (None, name):
+                measured[name] = measure()
                 print(name)
-                for key, value in found[name].items():
+                for key, value in measured[name].items():
                     if key != "rounds":
                         print(
                             f"  {key}: {json.dumps(value) if isinstance(value, dict) else f'{value:.4g}'}",
                             flush=True,
                         )
-                given.output.write_text(json.dumps(found, indent=1), encoding="utf-8")
+                options.output.write_text(json.dumps(measured, indent=1), encoding="utf-8")
 
 
 if __name__ == "__main__":

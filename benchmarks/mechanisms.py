@@ -52,7 +52,7 @@ def mechanism_costs(
     steps = ladder()
     if quick:
         steps = {name: steps[name] for name in ("paper", "with asperities: physical")}
-    found: dict[str, Any] = {}
+    costs: dict[str, Any] = {}
     for number, (name, laws) in enumerate(steps.items()):
         report(number, len(steps))
         rows = {}
@@ -65,5 +65,5 @@ def mechanism_costs(
                 "force_evaluations": solution.evaluations,
                 "evaluation_us": 1e6 * seconds / solution.evaluations,
             }
-        found[name] = rows
-    return found
+        costs[name] = rows
+    return costs

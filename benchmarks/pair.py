@@ -136,8 +136,8 @@ def compare(
 ) -> dict[str, tuple[Speed, Speed]]:
     """Speeds of the earlier state and of this one, by setting, run in turns."""
     speeds = {}
-    with tempfile.TemporaryDirectory() as place:
-        folder = Path(place)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
         states = {
             "before": (unpack(revision, folder / "before"), folder / "kernels_before"),
             "now": (ROOT / "src", folder / "kernels_now"),

@@ -186,8 +186,8 @@ def _force(
     random: np.random.Generator, kind: str, t: np.ndarray, size: float, slow: np.ndarray
 ) -> np.ndarray:
     """Forces [N] of a kind of `SUDDEN_FORCES` at times [s], with the phase `slow` [rad] of what comes back."""
-    one = np.ones_like(t)
-    force = np.column_stack([0.0 * t, -size * one, size * random.uniform(-0.4, 0.4) * one])
+    ones = np.ones_like(t)
+    force = np.column_stack([0.0 * t, -size * ones, size * random.uniform(-0.4, 0.4) * ones])
     if kind == "waves":
         force += np.column_stack([_waves(random, t, 0.2 * size) for _ in range(3)])
     elif kind == "rotating":
@@ -215,13 +215,13 @@ def _wide_history(
     step = float(np.exp(random.uniform(np.log(1e-3), 0.0)))
     t = np.arange(min(int(random.uniform(0.3, 1.5) * period / step), _MOST_SAMPLES) + 3) * step
     x, slow = t / t[-1], 2 * np.pi * t / random.uniform(0.5, 20.0) + random.uniform(0, 2 * np.pi)
-    one = np.ones_like(t)
+    ones = np.ones_like(t)
     turn = {
-        "constant": one, "backwards": -one, "turbulent": one + _waves(random, t, 0.05), "ramp": x,
+        "constant": ones, "backwards": -ones, "turbulent": ones + _waves(random, t, 0.05), "ramp": x,
         "start": np.clip(4.0 * x - 1.0, 0.0, 1.0), "stop": np.clip(3.0 - 4.0 * x, 0.0, 1.0),
         "stop and go": np.clip(2.0 * np.sin(slow) + random.uniform(-0.5, 1.0), 0.0, 1.0), "reversal": np.sin(slow),
         "jumps": _levels(random, x, 0.1), "square": np.where(np.sin(slow) > 0.0, 1.0, 0.5),
-        "oscillating": 1.0 + 0.5 * np.sin(slow), "creeping": 0.01 * one, "standstill": 0.0 * one,
+        "oscillating": 1.0 + 0.5 * np.sin(slow), "creeping": 0.01 * ones, "standstill": 0.0 * ones,
     }[way]  # fmt: skip
     size = heavy * 10.0 ** random.uniform(-3.0, -0.3)
     force = _force(random, kind, t, size, slow)
@@ -261,10 +261,12 @@ def _laws(random: np.random.Generator, physical: float) -> Laws:
 def _temperature(random: np.random.Generator, lubricant: Lubricant, *, wide: bool) -> float:
     """A temperature [K] that the oil can have."""
     while True:
-        found = float(random.uniform(263.15, 413.15) if wide else random.uniform(293.15, 343.15))
+        temperature = float(
+            random.uniform(263.15, 413.15) if wide else random.uniform(293.15, 343.15)
+        )
         with contextlib.suppress(InputError):
-            lubricant.at(found)
-            return found
+            lubricant.at(temperature)
+            return temperature
 
 
 def random_case(
@@ -376,14 +378,14 @@ def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -
 
     nothing = float("nan")
     try:
-        found, seconds = timed(Radau().tolerance)
+        result, seconds = timed(Radau().tolerance)
     except InputError as problem:
         verdict = f"refused: {' '.join(str(problem).split())[:120]}"
         return Outcome(*about, verdict, *[nothing] * 6)
-    if bool((found.status != 0).any()):
-        codes = sorted({int(code) for code in np.unique(found.status) if code})
+    if bool((result.status != 0).any()):
+        codes = sorted({int(code) for code in np.unique(result.status) if code})
         return Outcome(*about, f"failed with status {codes}", *[nothing] * 4, seconds, nothing)
-    energy, peak = _judged(found, case.dynamics)
+    energy, peak = _judged(result, case.dynamics)
     tight_seconds, most = 0.0, ROW_ENERGY if case.dynamics == WHOLE_BEARING else ENERGY
     for tolerance in sorted({max(_FIRST, tight), tight}, reverse=True):
         exact, spent = timed(tolerance)
@@ -398,7 +400,7 @@ def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -
             break
     if case.dynamics == WHOLE_BEARING:
         verdict = "agrees" if energy_error <= ROW_ENERGY else "off: energy"
-        if energy_error > ROW_ENERGY and "books_warning" in found.attrs:
+        if energy_error > ROW_ENERGY and "books_warning" in result.attrs:
             verdict = "warned: books do not close"
         elif energy_error > ROW_ENERGY:
             wider, _ = timed(tight, cage=replace(case.cage, gap=case.cage.gap * (1.0 + _WIDENED)))
@@ -424,24 +426,31 @@ def table(outcomes: list[Outcome]) -> Iterator[str]:
     yield f"{'loads':<18}{'cases':>6}{''.join(f'{word:>8}' for word in words)}{'energy error':>14}{'peak error':>12}"
     kinds = (
         *HISTORIES,
-        *(kind for kind in (WIDE, SUDDEN) if any(one.history.startswith(kind) for one in outcomes)),
+        *(
+            kind
+            for kind in (WIDE, SUDDEN)
+            if any(outcome.history.startswith(kind) for outcome in outcomes)
+        ),
         "all",
     )
     for kind in kinds:
-        some = [one for one in outcomes if kind in (one.history.split(":")[0], "all")]
+        some = [outcome for outcome in outcomes if kind in (outcome.history.split(":")[0], "all")]
         counts = "".join(
-            f"{sum(one.verdict.startswith(word) for one in some):>8}" for word in words
+            f"{sum(outcome.verdict.startswith(word) for outcome in some):>8}" for word in words
         )
         energy = max(
-            (one.energy_error for one in some if np.isfinite(one.energy_error)), default=0.0
+            (outcome.energy_error for outcome in some if np.isfinite(outcome.energy_error)),
+            default=0.0,
         )
-        peak = max((one.peak_error for one in some if np.isfinite(one.peak_error)), default=0.0)
+        peak = max(
+            (outcome.peak_error for outcome in some if np.isfinite(outcome.peak_error)), default=0.0
+        )
         yield f"{kind:<18}{len(some):>6}{counts}{energy:>14.1e}{peak:>12.1e}"
-    for one in outcomes:
-        if not one.verdict.startswith(("agrees", "refused")):
+    for outcome in outcomes:
+        if not outcome.verdict.startswith(("agrees", "refused")):
             yield (
-                f"  {one.number}: {one.history}, {one.laws}, {one.dynamics}: {one.verdict}; energy {one.energy_error:.1e} of "
-                f"{one.energy:.3g} J, peak {one.peak_error:.1e} of {one.peak:.3g} W"
+                f"  {outcome.number}: {outcome.history}, {outcome.laws}, {outcome.dynamics}: {outcome.verdict}; energy {outcome.energy_error:.1e} of "
+                f"{outcome.energy:.3g} J, peak {outcome.peak_error:.1e} of {outcome.peak:.3g} W"
             )
 
 
@@ -471,26 +480,28 @@ def main(arguments: list[str] | None = None) -> None:
         help="share of cases whose speed changes within a sample, or inches and runs down",
     )
     parser.add_argument("-o", "--output", type=Path, default=Path("random_cases.csv"))
-    given = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     outcomes = []
-    with given.output.open("w", newline="", encoding="utf-8") as file:
+    with options.output.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(Outcome._fields)
-        for number in range(given.first, given.first + given.cases):
-            one = compare(
+        for number in range(options.first, options.first + options.cases):
+            outcome = compare(
                 number,
-                given.seed,
-                given.tight,
-                physical=given.physical,
-                whole=given.whole,
-                wide=given.wide,
-                sudden=given.sudden,
+                options.seed,
+                options.tight,
+                physical=options.physical,
+                whole=options.whole,
+                wide=options.wide,
+                sudden=options.sudden,
             )
-            outcomes.append(one)
-            writer.writerow(one)
+            outcomes.append(outcome)
+            writer.writerow(outcome)
             file.flush()
-            if not one.verdict.startswith("agrees"):
-                print(f"{number}: {one.history}: {one.verdict}", file=sys.stderr, flush=True)
+            if not outcome.verdict.startswith("agrees"):
+                print(
+                    f"{number}: {outcome.history}: {outcome.verdict}", file=sys.stderr, flush=True
+                )
     print("\n".join(table(outcomes)))
 
 

@@ -84,11 +84,13 @@ def _scipy_settings(edges: bool, quick: bool) -> Iterator[Setting]:
     # A restart where load begins or ends is never worse; the longest step is the loads' sample interval. From the
     # middle of the range outward: there the settings lie that suit most histories.
     steps = [0.05] if quick else [0.05, float("inf")]
-    found = _grid(_decades(4, 8), _decades(6, 10), stops=[True], longest_step=steps)
+    settings = _grid(_decades(4, 8), _decades(6, 10), stops=[True], longest_step=steps)
     return iter(
         sorted(
-            found,
-            key=lambda one: abs(math.log10(one["rtol"]) + 5.5) + abs(math.log10(one["atol"]) + 7.5),
+            settings,
+            key=lambda setting: (
+                abs(math.log10(setting["rtol"]) + 5.5) + abs(math.log10(setting["atol"]) + 7.5)
+            ),
         )
     )
 

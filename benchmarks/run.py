@@ -70,8 +70,8 @@ def run_bench(
     try:
         import_module("matplotlib.figure")  # told now, not after minutes of measuring
     except ImportError:
-        what = "matplotlib, which draws the diagram, is not installed"
-        raise InputError(what, remedy=f"{INSTALL} brings it.") from None
+        fault = "matplotlib, which draws the diagram, is not installed"
+        raise InputError(fault, remedy=f"{INSTALL} brings it.") from None
     report = progress or (lambda label, done, total: None)
     tolerance = Radau().tolerance
     with published_together(directory, SUMMARY) as folder:
@@ -82,9 +82,11 @@ def run_bench(
         growth = linearity(long, tolerance, quick=quick)
         speed = {
             model: real_time(
-                found, tolerance, lambda done, total: report("speed over real time", done, total)
+                timed_histories,
+                tolerance,
+                lambda done, total: report("speed over real time", done, total),
             )
-            for model, found in (
+            for model, timed_histories in (
                 ("paper", long),
                 ("physical", long_histories(quick=quick, laws=Laws.physical())),
             )
@@ -129,7 +131,7 @@ def run_bench(
             folder,
             results,
             histories,
-            {key: one["title"] for key, one in summary["methods"].items()},
+            {key: method["title"] for key, method in summary["methods"].items()},
         )
         (folder / SUMMARY).write_text(
             json.dumps(finite(summary), indent=1) + "\n", encoding="utf-8"
@@ -148,8 +150,8 @@ def _draw(
 
     with program_style():
         figure, axes = new_figure(10.5, 5.2, 1, 2)
-        for one, quantity in zip(axes, ("energy_error", "spin_error"), strict=True):
-            plot_work_precision(one, results, histories, quantity, titles)
+        for panel, quantity in zip(axes, ("energy_error", "spin_error"), strict=True):
+            plot_work_precision(panel, results, histories, quantity, titles)
         handles, labels = axes[0].get_legend_handles_labels()
         legend = {"loc": "outside lower center", "ncols": 3, "frameon": False, "fontsize": 9}
         figure.legend(handles, labels, **legend)
@@ -165,7 +167,7 @@ def finite(value: Any) -> Any:
     {'a': [1.0, None], 'b': [None, 'c']}
     """
     if isinstance(value, dict):
-        return {key: finite(one) for key, one in value.items()}
+        return {key: finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [finite(one) for one in value]
+        return [finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

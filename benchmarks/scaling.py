@@ -48,14 +48,14 @@ def real_time(
         looked at station by station, NaN where nothing varies over them; `cpu_seconds` of all; `largest_energy_error`,
         `largest_spin_error`; `histories`, each with its factors and errors.
     """
-    found, simulated, spent = {}, 0.0, 0.0
+    by_history, simulated, spent = {}, 0.0, 0.0
     for number, history in enumerate(histories):
         report(number, len(histories))
         seconds = cpu_seconds([history], tolerance)
         curved = history.model.curved
         detailed = cpu_seconds([history], tolerance, details=True) if curved else float("nan")
         energy, spin = errors(own.solve(history, tolerance), own.reference(history))
-        found[history.name] = {
+        by_history[history.name] = {
             "factor": (history.end - history.start) / seconds,
             "factor_detailed": (history.end - history.start) / detailed,
             "energy_error": energy,
@@ -63,17 +63,17 @@ def real_time(
             "cpu_seconds": seconds,
         }
         simulated, spent = simulated + history.end - history.start, spent + seconds
-    factors = [one["factor"] for one in found.values()]
+    factors = [numbers["factor"] for numbers in by_history.values()]
     return {
         "factor": simulated / spent,
         "slowest": min(factors),
         "median": statistics.median(factors),
-        "slowest_detailed": min(one["factor_detailed"] for one in found.values()),
+        "slowest_detailed": min(numbers["factor_detailed"] for numbers in by_history.values()),
         "fastest": max(factors),
         "cpu_seconds": spent,
-        "largest_energy_error": max(one["energy_error"] for one in found.values()),
-        "largest_spin_error": max(one["spin_error"] for one in found.values()),
-        "histories": found,
+        "largest_energy_error": max(numbers["energy_error"] for numbers in by_history.values()),
+        "largest_spin_error": max(numbers["spin_error"] for numbers in by_history.values()),
+        "histories": by_history,
     }
 
 
@@ -162,7 +162,9 @@ def linearity(histories: list[History], tolerance: float, *, quick: bool) -> dic
     by_roller = [cpu_seconds(rollers[:: len(rollers) // number], tolerance) for number in numbers]
     # Cases differ; in no order of wind speed, a part of them costs like the whole.
     pairs = [histories[k : k + 2] for k in range(0, len(histories), 2)]
-    shuffled = [one for k in np.random.default_rng(1).permutation(len(pairs)) for one in pairs[k]]
+    shuffled = [
+        history for k in np.random.default_rng(1).permutation(len(pairs)) for history in pairs[k]
+    ]
     counts = sorted({max(1, len(pairs) * part // 4) for part in (1, 2, 3, 4)})
     by_case = [cpu_seconds(shuffled[: 2 * count], tolerance) for count in counts]
     return {

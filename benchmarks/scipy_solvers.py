@@ -51,14 +51,14 @@ def solve(
     def rate(time, state):
         if evaluations(data) > most_evaluations:
             raise _TooDearError
-        found = np.empty(4)
-        rates(time, state, found, data)
-        return found
+        derivative = np.empty(4)
+        rates(time, state, derivative, data)
+        return derivative
 
     def slopes(time, state):
-        found = np.zeros((4, 4))
-        jacobian(time, state, found, data)
-        return found
+        matrix = np.zeros((4, 4))
+        jacobian(time, state, matrix, data)
+        return matrix
 
     enough = rtol * reference.energy
     options = {
@@ -74,13 +74,13 @@ def solve(
     for low, high in itertools.pairwise(bounds):
         inside = (history.marks > low) & (history.marks < high)
         try:
-            found = solve_ivp(
+            solution = solve_ivp(
                 rate, (low, high), state, t_eval=[*history.marks[inside], high], **options
             )
         except _TooDearError:
             return Solution(np.full(3, np.nan), slip, evaluations(data))
-        if not found.success:
+        if not solution.success:
             return Solution(np.full(3, np.nan), slip, evaluations(data))
-        slip[inside] = found.y[0, :-1]
-        state = found.y[:, -1]
+        slip[inside] = solution.y[0, :-1]
+        state = solution.y[:, -1]
     return Solution(state[1:], slip, evaluations(data))

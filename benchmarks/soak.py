@@ -108,9 +108,9 @@ def _end(process: subprocess.Popen) -> None:
         ]
     except psutil.NoSuchProcess:
         family = []
-    for one in family:
+    for member in family:
         try:
-            one.kill()
+            member.kill()
         except psutil.NoSuchProcess:
             continue
     process.wait()
@@ -213,7 +213,7 @@ def _watched(
             begun = killed = time.monotonic()
         workers = workers_of(nannies)
         if begun is not None:
-            largest = max((resident(one) for one in workers), default=0)
+            largest = max((resident(worker) for worker in workers), default=0)
             memory = [resident(psutil.Process(process.pid)) for process in (scheduler, study)]
             samples.append(
                 Sample(time.monotonic() - begun, memory[0], memory[1], largest, lines, kills)
@@ -244,14 +244,14 @@ def workers_of(nannies: subprocess.Popen) -> list[Any]:
     """The processes of the workers below their nannies."""
     import psutil
 
-    found = []
+    workers = []
     for child in psutil.Process(nannies.pid).children(recursive=True):
         try:
             if "spawn_main" in " ".join(child.cmdline()) and child.status() != psutil.STATUS_ZOMBIE:
-                found.append(child)
+                workers.append(child)
         except psutil.NoSuchProcess:
             continue
-    return sorted(found, key=lambda child: child.pid)
+    return sorted(workers, key=lambda child: child.pid)
 
 
 def resident(process: Any) -> int:
@@ -267,24 +267,24 @@ def resident(process: Any) -> int:
 def looked_through(folder: Path, out: Path, seen: int, check: int) -> tuple[int, list[str]]:
     """Number of recorded runs, and what is wrong with them; `seen` records were counted while the study ran."""
     problems = []
-    found = _recorded(out)
-    if len(found) < seen:
-        problems.append(f"{seen} records were seen, {len(found)} are left")
-    lost = [run for run, _, outcome, _ in found if outcome is None]
+    records = _recorded(out)
+    if len(records) < seen:
+        problems.append(f"{seen} records were seen, {len(records)} are left")
+    lost = [run for run, _, outcome, _ in records if outcome is None]
     if lost:
         problems.append(f"{len(lost)} runs have lost their result")
-    failed = [run for run, _, outcome, _ in found if outcome not in (None, "completed")]
+    failed = [run for run, _, outcome, _ in records if outcome not in (None, "completed")]
     if failed:
         problems.append(f"{len(failed)} runs failed")
     damaged = [
         run
-        for run, key, _, detail in found
+        for run, key, _, detail in records
         if detail and checksum(case_path(out, key).read_bytes()) != detail
     ]
     if damaged:
         problems.append(f"{len(damaged)} results do not have their checksum")
-    runs = {run for run, *_ in found}
-    return len(found), problems + (_computed_again(folder, out, runs, check) if check else [])
+    runs = {run for run, *_ in records}
+    return len(records), problems + (_computed_again(folder, out, runs, check) if check else [])
 
 
 def _computed_again(folder: Path, out: Path, done: set[str], check: int) -> list[str]:
@@ -317,30 +317,30 @@ def _computed_again(folder: Path, out: Path, done: set[str], check: int) -> list
     return problems
 
 
-def table(found: Found, parts: int = 12) -> Iterator[str]:
+def table(outcome: Found, parts: int = 12) -> Iterator[str]:
     """Lines of a table over the time, and what was found wrong."""
     yield f"{'min':>6}{'runs':>9}{'kills':>7}{'scheduler MB':>14}{'study MB':>10}{'largest worker MB':>19}"
-    last = found.samples[-1].time
+    last = outcome.samples[-1].time
     marks = [
-        found.samples[0],
+        outcome.samples[0],
         *(
-            min(found.samples, key=lambda s: abs(s.time - last * k / parts))
+            min(outcome.samples, key=lambda s: abs(s.time - last * k / parts))
             for k in range(1, parts + 1)
         ),
     ]
-    for one in marks:
-        sizes = [f"{size / 1e6:.1f}" for size in (one.scheduler, one.study, one.worker)]
-        yield f"{one.time / 60:>6.1f}{one.runs:>9}{one.kills:>7}{sizes[0]:>14}{sizes[1]:>10}{sizes[2]:>19}"
-    yield f"{found.recorded} runs recorded, {found.kills} workers killed"
+    for sample in marks:
+        sizes = [f"{size / 1e6:.1f}" for size in (sample.scheduler, sample.study, sample.worker)]
+        yield f"{sample.time / 60:>6.1f}{sample.runs:>9}{sample.kills:>7}{sizes[0]:>14}{sizes[1]:>10}{sizes[2]:>19}"
+    yield f"{outcome.recorded} runs recorded, {outcome.kills} workers killed"
     yield from (
-        found.problems
+        outcome.problems
         or ["every record has its result, every run one record, those computed again agree"]
     )
 
 
 def growth(samples: list[Sample], name: str) -> float:
     """Growth of the memory of one process from the first to the second half of the time, medians [bytes]."""
-    sizes = [getattr(one, name) for one in samples]
+    sizes = [getattr(sample, name) for sample in samples]
     half = len(sizes) // 2
     return float(np.median(sizes[half:]) - np.median(sizes[:half]))
 
@@ -354,19 +354,19 @@ def main(arguments: list[str] | None = None) -> None:
         "--check", type=int, default=200, help="number of cases computed again in the end"
     )
     parser.add_argument("-o", "--output", type=Path, help="file for all samples, as JSON")
-    given = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory() as name:
-        found = soak(Path(name), 60.0 * given.minutes, given.every, given.check)
-        if given.output:
+        outcome = soak(Path(name), 60.0 * options.minutes, options.every, options.check)
+        if options.output:
             text = json.dumps(
-                {**found._asdict(), "samples": [one._asdict() for one in found.samples]}
+                {**outcome._asdict(), "samples": [sample._asdict() for sample in outcome.samples]}
             )
-            given.output.write_text(text, encoding="utf-8")
-        if found.problems:
+            options.output.write_text(text, encoding="utf-8")
+        if outcome.problems:
             for log in sorted(Path(name).glob("*.log")):
                 sys.stderr.write(f"{log.name}:\n{log.read_text(encoding='utf-8')[-2000:]}\n")
-    print("\n".join(table(found)) if found.samples else "\n".join(found.problems))
-    sys.exit(bool(found.problems))
+    print("\n".join(table(outcome)) if outcome.samples else "\n".join(outcome.problems))
+    sys.exit(bool(outcome.problems))
 
 
 if __name__ == "__main__":

@@ -35,13 +35,15 @@ def verify(histories: list[History], references: list[Reference]) -> dict[str, A
     chosen = sorted(zip(histories, references, strict=True), key=lambda pair: -pair[0].edges.size)[
         :_HOW_MANY
     ]
-    found = {}
+    errors_by_history = {}
     for history, reference in chosen:
         with silence():
-            found[history.name] = errors(solve(history, reference, **setting), reference)
+            errors_by_history[history.name] = errors(
+                solve(history, reference, **setting), reference
+            )
     return {
         "method": method,
-        "energy_error": {name: pair[0] for name, pair in found.items()},
-        "spin_error": {name: pair[1] for name, pair in found.items()},
-        "agrees": all(max(pair) < AGREEMENT for pair in found.values()),
+        "energy_error": {name: pair[0] for name, pair in errors_by_history.items()},
+        "spin_error": {name: pair[1] for name, pair in errors_by_history.items()},
+        "agrees": all(max(pair) < AGREEMENT for pair in errors_by_history.values()),
     }

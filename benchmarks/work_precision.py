@@ -60,7 +60,9 @@ def least_cost(
         costs = []
         for entry, length in chosen:
             good = [
-                one.seconds / length for one in entry.outcomes if getattr(one, quantity) <= level
+                outcome.seconds / length
+                for outcome in entry.outcomes
+                if getattr(outcome, quantity) <= level
             ]
             costs.append(min(good, default=math.nan))
         if not costs or any(math.isnan(cost) for cost in costs):
@@ -80,7 +82,7 @@ def plot_work_precision(
     titles: dict[str, str],
 ) -> Axes:
     """Error against CPU time per second of history, one line a method; `quantity` as in `least_cost`."""
-    for key, look in _LOOKS.items():
+    for key, style in _LOOKS.items():
         if not results.get(key):
             continue
         points = least_cost(results[key], histories, quantity)
@@ -92,7 +94,7 @@ def plot_work_precision(
                 label=titles[key],
                 markersize=6,
                 zorder=3 if key == "own" else 2,
-                **look,
+                **style,
             )
     axes.axhline(ASKED, color=GREY, linewidth=1.0, zorder=0, label=f"accuracy asked, {ASKED:g}")
     axes.set_xscale("log")

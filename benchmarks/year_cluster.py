@@ -56,14 +56,16 @@ def main() -> None:
     parser.add_argument("--designs", type=int, default=4)
     parser.add_argument("--samples", type=int, default=16)
     parser.add_argument("--every", type=float, default=60.0, help="time between kills [s]")
-    given = parser.parse_args()
+    options = parser.parse_args()
     kills, most = 0, dict.fromkeys(("scheduler", "study", "worker"), 0)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        text = json.dumps(content(given.seconds, given.rollers, given.designs, given.samples))
+        text = json.dumps(
+            content(options.seconds, options.rollers, options.designs, options.samples)
+        )
         (folder / "study.yaml").write_text(text, encoding="utf-8")
         dask, common = "distributed.cli.dask_", ("--host", "127.0.0.1", "--no-dashboard")
-        place = folder / "scheduler.json"
+        address_file = folder / "scheduler.json"
         with started(
             folder,
             "scheduler",
@@ -72,10 +74,10 @@ def main() -> None:
             "--port",
             "0",
             "--scheduler-file",
-            str(place),
+            str(address_file),
             *common,
         ) as scheduler:
-            address = json.loads(waited_for(place, "}"))["address"]
+            address = json.loads(waited_for(address_file, "}"))["address"]
             nanny = (
                 "-m",
                 f"{dask}worker",
@@ -102,12 +104,15 @@ def main() -> None:
                 while study.poll() is None:
                     time.sleep(1.0)
                     workers = workers_of(nannies)
-                    sizes = [resident(psutil.Process(one.pid)) for one in (scheduler, study)]
+                    sizes = [
+                        resident(psutil.Process(started_process.pid))
+                        for started_process in (scheduler, study)
+                    ]
                     for who, size in zip(
                         most, (*sizes, max(map(resident, workers), default=0)), strict=True
                     ):
                         most[who] = max(most[who], size)
-                    if time.monotonic() - killed >= given.every and len(workers) == WORKERS:
+                    if time.monotonic() - killed >= options.every and len(workers) == WORKERS:
                         workers[kills % WORKERS].kill()
                         killed, kills = time.monotonic(), kills + 1
             wall = time.monotonic() - begun
@@ -115,18 +120,25 @@ def main() -> None:
         if not (folder / "out" / DATABASE).exists():
             sys.exit(log)
         recorded, problems = looked_through(folder, folder / "out", 0, 0)
-        found = open_study(folder / "out")
-        if recorded != found.sizes["case"] or study.returncode:
+        opened = open_study(folder / "out")
+        if recorded != opened.sizes["case"] or study.returncode:
             problems.append(
-                f"{recorded} of {found.sizes['case']} runs are recorded, exit code {study.returncode}"
+                f"{recorded} of {opened.sizes['case']} runs are recorded, exit code {study.returncode}"
             )
-        parts = {one: float(found[one].sum()) for one in ("simulate_seconds", "other_seconds")}
+        parts = {
+            name_of_time: float(opened[name_of_time].sum())
+            for name_of_time in ("simulate_seconds", "other_seconds")
+        }
         disk = sum(path.stat().st_size for path in (folder / "out").rglob("*") if path.is_file())
     print(
         f"{recorded} runs in {wall:.0f} s, {kills} workers killed, {disk / recorded / 1e3:.0f} kB a run"
     )
     print(
-        *(f"{one} {1e3 * value / recorded:.0f} ms a run" for one, value in parts.items()), sep=", "
+        *(
+            f"{name_of_time} {1e3 * value / recorded:.0f} ms a run"
+            for name_of_time, value in parts.items()
+        ),
+        sep=", ",
     )
     print(*(f"{who} {size / 1e6:.0f} MB" for who, size in most.items()), sep=", ")
     print(

@@ -24,18 +24,18 @@ def main() -> int:
     parser.add_argument(
         "--all", action="store_true", help="the sample over estimated values beside the study"
     )
-    given = parser.parse_args()
+    options = parser.parse_args()
     try:
         with command_progress(quiet=False) as report:
             summary = reproduce(
-                given.output, threads=given.threads, progress=report, sampled=given.all
+                options.output, threads=options.threads, progress=report, sampled=options.all
             )
     except MacroslipError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     print(
         *summary["headline"],
-        f"written: {given.output}; the report: {given.output / REPORT}",
+        f"written: {options.output}; the report: {options.output / REPORT}",
         sep="\n",
     )
     failed = [

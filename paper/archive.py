@@ -122,13 +122,13 @@ def main() -> int:
     parser.add_argument(
         "-o", "--output", type=Path, default=Path("macroslip-study.tar.gz"), help="file to write"
     )
-    given = parser.parse_args()
+    options = parser.parse_args()
     try:
-        archive(given.results, given.output)
+        archive(options.results, options.output)
     except InputError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    print(f"written: {given.output}")
+    print(f"written: {options.output}")
     return 0
 
 

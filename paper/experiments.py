@@ -219,14 +219,14 @@ def turns(
     }
     for name, trace in (("typical", typical_turn), ("peak", peak_turn)):
         jobs |= {(name, f"{row} row"): partial(trace, varying, result, row, laws) for row in ROWS}
-    found: dict[str, dict[str, xr.Dataset]] = {}
+    turns_by_figure: dict[str, dict[str, xr.Dataset]] = {}
     with ThreadPoolExecutor(threads or usable_processors()) as pool:
         for done, ((figure, title), turn) in enumerate(
             zip(jobs, pool.map(lambda job: job(), jobs.values()), strict=True), start=1
         ):
-            found.setdefault(figure, {})[title] = turn
+            turns_by_figure.setdefault(figure, {})[title] = turn
             report(done, len(jobs))
-    return found
+    return turns_by_figure
 
 
 def inflexion_angle(turn: xr.Dataset) -> float:
@@ -240,8 +240,12 @@ def inflexion_angle(turn: xr.Dataset) -> float:
     # The load affects neighbours of a loaded sample through the difference quotient.
     inside = free[middle] & free[2:] & free[:-2]
     inside &= np.roll(inside, 1) & np.roll(inside, -1)
-    found = angle[middle][inside & (slope[middle] >= slope[:-2]) & (slope[middle] > slope[2:])]
-    return float(found[np.argmin(np.abs(found - 180.0))]) if found.size else float("nan")
+    inflexions = angle[middle][inside & (slope[middle] >= slope[:-2]) & (slope[middle] > slope[2:])]
+    return (
+        float(inflexions[np.argmin(np.abs(inflexions - 180.0))])
+        if inflexions.size
+        else float("nan")
+    )
 
 
 def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset:
@@ -284,8 +288,10 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
     ring_speed = abs(float(converged.spin_pure[0])) * model.radius
     rates = np.array(
         [
-            relaxation_rate(roller.body[0], roller.tables, one, ring_speed) if one > 0.0 else 0.0
-            for one in load
+            relaxation_rate(roller.body[0], roller.tables, roller_load, ring_speed)
+            if roller_load > 0.0
+            else 0.0
+            for roller_load in load
         ]
     )
     relaxation = np.divide(1.0, rates, out=np.full_like(rates, np.nan), where=rates > 0.0)
@@ -295,8 +301,8 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
     beyond = np.flatnonzero(step * np.maximum(rates, 0.0) > 2.0)
     lost = np.flatnonzero(deviations["explicit"] > _LOST)
 
-    def at(values: np.ndarray, found: np.ndarray) -> float:
-        return float(values[found[0]]) if found.size else float("nan")
+    def at(values: np.ndarray, samples: np.ndarray) -> float:
+        return float(values[samples[0]]) if samples.size else float("nan")
 
     stability = _over_angle(angle)
     for name, values in ratios.items():
@@ -360,22 +366,23 @@ def nonlinear_tolerance(
     def per_orbit(integrator: ms.BackwardEuler | ms.Radau) -> xr.Dataset:
         runs = {
             name: ms.simulate(
-                ms.Case(loads=one, laws=Laws.paper(), rollers=[0], integrator=integrator), threads=1
+                ms.Case(loads=history, laws=Laws.paper(), rollers=[0], integrator=integrator),
+                threads=1,
             ).isel(roller=0)
-            for name, one in loads.items()
+            for name, history in loads.items()
         }
         varying, static = (run.orbit_energy.mean("orbit", skipna=False) for run in runs.values())
-        whole, still = (one.sum("interface", skipna=False) for one in (varying, static))
+        whole, still = (energies.sum("interface", skipna=False) for energies in (varying, static))
         failed = sum((run.status != 0).astype(int) for run in runs.values())
         values = xr.Dataset()
-        for name, one, units, words in (
+        for name, energies, units, words in (
             ("energy", whole, "J", "energy per orbit, time-varying load"),
             ("cage_energy", varying.sel(interface="cage", drop=True), "J", "energy per orbit at the cage, time-varying load"),
             ("static_energy", still, "J", "energy per orbit, downward static load"),
             ("ratio", whole / still, "1", "energy, time-varying over static load"),
             ("failed", failed, "1", "failed integrations"),
         ):  # fmt: skip
-            put(values, name, one, units, words)
+            put(values, name, energies, units, words)
         return values.drop_vars(["roller", "start_angle"], errors="ignore")
 
     methods = [
@@ -455,9 +462,11 @@ def _beside_converged(
     values = xr.DataArray(
         np.array(list(runs)), dims=name, name=name, attrs={"units": units, "long_name": long_name}
     )
-    found = xr.concat(list(runs.values()), values, combine_attrs="override")
-    found = found.merge(converged.rename({one: f"{one}_converged" for one in converged.data_vars}))
-    return found.assign_attrs(
+    along = xr.concat(list(runs.values()), values, combine_attrs="override")
+    along = along.merge(
+        converged.rename({variable: f"{variable}_converged" for variable in converged.data_vars})
+    )
+    return along.assign_attrs(
         attributes, converged_method="Radau", converged_tolerance=_CONVERGED.tolerance
     )
 
@@ -476,8 +485,8 @@ def experiments(
         "nonlinear_tolerance": lambda: nonlinear_tolerance(varying, threads=threads),
         "step_size": lambda: step_size(varying, start=start, end=end, threads=threads),
     }
-    found = {}
+    datasets = {}
     for done, (name, job) in enumerate(jobs.items(), start=1):
-        found[name] = job()
+        datasets[name] = job()
         report(done, len(jobs))
-    return found
+    return datasets

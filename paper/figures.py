@@ -54,8 +54,8 @@ def mark_level(axes: Axes, low: float, high: float, words: str) -> Axes:
     axes.axhspan(low, high, color=BLUE, alpha=0.10, linewidth=0.0, zorder=-1)
     bottom, top = axes.get_ylim()
     axes.set_ylim(min(bottom, 0.8 * low), max(top, 1.25 * high))
-    place = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "center"}
-    axes.text(0.98, (low * high) ** 0.5, words, fontsize=9, color=BLUE, **place)
+    alignment = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "center"}
+    axes.text(0.98, (low * high) ** 0.5, words, fontsize=9, color=BLUE, **alignment)
     return axes
 
 
@@ -75,11 +75,11 @@ def mark_wind_speeds(axes: Axes, low: float, high: float, words: str) -> Axes:
 
 
 def _note(
-    axes: Axes, words: str, place: tuple[float, float], shift: tuple[float, float], **options: Any
+    axes: Axes, words: str, point: tuple[float, float], shift: tuple[float, float], **options: Any
 ) -> None:
     """Words beside a place, `shift` points away from it."""
     axes.annotate(
-        words, place, xytext=shift, textcoords="offset points", **{"fontsize": 9} | options
+        words, point, xytext=shift, textcoords="offset points", **{"fontsize": 9} | options
     )
 
 
@@ -120,12 +120,12 @@ def turns_figure(turns: Mapping[str, xr.Dataset]) -> Figure:
     """Figure 3: spin above and cumulative energy below, a column for each turn under its title."""
     figure, axes = new_figure(7.2, 5.2, 2, len(turns), sharex=True, sharey="row")
     for column, (title, turn) in enumerate(turns.items()):
-        for one in (
+        for panel in (
             plot_spin(axes[column], turn, title),
             plot_cumulative_energy(axes[column + len(turns)], turn),
         ):
             if column:
-                one.set_ylabel("")
+                panel.set_ylabel("")
     legend_above(figure, axes[0])
     return figure
 
@@ -137,15 +137,15 @@ def plot_by_class(
     for turbulence in sorted(set(numbers.turbulence.values.tolist())):
         part = numbers.isel(case=numbers.turbulence.values == turbulence).sortby("wind_speed")
         style, offset = _TURBULENCE[turbulence]
-        one = part if row is None else part.sel(row=row)
-        middle, bars = one[name].values, None
+        of_row = part if row is None else part.sel(row=row)
+        middle, bars = of_row[name].values, None
         if row and name == "energy_normalised":
             bars = np.abs(
-                np.array([one.energy_min_normalised.values, one.energy_max_normalised.values])
+                np.array([of_row.energy_min_normalised.values, of_row.energy_max_normalised.values])
                 - middle
             )
         elif row:
-            bars = one.peak_power_std_normalised.values
+            bars = of_row.peak_power_std_normalised.values
         options = {"markersize": 5, "label": turbulence, **style}
         axes.errorbar(
             part.wind_speed.values + offset,
@@ -162,12 +162,12 @@ def plot_by_class(
 def energy_figure(numbers: xr.Dataset) -> Figure:
     """Figure 4a: normalised energy of the downwind row and the upwind row, bars over their rollers, and both."""
     figure, axes = new_figure(7.2, 3.5, 1, 3, sharey=True)
-    for one, row in zip(axes, ("downwind", "upwind", None), strict=True):
+    for panel, row in zip(axes, ("downwind", "upwind", None), strict=True):
         name = "energy_normalised" if row else "both_rows_normalised"
         plot_by_class(
-            one, numbers, name, "" if one is not axes[0] else "energy over that in 12C [–]", row
+            panel, numbers, name, "" if panel is not axes[0] else "energy over that in 12C [–]", row
         )
-        mark_wind_speeds(one, 12.0, 14.0, "paper: highest" if row is None else "")
+        mark_wind_speeds(panel, 12.0, 14.0, "paper: highest" if row is None else "")
     finish(axes[2], _WIND_SPEED, "", "both rows")
     legend_above(figure, axes[0], title="turbulence class; bars: range over the rollers of the row")
     return figure
@@ -176,9 +176,9 @@ def energy_figure(numbers: xr.Dataset) -> Figure:
 def peak_power_figure(numbers: xr.Dataset) -> Figure:
     """Figure 5a: normalised P_max per orbit, mean ± standard deviation, of both rows. The axis begins at zero."""
     figure, axes = new_figure(7.2, 3.4, 1, 2)
-    for one, row in zip(axes, ("downwind", "upwind"), strict=True):
-        label = "" if one is not axes[0] else f"{_PEAK} over its mean in 14A [–]"
-        plot_by_class(one, numbers, "peak_power_mean_normalised", label, row).set_ylim(bottom=0.0)
+    for panel, row in zip(axes, ("downwind", "upwind"), strict=True):
+        label = "" if panel is not axes[0] else f"{_PEAK} over its mean in 14A [–]"
+        plot_by_class(panel, numbers, "peak_power_mean_normalised", label, row).set_ylim(bottom=0.0)
     legend_above(figure, axes[0], title="turbulence class; bars: ± standard deviation, cut at zero")
     return figure
 
@@ -204,8 +204,8 @@ def ratio_figure(numbers: xr.Dataset, name: str) -> Figure:
 
 def plot_models(axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, label: str) -> Axes:
     """A variable of `paper_numbers` by model over mean wind speed: mean and range of the turbulence classes."""
-    for (model, one), line in zip(numbers.items(), ("--", "-", ":", "-."), strict=False):
-        values = one[quantity]
+    for (model, of_model), line in zip(numbers.items(), ("--", "-", ":", "-."), strict=False):
+        values = of_model[quantity]
         for row in values.row.values.tolist() if "row" in values.dims else [None]:
             by_speed = (values.sel(row=row) if row else values).groupby("wind_speed")
             mean, low, high = (
@@ -278,8 +278,8 @@ def stability_figure(stability: xr.Dataset) -> Figure:
     axes[1].plot(angle, stability.deviation_backward.values, **circles)
     axes[1].set_yscale("log")
     finish(axes[1], _ANGLE, "|spin − converged| / pure rolling [–]")
-    for one in axes:
-        one.axvline(limit, color=GREY, linewidth=0.9, linestyle="-.", zorder=0)
+    for panel in axes:
+        panel.axvline(limit, color=GREY, linewidth=0.9, linestyle="-.", zorder=0)
     if np.isfinite(limit):
         axes[0].set_xlim(limit - 6.0, limit + 6.0)
         words = f"step ({1e3 * step:g} ms) above\n2 × relaxation time"
@@ -303,11 +303,11 @@ def plot_tolerance(axes: Axes, experiment: xr.Dataset, name: str, label: str) ->
     """
     tolerance = experiment.stopping_tolerance.values
     for row in experiment.row.values.tolist():
-        one, style = experiment.sel(row=row), ROW[row]
-        level = float(one[f"{name}_converged"])
-        axes.plot(tolerance, one[name].values, markersize=5, label=f"{row} row", **style)
+        of_row, style = experiment.sel(row=row), ROW[row]
+        level = float(of_row[f"{name}_converged"])
+        axes.plot(tolerance, of_row[name].values, markersize=5, label=f"{row} row", **style)
         axes.axhline(level, color=style["color"], linewidth=0.8, zorder=0)
-        for x, y in zip(tolerance, one[name].values, strict=True):
+        for x, y in zip(tolerance, of_row[name].values, strict=True):
             if y > _RAISED * level:
                 words = f"{number(y / level)} ×"
                 _note(axes, words, (x, y), (-7, 0), ha="right", va="center", color=style["color"])
@@ -340,12 +340,12 @@ def step_size_figure(experiment: xr.Dataset) -> Figure:
     """Mean P_max per orbit against the fixed step of backward Euler; thin lines are converged."""
     figure, axes = new_figure(4.8, 3.6)
     for row in experiment.row.values.tolist():
-        one, color = experiment.sel(row=row), ROW[row]["color"]
-        level = float(one.mean_peak_power_converged)
+        of_row, color = experiment.sel(row=row), ROW[row]["color"]
+        level = float(of_row.mean_peak_power_converged)
         axes[0].axhline(level, color=color, linewidth=0.8, zorder=0)
         axes[0].plot(
             experiment.step.values,
-            one.mean_peak_power.values,
+            of_row.mean_peak_power.values,
             markersize=5,
             label=f"{row} row",
             **ROW[row],
@@ -385,21 +385,21 @@ def plot_parts(axes: Axes, parts: xr.DataArray, row: str) -> Axes:
 def shown_cases(parts: xr.Dataset) -> list[str]:
     """A case of the lowest, the middle and the highest wind speed, of turbulence B where there is one."""
     speeds = np.unique(parts.wind_speed.values)
-    found = []
+    shown = []
     for speed in dict.fromkeys(speeds[k] for k in (0, speeds.size // 2, -1)):
         names = parts.case.values[parts.wind_speed.values == speed].tolist()
-        found.append(next((name for name in names if name.endswith("B")), names[0]))
-    return found
+        shown.append(next((name for name in names if name.endswith("B")), names[0]))
+    return shown
 
 
 def plot_stations(axes: Axes, along: xr.DataArray, row: str, cases: list[str]) -> Axes:
     """`station_energy` [J/m] of `dissipation` along the roller, by raceway, of some cases."""
     for case, color in zip(cases, (BLUE, ORANGE, GREEN), strict=False):
         for raceway, line in (("inner", "-"), ("outer", "--")):
-            one = along.sel(case=case, row=row, raceway=raceway)
+            of_raceway = along.sel(case=case, row=row, raceway=raceway)
             axes.plot(
-                1e3 * one.station.values,
-                one.values,
+                1e3 * of_raceway.station.values,
+                of_raceway.values,
                 color=color,
                 linestyle=line,
                 label=f"{case}, {raceway}",
@@ -413,8 +413,8 @@ def plot_stations(axes: Axes, along: xr.DataArray, row: str, cases: list[str]) -
 def mechanisms_figure(parts: xr.Dataset) -> Figure:
     """Energy of both rows by interface and mechanism, and along the roller."""
     figure, axes = new_figure(8.6, 3.9, 1, 3)
-    for one, row in zip(axes, ("downwind", "upwind"), strict=False):
-        plot_parts(one, parts.part_energy, row)
+    for panel, row in zip(axes, ("downwind", "upwind"), strict=False):
+        plot_parts(panel, parts.part_energy, row)
     plot_stations(axes[2], parts.station_energy, "downwind", shown_cases(parts))
     axes[2].legend(frameon=False, fontsize=7, loc="upper right")
     legend_above(figure, axes[0], ncols=3)
@@ -424,14 +424,14 @@ def mechanisms_figure(parts: xr.Dataset) -> Figure:
 def torque_figure(histories: Mapping[str, TorqueHistory], start: float, end: float) -> Figure:
     """Friction torques [N m] between two times [s], the legend with the means over all of the time."""
     figure, axes = new_figure(7.2, 4.2)
-    for (name, one), color, line in zip(
+    for (name, history), color, line in zip(
         histories.items(), (BLUE, ORANGE, GREEN, BLACK, GREY), _LINES, strict=False
     ):
-        inside = (one.time >= start) & (one.time <= end)
-        label = f"{name} (mean {np.nanmean(one.torque):.3g} N m)"
+        inside = (history.time >= start) & (history.time <= end)
+        label = f"{name} (mean {np.nanmean(history.torque):.3g} N m)"
         axes[0].plot(
-            one.time[inside],
-            one.torque[inside],
+            history.time[inside],
+            history.torque[inside],
             color=color,
             linestyle=line,
             linewidth=1.3,
@@ -444,15 +444,15 @@ def torque_figure(histories: Mapping[str, TorqueHistory], start: float, end: flo
 
 def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
     """Range of 5 to 95 % and median of every quantity over its value with the base values, of an `uncertainty_summary`."""
-    names, places = [], np.arange(summary.sizes["quantity"])[::-1]
-    for k, place in enumerate(places):
-        one = summary.isel(quantity=k)
-        low, middle, high = one.range.values
-        ratios = one.range.values / float(one.base)
+    names, heights = [], np.arange(summary.sizes["quantity"])[::-1]
+    for k, height in enumerate(heights):
+        of_quantity = summary.isel(quantity=k)
+        low, middle, high = of_quantity.range.values
+        ratios = of_quantity.range.values / float(of_quantity.base)
         if np.isfinite(ratios).all():
             axes.plot(
                 ratios[[0, 2]],
-                [place, place],
+                [height, height],
                 color=BLUE,
                 linewidth=3.0,
                 solid_capstyle="butt",
@@ -460,18 +460,18 @@ def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
             )
             axes.plot(
                 ratios[1],
-                place,
+                height,
                 color=BLACK,
                 marker="|",
                 markersize=11,
                 markeredgewidth=2.0,
                 zorder=2,
             )
-        unit = "" if str(one.units.values) == "1" else f" {one.units.values}"
+        unit = "" if str(of_quantity.units.values) == "1" else f" {of_quantity.units.values}"
         names.append(
-            f"{one.quantity.values}\n{number(middle)}{unit} ({number(low)} to {number(high)})"
+            f"{of_quantity.quantity.values}\n{number(middle)}{unit} ({number(low)} to {number(high)})"
         )
-    axes.set_yticks(places, names, fontsize=8)
+    axes.set_yticks(heights, names, fontsize=8)
     axes.axvline(1.0, color=BLACK, linewidth=0.8)
     return finish(log_ticks(axes, "x"), "over the value with the base values [–]", "")
 
@@ -485,7 +485,7 @@ def plot_squares(axes: Axes, summary: xr.Dataset, name: str) -> Axes:
     """
     values, rank = summary[name].values, name == "rank_correlation"
     for q, p in np.argwhere(np.abs(values) >= (0.0 if rank else TOLD_INDEX)):
-        value, place = values[q, p], (p, values.shape[0] - 1 - q)
+        value, point = values[q, p], (p, values.shape[0] - 1 - q)
         color = ORANGE if rank and value > 0.0 else BLUE
         full = (
             value * (summary.probability.values[q, p] < DRIVER_LEVEL)
@@ -493,12 +493,12 @@ def plot_squares(axes: Axes, summary: xr.Dataset, name: str) -> Axes:
             else summary.first_order.values[q, p]
         )
         edge = {"marker": "s", "edgecolor": color, "linewidth": 0.8}
-        axes.scatter(*place, s=330.0 * abs(value), facecolor="none", **edge)
-        axes.scatter(*place, s=330.0 * abs(full), facecolor=color, marker="s", linewidth=0.0)
+        axes.scatter(*point, s=330.0 * abs(value), facecolor="none", **edge)
+        axes.scatter(*point, s=330.0 * abs(full), facecolor=color, marker="s", linewidth=0.0)
         if rank and full:
             axes.annotate(
                 "+" if value > 0.0 else "−",
-                place,
+                point,
                 ha="center",
                 va="center",
                 color="white",
@@ -506,9 +506,9 @@ def plot_squares(axes: Axes, summary: xr.Dataset, name: str) -> Axes:
             )
     if not rank:
         for q, known in enumerate(summary.explained.values):
-            place = values.shape[1] - 0.2, values.shape[0] - 1 - q
+            point = values.shape[1] - 0.2, values.shape[0] - 1 - q
             axes.annotate(
-                f"{known:.2f}" if np.isfinite(known) else "–", place, va="center", fontsize=8
+                f"{known:.2f}" if np.isfinite(known) else "–", point, va="center", fontsize=8
             )
     names = summary.parameter.values.tolist()
     axes.set_xticks(np.arange(len(names)), names, rotation=60, ha="right", rotation_mode="anchor")

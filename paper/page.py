@@ -52,21 +52,28 @@ def page(
         runs=runs,
         judged=judged,
         subjects=list(next(iter(judged.values()))),
-        counts={name: _counts(found) for name, found in judged.items()},
+        counts={name: _counts(statements) for name, statements in judged.items()},
         pictures={path.stem: _picture(path) for path in folder.glob("*.svg")},
         made=made,
         parts={name: _parts(run.parts) for name, run in runs.items() if run.parts is not None},
-        uncertainty={name: _uncertainty(one) for name, one in of_uncertainty.items()},
+        uncertainty={name: _uncertainty(of_model) for name, of_model in of_uncertainty.items()},
         trends={
-            name: list(zip(robust(one), one.trend_share.values, one.trend_base.values, strict=True))
-            for name, one in of_uncertainty.items()
+            name: list(
+                zip(
+                    robust(of_model),
+                    of_model.trend_share.values,
+                    of_model.trend_base.values,
+                    strict=True,
+                )
+            )
+            for name, of_model in of_uncertainty.items()
         },
         values=VALUES,
         tags={**TAGS, "C": "choice"},
         driver_level=DRIVER_LEVEL,
         torques={
-            name: [float(find(one.torque)) for find in (np.nanmean, np.nanmin, np.nanmax)]
-            for name, one in torques.items()
+            name: [float(find(history.torque)) for find in (np.nanmean, np.nanmin, np.nanmax)]
+            for name, history in torques.items()
         },
         torque_window=figures.TORQUE_WINDOW,
         summary=summary,
@@ -74,9 +81,9 @@ def page(
     )
 
 
-def _counts(found: Mapping[str, Statement]) -> dict[str, int]:
+def _counts(statements: Mapping[str, Statement]) -> dict[str, int]:
     """How many statements have each verdict."""
-    verdicts = [one.verdict for one in found.values()]
+    verdicts = [statement.verdict for statement in statements.values()]
     return {
         verdict: verdicts.count(verdict)
         for verdict in dict.fromkeys((AGREES, PARTLY, DIFFERS, *verdicts))
@@ -87,8 +94,8 @@ def _picture(path: Path) -> dict[str, Any]:
     """A figure for the page: without what it does not show, outlines to a hundredth of a point, sizes in pixels."""
     svg = path.read_text(encoding="utf-8")
     width, height = (
-        round(float(one) * 96.0 / 72.0)
-        for one in re.findall(r'(?:width|height)="([\d.]+)pt"', svg)[:2]
+        round(float(points) * 96.0 / 72.0)
+        for points in re.findall(r'(?:width|height)="([\d.]+)pt"', svg)[:2]
     )
     svg = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r' d="[^"]*"', lambda outline: re.sub(r"(\.\d\d)\d+", r"\1", outline[0]), svg)
@@ -119,13 +126,18 @@ def _parts(parts: xr.Dataset) -> dict[str, Any]:
 def _uncertainty(summary: xr.Dataset) -> dict[str, Any]:
     rows = []
     for name in summary.quantity.values.tolist():
-        one = summary.sel(quantity=name)
+        of_quantity = summary.sel(quantity=name)
         rows.append(
             {
-                "name": name if str(one.units.values) == "1" else f"{name} [{one.units.values}]",
+                "name": name
+                if str(of_quantity.units.values) == "1"
+                else f"{name} [{of_quantity.units.values}]",
                 "values": [
                     float(value)
-                    for value in (one.base, *one.range.sel(quantile=[0.5, 0.05, 0.95]).values)
+                    for value in (
+                        of_quantity.base,
+                        *of_quantity.range.sel(quantile=[0.5, 0.05, 0.95]).values,
+                    )
                 ],
                 "drivers": [
                     f"{parameter} ({value:+.2f})" for parameter, value in drivers(summary, name)
@@ -134,7 +146,7 @@ def _uncertainty(summary: xr.Dataset) -> dict[str, Any]:
                     f"{parameter} {first:.2f} ({total:.2f})"
                     for parameter, first, total in strongest(summary, name)
                 ],
-                "explained": float(one.explained),
+                "explained": float(of_quantity.explained),
             }
         )
     return {"rows": rows, "cases": summary.case.values.tolist(), **summary.attrs}
@@ -145,10 +157,14 @@ def _provenance(studies: Mapping[str, xr.Dataset]) -> dict[str, Any]:
     inputs = {name: json.loads(study.attrs["input"]) for name, study in studies.items()}
     first = next(iter(inputs.values()))
     cited = dict.fromkeys(
-        line for one in studies.values() for line in one.attrs["citations"].splitlines()
+        line
+        for study_cited in studies.values()
+        for line in study_cited.attrs["citations"].splitlines()
     )
     return {
-        "source": ", ".join(sorted({one.attrs["source"] for one in studies.values()})),
+        "source": ", ".join(
+            sorted({study_used.attrs["source"] for study_used in studies.values()})
+        ),
         "machine": {key: value for key, value in machine().items() if value is not None},
         "statuses": [
             (name, int((study.status == status).sum()), status.sentence)
@@ -157,7 +173,7 @@ def _provenance(studies: Mapping[str, xr.Dataset]) -> dict[str, Any]:
             if (study.status == status).any()
         ],
         "records": {
-            part: {key: one for key, one in first[part].items() if isinstance(one, dict)}
+            part: {key: entry for key, entry in first[part].items() if isinstance(entry, dict)}
             for part in ("bearing", "lubricant")
         },
         "loads": first["loads"],

@@ -81,7 +81,8 @@ def compute_model(
     `reused` takes the names of studies that were whole. Where it is `sampled`, the sample over estimated values is
     computed too, of contacts with microslip.
     """
-    laws, found = MODELS[name], {}
+    laws = MODELS[name]
+    contacts = {}
 
     def results(prefix: str, stage: str, *, may_fail: bool = False) -> Path:
         study, folder = study_of(studies.content(prefix, name)), directory / f"{prefix}_{name}"
@@ -96,17 +97,17 @@ def compute_model(
     _, detail = next(stored_results(results("detail", "one case in detail")))
     traced = turns(detail, laws, threads, partial(report, f"single rollers ({name})"))
     if laws.microslip:
-        found["parts"] = studies.dissipation(study)
+        contacts["parts"] = studies.dissipation(study)
     if laws.microslip and sampled:
         sample = uncertainty(results("uncertainty", "uncertainty", may_fail=True))
-        found["uncertainty"] = uncertainty_summary(sample)
+        contacts["uncertainty"] = uncertainty_summary(sample)
     return ModelRun(
         study=study,
         numbers=studies.paper_numbers(study),
         turns=traced,
         detail_failed=int((detail.status != 0).sum()),
         torque=computed_torque(detail),
-        **found,
+        **contacts,
     )
 
 
@@ -131,7 +132,7 @@ def experiment_figures(made: Mapping[str, xr.Dataset]) -> dict[str, Callable[[],
 def model_figures(name: str, run: ModelRun) -> dict[str, Callable[[], Figure]]:
     """How the figures of a model are drawn, by file name."""
     static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
-    found = {
+    figures = {
         "figure_3a": partial(draw.turns_figure, static),
         "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
         "figure_3b_peak": partial(draw.turns_figure, run.turns["peak"]),
@@ -141,10 +142,10 @@ def model_figures(name: str, run: ModelRun) -> dict[str, Callable[[], Figure]]:
         "figure_5b": partial(draw.ratio_figure, run.numbers, "peak_power_ratio"),
     }
     if run.parts is not None:
-        found["mechanisms"] = partial(draw.mechanisms_figure, run.parts)
+        figures["mechanisms"] = partial(draw.mechanisms_figure, run.parts)
     if run.uncertainty is not None:
-        found["uncertainty"] = partial(draw.uncertainty_figure, run.uncertainty)
-    return {of_model(title, name): figure for title, figure in found.items()}
+        figures["uncertainty"] = partial(draw.uncertainty_figure, run.uncertainty)
+    return {of_model(title, name): figure for title, figure in figures.items()}
 
 
 def joint_figures(
@@ -175,11 +176,11 @@ def failed_integrations(
     beside = sum(made["A1"].attrs[f"status_{name}"] != 0 for name in ("backward", "converged"))
     for name in ("nonlinear_tolerance", "step_size"):
         beside += sum(
-            int(one.sum())
-            for key, one in made[name].data_vars.items()
+            int(counted.sum())
+            for key, counted in made[name].data_vars.items()
             if str(key).startswith("failed")
         )
-    return {place: sum(count[place] for count in counts) for place in counts[0]} | {
+    return {stage: sum(count[stage] for count in counts) for stage in counts[0]} | {
         "experiments": beside
     }
 
@@ -189,17 +190,17 @@ def headline(
 ) -> list[str]:
     """What failed, and each statement with what every model gives, a line each."""
     counts = ", ".join(
-        f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count
+        f"{count} in {stage.replace('_', ' ')}" for stage, count in failed.items() if count
     )
     lines = [
         f"{f'FAILED INTEGRATIONS: {counts}' if counts else 'No integration failed, explicit Euler in A1 not counted'} (the study has {total} rollers)."
     ]
     for subject, first in next(iter(judged.values())).items():
-        found = "; ".join(
-            f"{model}: {one[subject].verdict} ({one[subject].found})"
-            for model, one in judged.items()
+        by_model = "; ".join(
+            f"{model}: {statements[subject].verdict} ({statements[subject].found})"
+            for model, statements in judged.items()
         )
-        lines.append(f"Paper: {first.paper}. {found}.")
+        lines.append(f"Paper: {first.paper}. {by_model}.")
     return lines
 
 
@@ -210,10 +211,10 @@ def told(judged: Mapping[str, Mapping[str, Statement]]) -> list[dict[str, Any]]:
             "paper": first.paper,
             "models": {
                 model: {
-                    name: getattr(one[subject], name)
+                    name: getattr(statements[subject], name)
                     for name in ("verdict", "found", "because", "numbers")
                 }
-                for model, one in judged.items()
+                for model, statements in judged.items()
             },
         }
         for subject, first in next(iter(judged.values())).items()
@@ -222,7 +223,7 @@ def told(judged: Mapping[str, Mapping[str, Statement]]) -> list[dict[str, Any]]:
 
 def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dict[str, Any]:
     """Every plotted number, by figure, as plain data with units; of the torque the means."""
-    found: dict[str, Any] = {}
+    numbers: dict[str, Any] = {}
     for model, run in runs.items():
         of_run: dict[str, Any] = {
             name: {title: turn.to_dict(data="list") for title, turn in run.turns[group].items()}
@@ -233,7 +234,7 @@ def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dic
             ("5a", "peak_power_(mean|std)"),
         ):
             of_run[name] = run.numbers[
-                [one for one in run.numbers if re.match(shown, str(one))]
+                [variable for variable in run.numbers if re.match(shown, str(variable))]
             ].to_dict(data="list")
         for name, shown in (("4b", "energy_ratio"), ("5b", "peak_power_ratio")):
             of_run[name] = run.numbers[[shown]].to_dict(data="list")
@@ -244,18 +245,18 @@ def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dic
             "uncertainty": run.uncertainty,
         }
         of_run |= {
-            name: one.to_dict(data="list") for name, one in tables.items() if one is not None
+            name: table.to_dict(data="list") for name, table in tables.items() if table is not None
         }
-        found |= {of_model(name, model): value for name, value in of_run.items()}
-    return found | {name: one.to_dict(data="list") for name, one in made.items()}
+        numbers |= {of_model(name, model): value for name, value in of_run.items()}
+    return numbers | {name: experiment.to_dict(data="list") for name, experiment in made.items()}
 
 
 def plain(value: Any) -> Any:
     """Lists, dicts, text and numbers only; NaN and infinity, which JSON lacks, become None."""
     if isinstance(value, dict):
-        return {str(key): plain(one) for key, one in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple, np.ndarray)):
-        return [plain(one) for one in value]
+        return [plain(item) for item in value]
     if isinstance(value, np.generic):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value
@@ -265,7 +266,7 @@ def as_json(summary: dict[str, Any]) -> str:
     """Indented, with every list of numbers on one line."""
     text = json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False)
     return (
-        re.sub(r"\[[\s\d.eE+\-,nul]+\]", lambda found: " ".join(found.group().split()), text) + "\n"
+        re.sub(r"\[[\s\d.eE+\-,nul]+\]", lambda match: " ".join(match.group().split()), text) + "\n"
     )
 
 
@@ -400,7 +401,11 @@ def reproduce(
         by_case = {}
         for name, run in runs.items():
             counts = (run.study.status != 0).sum(("row", "roller"))
-            by_case |= {of_model(str(one.case.item()), name): int(one) for one in counts if one}
+            by_case |= {
+                of_model(str(failed_of_case.case.item()), name): int(failed_of_case)
+                for failed_of_case in counts
+                if failed_of_case
+            }
         summary = plain(
             {
                 "program": f"macroslip {macroslip.__version__}",

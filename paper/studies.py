@@ -169,7 +169,7 @@ def paper_study(directory: Path) -> xr.Dataset:
     study = xr.concat(parts, cases, combine_attrs="override")
     # In an order of their own, whatever the order in the files.
     study = xr.Dataset(
-        {name: one.variable for name, one in study.data_vars.items()},
+        {name: variable.variable for name, variable in study.data_vars.items()},
         {name: study[name].variable for name in _COORDINATES if name in study.coords},
     )
     study = study.assign_coords(
@@ -187,7 +187,7 @@ def paper_study(directory: Path) -> xr.Dataset:
     study.attrs = {
         "title": opened.attrs["title"],
         "input": json.dumps(
-            {**inputs[-1], "loads": [one["loads"] for one in inputs]}, ensure_ascii=False
+            {**inputs[-1], "loads": [of_case["loads"] for of_case in inputs]}, ensure_ascii=False
         ),
         **{name: attributes[name] for name in ("source", "model", "film_range_notes", "citations")},
     }
@@ -198,7 +198,7 @@ def row_loads(case: Case, start: float, end: float) -> xr.Dataset:
     """Means between two times [s]: radial load and thrust of the bearing, load of a roller by row [N], share under load [1]."""
     loads, (_, by_row) = case.bearing_loads, roller_load_series(case, start, end)
     x, y, axial = loads.force[(loads.time >= start) & (loads.time <= end)].T
-    found = {
+    variables = {
         "radial_load": ((), float(np.hypot(x, y).mean()), "N", "mean radial load of the bearing"),
         "thrust": ((), float(axial.mean()), "N", "mean thrust on the bearing, positive downwind"),
         "roller_load": (
@@ -215,8 +215,8 @@ def row_loads(case: Case, start: float, end: float) -> xr.Dataset:
         ),
     }
     about = {
-        name: (dims, one, {"units": units, "long_name": words})
-        for name, (dims, one, units, words) in found.items()
+        name: (dims, values, {"units": units, "long_name": words})
+        for name, (dims, values, units, words) in variables.items()
     }
     return xr.Dataset(about, {"row": list(ROWS)})
 
@@ -335,26 +335,32 @@ def dissipation(study: xr.Dataset) -> xr.Dataset:
         _exponent(study.roller_load.sel(row=row).values, total.sel(row=row).values)
         for row in study.row
     ]
-    found = xr.Dataset()
+    energies = xr.Dataset()
     put(
-        found,
+        energies,
         "part_energy",
         part_energy,
         "J",
         "energy per orbit of a mean roller by interface and mechanism",
     )
     asperity = per_orbit(study.asperity_energy.sum("interface", skipna=False)) / total
-    put(found, "asperity_share", asperity, "1", "share of the energy that asperities dissipate")
+    put(energies, "asperity_share", asperity, "1", "share of the energy that asperities dissipate")
     along = along.transpose("case", "row", "raceway", "station")
-    put(found, "station_energy", along, "J/m", "energy per orbit and length of roller, by raceway")
     put(
-        found,
+        energies,
+        "station_energy",
+        along,
+        "J/m",
+        "energy per orbit and length of roller, by raceway",
+    )
+    put(
+        energies,
         "load_exponent",
         ("row", exponents),
         "1",
         "exponent of energy per orbit over mean roller load, all cases",
     )
-    return found.drop_vars(("start_angle", "roller"), errors="ignore")
+    return energies.drop_vars(("start_angle", "roller"), errors="ignore")
 
 
 def _exponent(load: np.ndarray, energy: np.ndarray) -> float:

@@ -52,7 +52,7 @@ def uncertainty(directory: Path) -> xr.Dataset:
 
     def gathered(name: str) -> xr.DataArray:
         """A variable over (sample, case, ...); NaN for samples that did not complete."""
-        found = [
+        of_cases = [
             study[name]
             .isel(case=part)
             .reset_coords(drop=True)
@@ -60,11 +60,11 @@ def uncertainty(directory: Path) -> xr.Dataset:
             .rename(case="sample")
             for part in parts
         ]
-        found = xr.concat(found, xr.DataArray(names, dims="case", name="case"))
-        return found.where(xr.DataArray(outcomes == 0, dims="sample"))
+        of_cases = xr.concat(of_cases, xr.DataArray(names, dims="case", name="case"))
+        return of_cases.where(xr.DataArray(outcomes == 0, dims="sample"))
 
     interfaces = xr.DataArray(["inner", "outer", "cage"], dims="interface", name="interface")
-    found = xr.Dataset(
+    sample = xr.Dataset(
         {
             "orbit_energy": xr.concat(
                 [gathered(f"orbit_energy_{name}") for name in interfaces.values], interfaces
@@ -78,7 +78,7 @@ def uncertainty(directory: Path) -> xr.Dataset:
         },
         {"sample": np.arange(len(outcomes))},
     )
-    return found.transpose("sample", "case", "row", "interface")
+    return sample.transpose("sample", "case", "row", "interface")
 
 
 _PARTS = 10  # parts into which the sample is divided to measure the error of the fit
@@ -104,10 +104,10 @@ def _columns(places: NDArray[np.float64], degrees: NDArray[np.int64]) -> NDArray
     """Every term at every place, shape (places, terms)."""
     x = 2.0 * places - 1.0
     legendre = np.stack([np.ones_like(x), math.sqrt(3.0) * x, math.sqrt(5.0) * (1.5 * x * x - 0.5)])
-    found = np.ones((len(places), len(degrees)))
+    columns = np.ones((len(places), len(degrees)))
     for k in range(degrees.shape[1]):
-        found *= legendre[degrees[:, k], :, k].T
-    return found
+        columns *= legendre[degrees[:, k], :, k].T
+    return columns
 
 
 def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
@@ -138,8 +138,10 @@ def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
         )
         if error < least:
             best, least = chosen.copy(), error
-        rest = np.linalg.norm(columns - basis @ (basis.T @ columns), axis=0)
-        gain = np.where(rest > 1e-6 * norms, np.abs(left @ columns) / np.maximum(rest, 1e-300), 0.0)
+        residuals = np.linalg.norm(columns - basis @ (basis.T @ columns), axis=0)
+        gain = np.where(
+            residuals > 1e-6 * norms, np.abs(left @ columns) / np.maximum(residuals, 1e-300), 0.0
+        )
         if gain.max() <= 1e-12 * np.linalg.norm(values):
             break
         chosen.append(int(np.argmax(gain)))
@@ -198,19 +200,22 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
     names = sample.case.values.tolist()
     first, last = names[0], names[-1]
     window, power = sample.window_energy, sample.friction_power
-    found = {
+    by_name = {
         f"energy per orbit, downwind, {name}": (down.sel(case=name), "J") for name in (first, last)
     }
-    found[f"energy in {first} / {last}"] = window.sel(case=first) / window.sel(case=last), "1"
-    found |= {f"energy, downwind / upwind, {name}": (ratio.sel(case=name), "1") for name in names}
-    found[f"share of the inner raceway, downwind, {first}"] = inner.sel(case=first), "1"
-    found |= {
+    by_name[f"energy in {first} / {last}"] = window.sel(case=first) / window.sel(case=last), "1"
+    by_name |= {f"energy, downwind / upwind, {name}": (ratio.sel(case=name), "1") for name in names}
+    by_name[f"share of the inner raceway, downwind, {first}"] = inner.sel(case=first), "1"
+    by_name |= {
         f"mean P_max, downwind / upwind, {name}": (peak.sel(case=name), "1") for name in names
     }
-    found[f"sliding torque, {first}"] = sample.torque.sel(case=first), "N m"
-    found[f"friction power of the bearing, {first}"] = power.sel(case=first), "W"
-    found[f"friction power in {first} / {last}"] = power.sel(case=first) / power.sel(case=last), "1"
-    values = np.stack([one.values for one, _ in found.values()], axis=1)
+    by_name[f"sliding torque, {first}"] = sample.torque.sel(case=first), "N m"
+    by_name[f"friction power of the bearing, {first}"] = power.sel(case=first), "W"
+    by_name[f"friction power in {first} / {last}"] = (
+        power.sel(case=first) / power.sel(case=last),
+        "1",
+    )
+    values = np.stack([numbers.values for numbers, _ in by_name.values()], axis=1)
     return xr.Dataset(
         {
             "result": (
@@ -221,8 +226,8 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
         },
         {
             "sample": sample.sample,
-            "quantity": list(found),
-            "units": ("quantity", [one for _, one in found.values()]),
+            "quantity": list(by_name),
+            "units": ("quantity", [unit for _, unit in by_name.values()]),
         },
     )
 
@@ -274,20 +279,20 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
         the polynomial behind the indices predicts; trend_share and trend_base over trend: how many samples show it, and
         whether the base values do. Attributes: how many samples completed, failed and were refused.
     """
-    found = quantities(sample)
+    of_sample = quantities(sample)
     drawn = sample.sample > 0
     good = (sample.outcome == 0) & drawn
-    result, places = found.result.values[good], sample_places()[sample.sample.values[good] - 1]
-    shape = found.sizes["quantity"], len(VALUES)
+    result, places = of_sample.result.values[good], sample_places()[sample.sample.values[good] - 1]
+    shape = of_sample.sizes["quantity"], len(VALUES)
     ranks, chance, first, total = (np.full(shape, np.nan) for _ in range(4))
     explained = np.full(shape[0], np.nan)
-    for q, one in enumerate(result.T):
-        if len(one) < 3 or np.ptp(one) == 0.0:
+    for q, values in enumerate(result.T):
+        if len(values) < 3 or np.ptp(values) == 0.0:
             continue  # what does not change has no rank, and no variance to divide
-        ranks[q], chance[q] = rank_correlations(places, one)
-        if len(one) > shape[1] and (one > 0.0).all():
-            first[q], total[q] = sobol_indices(fit(places, np.log(one)))
-            explained[q] = explained_variance(places, np.log(one))
+        ranks[q], chance[q] = rank_correlations(places, values)
+        if len(values) > shape[1] and (values > 0.0).all():
+            first[q], total[q] = sobol_indices(fit(places, np.log(values)))
+            explained[q] = explained_variance(places, np.log(values))
     shown = {name: flags.values for name, flags in trends(sample).items()}
     shares = [float(flags[good].mean()) if good.any() else np.nan for flags in shown.values()]
     quantile = (
@@ -296,17 +301,17 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
     counts = {name: int(((sample.outcome == k) & drawn).sum()) for k, name in enumerate(OUTCOMES)}
     summary = xr.Dataset(
         coords={
-            "quantity": found.quantity,
-            "units": found.units,
+            "quantity": of_sample.quantity,
+            "units": of_sample.units,
             "quantile": list(QUANTILES),
             "trend": list(shown),
-            "parameter": [one.name for one in VALUES],
+            "parameter": [uncertain.name for uncertain in VALUES],
             "case": sample.case.values,
         },
         attrs=counts,
     )
-    for name, dims, one, words in (
-        ("base", "quantity", found.result.values[0], "with the base values"),
+    for name, dims, values, words in (
+        ("base", "quantity", of_sample.result.values[0], "with the base values"),
         ("range", ("quantity", "quantile"), quantile, "quantiles over the samples"),
         ("rank_correlation", ("quantity", "parameter"), ranks, "Spearman's rank correlation"),
         (
@@ -336,7 +341,7 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
             "whether the base values show it",
         ),
     ):
-        put(summary, name, (dims, one), "1", words)
+        put(summary, name, (dims, values), "1", words)
     return summary
 
 
@@ -351,19 +356,21 @@ def robust(summary: xr.Dataset) -> list[tuple[str, str]]:
 
 def strongest(summary: xr.Dataset, quantity: str) -> list[tuple[str, float, float]]:
     """Parameters with a total Sobol' index worth telling, the largest first: name, first order, total."""
-    one = summary.sel(quantity=quantity)
-    found = zip(
-        one.parameter.values.tolist(),
-        one.first_order.values.tolist(),
-        one.total_order.values.tolist(),
+    of_quantity = summary.sel(quantity=quantity)
+    indices = zip(
+        of_quantity.parameter.values.tolist(),
+        of_quantity.first_order.values.tolist(),
+        of_quantity.total_order.values.tolist(),
         strict=True,
     )
-    return sorted((each for each in found if each[2] >= TOLD_INDEX), key=lambda each: -each[2])
+    return sorted((each for each in indices if each[2] >= TOLD_INDEX), key=lambda each: -each[2])
 
 
 def drivers(summary: xr.Dataset, quantity: str) -> list[tuple[str, float]]:
     """Parameters whose rank correlation with a quantity is no chance, the strongest first, with its value."""
-    one = summary.sel(quantity=quantity)
-    sure = one.isel(parameter=one.probability.values < DRIVER_LEVEL)
-    found = zip(sure.parameter.values.tolist(), sure.rank_correlation.values.tolist(), strict=True)
-    return sorted(found, key=lambda each: -abs(each[1]))
+    of_quantity = summary.sel(quantity=quantity)
+    sure = of_quantity.isel(parameter=of_quantity.probability.values < DRIVER_LEVEL)
+    correlations = zip(
+        sure.parameter.values.tolist(), sure.rank_correlation.values.tolist(), strict=True
+    )
+    return sorted(correlations, key=lambda each: -abs(each[1]))

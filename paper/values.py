@@ -40,15 +40,15 @@ class UncertainValue:
     choices: Sequence[str | float] = ()
     reason: str = ""
 
-    def at(self, place: float) -> Any:
+    def at(self, position: float) -> Any:
         """The value at a place from 0 to 1 in its range, in its unit; of a choice its name or number."""
         if self.kind == "choice":
-            return self.choices[int(place * len(self.choices))]
+            return self.choices[int(position * len(self.choices))]
         if self.kind == "count":
-            return int(self.low) + int(place * (self.high - self.low + 1.0))
+            return int(self.low) + int(position * (self.high - self.low + 1.0))
         if self.kind == "log":
-            return self.low * (self.high / self.low) ** place
-        return self.low + place * (self.high - self.low)
+            return self.low * (self.high / self.low) ** position
+        return self.low + position * (self.high - self.low)
 
     @property
     def range_text(self) -> str:
@@ -65,7 +65,10 @@ def _read() -> tuple[UncertainValue, ...]:
         {
             "low": float(row["low"]),
             "high": float(row["high"]),
-            "choices": [float(one) if one[0].isdigit() else one for one in row["choices"].split()],
+            "choices": [
+                float(choice) if choice[0].isdigit() else choice
+                for choice in row["choices"].split()
+            ],
         }
         for row in rows
     ]
@@ -83,9 +86,9 @@ def sample_places() -> NDArray[np.float64]:
     from scipy.stats import qmc
 
     places = qmc.Sobol(len(VALUES), rng=np.random.default_rng(SEED)).random(POINTS)
-    for k, one in enumerate(VALUES):
-        if one.kind in ("count", "choice"):
-            count = one.high - one.low + 1.0
+    for k, uncertain in enumerate(VALUES):
+        if uncertain.kind in ("count", "choice"):
+            count = uncertain.high - uncertain.low + 1.0
             places[:, k] = (np.floor(places[:, k] * count) + 0.5) / count
     return places
 
@@ -105,10 +108,15 @@ def sample_points() -> list[dict[str, Any]]:
     sphere = Bearing.read("skf-240-600-bc").outer_raceway_radius
     points: list[dict[str, Any]] = [{}]
     for places in sample_places():
-        drawn = {one.key: one.at(float(place)) for one, place in zip(VALUES, places, strict=True)}
+        drawn = {
+            uncertain.key: uncertain.at(float(position))
+            for uncertain, position in zip(VALUES, places, strict=True)
+        }
         point = {
-            one.key: drawn[one.key] if one.unit == "1" else f"{drawn[one.key]:.12g} {one.unit}"
-            for one in VALUES
+            uncertain.key: drawn[uncertain.key]
+            if uncertain.unit == "1"
+            else f"{drawn[uncertain.key]:.12g} {uncertain.unit}"
+            for uncertain in VALUES
         }
         centre = sphere - 0.5e-3 * drawn["bearing.roller_diameter"]
         angle = math.radians(drawn["bearing.contact_angle"])

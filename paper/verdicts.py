@@ -277,20 +277,20 @@ def cage_dominates(study: xr.Dataset) -> tuple[Row, ...]:
     share = energy.sel(interface="cage") / energy.sum("interface", skipna=False)
     rows = []
     for row in study.row.values.tolist():
-        one = ends(share.sel(row=row))
+        share_range = ends(share.sel(row=row))
         stated = f"at least {DOMINANT:g}"
         rows.append(
             Row(
                 f"least_{row}",
                 f"{row}: least share of the cage",
-                one["lowest"],
+                share_range["lowest"],
                 "",
                 stated,
                 DOMINANT,
                 1.0,
             )
         )
-        rows.append(Row(f"most_{row}", f"{row}: largest share of the cage", one["highest"]))
+        rows.append(Row(f"most_{row}", f"{row}: largest share of the cage", share_range["highest"]))
     return tuple(rows)
 
 
@@ -327,7 +327,7 @@ def statements(
         for name in STATIC_LOADS
     }
     downward = static["downward, downwind"]
-    found = {
+    rows_by_subject = {
         "energy": energy_over_wind_speed(numbers, study),
         "rows": energy_between_rows(numbers, energies["downward and thrust"]["downwind"]),
         "peaks": peak_power_over_wind_speed(numbers),
@@ -340,7 +340,7 @@ def statements(
     return {
         subject: Statement(
             words["paper"],
-            found[subject],
+            rows_by_subject[subject],
             words.get("reasons", {}).get(model, ""),
             model in words.get("compatible", ()),
         )

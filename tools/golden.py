@@ -85,40 +85,44 @@ SHORT = {
 
 def cases() -> dict[str, tuple[str, dict]]:
     """Kind and settings of every case by its name, without tolerance."""
-    found = {}
+    golden_cases = {}
     for model, laws in MODELS.items():
         for name, (start, end) in HISTORIES.items():
-            given = {
+            settings = {
                 "loads": lambda n=name, s=start, e=end: HubLoads.bundled(n).window(s, e),
                 "laws": laws(),
             }
-            found[f"imposed-{model}-{name}"] = "imposed", {**given, "rollers": ROLLERS}
+            golden_cases[f"imposed-{model}-{name}"] = "imposed", {**settings, "rollers": ROLLERS}
         for name, loads in SHORT.items():
-            given = {
+            settings = {
                 "loads": loads,
                 "laws": laws(),
                 "rollers": ROLLERS,
                 "window": Window(start=0.0),
             }
-            found[f"short-{model}-{name}"] = "short", given
+            golden_cases[f"short-{model}-{name}"] = "short", settings
         for kind, name, last in (("film", "14B", 10.0), ("film", "24A", 10.0), ("dry", "14B", 4.0)):
             last = (
                 last if model == "paper" else 0.4 * last
             )  # by the laws it takes some ten times as long
             start = HISTORIES[name][0]
-            given = {
+            settings = {
                 "loads": lambda n=name, s=start, e=start + last: HubLoads.bundled(n).window(s, e), "laws": laws(),
                 "dynamics": "whole-bearing", "window": Window(start=start + 1.0),
                 "cage": Cage(impact="dry" if kind == "dry" else "squeeze-film"),
             }  # fmt: skip
-            found[f"{kind}-{model}-{name}"] = kind, given
-    return found
+            golden_cases[f"{kind}-{model}-{name}"] = kind, settings
+    return golden_cases
 
 
-def compute(kind: str, given: dict, tolerance: float) -> dict[str, np.ndarray]:
+def compute(kind: str, case_settings: dict, tolerance: float) -> dict[str, np.ndarray]:
     """Variables of a result as arrays; of maps sums and largest values, of dry impacts quantiles over the rollers."""
-    settings = {**given, "loads": given["loads"](), "integrator": Radau(tolerance=tolerance)}
-    result, found = simulate(Case(**settings)), {}
+    settings = {
+        **case_settings,
+        "loads": case_settings["loads"](),
+        "integrator": Radau(tolerance=tolerance),
+    }
+    result, arrays = simulate(Case(**settings)), {}
     speed = settings["loads"].shaft_speed
     if speed.min() < 0.0 < speed.max():
         # Both spins and the entrainment speed pass zero: the least of these ratios means nothing there.
@@ -144,27 +148,27 @@ def compute(kind: str, given: dict, tolerance: float) -> dict[str, np.ndarray]:
         array = values.values.astype(float)
         if kind == "dry" and "roller" in values.dims and name != "status":
             array = np.quantile(array, QUANTILES, axis=values.dims.index("roller"))
-        found[name] = array
-    return found
+        arrays[name] = array
+    return arrays
 
 
-def errors(kind: str, found: np.ndarray, right: np.ndarray, name: str) -> float:
+def errors(kind: str, computed: np.ndarray, stored: np.ndarray, name: str) -> float:
     """Largest difference over the scale; infinite where shapes differ, or one is a number and the other not.
 
     Energies are measured by themselves, or by a hundredth of the largest of all rollers where that is more; other
     variables by the largest, but the ratio of spins, which is a ratio already.
     """
-    if found.shape != right.shape or (np.isnan(found) != np.isnan(right)).any():
+    if computed.shape != stored.shape or (np.isnan(computed) != np.isnan(stored)).any():
         return np.inf
-    known = ~np.isnan(right)
-    largest = float(np.max(np.abs(right[known]), initial=0.0))
+    known = ~np.isnan(stored)
+    largest = float(np.max(np.abs(stored[known]), initial=0.0))
     if name == "min_spin_ratio":
-        scale = np.maximum(np.abs(right), 0.1)
+        scale = np.maximum(np.abs(stored), 0.1)
     elif name in ENERGIES and name != "mechanism_energy" and kind != "dry":
-        scale = np.maximum(np.abs(right), 0.01 * largest)
+        scale = np.maximum(np.abs(stored), 0.01 * largest)
     else:
-        scale = np.full(right.shape, largest)
-    different = np.abs(found - right)
+        scale = np.full(stored.shape, largest)
+    different = np.abs(computed - stored)
     return float(np.max(different[known] / np.maximum(scale[known], 1e-12), initial=0.0))
 
 
@@ -175,11 +179,11 @@ def nominal(kind: str, name: str) -> float:
 
 def write(only: str) -> None:
     """Compute the numbers of the chosen cases, with their bounds, and store them beside the others."""
-    for case, (kind, given) in cases().items():
+    for case, (kind, settings) in cases().items():
         if only not in case:
             continue
         began = time.process_time()
-        right, loose = compute(kind, given, TIGHT[kind]), compute(kind, given, LOOSE[kind])
+        right, loose = compute(kind, settings, TIGHT[kind]), compute(kind, settings, LOOSE[kind])
         bounds = {}
         for name, values in right.items():
             spread, promised = errors(kind, loose[name], values, name), nominal(kind, name)
@@ -197,21 +201,21 @@ def write(only: str) -> None:
         stored[case] = {"bounds": bounds, "values": plain}
         print(f"{case:26} {time.process_time() - began:6.1f} s of CPU", flush=True)
         FILE.parent.mkdir(parents=True, exist_ok=True)
-        lines = [f'"{case}": {json.dumps(one)}' for case, one in sorted(stored.items())]
+        lines = [f'"{case}": {json.dumps(content)}' for case, content in sorted(stored.items())]
         FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
 
 def check(only: str) -> dict[str, tuple[float, str]]:
     """The worst ratio of error to bound of every chosen case, and the variable it belongs to."""
     stored, worst = json.loads(FILE.read_text()), {}
-    for case, (kind, given) in cases().items():
+    for case, (kind, settings) in cases().items():
         if only not in case:
             continue
-        found, ratios = compute(kind, given, LOOSE[kind]), {}
+        computed, ratios = compute(kind, settings, LOOSE[kind]), {}
         for name, values in stored[case]["values"].items():
             error = (
-                errors(kind, found[name], np.array(values, float), name)
-                if name in found
+                errors(kind, computed[name], np.array(values, float), name)
+                if name in computed
                 else np.inf
             )
             bound = stored[case]["bounds"][name]
@@ -223,12 +227,15 @@ def check(only: str) -> dict[str, tuple[float, str]]:
 
 def check_verdicts(summary: Path) -> list[str]:
     """Verdicts in a `summary.json` of `make reproduce` that are not as stored, in words."""
-    found = {one["paper"]: one["models"] for one in json.loads(summary.read_text())["statements"]}
+    verdicts_now = {
+        statement["paper"]: statement["models"]
+        for statement in json.loads(summary.read_text())["statements"]
+    }
     return [
-        f"{paper} ({model}): {verdict} before, now {found.get(paper, {}).get(model, {}).get('verdict')}"
+        f"{paper} ({model}): {verdict} before, now {verdicts_now.get(paper, {}).get(model, {}).get('verdict')}"
         for paper, models in json.loads(VERDICTS.read_text()).items()
         for model, verdict in models.items()
-        if found.get(paper, {}).get(model, {}).get("verdict") != verdict
+        if verdicts_now.get(paper, {}).get(model, {}).get("verdict") != verdict
     ]
 
 

@@ -26,7 +26,7 @@ def pages() -> dict[str, tuple[str, MakersPage]]:
     >>> title, page.bore
     ('Double-row spherical roller bearing 240/630 BC, 630 x 920 x 290 mm', 0.63)
     """
-    found = {}
+    pages_by_name = {}
     lines = (FOLDER / "pages.csv").read_text(encoding="utf-8").splitlines()
     for row in csv.DictReader(line for line in lines if not line.startswith("#")):
         designation, kind = row.pop("designation"), row.pop("variant")
@@ -49,8 +49,8 @@ def pages() -> dict[str, tuple[str, MakersPage]]:
             axial_factor_y0=size["Y0"],
             mass=size["mass_kg"],
         )
-        found[f"skf-{designation.replace('/', '-')}-{kind.lower()}"] = f"{title} mm", page
-    return found
+        pages_by_name[f"skf-{designation.replace('/', '-')}-{kind.lower()}"] = f"{title} mm", page
+    return pages_by_name
 
 
 def shipped_bearing(name: str) -> Bearing:

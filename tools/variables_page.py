@@ -21,8 +21,8 @@ def tables() -> str:
     parts = []
     for when, variables in groups.items():
         rows = [
-            f"| `{one.name}` | {', '.join(one.dims)} | {one.units} | {one.long_name} |"
-            for one in variables
+            f"| `{variable_shown.name}` | {', '.join(variable_shown.dims)} | {variable_shown.units} | {variable_shown.long_name} |"
+            for variable_shown in variables
         ]
         heading = f"**{when[0].upper()}{when[1:]}:**"
         parts.append(
@@ -35,8 +35,8 @@ def tables() -> str:
 
 def with_tables(page: str) -> str:
     """The page with the tables between its two marks."""
-    before, _, rest = page.partition(BEGIN)
-    after = rest.partition(END)[2]
+    before, _, from_begin = page.partition(BEGIN)
+    after = from_begin.partition(END)[2]
     return f"{before}{BEGIN}\n\n{tables()}\n\n{END}{after}"
 
 

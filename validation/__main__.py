@@ -30,15 +30,15 @@ def main() -> None:
     parser.add_argument(
         "-o", "--output", type=Path, default=Path("docs/figures"), help="folder of the figures"
     )
-    given = parser.parse_args()
-    given.output.mkdir(parents=True, exist_ok=True)
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
     rows = []
-    for name in [given.name] if given.name else NAMES:
+    for name in [options.name] if options.name else NAMES:
         module = import_module(f"validation.{name}")
         rows += module.compare()
         with program_style():
-            module.draw(given.output / f"measured_{name}.png")
-    print(table(rows), f"\nfigures: {given.output}", sep="\n")
+            module.draw(options.output / f"measured_{name}.png")
+    print(table(rows), f"\nfigures: {options.output}", sep="\n")
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ class Slip(NamedTuple):
 
 
 def _case(loads: BearingLoads, celsius: float, **choices) -> Case:
-    given = {
+    defaults = {
         "oil_supply": "flooded",
         "cage": CAGE,
         "dynamics": "whole-bearing",
@@ -61,24 +61,28 @@ def _case(loads: BearingLoads, celsius: float, **choices) -> Case:
         "rating": False,
     }
     return Case(
-        bearing=BEARING, lubricant=OIL, temperature=celsius + 273.15, loads=loads, **given | choices
+        bearing=BEARING,
+        lubricant=OIL,
+        temperature=celsius + 273.15,
+        loads=loads,
+        **defaults | choices,
     )
 
 
 def steady(load: float, celsius: float, **choices) -> Slip:
     """Under a constant radial load [N]; the first 0.7 s, in which rollers leave pure rolling, are left out."""
     loads = BearingLoads.constant([0.0, -load, 0.0], SPEED, 1.0)
-    found = simulate(
+    result = simulate(
         _case(
             loads, celsius, window=Window(start=0.7), traces=Traces(step=2e-3, start=0.7), **choices
         )
     )
-    if found.status.any():
-        raise RuntimeError(f"{load} N, {celsius} °C: status {int(found.status.max())}")
-    slip = 1.0 - found.spin / found.spin_pure
-    inside = found.roller_load > LOADED * found.roller_load.max()
+    if result.status.any():
+        raise RuntimeError(f"{load} N, {celsius} °C: status {int(result.status.max())}")
+    slip = 1.0 - result.spin / result.spin_pure
+    inside = result.roller_load > LOADED * result.roller_load.max()
     return Slip(
-        -float(found.cage_slip[0]),
+        -float(result.cage_slip[0]),
         float(slip.where(inside).mean()),
         float(slip.where(~inside).mean()),
     )
@@ -92,21 +96,21 @@ def ramp(laws: Laws) -> xr.Dataset:
     loads = BearingLoads(time, np.full(time.size, SPEED), force, "a load that falls and rises")
     asks = {"oil_supply": "flooded" if laws.asks_for_oil else None}
     case = _case(loads, 60.0, laws=laws, traces=Traces(step=0.025), **asks)
-    found = simulate(case)
-    if found.status.any():
-        raise RuntimeError(f"ramp under {laws.name}: status {int(found.status.max())}")
-    slip = 1.0 - found.cage_speed.values[0] / (orbit_ratio(BEARING) * SPEED)
-    down = slice(0, found.time.size // 2 + 1)
-    over = np.interp(found.time.values[down], time, load)
+    result = simulate(case)
+    if result.status.any():
+        raise RuntimeError(f"ramp under {laws.name}: status {int(result.status.max())}")
+    slip = 1.0 - result.cage_speed.values[0] / (orbit_ratio(BEARING) * SPEED)
+    down = slice(0, result.time.size // 2 + 1)
+    over = np.interp(result.time.values[down], time, load)
     return xr.Dataset(
         {"falling": ("load", slip[down]), "rising": ("load", slip[::-1][down])}, {"load": over}
     )
 
 
-def jumps(found: xr.Dataset, slip: float = 0.2) -> tuple[float, float]:
+def jumps(slips: xr.Dataset, slip: float = 0.2) -> tuple[float, float]:
     """Loads [N] at which the cage's slip passes a value while the load falls, and while it rises."""
     lost, held = (
-        float(found["load"][np.flatnonzero(found[name].values > slip)[0]])
+        float(slips["load"][np.flatnonzero(slips[name].values > slip)[0]])
         for name in ("falling", "rising")
     )
     return lost, held
@@ -122,11 +126,11 @@ def compare() -> list[Comparison]:
     about = "trend: falls with temperature and load; level: bearing, load, oil and cage are assumed"
     rows = []
     for zone, measured in (("loaded", 0.6), ("unloaded", 0.8)):
-        one, *others = (getattr(each, zone) for each in (cold, warm, loaded))
+        slip_when_cold, *others = (getattr(each, zone) for each in (cold, warm, loaded))
         rows.append(
             Comparison(
                 f"largest slip of rollers, {zone} zone, cold and at light load", Range(measured, measured),
-                Range(one, one), Range(one / measured, one / measured), about,
+                Range(slip_when_cold, slip_when_cold), Range(slip_when_cold / measured, slip_when_cold / measured), about,
             )
         )  # fmt: skip
         rows.append(
@@ -146,30 +150,30 @@ def draw(path: Path) -> None:
     left, right = figure.subplots(1, 2)
     colours = dict(zip(LOADS, ("#0072B2", "#009E73", "#D55E00", "#6E6E6E"), strict=True))
     for load, colour in colours.items():
-        found = [steady(load, celsius) for celsius in CELSIUS]
+        slips = [steady(load, celsius) for celsius in CELSIUS]
         left.plot(
             CELSIUS,
-            [100.0 * one.loaded for one in found],
+            [100.0 * slip.loaded for slip in slips],
             "o-",
             color=colour,
             label=f"{1e-3 * load:.0f} kN",
         )
-        left.plot(CELSIUS, [100.0 * one.unloaded for one in found], "s--", color=colour)
+        left.plot(CELSIUS, [100.0 * slip.unloaded for slip in slips], "s--", color=colour)
     left.set(xlabel="oil temperature [°C]", ylabel="slip of rollers [%]", ylim=(0.0, 100.0))
     left.set_title("loaded zone (lines), unloaded zone (dashes)", fontsize=9, loc="left")
     left.legend(frameon=False, fontsize="small")
     for laws, colour in ((Laws.paper(), "#D55E00"), (Laws.physical(), "#0072B2")):
-        found = ramp(laws)
+        slips = ramp(laws)
         right.plot(
-            1e-3 * found["load"],
-            100.0 * found.falling,
+            1e-3 * slips["load"],
+            100.0 * slips.falling,
             "-",
             color=colour,
             label=f"{laws.name}, load falls",
         )
         right.plot(
-            1e-3 * found["load"],
-            100.0 * found.rising,
+            1e-3 * slips["load"],
+            100.0 * slips.rising,
             "--",
             color=colour,
             label=f"{laws.name}, load rises",

@@ -75,18 +75,23 @@ def power_of_case(wind: int, speed: float, celsius: float, supply: str | float) 
         rating=False,
     )
     parts = torque(case, loads)
-    return Heat(*(speed * SPEED * one for one in (parts.total, parts.skf, parts.palmgren)))
+    return Heat(
+        *(
+            speed * SPEED * torque_of_model
+            for torque_of_model in (parts.total, parts.skf, parts.palmgren)
+        )
+    )
 
 
 def power(state: State) -> Heat:
     """Heat in a state, between those of the two bundled winds beside its wind."""
     wind = float(np.clip(state.wind, WINDS[0], WINDS[-1]))
-    below = max(one for one in WINDS if one <= wind)
+    below = max(tabulated for tabulated in WINDS if tabulated <= wind)
     part = (wind - below) / 2.0
     heat = np.array(power_of_case(below, *state[1:]))
     if part > 0.0:
         heat = (1.0 - part) * heat + part * np.array(power_of_case(below + 2, *state[1:]))
-    return Heat(*(float(one) for one in heat))
+    return Heat(*(float(heat_of_model) for heat_of_model in heat))
 
 
 def ratio(over: State, under: State) -> Heat:
@@ -113,10 +118,10 @@ def measured_ratio(over: tuple[float, float | None], under: tuple[float, float |
     return Range(quotient - error, quotient + error)
 
 
-def _lhb_at(place: tuple[float, float | None]) -> tuple[float, float]:
+def _lhb_at(state: tuple[float, float | None]) -> tuple[float, float]:
     """Heat and error [K/h] at a rotor speed [r/min] and wind [m/s]."""
     table = measured_lhb()
-    speed, wind = place
+    speed, wind = state
     here = table.wind_mps.isna() if wind is None else table.wind_mps == wind
     row = table[(table.rotor_speed_rpm == speed) & here].iloc[0]
     return float(row.q_K_per_h), float(row.error)
@@ -185,11 +190,11 @@ def lhb_ratio(
     part = 1.0 if speed == 17.0 else speed / RATED_LHB
     drawn = loads if loads is not None else wind
     assert drawn is not None
-    found = [
+    ratios = [
         ratio(State(drawn, part, celsius, supply), under)
         for celsius in lhb_temperatures(speed, wind)
     ]
-    return {model: Range.of([getattr(one, model) for one in found]) for model in MODELS}
+    return {model: Range.of([getattr(heat, model) for heat in ratios]) for model in MODELS}
 
 
 def compare() -> list[Comparison]:
@@ -197,12 +202,12 @@ def compare() -> list[Comparison]:
     rows = []
     for bearing in BEARINGS:
         low = measured_wt23(bearing).iloc[0]
-        found = Range(low.ratio_to_16rpm - low.ratio_error, low.ratio_to_16rpm + low.ratio_error)
+        measured = Range(low.ratio_to_16rpm - low.ratio_error, low.ratio_to_16rpm + low.ratio_error)
         own = _by_model([wt23_slowest(bearing)])
         rows.append(
             _row(
                 f"heat at 10.4 over 16 r/min, WT23 {bearing} [-]",
-                found,
+                measured,
                 own,
                 "load, speed, temperature",
             )
@@ -211,7 +216,7 @@ def compare() -> list[Comparison]:
         rows.append(
             _row(
                 "the same with equal loads at both speeds [-]",
-                found,
+                measured,
                 equal,
                 "how thrust and load are shared",
             )
@@ -242,7 +247,7 @@ def compare() -> list[Comparison]:
 
 def _by_model(heats: list[Heat]) -> dict[str, Range]:
     """Range by model."""
-    return {model: Range.of([getattr(one, model) for one in heats]) for model in MODELS}
+    return {model: Range.of([getattr(heat, model) for heat in heats]) for model in MODELS}
 
 
 def _row(quantity: str, measured: Range, own: dict[str, Range], decides: str) -> Comparison:
@@ -269,15 +274,19 @@ def _level() -> Range:
 def print_supplies() -> None:
     """Print what the supply of oil changes, and the factors of speed, temperature and load."""
     for bearing in BEARINGS:
-        print(bearing, "speed, temperature, load:", *(f"{one:.2f}" for one in wt23_parts(bearing)))
+        print(
+            bearing,
+            "speed, temperature, load:",
+            *(f"{factor:.2f}" for factor in wt23_parts(bearing)),
+        )
         for supply in SUPPLIES:
             own, equal = (
                 wt23_slowest(bearing, equal_loads=same, supply=supply).own for same in (False, True)
             )
             print(bearing, supply, f"{own:.3f}, equal loads {equal:.3f}")
     for supply in SUPPLIES:
-        found = lhb_ratio((8.7, None), loads=8.0, supply=supply)
-        print("La Haute Borne, 8.7 over 17 r/min", supply, found["own"])
+        ratios = lhb_ratio((8.7, None), loads=8.0, supply=supply)
+        print("La Haute Borne, 8.7 over 17 r/min", supply, ratios["own"])
 
 
 def draw(path: Path) -> None:
@@ -303,11 +312,11 @@ _COLOURS = {"own": "C0", "skf": "C1", "palmgren": "C2"}
 def _draw_wt23(axis, bearing: str) -> None:
     """Heat of a bearing of WT23 over rotor speed."""
     table = measured_wt23(bearing)
-    found = wt23_ratios(bearing)
+    ratios = wt23_ratios(bearing)
     for model in MODELS:
-        values = [getattr(one, model) for one in found]
+        values = [getattr(heat, model) for heat in ratios]
         axis.plot(table.rotor_speed_rpm, values, color=_COLOURS[model], label=_LABELS[model])
-    ends = [0, len(found) - 1]
+    ends = [0, len(ratios) - 1]
     equal = [wt23_slowest(bearing, equal_loads=True).own, 1.0]
     axis.plot(table.rotor_speed_rpm.iloc[ends], equal, "--", color="C0", label="equal loads")
     axis.errorbar(
@@ -324,14 +333,14 @@ def _draw_lhb_speed(axis) -> None:
     speeds = (8.7, 11.4, 14.8)
     unit, _ = _lhb_at((17.0, 8.0))
     for wind, colour in ((8.0, "C0"), (4.0, "C3")):
-        ranges = [lhb_ratio((one, None), loads=wind)["own"] for one in speeds]
+        ranges = [lhb_ratio((speed, None), loads=wind)["own"] for speed in speeds]
         axis.fill_between(
-            speeds, [one.low for one in ranges], [one.high for one in ranges],
+            speeds, [interval.low for interval in ranges], [interval.high for interval in ranges],
             color=colour, alpha=0.5, label=f"this program, loads of {wind:g} m/s",
         )  # fmt: skip
-    skf = [lhb_ratio((one, None), loads=8.0)["skf"] for one in speeds]
-    axis.plot(speeds, [np.mean(one) for one in skf], color="C1", label="SKF, loads of 8 m/s")
-    rows = [(*_lhb_at((one, None)), one) for one in speeds] + [(*_lhb_at((17.0, 8.0)), 17.0)]
+    skf = [lhb_ratio((speed, None), loads=8.0)["skf"] for speed in speeds]
+    axis.plot(speeds, [np.mean(ratios) for ratios in skf], color="C1", label="SKF, loads of 8 m/s")
+    rows = [(*_lhb_at((speed, None)), speed) for speed in speeds] + [(*_lhb_at((17.0, 8.0)), 17.0)]
     axis.errorbar(
         [row[2] for row in rows], [row[0] / unit for row in rows], [row[1] / unit for row in rows],
         fmt="ko", ms=4, capsize=2, label="measured",
@@ -350,9 +359,9 @@ def _draw_lhb_wind(axis) -> None:
     unit, _ = _lhb_at((17.0, 8.0))
     winds = (8.0, 10.0, 12.0)
     for model in MODELS:
-        ranges = [lhb_ratio((17.0, one))[model] for one in winds]
+        ranges = [lhb_ratio((17.0, wind))[model] for wind in winds]
         axis.fill_between(
-            winds, [one.low for one in ranges], [one.high for one in ranges],
+            winds, [interval.low for interval in ranges], [interval.high for interval in ranges],
             color=_COLOURS[model], alpha=0.4, label=_LABELS[model],
         )  # fmt: skip
     axis.errorbar(

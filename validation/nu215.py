@@ -74,7 +74,7 @@ def slip(
         }
     speed = rpm * math.pi / 30.0
     bearing = CONTOURS[contour].replace(diametral_clearance=clearance, cage_youngs_modulus=modulus)
-    found = simulate(
+    result = simulate(
         Case(
             bearing=bearing,
             lubricant=OIL,
@@ -87,9 +87,9 @@ def slip(
             rating=False,
         )
     )
-    if found.status.any():
-        raise RuntimeError(f"{load} N, {rpm} rpm: status {int(found.status.max())}")
-    return -float(found.cage_slip[0])
+    if result.status.any():
+        raise RuntimeError(f"{load} N, {rpm} rpm: status {int(result.status.max())}")
+    return -float(result.cage_slip[0])
 
 
 def _text(values: dict[str, float]) -> str:
@@ -140,7 +140,7 @@ def rises_with_speed(contour: str) -> Sign:
 def least_where_rollers_guide(contour: str) -> Sign:
     """Slip by what guides the cage."""
     guides = ("rollers", "inner-ring", "outer-ring")
-    values = {one: slip(guided_by=one, contour=contour) for one in guides}
+    values = {guide: slip(guided_by=guide, contour=contour) for guide in guides}
     right = values["rollers"] == min(values.values())
     return Sign("a cage that rollers guide slips least", _text(values), _verdict(right))
 
@@ -178,8 +178,8 @@ def main() -> None:
     print("| measured | rollers | slip of the cage here | sign |\n|---|---|---|---|")
     for sign in SIGNS:
         for contour in CONTOURS:
-            found = sign(contour)
-            row = (found.measured, contour, found.computed, found.verdict)
+            shown = sign(contour)
+            row = (shown.measured, contour, shown.computed, shown.verdict)
             print(f"| {' | '.join(row)} |", flush=True)
 
 

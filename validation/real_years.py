@@ -71,12 +71,16 @@ def ratios(study: xr.Dataset, table: pd.DataFrame) -> pd.DataFrame:
         }
         for site in (False, True):
             wind = BinProbabilities(joint.wind_shares()) if site else weighting.year.wind
-            found = {
+            numbers = {
                 name: _numbers(runs, shares, Year(wind, weighting.year.events), weighting)
                 for name, shares in cases.items()
             }
-            wear = {name: float(one["wear"]) for name, one in found.items()}
-            energy = {name: float(one["energy"]) for name, one in found.items()}
+            wear = {
+                name: float(numbers_of_year["wear"]) for name, numbers_of_year in numbers.items()
+            }
+            energy = {
+                name: float(numbers_of_year["energy"]) for name, numbers_of_year in numbers.items()
+            }
             lines.append(
                 {
                     "turbine": turbine,

@@ -92,16 +92,16 @@ def shares() -> np.ndarray:
 def change(supply: float = 0.7, case: str = "12B") -> float:
     """Kelvin over which the share below Λ = 3 rises from a tenth to nine tenths."""
     celsius = np.arange(25.0, 50.0, 0.5)
-    share = [mixed_share(case, one, supply) for one in celsius]
+    share = [mixed_share(case, temperature, supply) for temperature in celsius]
     return float(np.interp(0.9, share, celsius) - np.interp(0.1, share, celsius))
 
 
 def half_load() -> float:
     """Film under half the load over the film, at the mean load of a loaded roller and rated speed."""
-    load, speed = (float(np.mean(one)) for one in states("12B"))
+    load, speed = (float(np.mean(means)) for means in states("12B"))
     thick, thin = (
-        float(film_ratio("12B", np.array(one), np.array(speed), 35.0, 1.0))
-        for one in (0.5 * load, load)
+        float(film_ratio("12B", np.array(roller_load), np.array(speed), 35.0, 1.0))
+        for roller_load in (0.5 * load, load)
     )
     return thick / thin
 
@@ -109,12 +109,12 @@ def half_load() -> float:
 def compare() -> list[Comparison]:
     """The lines of the table."""
     at = int(np.flatnonzero(TEMPERATURES == 35.0)[0])
-    found, width, thinner = Range.of(shares()[SUPPLIES.index(0.7), at]), change(), half_load()
+    share, width, thinner = Range.of(shares()[SUPPLIES.index(0.7), at]), change(), half_load()
     regime = "film, roughness and supply together: mixed friction has to be in the model"
     return [
         Comparison(
-            "share of loaded time with Λ < 3 at 35 °C, supply 0.7, 21 load cases", Range(0.9, 0.9), found,
-            Range(found.low / 0.9, found.high / 0.9), regime,
+            "share of loaded time with Λ < 3 at 35 °C, supply 0.7, 21 load cases", Range(0.9, 0.9), share,
+            Range(share.low / 0.9, share.high / 0.9), regime,
         ),
         Comparison(
             "change from full to mixed film [K]", Range(5.0, 5.0), Range(width, width),

@@ -54,15 +54,15 @@ class Parts(NamedTuple):
 @lru_cache
 def parts(rolling: str = "whole-film", **changed: float) -> Parts:
     """Torques under a steady load, the mean load of a turbine at rated speed but for what is changed [N, rad/s, K]."""
-    given = {
+    operation = {
         "radial": RADIAL,
         "thrust": THRUST,
         "speed": SPEED,
         "temperature": TEMPERATURE,
     } | changed
-    orbit = 2.0 * np.pi / (0.455 * given["speed"])
+    orbit = 2.0 * np.pi / (0.455 * operation["speed"])
     loads = BearingLoads.constant(
-        [0.0, -given["radial"], given["thrust"]], given["speed"], 2.2 * orbit
+        [0.0, -operation["radial"], operation["thrust"]], operation["speed"], 2.2 * orbit
     )
     laws = Laws.physical().but(rolling=rolling)
     case = Case(
@@ -70,18 +70,18 @@ def parts(rolling: str = "whole-film", **changed: float) -> Parts:
         rollers=ROLLERS,
         laws=laws,
         oil_supply="flooded",
-        temperature=given["temperature"],
+        temperature=operation["temperature"],
     )
-    found, oil = torque(case, loads), OIL.at(given["temperature"])
+    torques, oil = torque(case, loads), OIL.at(operation["temperature"])
     filled = replenishment(
-        oil.viscosity / oil.density, given["speed"], BEARING.bore_diameter, BEARING.outside_diameter
+        oil.viscosity / oil.density, operation["speed"], BEARING.bore_diameter, BEARING.outside_diameter
     )  # fmt: skip
     return Parts(
-        found.rolling,
-        found.sliding,
-        found.cage + found.drag,
-        found.skf_rolling / float(filled),
-        found.skf_sliding,
+        torques.rolling,
+        torques.sliding,
+        torques.cage + torques.drag,
+        torques.skf_rolling / float(filled),
+        torques.skf_sliding,
         float(filled),
     )
 
@@ -106,23 +106,23 @@ def compare() -> list[Comparison]:
         every = sweep("temperature", rolling)
         add(
             f"rolling torque of full inlets, `{rolling}`, 65 to 10 °C, SKF's M_rr without φ_rs [N m]",
-            [one.rolling for one in every], [one.skf_rolling for one in every], level,
+            [at_point.rolling for at_point in every], [at_point.skf_rolling for at_point in every], level,
         )  # fmt: skip
     for key in ("speed", "radial", "thrust"):
         every, (name, values, unit, factor) = sweep(key), SWEEPS[key]
         add(
             f"the same, `whole-film`, {name} {values[0] * factor:g} to {values[-1] * factor:g} {unit} [N m]",
-            [one.rolling for one in every], [one.skf_rolling for one in every], "powers of load and speed",
+            [at_point.rolling for at_point in every], [at_point.skf_rolling for at_point in every], "powers of load and speed",
         )  # fmt: skip
     every = sweep("temperature")
     add(
         "sliding torque, 10 to 65 °C, SKF's M_sl [N m]",
-        [one.sliding for one in every], [one.skf_sliding for one in every],
+        [at_point.sliding for at_point in every], [at_point.skf_sliding for at_point in every],
         "open: SKF's coefficient is of a whole bearing and does not fall with viscosity",
     )  # fmt: skip
     add(
         "friction torque with φ_rs on both, 10 to 65 °C, SKF's [N m]",
-        [one.total for one in every], [one.skf_total for one in every], "heat of the bearing",
+        [at_point.total for at_point in every], [at_point.skf_total for at_point in every], "heat of the bearing",
     )  # fmt: skip
     return rows
 
@@ -136,29 +136,33 @@ def draw(path: Path) -> None:
     for (upper, lower), (key, (name, values, unit, factor)) in zip(
         axes.T, SWEEPS.items(), strict=True
     ):
-        place = values - 273.15 if unit == "degC" else values * factor
+        abscissa = values - 273.15 if unit == "degC" else values * factor
         every = sweep(key)
-        filled = np.array([one.replenishment for one in every])
+        filled = np.array([at_point.replenishment for at_point in every])
         for part, colour in (("rolling", "C1"), ("sliding", "C0")):
             own, skf = (
-                np.array([getattr(one, f"{who}{part}") for one in every]) for who in ("", "skf_")
+                np.array([getattr(at_point, f"{who}{part}") for at_point in every])
+                for who in ("", "skf_")
             )
             upper.plot(
-                place, own, color=colour, label=f"{part}, full" if part == "rolling" else part
+                abscissa, own, color=colour, label=f"{part}, full" if part == "rolling" else part
             )
             upper.plot(
-                place,
+                abscissa,
                 skf,
                 "--",
                 color=colour,
                 label=f"SKF {'M_rr, K_rs = 0' if part == 'rolling' else 'M_sl'}",
             )
             if part == "rolling":
-                upper.plot(place, own * filled, color="C3", label="rolling, φ_rs")
-                upper.plot(place, skf * filled, "--", color="C3", label="SKF M_rr, φ_rs")
-            lower.plot(place, own / skf, color=colour, label=part)
+                upper.plot(abscissa, own * filled, color="C3", label="rolling, φ_rs")
+                upper.plot(abscissa, skf * filled, "--", color="C3", label="SKF M_rr, φ_rs")
+            lower.plot(abscissa, own / skf, color=colour, label=part)
         lower.plot(
-            place, [one.total / one.skf_total for one in every], color="k", label="all, φ_rs"
+            abscissa,
+            [at_point.total / at_point.skf_total for at_point in every],
+            color="k",
+            label="all, φ_rs",
         )
         lower.axhline(1.0, color="0.7", lw=0.8)
         lower.set_xlabel(f"{name} [{unit.replace('degC', '°C')}]")

@@ -24,7 +24,7 @@ from macroslip.contact.traction import Fluid, chord_stress
 STEEL = effective_modulus(210e9, 0.3, 210e9, 0.3)
 #: Share of the middle slice's load that stands for an ellipse, see `macroslip.contact.rolling`.
 _SLICE = math.pi**2 / 16.0
-_PLACES, _WEIGHTS = (0.5 * one for one in np.polynomial.legendre.leggauss(24))
+_PLACES, _WEIGHTS = (0.5 * gauss for gauss in np.polynomial.legendre.leggauss(24))
 _PLACES = _PLACES + 0.5
 
 

@@ -111,7 +111,7 @@ def bearings() -> list[ThrustBearing]:
 @lru_cache
 def computed(name: str, rheology: str) -> np.ndarray:
     """Ratio and torque over all that is not known, shape (cases, speeds, 2 (computed, measured), 2 (sliding, rolling))."""
-    laws, found = Laws.physical().but(rheology=rheology), []
+    laws, torque_parts = Laws.physical().but(rheology=rheology), []
     for temperature in TEMPERATURES:
         oil, rebuilt = estimated(name).at(temperature), measured(name, temperature)
         fluid = prepare_fluid(laws, oil)
@@ -120,16 +120,18 @@ def computed(name: str, rheology: str) -> np.ndarray:
                 friction_torque(bearing, oil, fluid, THRUST, turns * math.pi / 30.0)
                 for turns in SPEEDS
             ]
-            found.append(np.stack([np.array(own), rebuilt], axis=1))
-    return np.array(found)
+            torque_parts.append(np.stack([np.array(own), rebuilt], axis=1))
+    return np.array(torque_parts)
 
 
 def torques(
     name: str, rheology: str, where: np.ndarray, part: int | None = None
 ) -> tuple[Range, Range, Range]:
     """Measured and computed torque [N m] and computed over measured: of sliding (part 0), rolling (1) or all."""
-    found = computed(name, rheology)[:, where]
-    own, rebuilt = np.moveaxis(found.sum(axis=-1) if part is None else found[..., part], -1, 0)
+    torque_parts = computed(name, rheology)[:, where]
+    own, rebuilt = np.moveaxis(
+        torque_parts.sum(axis=-1) if part is None else torque_parts[..., part], -1, 0
+    )
     return Range.of(rebuilt), Range.of(own), Range.of(own / rebuilt)
 
 
@@ -142,7 +144,7 @@ def needed_coefficient(name: str) -> tuple[Range, Range]:
     tuple of Range
         Over that of the estimate [-], and the mean coefficient up to 1 GPa that goes with it [1/GPa].
     """
-    laws, found = Laws.physical(), []
+    laws, coefficients = Laws.physical(), []
     for temperature in TEMPERATURES:
         oil, sliding = estimated(name).at(temperature), measured(name, temperature)[-1, 0]
         for bearing in bearings():
@@ -161,8 +163,8 @@ def needed_coefficient(name: str) -> tuple[Range, Range]:
             # With much on asperities no film friction is missing.
             if excess(0.5) < 0.0:
                 factor = float(brentq(excess, 0.5, 1.8, xtol=1e-3))
-                found.append((factor, 1e9 * mean_coefficient(stiffer(oil, factor))))
-    factors, means = zip(*found, strict=True)
+                coefficients.append((factor, 1e9 * mean_coefficient(stiffer(oil, factor))))
+    factors, means = zip(*coefficients, strict=True)
     return Range.of(factors), Range.of(means)
 
 
@@ -175,7 +177,7 @@ def needed_eyring_stress(name: str) -> tuple[int, Range]:
     tuple
         How many of the bearings no stress serves, of `len(TEMPERATURES) * len(bearings())`; and the range of the others.
     """
-    laws, found, none, factors = Laws.physical(), [], 0, np.geomspace(0.05, 3.0, 13)
+    laws, stresses, none, factors = Laws.physical(), [], 0, np.geomspace(0.05, 3.0, 13)
     for temperature in TEMPERATURES:
         oil, sliding = estimated(name).at(temperature), measured(name, temperature)[-1, 0]
         fluid, speed = prepare_fluid(laws, oil), SPEEDS[-1] * math.pi / 30.0
@@ -185,17 +187,20 @@ def needed_eyring_stress(name: str) -> tuple[int, Range]:
         for bearing in bearings():
             own = (
                 np.array(
-                    [friction_torque(bearing, oil, one, THRUST, speed).sliding for one in others]
+                    [
+                        friction_torque(bearing, oil, fluid_of_factor, THRUST, speed).sliding
+                        for fluid_of_factor in others
+                    ]
                 )
                 / sliding
             )
             none += bool(own.max() < 1.0)
             if own[0] < 1.0 <= own.max():
                 first = int(np.argmax(own >= 1.0))
-                found.append(
+                stresses.append(
                     np.interp(1.0, own[first - 1 : first + 1], factors[first - 1 : first + 1])
                 )
-    return none, Range.of(found)
+    return none, Range.of(stresses)
 
 
 def boundary_friction() -> Range:
@@ -242,25 +247,25 @@ def compare() -> list[Comparison]:
         )
     for name, oil in oils().iterrows():
         factor, mean = needed_coefficient(str(name))
-        given = Range.of(
+        estimate = Range.of(
             [1e9 * mean_coefficient(estimated(str(name)).at(at)) for at in TEMPERATURES]
         )
         rows.append(
             Comparison(
                 f"mean pressure-viscosity coefficient to 1 GPa, {name} ({oil.base}) [1/GPa]",
                 mean,
-                given,
+                estimate,
                 Range(1.0 / factor.high, 1.0 / factor.low),
                 "the coefficient of `lubricant estimate`; the ratio is that at ambient pressure",
             )
         )
     _, factor = needed_eyring_stress("MINR")
-    given = 1e-6 * estimated("MINR").at(TEMPERATURES[0]).eyring_stress
+    estimate = 1e-6 * estimated("MINR").at(TEMPERATURES[0]).eyring_stress
     rows.append(
         Comparison(
             "Eyring stress, MINR (mineral), 70 °C [MPa]",
-            Range(factor.low * given, factor.high * given),
-            Range(given, given),
+            Range(factor.low * estimate, factor.high * estimate),
+            Range(estimate, estimate),
             Range(1.0 / factor.high, 1.0 / factor.low),
             "range of `eyring_stress`: half to 1.3 of 2 γ/α stays",
         )

@@ -45,16 +45,16 @@ def lines(error: float) -> tuple[float, float]:
     return first / HALF, second / HALF
 
 
-def wear(error: float, place: np.ndarray) -> np.ndarray:
+def wear(error: float, position: np.ndarray) -> np.ndarray:
     """Pressure times |v| along the contact in units of its own, which Archard's law takes for wear."""
     first, second = lines(error)
-    return (1.0 - place**2) * np.abs((place - first) * (place - second))
+    return (1.0 - position**2) * np.abs((position - first) * (position - second))
 
 
 def compare() -> list[Comparison]:
     """The lines of the table."""
-    found = np.array([lines(error) for error in ERRORS])
-    inside = int(np.sum(np.abs(found[0]) < 1.0))
+    lines_of_errors = np.array([lines(error) for error in ERRORS])
+    inside = int(np.sum(np.abs(lines_of_errors[0]) < 1.0))
     return [
         Comparison(
             "places of nil wear along a contact in boundary lubrication", Range(2.0, 2.0), Range(inside, inside),
@@ -69,9 +69,9 @@ def draw(path: Path) -> None:
 
     figure = Figure(figsize=(6, 3.2), layout="constrained")
     axis = figure.subplots()
-    place = np.linspace(-1.0, 1.0, 801)
+    position = np.linspace(-1.0, 1.0, 801)
     for error in ERRORS:
-        axis.plot(place, wear(error, place), label=f"cone off by {math.degrees(error):.0f}°")
+        axis.plot(position, wear(error, position), label=f"cone off by {math.degrees(error):.0f}°")
     axis.set(
         xlabel="place along the contact, over its half length",
         ylabel="p |v| [own unit]",
