@@ -23,7 +23,7 @@ ROLLERS = [0, 9, 18]
 
 
 def main(temperature: float, oil_supply: str | float = "skf", *, skew: bool = False) -> None:
-    names = [one.name for one in CRITERIA]
+    names = [criterion.name for criterion in CRITERIA]
     values, entries, wear = [], [], []
     for name in bundled_cases():
         case = Case(
@@ -33,19 +33,22 @@ def main(temperature: float, oil_supply: str | float = "skf", *, skew: bool = Fa
             rollers=ROLLERS,
             temperature=temperature + 273.15,
         )
-        found = damage(simulate(case))
-        values.append(found.value.values)
-        entries.append((found.entry_rate * YEAR).values)
-        wear.append((found.wear_time.sel(depth=1e-5) / YEAR).min(("row", "surface")).values)
+        criteria = damage(simulate(case))
+        values.append(criteria.value.values)
+        entries.append((criteria.entry_rate * YEAR).values)
+        wear.append((criteria.wear_time.sel(depth=1e-5) / YEAR).min(("row", "surface")).values)
         print(
             name,
-            *(f"{one}={value:.3g}" for one, value in zip(names, values[-1], strict=True)),
+            *(
+                f"{criterion}={value:.3g}"
+                for criterion, value in zip(names, values[-1], strict=True)
+            ),
             entries[-1],
             flush=True,
         )
     values = np.array(values)
     print(f"{temperature:g} degC, oil_supply {oil_supply}")
-    for k, one in enumerate(names):
+    for k, criterion in enumerate(names):
         if np.isnan(values[:, k]).all():
             continue
         low, middle, high = (
@@ -54,7 +57,7 @@ def main(temperature: float, oil_supply: str | float = "skf", *, skew: bool = Fa
             np.nanmax(values[:, k]),
         )
         print(
-            f"{one:26s} {low:10.3g} {middle:10.3g} {high:10.3g}  {bundled_cases()[int(np.nanargmax(values[:, k]))]}"
+            f"{criterion:26s} {low:10.3g} {middle:10.3g} {high:10.3g}  {bundled_cases()[int(np.nanargmax(values[:, k]))]}"
         )
     print(
         "entries a year, downwind and upwind, least and most:",
@@ -73,15 +76,15 @@ def oval() -> None:
         for wave in (0.0, 50e-6, -50e-6, 100e-6, -100e-6):
             bearing = round_bearing.replace(out_of_round_second=wave) if wave else round_bearing
             result = simulate(Case(loads=loads, bearing=bearing, rollers=ROLLERS))
-            found = damage(result)
+            criteria = damage(result)
             raceways = ["inner", "outer"]
             values = np.array(
                 [
                     float(result.energy.sel(interface=raceways).sum()),
                     float(result.window_peak_power.sel(interface=raceways).max()),
-                    float(found.pressure_slip_rate.max()),
-                    float(found.entry_rate.sum()),
-                    float(found.entry_slide_roll_ratio.max()),
+                    float(criteria.pressure_slip_rate.max()),
+                    float(criteria.entry_rate.sum()),
+                    float(criteria.entry_slide_roll_ratio.max()),
                 ]
             )
             if reference is None:
@@ -111,6 +114,6 @@ if __name__ == "__main__":
     elif sys.argv[1:] == ["oval"]:
         oval()
     else:
-        words = [one for one in sys.argv[2:] if one != "skew"]
-        supplies = [one if one in ("flooded", "skf") else float(one) for one in words]
+        words = [word for word in sys.argv[2:] if word != "skew"]
+        supplies = [word if word in ("flooded", "skf") else float(word) for word in words]
         main(float(sys.argv[1]), *supplies, skew="skew" in sys.argv)

@@ -76,17 +76,17 @@ def quantities(name: str, shape: Shape) -> dict[str, float]:
     case = Case(loads=loads, bearing=shape.bearing(), rollers=ROLLERS)
     result = simulate(case)
     life = rate_case(case).reference_life.sel(load_along_roller="hertz")
-    found = damage(result)
+    criteria = damage(result)
     raceways = ["inner", "outer"]
     energy = result.energy.sel(row="downwind", interface=raceways)
     film = result.min_film_ratio.sel(row="downwind", interface="inner")
-    wear = found.wear_time.sel(depth=1e-5).min(("row", "surface"))
+    wear = criteria.wear_time.sel(depth=1e-5).min(("row", "surface"))
     return {
         "energy": float(energy.sum()),
         "peak": float(result.window_peak_power.sel(interface=raceways).max()),
-        "entries": float(found.entry_rate.sum()),
+        "entries": float(criteria.entry_rate.sum()),
         "film": float(film.median()),
-        "pressure_slip": float(found.pressure_slip_rate.max()),
+        "pressure_slip": float(criteria.pressure_slip_rate.max()),
         "wear": 1.0 / float(np.ravel(wear)[wear.size // 2]),
         "life": float(life),
     }
@@ -143,9 +143,9 @@ def figure() -> None:
     table = relative()
     drawn = Figure(figsize=(11, 5.6), layout="constrained")
     axes = drawn.subplots(2, 4).ravel()
-    for one, name in zip(axes, QUANTITIES, strict=False):
-        draw(one, table, name)
-        one.set_xlabel("amplitude [µm]", fontsize=8)
+    for panel, name in zip(axes, QUANTITIES, strict=False):
+        draw(panel, table, name)
+        panel.set_xlabel("amplitude [µm]", fontsize=8)
     handles, labels = axes[0].get_legend_handles_labels()
     axes[-1].axis("off")
     axes[-1].legend(handles, labels, fontsize=8, loc="center")

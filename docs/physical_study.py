@@ -38,7 +38,7 @@ def study_tables(physical: Path, paper: Path | None) -> None:
     print(" | paper's equations: downwind, upwind [J] |" if paper else " |")
     print("|---" * (6 if paper else 5) + "|")
     for speed in energy.wind_speed.values:
-        one = energy.sel(wind_speed=speed)
+        at_speed = energy.sel(wind_speed=speed)
         cells = [
             f"{speed:g}",
             f"{1e-3 * thrust.sel(wind_speed=speed):.0f}",
@@ -47,7 +47,7 @@ def study_tables(physical: Path, paper: Path | None) -> None:
         cells += [
             ", ".join(
                 f"{value:.3g}"
-                for value in one.sel(row=row, interface=["inner", "outer", "cage"]).values
+                for value in at_speed.sel(row=row, interface=["inner", "outer", "cage"]).values
             )
             for row in ROWS
         ]
@@ -129,16 +129,16 @@ def uncertainty_tables(folder: Path) -> None:
     summary = uncertainty_summary(uncertainty(folder))
     print(", ".join(f"{name}: {count}" for name, count in summary.attrs.items()))
     print("| value | range | why |\n|---|---|---|")
-    for one in VALUES:
-        print(f"| {one.name} | {one.range_text} | {one.reason} |")
+    for uncertain in VALUES:
+        print(f"| {uncertain.name} | {uncertain.range_text} | {uncertain.reason} |")
     print(
         "| result | base | median | 5 to 95 % | rank correlation | Sobol' index of first order (total) | predicted |"
     )
     print("|---|---|---|---|---|---|---|")
     for k, name in enumerate(summary.quantity.values.tolist()):
-        one = summary.isel(quantity=k)
-        unit = "" if str(one.units.values) == "1" else f" {one.units.values}"
-        low, middle, high = (f"{value:.3g}" for value in one.range.values)
+        of_quantity = summary.isel(quantity=k)
+        unit = "" if str(of_quantity.units.values) == "1" else f" {of_quantity.units.values}"
+        low, middle, high = (f"{value:.3g}" for value in of_quantity.range.values)
         driven = ", ".join(
             f"{parameter} {value:+.2f}" for parameter, value in drivers(summary, name)
         )
@@ -147,8 +147,8 @@ def uncertainty_tables(folder: Path) -> None:
             for parameter, first, total in strongest(summary, name)
         )
         print(
-            f"| {name} | {float(one.base):.3g}{unit} | {middle} | {low} to {high}{unit} | {driven or '–'} | {indices or '–'} | "
-            f"{float(one.explained):.2f} |"
+            f"| {name} | {float(of_quantity.base):.3g}{unit} | {middle} | {low} to {high}{unit} | {driven or '–'} | {indices or '–'} | "
+            f"{float(of_quantity.explained):.2f} |"
         )
     print("| statement | samples that show it | |\n|---|---|---|")
     for (name, word), share in zip(robust(summary), summary.trend_share.values, strict=True):

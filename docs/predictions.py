@@ -30,9 +30,9 @@ def travel() -> None:
     by_wind: dict[str, list[tuple[float, float]]] = {}
     for name in bundled_cases("year"):
         ready = prepare(Case(loads=HubLoads.bundled(name), rollers=[0], rating=False))
-        found = axial_values(ready)
+        axial = axial_values(ready)
         wind = re.match(r"\d+", name)
-        values = (float(found["axial_travel"]), float(found["thrust_reversals"]))
+        values = (float(axial["axial_travel"]), float(axial["thrust_reversals"]))
         by_wind.setdefault(f"{int(wind[0])} m/s" if wind else name, []).append(values)
     for group, values in by_wind.items():
         ways, reversals = np.transpose(values)
@@ -55,10 +55,10 @@ def idle() -> None:
                 traces=Traces(step=0.05),
                 rating=False,
             )
-            found = simulate(case)
-            free = found.roller_load == 0.0
-            spin = (found.spin / found.spin_pure).where(free).sel(row="upwind")
-            entry = found.entry_slide_roll_ratio.sel(row="downwind")
+            result = simulate(case)
+            free = result.roller_load == 0.0
+            spin = (result.spin / result.spin_pure).where(free).sel(row="upwind")
+            entry = result.entry_slide_roll_ratio.sel(row="downwind")
             middle = [float(np.nanquantile(spin, part)) for part in (0.1, 0.5, 0.9)]
             print(
                 f"| {supply} | {celsius:g} | {middle[0]:.2f}, {middle[1]:.2f}, {middle[2]:.2f} "
@@ -75,15 +75,15 @@ def heat() -> None:
             case = Case(
                 loads=HubLoads.bundled(name), rollers=ROLLERS, oil_supply=supply, rating=False
             )
-            found = simulate(case)
-            duration = found.attrs["window_end"] - found.attrs["window_start"]
+            result = simulate(case)
+            duration = result.attrs["window_end"] - result.attrs["window_start"]
             scale = case.bearing.rollers_per_row / len(ROLLERS) / duration
-            friction = float((found.energy + found.rolling_energy).sum()) * scale
+            friction = float((result.energy + result.rolling_energy).sum()) * scale
             loads = case.bearing_loads
             radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
-            given = (radial, loads.force[:, 2], loads.shaft_speed)
-            skf = skf_torque(case.bearing, case.oil, *given).total * loads.shaft_speed
-            line.append(f"{friction + found.attrs['drag_power']:.0f} ({skf.mean():.0f})")
+            operation = (radial, loads.force[:, 2], loads.shaft_speed)
+            skf = skf_torque(case.bearing, case.oil, *operation).total * loads.shaft_speed
+            line.append(f"{friction + result.attrs['drag_power']:.0f} ({skf.mean():.0f})")
         print(f"| {supply} |", " | ".join(line), "|", flush=True)
 
 

@@ -140,66 +140,66 @@ def measures(run: Run) -> Measures:
     case = case_of(run)
     result = simulate(case)
     assert (result.status == 0).all(), run.key
-    found = powers(result) | films(result) | damages(result) | torques(run, case, result)
+    numbers = powers(result) | films(result) | damages(result) | torques(run, case, result)
     if run.variant == AS_IT_IS and run.model == "physical":
-        found |= loads_and_spin(case, result)
-    return found
+        numbers |= loads_and_spin(case, result)
+    return numbers
 
 
 def powers(result: xr.Dataset) -> Measures:
     """Mean powers of a roller [W] by interface, and its peaks in complete orbits [W]."""
     length = result.attrs["window_end"] - result.attrs["window_start"]
     scale = 1.0 / result.sizes["roller"] / length
-    found: Measures = {}
+    numbers: Measures = {}
     for row in result.row.values.tolist():
         of_row = result.sel(row=row)
         for interface in result.interface.values.tolist():
             at = of_row.sel(interface=interface)
-            found[row, f"energy {interface}"] = float(at.energy.sum()) * scale
-            found[row, f"rolling {interface}"] = float(at.rolling_energy.sum()) * scale
+            numbers[row, f"energy {interface}"] = float(at.energy.sum()) * scale
+            numbers[row, f"rolling {interface}"] = float(at.rolling_energy.sum()) * scale
         peak = of_row.peak_power.max("interface")
-        found[row, "lowest spin"] = float(of_row.min_spin_ratio.min())
-        found[row, "peak mean"] = float(peak.mean())
-        found[row, "peak std"] = float(peak.std())
-        found[row, "peak largest"] = float(of_row.window_peak_power.max())
-    return found
+        numbers[row, "lowest spin"] = float(of_row.min_spin_ratio.min())
+        numbers[row, "peak mean"] = float(peak.mean())
+        numbers[row, "peak std"] = float(peak.std())
+        numbers[row, "peak largest"] = float(of_row.window_peak_power.max())
+    return numbers
 
 
 def films(result: xr.Dataset) -> Measures:
     """Shares of the loaded time with thin films at the inner raceway, and the least film ratio."""
-    found: Measures = {}
+    numbers: Measures = {}
     if "film_slip_time" not in result:
-        return found
+        return numbers
     for row in result.row.values.tolist():
         of_row = result.sel(row=row)
         time = of_row.film_slip_time.sel(raceway="inner").sum("slip_class").values
         total = float(time.sum())
         for below in (1.0, 3.0):
             thin = float(time[: FILM_EDGES.index(below) + 1].sum())
-            found[row, f"mixed below {below:g}"] = thin / total if total > 0.0 else np.nan
+            numbers[row, f"mixed below {below:g}"] = thin / total if total > 0.0 else np.nan
         least = of_row.min_film_ratio.sel(interface=["inner", "outer"])
-        found[row, "least film ratio"] = float(least.min())
-    return found
+        numbers[row, "least film ratio"] = float(least.min())
+    return numbers
 
 
 def damages(result: xr.Dataset) -> Measures:
     """Criteria of damage: rates by row, and the worst value of each."""
-    found: Measures = {}
+    numbers: Measures = {}
     if "surface_work" not in result:
-        return found
+        return numbers
     criteria = damage(result)
-    for yearly in (one for criterion in CRITERIA for one in criterion.yearly):
+    for yearly in (of_criterion for criterion in CRITERIA for of_criterion in criterion.yearly):
         value = yearly.of_run(criteria, result)
         if value is None:
             continue
         for row in result.row.values.tolist():
             of_row = value.sel(row=row) if "row" in value.dims else value
-            found[row, yearly.run_name] = float(of_row.max())
+            numbers[row, yearly.run_name] = float(of_row.max())
     for name in criteria.criterion.values.tolist():
         line = criteria.sel(criterion=name)
-        found["both", f"criterion {name}"] = float(line.value)
-        found["both", f"reference {name}"] = float(line.reference)
-    return found
+        numbers["both", f"criterion {name}"] = float(line.value)
+        numbers["both", f"reference {name}"] = float(line.reference)
+    return numbers
 
 
 def torques(run: Run, case: Case, result: xr.Dataset) -> Measures:
@@ -212,7 +212,7 @@ def torques(run: Run, case: Case, result: xr.Dataset) -> Measures:
     radial, mean = np.hypot(force[:, 0], force[:, 1]), float(speed.mean())
     share = case.bearing.rollers_per_row / result.sizes["roller"] / (last - first)
     power = float((result.energy + result.rolling_energy).sum()) * share
-    found = {
+    numbers = {
         ("both", "radial"): float(radial.mean()),
         ("both", "thrust"): float(force[:, 2].mean()),
         ("both", "speed"): mean,
@@ -220,25 +220,25 @@ def torques(run: Run, case: Case, result: xr.Dataset) -> Measures:
     }
     for name, law in (("skf", skf_torque), ("palmgren", palmgren_torque)):
         torque = law(case.bearing, case.oil, radial, force[:, 2], speed, series=SEATS[run.seat])
-        found["both", name] = float(np.mean(torque.total))
-    return found
+        numbers["both", name] = float(np.mean(torque.total))
+    return numbers
 
 
 def loads_and_spin(case: Case, result: xr.Dataset) -> Measures:
     """Shares of the time with and without load, spin without load, and the basic life [h]."""
     first, last = result.attrs["window_start"], result.attrs["window_end"]
     _, load = roller_load_series(case, first, last)
-    found: Measures = {("both", "basic life"): float(rate_case(case).basic_life)}
+    numbers: Measures = {("both", "basic life"): float(rate_case(case).basic_life)}
     for k, row in enumerate(result.row.values.tolist()):
         pressed = load[:, k] > 0.0
-        found[row, "pressed"] = float(pressed.mean())
-        found[row, "empty"] = float((~pressed.any(axis=1)).mean())
+        numbers[row, "pressed"] = float(pressed.mean())
+        numbers[row, "empty"] = float((~pressed.any(axis=1)).mean())
         of_row = result.sel(row=row, time=slice(first, last))
         idle = (of_row.spin / of_row.spin_pure).where(of_row.roller_load <= 0.0)
-        found[row, "spin idle"] = float(idle.mean())
+        numbers[row, "spin idle"] = float(idle.mean())
         for share in (0.05, 0.95):
-            found[row, f"spin idle {share}"] = float(idle.quantile(share))
-    return found
+            numbers[row, f"spin idle {share}"] = float(idle.quantile(share))
+    return numbers
 
 
 def compute(folder: Path, seat: str) -> None:

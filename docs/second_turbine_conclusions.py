@@ -42,7 +42,9 @@ class Seat:
         self, row: str, wind: int, model: str = "physical", variant: str = AS_IT_IS
     ) -> float:
         """Friction power of a roller [W], rolling resistance apart."""
-        return sum(self.at(row, f"energy {one}", wind, model, variant) for one in INTERFACES)
+        return sum(
+            self.at(row, f"energy {interface}", wind, model, variant) for interface in INTERFACES
+        )
 
     def friction(self, row: str, model: str = "physical") -> NDArray:
         """Friction power of a roller over the wind [W]."""
@@ -82,7 +84,7 @@ class Seat:
         def rows(quantity: Callable[[str], NDArray], digits: int = 2) -> list[str]:
             down, up = (quantity(row) for row in ROWS)
             pairs = zip(down, up, strict=True)
-            return [", ".join(_number(float(one), digits) for one in pair) for pair in pairs]
+            return [", ".join(_number(float(value), digits) for value in pair) for pair in pairs]
 
         columns = {
             "radial load, thrust [kN]": [
@@ -96,8 +98,8 @@ class Seat:
             "cage [%]": rows(lambda row: 100.0 * self.cage_share(row)),
             "Λ < 3 [%]": rows(lambda row: 100.0 * self.over(row, "mixed below 3")),
             "entries [1/h]": rows(lambda row: 3600.0 * self.over(row, "entry_rate")),
-            "wear [µm/year]": [_number(1e6 * float(one)) for one in self.wear()],
-            "torque/SKF": [_number(float(one)) for one in _torque(self)],
+            "wear [µm/year]": [_number(1e6 * float(depth)) for depth in self.wear()],
+            "torque/SKF": [_number(float(ratio)) for ratio in _torque(self)],
         }
         return pd.DataFrame(columns, index=pd.Index(WINDS, name="wind [m/s]"))
 
@@ -136,9 +138,9 @@ def table_text(conclusions: tuple[Conclusion, ...], seats: Mapping[str, Seat]) -
         "| drawn in | conclusion | " + " | ".join(f"`{name}`" for name in seats) + " |",
         "|" + "---|" * (2 + len(seats)),
     ]
-    for one in conclusions:
-        cells = [_cell(one, seat) for seat in seats.values()]
-        lines.append(f"| {one.page} | {one.statement} | " + " | ".join(cells) + " |")
+    for conclusion in conclusions:
+        cells = [_cell(conclusion, seat) for seat in seats.values()]
+        lines.append(f"| {conclusion.page} | {conclusion.statement} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 
@@ -165,7 +167,7 @@ def _range(values: NDArray, digits: int = 2) -> str:
     known = values[np.isfinite(values)]
     if not known.size:
         return "nan"
-    low, high = (_number(float(one), digits) for one in (known.min(), known.max()))
+    low, high = (_number(float(end), digits) for end in (known.min(), known.max()))
     return low if low == high else f"{low} to {high}"
 
 
@@ -200,7 +202,7 @@ def _spin(seat: Seat) -> str:
 
 def _films(seat: Seat) -> str:
     shares = [100.0 * seat.at("downwind", "mixed below 3", wind) for wind in (4, 6, 8, 14)]
-    return ", ".join(_number(one) for one in shares) + " % at 4, 6, 8, 14 m/s"
+    return ", ".join(_number(share) for share in shares) + " % at 4, 6, 8, 14 m/s"
 
 
 def _torque(seat: Seat) -> NDArray:
@@ -263,9 +265,9 @@ def _largest_peak(seat: Seat) -> NDArray:
 
 def _raceways(seat: Seat, variant: str) -> float:
     return sum(
-        seat.at(row, f"energy {one}", 12, "physical", variant)
+        seat.at(row, f"energy {raceway}", 12, "physical", variant)
         for row in ROWS
-        for one in ("inner", "outer")
+        for raceway in ("inner", "outer")
     )
 
 
@@ -286,13 +288,13 @@ def _energy(seat: Seat, variant: str) -> float:
 
 
 def _supply(seat: Seat) -> str:
-    energy = [_over(seat, f"supply {one}", _energy) for one in ("flooded", "0.5")]
-    wear = [_over(seat, f"supply {one}", _worn) for one in ("flooded", "0.5")]
+    energy = [_over(seat, f"supply {supply}", _energy) for supply in ("flooded", "0.5")]
+    wear = [_over(seat, f"supply {supply}", _worn) for supply in ("flooded", "0.5")]
     return f"energy {', '.join(map(_number, energy))}; wear {', '.join(map(_number, wear))}"
 
 
 def _temperature(seat: Seat) -> str:
-    return ", ".join(_number(_over(seat, f"oil at {one} °C", _worn)) for one in (25, 50))
+    return ", ".join(_number(_over(seat, f"oil at {celsius} °C", _worn)) for celsius in (25, 50))
 
 
 def _clearance(seat: Seat) -> str:
@@ -314,11 +316,11 @@ def _friction_energy(seat: Seat) -> tuple[float, float]:
     rate, year = (
         float(
             (
-                seat.over("both", f"criterion friction_energy_{one}")
-                / seat.over("both", f"reference friction_energy_{one}")
+                seat.over("both", f"criterion friction_energy_{kind}")
+                / seat.over("both", f"reference friction_energy_{kind}")
             ).max()
         )
-        for one in ("rate", "year")
+        for kind in ("rate", "year")
     )
     return rate, year
 
@@ -399,7 +401,7 @@ def _static_text(seat: Seat) -> str:
 
 
 def _year_text(seat: Seat) -> str:
-    return ", ".join(f"{_number(100.0 * one)} %" for one in _year(seat))
+    return ", ".join(f"{_number(100.0 * share)} %" for share in _year(seat))
 
 
 def _wear_text(seat: Seat) -> str:
@@ -420,8 +422,8 @@ def _largest_peak_text(seat: Seat) -> str:
 def _supply_moves_friction(seat: Seat) -> bool:
     names = ("supply flooded", "supply 0.5")
     return all(
-        _over(seat, one, _energy) > 1.0 and abs(_over(seat, one, _worn) - 1.0) < 0.1
-        for one in names
+        _over(seat, name, _energy) > 1.0 and abs(_over(seat, name, _worn) - 1.0) < 0.1
+        for name in names
     )
 
 
@@ -579,7 +581,7 @@ CONCLUSIONS = (
         "danger",
         "the shape of the housing comes first (±50 µm oval: raceway energy 1.2 times or more one "
         "way; 12 m/s)",
-        lambda seat: ", ".join(_number(one, 3) for one in _oval(seat)),
+        lambda seat: ", ".join(_number(ratio, 3) for ratio in _oval(seat)),
         lambda seat: max(_oval(seat)) > 1.2,
     ),
     Conclusion(

@@ -29,29 +29,29 @@ def skewed_rollers() -> Figure:
         }
         axes.add_patch(FancyArrowPatch(start, end, connectionstyle=f"arc3,rad={curve}", **style))
 
-    for place, sign, row in ((4.6, -1.0, "upwind row"), (12.4, 1.0, "downwind row")):
+    for middle, sign, row in ((4.6, -1.0, "upwind row"), (12.4, 1.0, "downwind row")):
         angle = sign * math.radians(14.0)
         turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
         ends = np.linspace(-1.9, 1.9, 30)
         bulge = 0.95 - 0.06 * ends**2
         outline = np.concatenate([np.stack([ends, bulge], 1), np.stack([ends, -bulge], 1)[::-1]])
-        axes.add_patch(Polygon(outline @ turn.T + (place, 0.0), fc="#dce7f3", ec=ROLLER, lw=1.6))
+        axes.add_patch(Polygon(outline @ turn.T + (middle, 0.0), fc="#dce7f3", ec=ROLLER, lw=1.6))
         tip = turn @ np.array([2.5, 0.0])
         axes.plot(
-            [place - tip[0], place + tip[0]], [-tip[1], tip[1]], color=ROLLER, lw=1.0, ls="-."
+            [middle - tip[0], middle + tip[0]], [-tip[1], tip[1]], color=ROLLER, lw=1.0, ls="-."
         )
-        axes.plot([place - 2.6, place + 2.6], [0.0, 0.0], color="0.5", lw=0.9)
-        arrow((place + 2.5, 0.0), (place + tip[0], tip[1]), ROLLER, sign * 0.2)
+        axes.plot([middle - 2.6, middle + 2.6], [0.0, 0.0], color="0.5", lw=0.9)
+        arrow((middle + 2.5, 0.0), (middle + tip[0], tip[1]), ROLLER, sign * 0.2)
         axes.text(
-            place + 2.75, sign * 0.33, "ψ > 0" if sign > 0 else "ψ < 0", color=ROLLER, va="center"
+            middle + 2.75, sign * 0.33, "ψ > 0" if sign > 0 else "ψ < 0", color=ROLLER, va="center"
         )
-        arrow((place, -1.2), (place, -2.5), MOTION)
-        axes.text(place + 0.2, -2.0, "travel", color=MOTION, va="center")
-        arrow((place, 1.6), (place + sign * 1.8, 1.6), FORCE)
+        arrow((middle, -1.2), (middle, -2.5), MOTION)
+        axes.text(middle + 0.2, -2.0, "travel", color=MOTION, va="center")
+        arrow((middle, 1.6), (middle + sign * 1.8, 1.6), FORCE)
         axes.text(
-            place + sign * 0.9, 1.95, "axial force on the inner ring", color=FORCE, ha="center"
+            middle + sign * 0.9, 1.95, "axial force on the inner ring", color=FORCE, ha="center"
         )
-        axes.text(place, 2.9, row, ha="center", weight="bold")
+        axes.text(middle, 2.9, row, ha="center", weight="bold")
     arrow((16.2, -2.6), (17.5, -2.6), "black")
     arrow((16.2, -2.6), (16.2, -1.3), "black")
     axes.text(17.6, -2.6, "z'", va="center")

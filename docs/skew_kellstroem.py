@@ -66,17 +66,17 @@ def states(
     prepared = prepare(laws, BASE, OIL.at(celsius + 273.15), 1)
     shear = None if coefficient is None else constant_friction(coefficient)
     pair = raceways(prepared, BASE, 1, shear)
-    found: list[Equilibrium] = []
+    equilibria: list[Equilibrium] = []
     for skew in skews:
-        start = found[-1] if found else None
-        found.append(equilibrium(pair, prepared, loads, SPEED, skew, start))
-    return found
+        start = equilibria[-1] if equilibria else None
+        equilibria.append(equilibrium(pair, prepared, loads, SPEED, skew, start))
+    return equilibria
 
 
 def rests(laws: Laws) -> np.ndarray:
     """Where straight rollers that no spar presses turn to, or the stop [mrad], over `LOADS`."""
     sides = [
-        np.array([one.moment for one in states((laws, 35.0, None), LOADS, sign * SKEWS)])
+        np.array([state.moment for state in states((laws, 35.0, None), LOADS, sign * SKEWS)])
         for sign in (1.0, -1.0)
     ]
     result = []
@@ -130,7 +130,7 @@ def draw_rests(axes: Axes, values: np.ndarray) -> None:
             color="white" if dark else "black",
         )
     axes.set_xticks(across, [f"{load / 1e3:g}" for load in LOADS])
-    axes.set_yticks(upward, [f"{one:g}" for one in SATURATIONS])
+    axes.set_yticks(upward, [f"{saturation:g}" for saturation in SATURATIONS])
     axes.set_xlabel("roller load [kN]")
     axes.set_ylabel("slide-roll ratio at which friction saturates, s0 [-]")
     axes.set_title("skew at rest [mrad], limits .05 and .05", fontsize=10)
@@ -141,7 +141,7 @@ def main() -> None:
     matplotlib.rcParams["svg.hashsalt"] = "kellstroem"
     figure = Figure(figsize=(11, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2)
-    values = np.array([rests(kellstroem(float(one))) for one in SATURATIONS])
+    values = np.array([rests(kellstroem(float(saturation))) for saturation in SATURATIONS])
     print("loads [kN]", (LOADS / 1e3).tolist())
     for saturation, line in zip(SATURATIONS, values, strict=True):
         print(f"rest, s0 {saturation:g}", np.round(line, 2).tolist())
@@ -155,7 +155,7 @@ def main() -> None:
         least = power.argmin(axis=0)
         change = 100.0 * (power.min(axis=0) - 1.0)
         print(f"| {name} |", " | ".join(
-            f"{1e3 * TRIED[n]:.2f}, {one:.1f}" for n, one in zip(least, change, strict=True)
+            f"{1e3 * TRIED[n]:.2f}, {percent:.1f}" for n, percent in zip(least, change, strict=True)
         ), "|")  # fmt: skip
         right.plot(1e3 * TRIED, power[:, 1], label=name)
     right.axhline(1.0, color="0.6", linewidth=0.8)

@@ -50,12 +50,12 @@ class Rest(NamedTuple):
 def rest(bearing: Bearing, laws: Laws, celsius: float, load: np.ndarray) -> Rest:
     """The rests of rollers of the downwind row that no spar presses on; the shaft turns forward."""
     prepared = prepare(laws, bearing, OIL.at(celsius + 273.15), 1)
-    pair, found, last = raceways(prepared, bearing, 1), [], None
+    pair, equilibria, last = raceways(prepared, bearing, 1), [], None
     both = np.array([-1.0, 1.0])[:, None]
     for skew in SKEWS:
         last = equilibrium(pair, prepared, load, SPEED, both * skew, last)
-        found.append(np.stack([last.moment, last.power.sum(axis=-1), last.axial], axis=-1))
-    moment, power, axial = np.moveaxis(np.array(found), -1, 0)  # each over (skew, side, load)
+        equilibria.append(np.stack([last.moment, last.power.sum(axis=-1), last.axial], axis=-1))
+    moment, power, axial = np.moveaxis(np.array(equilibria), -1, 0)  # each over (skew, side, load)
     columns = []
     for k in range(load.size):
         side = int(moment[0, 1, k] > 0.0)
@@ -64,8 +64,8 @@ def rest(bearing: Bearing, laws: Laws, celsius: float, load: np.ndarray) -> Rest
         angle = STOP
         if against.size:
             n = against[0]
-            one, other = moment[n - 1 : n + 1, side, k]
-            angle = SKEWS[n - 1] + (SKEWS[n] - SKEWS[n - 1]) * one / (one - other)
+            before, behind = moment[n - 1 : n + 1, side, k]
+            angle = SKEWS[n - 1] + (SKEWS[n] - SKEWS[n - 1]) * before / (before - behind)
         here = [np.interp(angle, SKEWS, values[:, side, k]) for values in (power, axial)]
         columns.append((1e3 * sign * angle, here[0] / power[0, side, k], 100.0 * here[1] / load[k]))
     return Rest(*np.array(columns).T)
@@ -87,7 +87,7 @@ def over_osculation(laws: Laws, celsius: float) -> Rest:
     ]
     return Rest(
         *(
-            np.array([[getattr(one, name)[0] for one in line] for line in lines])
+            np.array([[getattr(of_bearing, name)[0] for of_bearing in line] for line in lines])
             for name in Rest._fields
         )
     )
@@ -96,7 +96,7 @@ def over_osculation(laws: Laws, celsius: float) -> Rest:
 def over_load() -> Rest:
     """Over temperature and load, with the base bearing under Eyring's law."""
     lines = [rest(BASE, PHYSICAL, celsius, LOADS) for celsius in TEMPERATURES]
-    return Rest(*(np.array([getattr(one, name) for one in lines]) for name in Rest._fields))
+    return Rest(*(np.array([getattr(line, name) for line in lines]) for name in Rest._fields))
 
 
 def over_thrust() -> Rest:
@@ -109,7 +109,7 @@ def over_thrust() -> Rest:
             loads = BearingLoads.constant(
                 [0.0, -RADIAL, ratio * RADIAL], speed, 3.0 * 2.0 * np.pi / (0.454 * speed)
             )
-            found = simulate(
+            result = simulate(
                 Case(
                     loads=loads,
                     rollers=[0],
@@ -117,11 +117,11 @@ def over_thrust() -> Rest:
                     contact_details=False,
                 ),
             ).sel(row="downwind")
-            energy, added = float(found.energy[0, :2].sum()), float(found.skew_energy.sum())
-            thrust = float(found.frictional_thrust) / (ratio * RADIAL)
+            energy, added = float(result.energy[0, :2].sum()), float(result.skew_energy.sum())
+            thrust = float(result.frictional_thrust) / (ratio * RADIAL)
             line.append(
                 (
-                    1e3 * float(found.skew_by_position.mean()),
+                    1e3 * float(result.skew_by_position.mean()),
                     energy / (energy - added),
                     100.0 * thrust,
                 )
@@ -130,16 +130,16 @@ def over_thrust() -> Rest:
     return Rest(*np.moveaxis(np.array(lines), -1, 0))
 
 
-def draw(axes, x, y, found: Rest, labels: tuple[str, str]) -> None:
+def draw(axes, x, y, maps: Rest, labels: tuple[str, str]) -> None:
     """Three maps."""
     norms = (
         TwoSlopeNorm(0.0, -1e3 * STOP, 1e3 * STOP), TwoSlopeNorm(1.0, 0.7, 2.0), TwoSlopeNorm(0.0, -2.0, 2.0),
     )  # fmt: skip
-    for one, values, norm, text in zip(axes, found, norms, ("%.1f", "%.2f", "%.1f"), strict=True):
-        one.pcolormesh(x, y, values, norm=norm, cmap="RdBu_r", shading="nearest")
+    for panel, values, norm, text in zip(axes, maps, norms, ("%.1f", "%.2f", "%.1f"), strict=True):
+        panel.pcolormesh(x, y, values, norm=norm, cmap="RdBu_r", shading="nearest")
         for (j, i), value in np.ndenumerate(values):
             dark = abs(float(norm(value)) - 0.5) > 0.3
-            one.text(
+            panel.text(
                 x[i],
                 y[j],
                 text % value,
@@ -148,9 +148,9 @@ def draw(axes, x, y, found: Rest, labels: tuple[str, str]) -> None:
                 fontsize=6.5,
                 color="white" if dark else "black",
             )
-        one.set_xlabel(labels[0], fontsize=8)
-        one.set_ylabel(labels[1], fontsize=8)
-        one.tick_params(labelsize=7)
+        panel.set_xlabel(labels[0], fontsize=8)
+        panel.set_ylabel(labels[1], fontsize=8)
+        panel.tick_params(labelsize=7)
 
 
 def main() -> None:
@@ -159,33 +159,33 @@ def main() -> None:
     figure = Figure(figsize=(11, 16), layout="constrained")
     axes = figure.subplots(5, 3)
     for line, (name, (laws, celsius)) in zip(axes, ROWS.items(), strict=False):
-        found = over_osculation(laws, celsius)
-        draw(line, INNER, OUTER, found, ("inner osculation", f"{name}\nouter osculation"))
-        print(name, np.round(found.skew, 2).tolist(), flush=True)
-    found = over_load()
+        maps = over_osculation(laws, celsius)
+        draw(line, INNER, OUTER, maps, ("inner osculation", f"{name}\nouter osculation"))
+        print(name, np.round(maps.skew, 2).tolist(), flush=True)
+    maps = over_load()
     draw(
         axes[3],
         LOADS / 1e3,
         TEMPERATURES,
-        found,
+        maps,
         ("load [kN]", "Eyring, .98/.98\ntemperature [°C]"),
     )
-    for one in axes[3]:
-        one.set_xscale("log")
-    print("over load", np.round(found.skew, 2).tolist())
-    found = over_thrust()
+    for panel in axes[3]:
+        panel.set_xscale("log")
+    print("over load", np.round(maps.skew, 2).tolist())
+    maps = over_thrust()
     labels = ("axial over radial load", "Eyring, a spar presses\nspeed [rpm]")
-    draw(axes[4], np.arange(RATIOS.size), np.arange(SPEEDS.size), found, labels)
-    for one in axes[4]:
-        one.set_xticks(np.arange(RATIOS.size), [f"{x:g}" for x in RATIOS])
-        one.set_yticks(np.arange(SPEEDS.size), [f"{x:.3g}" for x in SPEEDS])
-    print("over thrust", *(np.round(values, 3).tolist() for values in found), sep="\n")
-    for one, title in zip(
+    draw(axes[4], np.arange(RATIOS.size), np.arange(SPEEDS.size), maps, labels)
+    for panel in axes[4]:
+        panel.set_xticks(np.arange(RATIOS.size), [f"{x:g}" for x in RATIOS])
+        panel.set_yticks(np.arange(SPEEDS.size), [f"{x:.3g}" for x in SPEEDS])
+    print("over thrust", *(np.round(values, 3).tolist() for values in maps), sep="\n")
+    for panel, title in zip(
         axes[0],
         ("skew at rest [mrad]", "power / power without skew", "axial force / load [%]"),
         strict=True,
     ):
-        one.set_title(title, fontsize=9)
+        panel.set_title(title, fontsize=9)
     figure.savefig(Path(__file__).with_name("skew-maps.svg"), metadata={"Date": None})
 
 

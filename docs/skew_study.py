@@ -59,22 +59,22 @@ def main(names: list[str]) -> None:
                 replace(base, **changes | {"laws": changes["laws"].but(skew="none")})
             )
             for cage, described in CAGES.items():
-                found = simulate(replace(base, cage=described, **changes))
+                skewed = simulate(replace(base, cage=described, **changes))
                 energy = (
-                    found.energy.sel(interface=["inner", "outer"])
+                    skewed.energy.sel(interface=["inner", "outer"])
                     .sum(("interface", "roller"))
                     .values
                 )
-                added = found.skew_energy.sum(("raceway", "roller")).values
-                skew = 1e3 * found.skew_by_position.values
+                added = skewed.skew_energy.sum(("raceway", "roller")).values
+                skew = 1e3 * skewed.skew_by_position.values
                 on_ring, (start, end) = (
                     base.bearing_loads,
-                    (found.attrs[f"window_{one}"] for one in ("start", "end")),
+                    (skewed.attrs[f"window_{end_name}"] for end_name in ("start", "end")),
                 )
                 inside = (on_ring.time >= start) & (on_ring.time <= end)
                 low, high = np.fmin.reduce(skew, axis=1), np.fmax.reduce(skew, axis=1)
                 thrust, axial = (
-                    found.frictional_thrust.values,
+                    skewed.frictional_thrust.values,
                     float(on_ring.force[inside, 2].mean()),
                 )
                 before = straight.energy.sel(interface=["inner", "outer"]).sum(
@@ -84,31 +84,31 @@ def main(names: list[str]) -> None:
                     f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)} of straight "
                     f"rollers under the same loads, {np.round(energy / before.values, 3)} of the case without skew  skew "
                     + " ".join(f"{a:.2f}..{b:.2f}" for a, b in zip(low, high, strict=True))
-                    + f" mrad  ends {float(found.stop_force.max()):.1f} N  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN"
-                    f"  torque {torque(straight, base):.1f} to {torque(found, base):.1f} N m, loads of rows "
-                    f"{loads_of_rows(straight)} to {loads_of_rows(found)} kN",
+                    + f" mrad  ends {float(skewed.stop_force.max()):.1f} N  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN"
+                    f"  torque {torque(straight, base):.1f} to {torque(skewed, base):.1f} N m, loads of rows "
+                    f"{loads_of_rows(straight)} to {loads_of_rows(skewed)} kN",
                     flush=True,
                 )
 
 
-def torque(found, case: Case) -> float:
+def torque(result, case: Case) -> float:
     """Mean torque that friction and rolling resistance of all rollers ask of the shaft [N m]."""
     spent = (
-        float((found.energy + found.rolling_energy).sum())
+        float((result.energy + result.rolling_energy).sum())
         * case.bearing.rollers_per_row
-        / found.sizes["roller"]
+        / result.sizes["roller"]
     )
-    time = np.linspace(found.attrs["window_start"], found.attrs["window_end"], 4001)
+    time = np.linspace(result.attrs["window_start"], result.attrs["window_end"], 4001)
     turn = np.trapezoid(
         np.interp(time, case.bearing_loads.time, case.bearing_loads.shaft_speed), time
     )
     return spent / float(turn)
 
 
-def loads_of_rows(found) -> str:
+def loads_of_rows(result) -> str:
     """Mean load of a roller of either row [kN]."""
     return ", ".join(
-        f"{1e-3 * one:.2f}" for one in found.roller_load.mean(("roller", "time")).values
+        f"{1e-3 * mean:.2f}" for mean in result.roller_load.mean(("roller", "time")).values
     )
 
 
@@ -139,22 +139,26 @@ def check(name: str) -> None:
         traces=Traces(step=0.71),
     )
     bearing = case.bearing
-    found = simulate(case).sel(row="downwind").stack(state=("roller", "time"))
-    found = found.isel(state=np.flatnonzero(found.roller_load.values > 2e3))
-    load, slip, skew = (found[one].values for one in ("roller_load", "slip", "skew_angle"))
-    speed = found.spin_pure.values * roller_radius(bearing)
+    samples = simulate(case).sel(row="downwind").stack(state=("roller", "time"))
+    samples = samples.isel(state=np.flatnonzero(samples.roller_load.values > 2e3))
+    load, slip, skew = (
+        samples[name_of_trace].values for name_of_trace in ("roller_load", "slip", "skew_angle")
+    )
+    speed = samples.spin_pure.values * roller_radius(bearing)
     laws = prepare(SKEWED, bearing, case.oil, 1)
     pair = raceways(laws, bearing, 1)
-    straight, turned = (equilibrium(pair, laws, load, speed, one) for one in (0.0, skew))
+    straight, turned = (
+        equilibrium(pair, laws, load, speed, skew_held) for skew_held in (0.0, skew)
+    )
     tilt, _, middles = placed(pair, load, turned.tractions)
     off = slip - straight.slip
     exact = np.array(
         [
-            resultants(one, load, speed, turned.slip + off, skew, middles[i], tilt).power
-            for i, one in enumerate(pair)
+            resultants(raceway, load, speed, turned.slip + off, skew, middles[i], tilt).power
+            for i, raceway in enumerate(pair)
         ]
     )
-    used = found.power.sel(interface=["inner", "outer"]).transpose("interface", "state").values
+    used = samples.power.sel(interface=["inner", "outer"]).transpose("interface", "state").values
     print(
         f"{name}: {load.size} states, power with skew {used.mean(axis=1)} W, by the contacts {exact.mean(axis=1)} W"
     )
@@ -181,24 +185,24 @@ def coupled(names: list[str]) -> None:
             traces=Traces(step=0.05, start=start),
         )  # fmt: skip
         for described, changes in ORBITS.items():
-            found = simulate(replace(base, **changes))
-            for row in found.row.values:
-                one = found.sel(row=row)
-                pressed = one.roller_load.values > 1e3
+            result = simulate(replace(base, **changes))
+            for row in result.row.values:
+                of_row = result.sel(row=row)
+                pressed = of_row.roller_load.values > 1e3
                 if not pressed.any():
                     continue
                 push, skew = (
-                    np.abs(one.cage_force.values[pressed]),
-                    1e3 * np.abs(one.skew_angle.values[pressed]),
+                    np.abs(of_row.cage_force.values[pressed]),
+                    1e3 * np.abs(of_row.skew_angle.values[pressed]),
                 )
-                inner, outer, cage = one.energy.sum("roller").values
-                ends, raceways = float(one.stop_energy.sum()), inner + outer
+                inner, outer, cage = of_row.energy.sum("roller").values
+                ends, raceways = float(of_row.stop_energy.sum()), inner + outer
                 print(
                     f"{name} {described} {row}: spars press with {np.median(push):.2f} N (median; mean {push.mean():.2f}), skew "
                     f"{np.quantile(skew, [0.1, 0.5, 0.9]).round(2)} mrad (a tenth, half, nine tenths), at the stop "
-                    f"{100.0 * (one.stop_force.values[pressed] > 0.0).mean():.0f} %, energy of raceways x "
-                    f"{raceways / (raceways - float(one.skew_energy.sum())):.3f}; energies {raceways:.0f} J, cage {cage:.0f} J "
-                    f"with {ends:.0f} J of ends; thrust {float(one.frictional_thrust):.0f} N",
+                    f"{100.0 * (of_row.stop_force.values[pressed] > 0.0).mean():.0f} %, energy of raceways x "
+                    f"{raceways / (raceways - float(of_row.skew_energy.sum())):.3f}; energies {raceways:.0f} J, cage {cage:.0f} J "
+                    f"with {ends:.0f} J of ends; thrust {float(of_row.frictional_thrust):.0f} N",
                     flush=True,
                 )
 
@@ -240,8 +244,8 @@ def contacts(pair, load, slip, skew, middles, tilt) -> list:
     """Resultants of both raceways at several slips [m/s]."""
     load, speed = np.full(slip.shape, load), np.full(slip.shape, SPEED)
     return [
-        resultants(one, load, speed, slip, skew, middle, tilt)
-        for one, middle in zip(pair, middles, strict=True)
+        resultants(raceway, load, speed, slip, skew, middle, tilt)
+        for raceway, middle in zip(pair, middles, strict=True)
     ]
 
 
@@ -258,28 +262,28 @@ def damage(names: list[str]) -> None:
         straight = None
         for described, cage in {"straight": Cage(), **CAGES}.items():
             laws = Laws.physical() if described == "straight" else SKEWED
-            found = simulate(replace(base, laws=laws, cage=cage))
-            told, down = criteria(found), found.sel(row="downwind")
+            result = simulate(replace(base, laws=laws, cage=cage))
+            told, down = criteria(result), result.sel(row="downwind")
             sums = [
-                down[one].sel(interface=["inner", "outer"]).sum()
-                for one in ("energy", "asperity_energy")
+                down[kind].sel(interface=["inner", "outer"]).sum()
+                for kind in ("energy", "asperity_energy")
             ]
             worst = [
-                told[one].sel(row="downwind").max("station")
-                for one in ("pressure_slip_rate", "asperity_work_rate")
+                told[rate].sel(row="downwind").max("station")
+                for rate in ("pressure_slip_rate", "asperity_work_rate")
             ]
             least = [
-                told.asperity_work_rate.sel(row="downwind", surface=one)[10:14].min()
-                / worst[1].sel(surface=one)
-                for one in ("inner", "outer")
+                told.asperity_work_rate.sel(row="downwind", surface=raceway)[10:14].min()
+                / worst[1].sel(surface=raceway)
+                for raceway in ("inner", "outer")
             ]
             values = [
                 *sums,
                 down.surface_work.sum(),
-                *(one.max() for one in worst),
+                *(rate.max() for rate in worst),
                 told.wear_time[0, :, 1, 1].min(),
             ]
-            values = np.array([float(one) for one in values])
+            values = np.array([float(value) for value in values])
             straight = values if straight is None else straight
             print(
                 name,
@@ -291,8 +295,8 @@ def damage(names: list[str]) -> None:
                 "  least wear of the four middle stations over the most, inner and outer:",
                 np.round(least, 3),
             )
-            for one in told.criterion.values:
-                print(f"  {one:26s} {float(told.value.sel(criterion=one)):.4g}")
+            for criterion in told.criterion.values:
+                print(f"  {criterion:26s} {float(told.value.sel(criterion=criterion)):.4g}")
 
 
 if __name__ == "__main__":

@@ -34,8 +34,8 @@ def timed(case: Case):
 
 def energies(result) -> np.ndarray:
     """Energy of friction of all rollers [J], by row and raceways, cage."""
-    found = result.energy.sum("roller").values
-    return np.column_stack([found[:, :2].sum(axis=1), found[:, 2]])
+    by_interface = result.energy.sum("roller").values
+    return np.column_stack([by_interface[:, :2].sum(axis=1), by_interface[:, 2]])
 
 
 def cells(*values: object) -> str:
@@ -79,7 +79,7 @@ def cases(laws: Laws) -> None:
         whole = simulate(replace(case, dynamics="whole-bearing"))
         apart = simulate(replace(case, dynamics="whole-bearing", cage=Cage(arrangement="per-row")))
         before, after = energies(imposed), energies(whole)
-        rolling = [float(one.rolling_energy.sum()) for one in (whole, imposed)]
+        rolling = [float(result.rolling_energy.sum()) for result in (whole, imposed)]
         force = whole.largest_pocket_force.max(("roller", "side")).values
         top = whole.largest_force_by_position.where(
             abs(whole.position - np.pi / 2) < np.radians(30)
@@ -94,7 +94,7 @@ def cases(laws: Laws) -> None:
             name, *pairs, share(*rolling), share(*before.sum(axis=1)), share(*after.sum(axis=1)),
             f"{100 * float(whole.cage_slip[0]):.3g}",
             ", ".join(f"{100 * slip:.3g}" for slip in apart.cage_slip.values),
-            ", ".join(f"{one:.3g}" for one in force), float(top),
+            ", ".join(f"{largest:.3g}" for largest in force), float(top),
         ), flush=True)  # fmt: skip
 
 
@@ -124,9 +124,11 @@ def choices(laws: Laws) -> None:
     )  # fmt: skip
     changed = {name: replace(case, cage=cage) for name, cage in described.items()}
     if laws.asks_for_oil:
-        changed |= {f"oil_supply: {one}": replace(case, oil_supply=one) for one in ("flooded", 0.7)}
-    for name, one in changed.items():
-        result = simulate(one)
+        changed |= {
+            f"oil_supply: {supply}": replace(case, oil_supply=supply) for supply in ("flooded", 0.7)
+        }
+    for name, changed_case in changed.items():
+        result = simulate(changed_case)
         force = result.largest_pocket_force.max(("roller", "side")).values
         top = result.largest_force_by_position.where(
             abs(result.position - np.pi / 2) < np.radians(30)
@@ -204,15 +206,15 @@ def dry() -> None:
     }
     for name, cage in described.items():
         result, spent = timed(replace(case, cage=cage))
-        found = energies(result)
+        energy = energies(result)
         steps = int((result.steps + result.rejections).max()) / 10.0
         force = float(result.largest_pocket_force.max())
         lost = float(result.pocket_loss[-1])
         print(
             cells(
                 name,
-                float(found[0, 1]),
-                float(found[1, 1]),
+                float(energy[0, 1]),
+                float(energy[1, 1]),
                 lost,
                 force,
                 f"{steps:.0f}",
@@ -239,8 +241,10 @@ def tolerance() -> None:
                 integrator=Radau(tolerance=value),
             )
             result = simulate(case)
-            found = [f"{x:.5g}" for x in energies(result).ravel()]
-            print(cells(name, value, *found, float(result.energy_residual[-1])), flush=True)
+            cells_of_energy = [f"{x:.5g}" for x in energies(result).ravel()]
+            print(
+                cells(name, value, *cells_of_energy, float(result.energy_residual[-1])), flush=True
+            )
 
 
 def scatter() -> None:
@@ -254,7 +258,7 @@ def scatter() -> None:
     )
     loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + 30.0)
     for value in (2e-4, 2e-5):
-        found = []
+        energy_of_draws = []
         for seed in range(1, 6):
             cage = Cage(offsets="random", seed=seed)
             case = Case(
@@ -264,8 +268,8 @@ def scatter() -> None:
                 cage=cage,
                 integrator=Radau(tolerance=value),
             )
-            found.append(energies(simulate(case))[:, 1])
-        mean, deviation = np.mean(found, axis=0), np.std(found, axis=0, ddof=1)
+            energy_of_draws.append(energies(simulate(case))[:, 1])
+        mean, deviation = np.mean(energy_of_draws, axis=0), np.std(energy_of_draws, axis=0, ddof=1)
         print(
             cells(value, *(f"{x:.4g}" for k in (0, 1) for x in (mean[k], deviation[k]))), flush=True
         )
@@ -357,15 +361,19 @@ def accuracy(laws: Laws) -> None:
     for name, cage, span, fine in runs:
         loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + span)
         case = Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
-        found, cages = [], []
+        energy_of_runs, cages = [], []
         for integrator in (Radau(), Radau(tolerance=fine)):
             result = simulate(replace(case, integrator=integrator))
             cages.append(result.energy.sel(interface="cage").values)
-            found.append(np.append(energies(result).ravel(), float(result.rolling_energy.sum())))
-            if len(found) == 1:
+            energy_of_runs.append(
+                np.append(energies(result).ravel(), float(result.rolling_energy.sum()))
+            )
+            if len(energy_of_runs) == 1:
                 lost = float(result.book_raceway_loss[-1] + result.book_friction_loss[-1])
                 left = float(abs(result.energy_residual).max()) / lost
-        parts = [f"{a / b - 1.0:+.1e}" if b > 0.0 else "–" for a, b in zip(*found, strict=True)]
+        parts = [
+            f"{a / b - 1.0:+.1e}" if b > 0.0 else "–" for a, b in zip(*energy_of_runs, strict=True)
+        ]
         most = abs(cages[0] / cages[1] - 1.0).max()
         print(cells(name, *parts, f"{most:.1e}", f"{left:.1e}"), flush=True)
 
@@ -380,7 +388,7 @@ def rollers(laws: Laws) -> None:
         loads = BearingLoads.constant([0.0, -12e3 * count, 4e3 * count], RATED, 60.0)
         cage = Cage(mass=50.0 * count / 28)
         case = Case(loads=loads, laws=laws, bearing=bearing, dynamics="whole-bearing", cage=cage)
-        result, spent = min((timed(case) for _ in range(3)), key=lambda one: one[1])
+        result, spent = min((timed(case) for _ in range(3)), key=lambda run: run[1])
         steps = int((result.steps + result.rejections).max())
         print(
             cells(2 * count, 1e3 * spent / 60.0, steps / 60.0, 1e6 * spent / (steps * 2 * count)),

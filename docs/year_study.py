@@ -65,20 +65,20 @@ def own_temperatures(folder: str) -> None:
             assert loss is not None, "as a balance"
             balance = RunsOverTemperature.of(known).balance(loss, "wind_speed", 2.0)
             print(name, {wind: round(at - 273.15, 1) for wind, at in balance.items()})
-        found = year(weighted_study(known), aggregation_in_use(known))
+        annual = year(weighted_study(known), aggregation_in_use(known))
         bins = xr.Dataset(
             {
-                "energy": found.energy.sum("row"),
-                "wear": found.wear.isel(row=0),
-                "entries": found.entries.sum("row"),
+                "energy": annual.energy.sum("row"),
+                "wear": annual.wear.isel(row=0),
+                "entries": annual.entries.sum("row"),
             }
         ).isel(group=0)
         fixed = bins.sum() if fixed is None else fixed
         low = bins.sel(bin=bins.bin < 11.0)
-        print(name, {one: f"{float(bins[one].sum() / fixed[one]):.3g}" for one in bins})
+        print(name, {key: f"{float(bins[key].sum() / fixed[key]):.3g}" for key in bins})
         print(
             "  below 11 m/s",
-            {one: f"{float(low[one].sum() / bins[one].sum()):.3g}" for one in bins},
+            {key: f"{float(low[key].sum() / bins[key].sum()):.3g}" for key in bins},
         )
         shares = 100.0 * bins / bins.sum()
         print(shares.to_dataframe()[list(bins.data_vars)].round(1).T.to_string())
@@ -87,24 +87,24 @@ def own_temperatures(folder: str) -> None:
 def of_a_year(folder: str) -> tuple[xr.Dataset, xr.DataArray, np.ndarray]:
     """The year of a study; energy [J], wear [m] and entries over (quantity, group, bin); names of the bins."""
     study = open_study(folder)
-    found = year(study, aggregation_in_use(study))
-    worse = found.wear.sum("bin", skipna=False).fillna(0.0).idxmax("row")
+    annual = year(study, aggregation_in_use(study))
+    worse = annual.wear.sum("bin", skipna=False).fillna(0.0).idxmax("row")
     # Entries are counted by orbits, of which idling and parked rotors complete none.
-    entries = found.entries.where(~found.event.isin(["idle-6", "idle-25", "parked-12"]), 0.0)
+    entries = annual.entries.where(~annual.event.isin(["idle-6", "idle-25", "parked-12"]), 0.0)
     drawn = [
-        found.energy.sum("row", skipna=False),
-        found.wear.sel(row=worse),
+        annual.energy.sum("row", skipna=False),
+        annual.wear.sel(row=worse),
         entries.sum("row", skipna=False),
     ]
     values = xr.concat(drawn, "quantity", coords="minimal")
-    wind = [f"{speed:g}" for speed in found.bin.values]
-    names = np.where(found.event.values == "", wind, found.event.values)
-    return found, values.assign_coords(quantity=list(QUANTITIES)), names
+    wind = [f"{speed:g}" for speed in annual.bin.values]
+    names = np.where(annual.event.values == "", wind, annual.event.values)
+    return annual, values.assign_coords(quantity=list(QUANTITIES)), names
 
 
-def parts_of(found: xr.Dataset) -> dict[str, np.ndarray]:
+def parts_of(annual: xr.Dataset) -> dict[str, np.ndarray]:
     """Bins of the parts of a year."""
-    event, speed = found.event.values != "", found.bin.values
+    event, speed = annual.event.values != "", annual.bin.values
     return {"4 to 10 m/s": speed < 11.0, "12 to 24 m/s": speed > 11.0, "events": event}
 
 
@@ -114,8 +114,8 @@ def parts_figure(values: xr.DataArray, names: np.ndarray, parts: dict[str, np.nd
     shares = 100.0 * values.isel(group=0) / values.isel(group=0).sum("bin")
     windy = ~parts["events"]
     for k, (name, colour) in enumerate(QUANTITIES.items()):
-        one = shares.sel(quantity=name).values
-        heights = np.append(one[windy], one[~windy].sum())
+        share = shares.sel(quantity=name).values
+        heights = np.append(share[windy], share[~windy].sum())
         axes.bar(
             np.arange(heights.size) + 0.27 * (k - 1), heights, 0.25, color=colour, label=NAMES[name]
         )
@@ -129,15 +129,17 @@ def parts_figure(values: xr.DataArray, names: np.ndarray, parts: dict[str, np.nd
 
 
 def events_figure(
-    found: xr.Dataset, values: xr.DataArray, names: np.ndarray, parts: dict[str, np.ndarray]
+    annual: xr.Dataset, values: xr.DataArray, names: np.ndarray, parts: dict[str, np.ndarray]
 ) -> Figure:
     """Share of a year of every event, and what an hour of it does over an hour of the mean wind speed."""
     figure, (left, right) = new_figure(8.4, 3.8, columns=2, sharey=True)
-    one = values.isel(group=0)
+    of_design = values.isel(group=0)
     windy, some = ~parts["events"], parts["events"]
-    share = 100.0 * one / one.sum("bin")
-    hourly = (one / found.hours) / (one.isel(bin=windy).sum("bin") / found.hours[windy].sum())
-    order = np.flatnonzero(some)[np.argsort(found.energy.isel(group=0).sum("row").values[some])]
+    share = 100.0 * of_design / of_design.sum("bin")
+    hourly = (of_design / annual.hours) / (
+        of_design.isel(bin=windy).sum("bin") / annual.hours[windy].sum()
+    )
+    order = np.flatnonzero(some)[np.argsort(annual.energy.isel(group=0).sum("row").values[some])]
     for axes, shown, label in (
         (left, share, "share of a year [%]"),
         (right, hourly, "an hour over one of production"),
@@ -189,42 +191,43 @@ def variants_figure(table: pd.DataFrame) -> Figure:
 
 def variants_table(folder: str) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Sums of a year of every variant by model and name; and shares of them [%] by part of the year."""
-    found, values, _ = of_a_year(folder)
-    supply, at = found["oil_supply"].values, found["lubricant.at"].values
+    annual, values, _ = of_a_year(folder)
+    supply, at = annual["oil_supply"].values, annual["lubricant.at"].values
     names = [
         f"oil_supply {s}" if s else "as it is" if np.isnan(t) else f"oil at {t:g} °C"
         for s, t in zip(supply.astype(str), at, strict=True)
     ]
-    index = pd.MultiIndex.from_arrays([found.model.values, names])
+    index = pd.MultiIndex.from_arrays([annual.model.values, names])
     table = pd.DataFrame(
         values.sum("bin", skipna=False).transpose("group", "quantity").values,
         index,
         list(QUANTITIES),
     )
     for name in ("peak", "entry_slip"):
-        table[name] = found[name].max(("bin", "row")).values
+        table[name] = annual[name].max(("bin", "row")).values
     shares = {
         f"{quantity}, {name}": 100.0
         * values.sel(quantity=quantity)[:, part].sum("bin", skipna=False).values
         / table[quantity]
         for quantity in QUANTITIES
-        for name, part in parts_of(found).items()
+        for name, part in parts_of(annual).items()
     }
     return table, pd.DataFrame(shares, index)
 
 
 def main(base: str, variants: str) -> None:
-    found, values, names = of_a_year(base)
-    parts, one = parts_of(found), values.isel(group=0)
-    table = pd.DataFrame(one.transpose("bin", "quantity").values, names, list(QUANTITIES))
-    hours = pd.Series(found.hours.values, names)
+    annual, values, names = of_a_year(base)
+    parts = parts_of(annual)
+    of_design = values.isel(group=0)
+    table = pd.DataFrame(of_design.transpose("bin", "quantity").values, names, list(QUANTITIES))
+    hours = pd.Series(annual.hours.values, names)
     for name, part in parts.items():
         table.loc[name], hours[name] = (
             table[: names.size][part].sum(),
             hours[: names.size][part].sum(),
         )
-    whole = one.sum("bin", skipna=False).to_series()
-    print(coverage(found), whole.to_string(), sep="\n")
+    whole = of_design.sum("bin", skipna=False).to_series()
+    print(coverage(annual), whole.to_string(), sep="\n")
     shown = (
         (100.0 * table / whole)
         .join(table.div(hours, axis=0).add_suffix(" an hour"))
@@ -232,12 +235,12 @@ def main(base: str, variants: str) -> None:
     )
     every, shares = variants_table(variants)
     over = every / every.loc["straight rollers", "as it is"]
-    for one in (shown, every, over, shares):
-        print(one.to_string(float_format=lambda value: f"{value:.3g}"))
+    for frame in (shown, every, over, shares):
+        print(frame.to_string(float_format=lambda value: f"{value:.3g}"))
     matplotlib.rcParams["svg.hashsalt"] = "macroslip"
     for name, figure in (
         ("parts", parts_figure(values, names, parts)),
-        ("events", events_figure(found, values, names, parts)),
+        ("events", events_figure(annual, values, names, parts)),
         ("variants", variants_figure(over)),
     ):
         figure.savefig(

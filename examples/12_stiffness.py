@@ -13,10 +13,10 @@ cases = {
     f"{force / 1e3:g} kN": Case(loads=BearingLoads.constant([0.0, -force, 100e3], 2.1, 1.0))
     for force in radial
 }
-found = ring_stiffness(cases)
-stiffness_table(found).to_csv("stiffness.csv", index=False)
+rings = ring_stiffness(cases)
+stiffness_table(rings).to_csv("stiffness.csv", index=False)
 
-mean = found.isel(point=found.kind == "mean load").stiffness / 1e9
+mean = rings.isel(point=rings.kind == "mean load").stiffness / 1e9
 figure, axes = plt.subplots(figsize=(6, 3.2), layout="constrained")
 for axis in "XYZ":
     values = mean.sel(load=f"F_{axis}0", motion=f"d_{axis}0")

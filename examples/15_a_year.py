@@ -20,12 +20,12 @@ weights: {wind: {weibull: IEC II}}
 with TemporaryDirectory() as folder:
     run_study(read_study("year.yaml"), folder)
     study = open_study(folder)
-    found = year(study, aggregation_in_use(study)).isel(group=0)
+    of_year = year(study, aggregation_in_use(study)).isel(group=0)
 
-energy = found.energy.sum("row") / 1e6
-for wind, hours, part in zip(found.bin.values, found.hours.values, energy.values, strict=True):
+energy = of_year.energy.sum("row") / 1e6
+for wind, hours, part in zip(of_year.bin.values, of_year.hours.values, energy.values, strict=True):
     print(f"{float(wind):g} m/s: {float(hours):.0f} h, {part:.2f} MJ of a mean roller in both rows")
 figure, axes = plt.subplots(figsize=(6, 3.2), layout="constrained")
-axes.bar([f"{float(wind):g}" for wind in found.bin.values], energy)
+axes.bar([f"{float(wind):g}" for wind in of_year.bin.values], energy)
 axes.set(xlabel="wind speed [m/s]", ylabel="friction in a year [MJ]")
 figure.savefig("15_a_year.png", dpi=80)

@@ -13,12 +13,12 @@ results = [
     simulate(Case(loads=loads, bearing=base.replace(diametral_clearance=gap), rollers=[0, 14]))
     for gap in (0.1e-3, 0.3e-3)
 ]
-found = compare(*results)
-print(found.attrs["ranking"])
-for note in found.attrs["notes"]:
+comparison = compare(*results)
+print(comparison.attrs["ranking"])
+for note in comparison.attrs["notes"]:
     print("note:", note)
 
-changed = found.dropna(subset="difference [%]")
+changed = comparison.dropna(subset="difference [%]")
 figure, axes = plt.subplots(figsize=(7, 3.6), layout="constrained")
 axes.barh(changed["quantity"], changed["difference [%]"])
 axes.axvline(0.0, color="black", linewidth=0.8)

@@ -22,15 +22,22 @@ variations:
 """)
 with TemporaryDirectory() as folder:
     run_study(read_study("sample.yaml"), folder)
-    found = effects(open_study(folder))
+    of_sample = effects(open_study(folder))
 
-name = str(found.quantity.values[0])
-one = found.sel(quantity=name)
+name = str(of_sample.quantity.values[0])
+of_quantity = of_sample.sel(quantity=name)
 for parameter, effect, error in zip(
-    one.parameter.values, one.main_effect.values, one.main_effect_error.values, strict=True
+    of_quantity.parameter.values,
+    of_quantity.main_effect.values,
+    of_quantity.main_effect_error.values,
+    strict=True,
 ):
     print(f"{name} with {parameter}: {100 * effect:+.1f} % ± {100 * error:.1f} %")
 figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")
-axes.barh(one.parameter.values, 100 * one.main_effect, xerr=100 * one.main_effect_error)
+axes.barh(
+    of_quantity.parameter.values,
+    100 * of_quantity.main_effect,
+    xerr=100 * of_quantity.main_effect_error,
+)
 axes.set_xlabel(f"main effect on {name} [%]")
 figure.savefig("17_sample_and_effects.png", dpi=80)

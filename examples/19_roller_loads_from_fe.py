@@ -11,10 +11,10 @@ from macroslip import Case, RollerLoads, Traces, simulate
 # Places around both rows at two times. A real table has them as the model gives them.
 angle = np.arange(0.0, 360.0, 15.0)
 lines = [
-    (time, 20.46, row, place, max(0.0, peak * np.cos(np.radians(place + 90.0))) * 1e3)
+    (time, 20.46, row, position, max(0.0, peak * np.cos(np.radians(position + 90.0))) * 1e3)
     for time in (0.0, 14.0)
     for row, peak in (("downwind", 60.0), ("upwind", 15.0))
-    for place in angle
+    for position in angle
 ]
 columns = ["time_s", "shaft_speed_rpm", "row", "angle_deg", "load_N"]
 pd.DataFrame(lines, columns=columns).to_csv("rollers.csv", index=False)

@@ -42,8 +42,8 @@ def ratings_of(bearing: Bearing) -> LoadRatings:
 
     Examples
     --------
-    >>> found = ratings_of(Bearing.read("skf-240-600-bc"))
-    >>> round(found.dynamic / 1e3), round(found.minimum / 1e3)
+    >>> ratings = ratings_of(Bearing.read("skf-240-600-bc"))
+    >>> round(ratings.dynamic / 1e3), round(ratings.minimum / 1e3)
     (8502, 163)
     """
     if bearing.kind == "tapered":
@@ -84,8 +84,8 @@ def equivalent_loads(
 
     Examples
     --------
-    >>> found = equivalent_loads(Bearing.read("skf-240-600-bc"), 300e3, 50e3)
-    >>> float(found.dynamic), float(found.static)
+    >>> loads = equivalent_loads(Bearing.read("skf-240-600-bc"), 300e3, 50e3)
+    >>> float(loads.dynamic), float(loads.static)
     (415000.0, 410000.0)
     """
     if bearing.kind == "tapered":

@@ -83,8 +83,8 @@ def ring_stiffness(cases: Mapping[str, Case]) -> xr.Dataset:
     --------
     >>> from macroslip import BearingLoads, Case
     >>> case = Case(loads=BearingLoads.constant([0.0, -400e3, 100e3], 2.1, 1.0))
-    >>> found = ring_stiffness({"base": case}).stiffness.isel(point=0)
-    >>> [round(float(found.sel(load=f"F_{axis}0", motion=f"d_{axis}0")) / 1e9, 2) for axis in "XYZ"]
+    >>> matrix = ring_stiffness({"base": case}).stiffness.isel(point=0)
+    >>> [round(float(matrix.sel(load=f"F_{axis}0", motion=f"d_{axis}0")) / 1e9, 2) for axis in "XYZ"]
     [6.01, 7.55, 0.53]
     """
     points = [point for name, case in cases.items() for point in _points(name, case)]

@@ -238,9 +238,9 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     >>> time = np.linspace(0.0, 10.0, 1001)
     >>> force = np.zeros((1001, 3))
     >>> force[:, 2] = 45e3 * np.sin(2.0 * np.pi * time)
-    >>> found = load_cycles(BearingLoads(time, np.full(1001, 2.0), force, "ten cycles of 90 kN")).sel(component="axial")
-    >>> most = found.load_cycles.argmax("load_range")
-    >>> float(found.load_cycles.sum()), f"{float(found.load_range[most]):.3g} N"
+    >>> cycles = load_cycles(BearingLoads(time, np.full(1001, 2.0), force, "ten cycles of 90 kN")).sel(component="axial")
+    >>> most = cycles.load_cycles.argmax("load_range")
+    >>> float(cycles.load_cycles.sum()), f"{float(cycles.load_range[most]):.3g} N"
     (10.0, '9.17e+04 N')
     """
     counts = []

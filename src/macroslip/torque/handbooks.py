@@ -496,8 +496,8 @@ def torque_histories(
     --------
     >>> loads = BearingLoads.constant([0.0, -344e3, 164e3], 2.143, 1.0)
     >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
-    >>> found = torque_histories({}, loads, bearing, oil)
-    >>> [f"{name}: {history.torque[0]:.0f} N m" for name, history in found.items()]
+    >>> histories = torque_histories({}, loads, bearing, oil)
+    >>> [f"{name}: {history.torque[0]:.0f} N m" for name, history in histories.items()]
     ['SKF, sliding: 83 N m', 'SKF, all: 353 N m', 'Palmgren, all: 298 N m']
     """
     simulated = {
