@@ -21,8 +21,8 @@ def test_a_page_can_be_made_there(monkeypatch):
     from macroslip.report.provenance import provenance_section
 
     monkeypatch.delattr(os, "sched_getaffinity", raising=False)
-    found = provenance_section(
+    section = provenance_section(
         {"one": xr.Dataset({"status": ("roller", [0])}, attrs={"source": "macroslip"})}
     )
-    text = re.sub(r"<[^>]*>|\s+", " ", str(found.body))
+    text = re.sub(r"<[^>]*>|\s+", " ", str(section.body))
     assert re.search(rf"this page: cores +{os.cpu_count()}\b", text)

@@ -98,11 +98,11 @@ def test_what_a_user_is_reported(reported, text, message):
 def test_a_file_that_was_wrong_can_be_mended_and_read_again(reported, tmp_path):
     reported(FILM + "\n1 / 0\n")
     (tmp_path / "my_laws.py").write_text(FILM, encoding="utf-8")
-    found = load_laws("my_laws.py")
+    laws = load_laws("my_laws.py")
     try:
-        assert found == (("dowson-higginson",), ())
+        assert laws == (("dowson-higginson",), ())
         # Read again, under another name of the same path, it is the same law.
-        assert load_laws(tmp_path / "my_laws.py") is found
+        assert load_laws(tmp_path / "my_laws.py") is laws
         # Its name is taken now, by whatever else the file may become.
         (tmp_path / "my_laws.py").write_text(FILM + "\n# changed\n", encoding="utf-8")
         with pytest.raises(

@@ -58,8 +58,8 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
     ]
     text = (tmp_path / "out" / "bench.json").read_text(encoding="utf-8")
     assert str(tmp_path) not in text and "NaN" not in text and "Infinity" not in text
-    found = json.loads(text)
-    assert set(found) == {
+    printed = json.loads(text)
+    assert set(printed) == {
         "machine",
         "quick",
         "asked_accuracy",
@@ -74,7 +74,7 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
         "linearity",
         "mechanisms",
     }
-    methods = found["methods"]
+    methods = printed["methods"]
     assert list(methods) == ["own", "scipy_bdf", "lsoda", rivals.EULER]
     assert methods["lsoda"]["installed"] is False and "not installed" in done.stdout
     assert [name for name, method in methods.items() if not method["installed"]] == ["lsoda"]
@@ -87,18 +87,18 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
             )
     own = methods["own"]["histories"].values()
     assert all(
-        one["reached"] and max(one["energy_error"], one["spin_error"]) <= found["asked_accuracy"]
+        one["reached"] and max(one["energy_error"], one["spin_error"]) <= printed["asked_accuracy"]
         for one in own
     )
-    assert found["quadrature"]["largest_difference"] < 1e-8
+    assert printed["quadrature"]["largest_difference"] < 1e-8
     assert (
-        found["evaluation"]["force_evaluation_ns"] > 0.0
-        and found["evaluation"]["overhead_factor"] > 1.0
+        printed["evaluation"]["force_evaluation_ns"] > 0.0
+        and printed["evaluation"]["overhead_factor"] > 1.0
     )
     for model in ("paper", "physical"):
-        assert found["real_time"][model]["median"] >= found["real_time"][model]["slowest"] > 0.0
+        assert printed["real_time"][model]["median"] >= printed["real_time"][model]["slowest"] > 0.0
     assert {"processor", "cores", "python", "numba", "numbalsoda", "scikit-sundae"} <= set(
-        found["machine"]
+        printed["machine"]
     )
 
 

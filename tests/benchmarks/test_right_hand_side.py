@@ -51,11 +51,11 @@ def test_rates_are_those_of_the_package(histories):
             )
             acceleration = (after - before) / (2.0 * eps)
             inner, outer, cage = (float(forces[name][0]) for name in ("inner", "outer", "cage"))
-            found = rate_at(time, slip, data)
+            rate = rate_at(time, slip, data)
             expected = acceleration - history.model.mobility * (inner + outer + cage)
-            assert found[0] == pytest.approx(expected, rel=1e-9, abs=1e-8)
+            assert rate[0] == pytest.approx(expected, rel=1e-9, abs=1e-8)
             powers = np.array([inner * slip, outer * slip, cage * (float(at["ring_speed"]) - slip)])
-            np.testing.assert_allclose(found[1:], np.abs(powers) / 0.5, rtol=1e-13)
+            np.testing.assert_allclose(rate[1:], np.abs(powers) / 0.5, rtol=1e-13)
 
 
 def test_jacobian_is_the_difference_quotient(histories):

@@ -67,19 +67,22 @@ SETTINGS = [{"rtol": rtol, "atol": atol} for rtol in (1e-3, 5e-5, 1e-6) for atol
 
 def test_a_scan_tries_all_and_puts_an_accurate_run_first():
     log = []
-    found = scan(fake(log), SETTINGS, REFERENCE, budget=math.inf, prune=False)
+    measurements = scan(fake(log), SETTINGS, REFERENCE, budget=math.inf, prune=False)
     assert {(one["rtol"], one["atol"]) for one in SETTINGS} <= set(log)
-    assert len(found) == len(SETTINGS)
-    assert found[0].setting["rtol"] <= ASKED
+    assert len(measurements) == len(SETTINGS)
+    assert measurements[0].setting["rtol"] <= ASKED
 
 
 def test_pruning_leaves_out_what_is_dearer_for_certain():
     log = []
-    found = scan(fake(log), SETTINGS, REFERENCE, budget=math.inf, prune=True)
+    measurements = scan(fake(log), SETTINGS, REFERENCE, budget=math.inf, prune=True)
     assert (5e-5, 1e-6) in log and (5e-5, 1e-8) not in log
     # 1e-6 needs more evaluations than the run already found, and is given up.
-    assert [one.error for one in found if one.setting["rtol"] == 1e-6] == [math.inf, math.inf]
-    assert found[0].setting == {"rtol": 5e-5, "atol": 1e-6}
+    assert [one.error for one in measurements if one.setting["rtol"] == 1e-6] == [
+        math.inf,
+        math.inf,
+    ]
+    assert measurements[0].setting == {"rtol": 5e-5, "atol": 1e-6}
 
 
 def test_a_spent_budget_ends_the_scan():

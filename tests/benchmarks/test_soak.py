@@ -51,7 +51,7 @@ def test_growth_and_table():
 @pytest.mark.deep
 @pytest.mark.timeout(400)
 def test_a_minute(tmp_path):
-    found = soak(tmp_path, 60.0, 15.0, 10)
-    assert found.problems == [] and found.kills >= 3 and found.recorded > 50
+    outcome = soak(tmp_path, 60.0, 15.0, 10)
+    assert outcome.problems == [] and outcome.kills >= 3 and outcome.recorded > 50
     for process in ("scheduler", "study", "worker"):
-        assert growth(found.samples, process) < 50e6
+        assert growth(outcome.samples, process) < 50e6

@@ -138,11 +138,11 @@ def test_every_field_of_a_case_is_in_its_input():
     """A key is declared once: whatever field the class has, the input of a result has its value."""
     loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 1.0)
     case = Case(loads=loads, dynamics="whole-bearing", gravity=False)
-    found = case.as_dict()
+    settings = case.as_dict()
     names = {one.name for one in dataclasses.fields(Case)} - {"gravity", "drag"} | {"forces"}
     # Only a tapered roller bearing has it.
-    assert found.keys() == names - {"temperature_difference"}
-    assert found["forces"] == {"gravity": False, "drag": True}
-    assert found["cage"] == dataclasses.asdict(case.cage)
+    assert settings.keys() == names - {"temperature_difference"}
+    assert settings["forces"] == {"gravity": False, "drag": True}
+    assert settings["cage"] == dataclasses.asdict(case.cage)
     # What has no effect is left out.
     assert {"dynamics", "cage"}.isdisjoint(Case(loads=loads).as_dict())

@@ -126,16 +126,16 @@ def test_a_whole_bearing_whose_rollers_skew(write):
         "loads: {main_bearing: {force: [0 N, -60 kN, 40 kN], shaft_speed: 20 rpm, duration: 1 s}}\n"
     )
     text = "dynamics: whole-bearing\nlaws: {model: physical, skew: quasi-static}\ncage: {gap: 0.3 mm, skew_play: 4 mrad}\n"
-    found = simulate(read_case(write(loads + text)))
-    assert (found.status == 0).all() and found.attrs["dynamics"] == "whole-bearing"
-    told = json.loads(found.attrs["input"])
+    result = simulate(read_case(write(loads + text)))
+    assert (result.status == 0).all() and result.attrs["dynamics"] == "whole-bearing"
+    told = json.loads(result.attrs["input"])
     assert (told["cage"]["skew_play"], told["cage"]["gap"], told["laws"]["skew"]) == (
         4e-3,
         3e-4,
         "quasi-static",
     )
-    assert float(found.skew_energy.sum()) > 0.0 and float(found.stop_energy.sum()) > 0.0
-    assert np.nanmax(np.abs(found.skew_by_position)) <= 4e-3
+    assert float(result.skew_energy.sum()) > 0.0 and float(result.stop_energy.sum()) > 0.0
+    assert np.nanmax(np.abs(result.skew_by_position)) <= 4e-3
 
 
 @pytest.mark.parametrize(

@@ -25,8 +25,8 @@ def test_two_results(ran, macroslip):
     again = macroslip("report", "cold.nc", "warm.nc")
     assert again.code == 2 and "the file exists" in again.err
     assert macroslip("report", "cold.nc", "warm.nc", "-o", "other.html", "--quiet").out == ""
-    found = json.loads(macroslip("compare", "cold.nc", "warm.nc", "--json", "--force").out)
-    assert found["inputs"]["temperature"] == {"cold": None, "warm": pytest.approx(333.15)}
+    printed = json.loads(macroslip("compare", "cold.nc", "warm.nc", "--json", "--force").out)
+    assert printed["inputs"]["temperature"] == {"cold": None, "warm": pytest.approx(333.15)}
 
 
 def test_criteria_of_damage_stand_side_by_side(quick, folder, macroslip):
@@ -39,8 +39,8 @@ def test_criteria_of_damage_stand_side_by_side(quick, folder, macroslip):
     assert all(line["title"] in done.out for line in told)
     page = (folder / "comparison.html").read_text(encoding="utf-8")
     assert "From slip to damage" in page and "Criteria of damage of every result" in page
-    found = json.loads(macroslip("compare", "cold.nc", "warm.nc", "--json", "--force").out)
-    assert found["criteria"]["warm"] == told
+    printed = json.loads(macroslip("compare", "cold.nc", "warm.nc", "--json", "--force").out)
+    assert printed["criteria"]["warm"] == told
 
 
 def test_designs_of_a_study_with_an_event(folder, macroslip):

@@ -9,15 +9,15 @@ import macroslip as package
 def test_versions_kernels_and_commands(macroslip):
     done = macroslip("doctor", "--json")
     assert (done.code, done.err) == (0, "")
-    found = json.loads(done.out)
+    printed = json.loads(done.out)
     assert (
-        found["version"] == package.__version__
-        and found["machine"]["python"] == platform.python_version()
+        printed["version"] == package.__version__
+        and printed["machine"]["python"] == platform.python_version()
     )
-    assert found["machine"]["cores"] >= 1
-    numba = next(one for one in found["packages"] if one["package"] == "numba")
+    assert printed["machine"]["cores"] >= 1
+    numba = next(one for one in printed["packages"] if one["package"] == "numba")
     assert numba["installed"] and numba["wanted"].startswith(">=")
-    assert all(one["missing"] == [] for one in found["commands"])
+    assert all(one["missing"] == [] for one in printed["commands"])
 
 
 def test_what_the_folder_of_kernels_holds(macroslip, tmp_path, monkeypatch):

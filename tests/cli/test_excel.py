@@ -41,9 +41,9 @@ def test_run_damage_and_compare(quick, folder, macroslip):
     assert macroslip("run", quick("temperature: 60 degC\n"), "-o", "warm.nc").code == 0
     done = macroslip("compare", "cold.nc", "warm.nc", "--xlsx", "both.xlsx")
     assert done.code == 0 and "written: both.xlsx" in done.out
-    found = json.loads(macroslip("compare", "cold.nc", "warm.nc", "--json", "--force").out)
+    printed = json.loads(macroslip("compare", "cold.nc", "warm.nc", "--json", "--force").out)
     designs = pd.read_excel("both.xlsx", "designs").set_index("design")
-    for number in found["numbers"]:
+    for number in printed["numbers"]:
         heading = f"{number['quantity']} [{number['units']}]"
         assert designs.loc[number["design"], heading] == pytest.approx(number["value"], rel=1e-12)
     assert set(pd.read_excel("both.xlsx", LAST)["of"].dropna()) == {"cold", "warm"}

@@ -48,19 +48,19 @@ def test_bearing_estimate(macroslip, folder):
     )
     done = macroslip("bearing", "estimate", *page, "-o", "mine.yaml", "--json")
     assert (done.code, done.err) == (0, "")
-    found = json.loads(done.out)
+    printed = json.loads(done.out)
     written = Bearing.read(folder / "mine.yaml")
-    for key, one in found["values"].items():
+    for key, one in printed["values"].items():
         low, high = one["10 to 90 %"]
         assert low <= one["median"] <= high
         assert (
             written.provenance[key].value == one["median"]
             and written.provenance[key].unit == one["unit"]
         )
-    assert {"roller_diameter", "contact_angle"} <= set(found["values"])
+    assert {"roller_diameter", "contact_angle"} <= set(printed["values"])
     shown = macroslip("bearing", "estimate", *page, "-o", "mine.yaml", "--force").out
-    assert f"is {found['C by ISO 281 / published [1]']:.3f} of the published one" in shown
-    assert (found["name"], found["written"]) == ("mine", "mine.yaml")
+    assert f"is {printed['C by ISO 281 / published [1]']:.3f} of the published one" in shown
+    assert (printed["name"], printed["written"]) == ("mine", "mine.yaml")
 
 
 def test_run(quick, macroslip, folder):
@@ -68,37 +68,37 @@ def test_run(quick, macroslip, folder):
     assert done.code == 0 and done.err.startswith(
         "doubtful: the film's formula is outside its range"
     )
-    found = json.loads(done.out)
+    printed = json.loads(done.out)
     result = xr.load_dataset(folder / "case.nc", engine="h5netcdf")
     energy = result.energy.sum("interface").mean("roller")
     for row in ("downwind", "upwind"):
-        assert found["rows"][row]["mean energy per roller [J]"] == pytest.approx(
+        assert printed["rows"][row]["mean energy per roller [J]"] == pytest.approx(
             float(energy.sel(row=row)), rel=1e-12
         )
         # Two seconds hold no complete orbit; the peak is that of the window.
         peak = float(result.window_peak_power.sel(row=row).max())
-        assert found["rows"][row]["highest peak power [W]"] == pytest.approx(peak, rel=1e-12)
+        assert printed["rows"][row]["highest peak power [W]"] == pytest.approx(peak, rel=1e-12)
     assert (
-        all(found[name] == result.attrs[name] for name in ("model", "oil"))
-        and found["oil"] in found["title"]
+        all(printed[name] == result.attrs[name] for name in ("model", "oil"))
+        and printed["oil"] in printed["title"]
     )
-    assert found["written"] == "case.nc" and found["window"]["complete orbits"] == 0
+    assert printed["written"] == "case.nc" and printed["window"]["complete orbits"] == 0
 
 
 def test_study(folder, macroslip):
     (folder / "study.yaml").write_text(
         "case: {rollers: [0], loads: {end: 2 s}}\nloads: {bundled: [14B]}\n", encoding="utf-8"
     )
-    found = json.loads(macroslip("study", "study.yaml", "--dry-run", "--json").out)
-    assert found["runs"] == 1 and found["load histories"] == 1 and found["bytes"] > 0
+    printed = json.loads(macroslip("study", "study.yaml", "--dry-run", "--json").out)
+    assert printed["runs"] == 1 and printed["load histories"] == 1 and printed["bytes"] > 0
     done = macroslip("study", "study.yaml", "-o", "out", "--json", "--quiet")
-    found = json.loads(done.out)
+    printed = json.loads(done.out)
     assert (
-        found["runs"],
-        found["computed"],
-        found["failed"],
-        found["left"],
-        found["failures"],
+        printed["runs"],
+        printed["computed"],
+        printed["failed"],
+        printed["left"],
+        printed["failures"],
     ) == (1, 1, 0, 0, [])
 
 

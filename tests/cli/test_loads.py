@@ -141,11 +141,13 @@ def test_a_drivetrain_of_ones_own_from_options_and_from_a_case_file(folder, macr
     own = Drivetrain(hub_to_bearing=1.9, bearing_to_gearbox=2.6, tilt=np.radians(6.0))
     options = ["--hub-to-bearing", "1.9 m", "--bearing-to-gearbox", "2600 mm", "--tilt", "6 deg"]
     for arguments in (options, ["--case", "case.yaml"]):
-        found = inspected(macroslip, path, *arguments)
+        printed = inspected(macroslip, path, *arguments)
         expected = main_bearing_load(HubLoads.read(path), own).force.mean(axis=0) / 1e3
-        means = [found["main bearing"][f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")]
+        means = [
+            printed["main bearing"][f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")
+        ]
         assert means == pytest.approx(expected, rel=1e-12)
-        assert not found["drivetrain"]["default"]
+        assert not printed["drivetrain"]["default"]
     both = inspected(macroslip, path, "--case", "case.yaml", "--bearing-to-gearbox", "2.2 m")
     assert (
         both["drivetrain"]["bearing_to_gearbox [m]"] == 2.2
@@ -173,11 +175,11 @@ def test_a_four_point_mount_from_a_case_file(folder, macroslip):
 
 
 def test_a_shaft_speed_of_ones_own(macroslip):
-    found = inspected(macroslip, DATA / "sample14B.outb", "--shaft-speed", "12 rpm")
-    assert found["statistics"]["shaft speed [rpm]"] == pytest.approx(
+    printed = inspected(macroslip, DATA / "sample14B.outb", "--shaft-speed", "12 rpm")
+    assert printed["statistics"]["shaft speed [rpm]"] == pytest.approx(
         {"mean": 12, "std": 0, "min": 12, "max": 12}
     )
-    assert found["reading"][-1].startswith("shaft speed: given, ")
+    assert printed["reading"][-1].startswith("shaft speed: given, ")
 
 
 def test_a_point_of_output_of_ones_own(macroslip):
@@ -234,11 +236,11 @@ def test_both_main_bearings_carry_the_hub_force_together(folder, macroslip):
         "locating: rear, bearing: both}\n"
     )
     arguments = ("loads", "inspect", DATA / "sample14B.outb", "--case", "both.yaml")
-    found = json.loads(macroslip(*arguments, "--json").out)
+    printed = json.loads(macroslip(*arguments, "--json").out)
     for hub, ring in (("fx", "F_Z0"), ("fy", "F_X0"), ("fz", "F_Y0")):
         carried = sum(
-            found[name][f"{ring} [kN]"]["mean"] for name in ("main bearing", "rear main bearing")
+            printed[name][f"{ring} [kN]"]["mean"] for name in ("main bearing", "rear main bearing")
         )
-        assert carried == pytest.approx(found["statistics"][f"{hub} [kN]"]["mean"], rel=1e-9)
+        assert carried == pytest.approx(printed["statistics"][f"{hub} [kN]"]["mean"], rel=1e-9)
     out = macroslip(*arguments).out
     assert ": the front bearing" in out and "load on the rear main bearing" in out

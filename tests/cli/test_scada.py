@@ -22,9 +22,9 @@ def test_init_then_inspect(folder, macroslip):
     assert (done.code, done.err) == (0, "")
     assert "3000 rows of 'NAME' from 2024-03-25 to 2024-04-14" in done.out
     done = macroslip("scada", "inspect", "scada.yaml", "--json")
-    found = json.loads(done.out)
-    assert sum(line["share"] for line in found["histogram"]) == pytest.approx(1.0)
-    kept = [line["rows"] for line in found["counts"] if line["filter"] == "kept"]
+    printed = json.loads(done.out)
+    assert sum(line["share"] for line in printed["histogram"]) == pytest.approx(1.0)
+    kept = [line["rows"] for line in printed["counts"] if line["filter"] == "kept"]
     assert sum(kept) == 3000
 
 

@@ -60,12 +60,12 @@ def test_load_ratio_is_the_formula(base, number, log_load, log_speed):
     assert load_ratio(*(float(one) for one in groups)) == pytest.approx(
         expected, rel=1e-11, abs=1e-300
     )
-    found = asperity_share("masjedi-khonsari", interface, load, speed, 1e-6)
+    share = asperity_share("masjedi-khonsari", interface, load, speed, 1e-6)
     by_film = float(film_ratio_share(1e-6 / interface.roughness))
     if 4e-5 <= w <= 4.5e-4:
-        assert found == pytest.approx(min(1.0, expected), rel=1e-11, abs=1e-300)
+        assert share == pytest.approx(min(1.0, expected), rel=1e-11, abs=1e-300)
     elif w < 2e-5 or w > 5e-4:
-        assert found == pytest.approx(min(1.0, expected, by_film), rel=1e-11, abs=1e-300)
+        assert share == pytest.approx(min(1.0, expected, by_film), rel=1e-11, abs=1e-300)
 
 
 @pytest.mark.parametrize(
@@ -77,9 +77,9 @@ def test_idle_contacts_have_no_more_than_their_film_ratio_gives(base, film_ratio
     inner, load = base[0], 30.0
     assert load_group(inner, load) == pytest.approx(1.1e-6, rel=0.01)
     assert not load_is_in_range(inner, load) and load_is_in_range(inner, 5e3)
-    found = asperity_share("masjedi-khonsari", inner, load, speed, film_ratio * inner.roughness)
-    assert found == pytest.approx(by_film, rel=0.35)
-    assert found == asperity_share("film-ratio", inner, load, speed, film_ratio * inner.roughness)
+    share = asperity_share("masjedi-khonsari", inner, load, speed, film_ratio * inner.roughness)
+    assert share == pytest.approx(by_film, rel=0.35)
+    assert share == asperity_share("film-ratio", inner, load, speed, film_ratio * inner.roughness)
 
 
 @settings(deadline=None)
@@ -109,10 +109,10 @@ def test_share_is_one_for_any_load_speed_and_film_and_falls_with_speed(base, nam
     load, speed = np.geomspace(1e-6, 1e6, 41)[:, None], np.geomspace(1e-6, 10.0, 61)
     for interface in base:
         film = masjedi_khonsari_moes(interface, load, speed)
-        found = asperity_share(name, interface, load, speed, film)
-        assert found.shape == (41, 61) and found.min() >= 0.0 and found.max() <= 1.0
-        assert np.diff(found, axis=1).max() <= 0.0
-        assert (found.max() > 0.5) == (name != "none")
+        share = asperity_share(name, interface, load, speed, film)
+        assert share.shape == (41, 61) and share.min() >= 0.0 and share.max() <= 1.0
+        assert np.diff(share, axis=1).max() <= 0.0
+        assert (share.max() > 0.5) == (name != "none")
         smooth = interface._replace(roughness=0.0)
         assert asperity_share(name, smooth, load, speed, film).max() == 0.0
 

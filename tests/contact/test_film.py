@@ -151,8 +151,8 @@ def test_extreme_groups_stay_finite_and_slopes_have_their_signs():
     log_load, log_material = np.meshgrid(
         np.linspace(-14.0, 9.0, 231), np.linspace(-7.0, 4.6, 117), indexing="ij"
     )
-    found = log_moes(math.log(3.0) - log_load, log_load, log_material)
-    by_load, by_material = np.diff(found, axis=0) / 0.1, np.diff(found, axis=1) / 0.1
+    moes = log_moes(math.log(3.0) - log_load, log_load, log_material)
+    by_load, by_material = np.diff(moes, axis=0) / 0.1, np.diff(moes, axis=1) / 0.1
     assert by_load.min() >= -1.001 and by_load.max() < -0.02
     assert by_material.min() >= -1e-12 and by_material.max() <= 0.75
 

@@ -40,13 +40,13 @@ def jaeger(place, peclet):
 
 
 def hottest(peclet):
-    found = minimize_scalar(
+    minimum = minimize_scalar(
         lambda place: -jaeger(place, peclet),
         bounds=(0, 0.95),
         method="bounded",
         options={"xatol": 1e-7},
     )
-    return found.x, -found.fun
+    return minimum.x, -minimum.fun
 
 
 def overstated(peclet):

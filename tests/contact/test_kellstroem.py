@@ -25,8 +25,8 @@ sides = pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_stress_is_linear_and_then_constant():
     friction = SaturatingFriction(0.04, 0.01)
     slip = np.array([0.0, 1e-3, 4e-3, 8e-3])
-    found = saturating_stress(friction, 1e9, slip, 0.4)
-    assert found == pytest.approx([0.0, 1e7, 4e7, 4e7], rel=1e-14, abs=0.0)
+    stress = saturating_stress(friction, 1e9, slip, 0.4)
+    assert stress == pytest.approx([0.0, 1e7, 4e7, 4e7], rel=1e-14, abs=0.0)
 
 
 @sides
@@ -71,13 +71,13 @@ def test_force_moments_and_power_over_the_ellipse_are_integrals(ring, slip, full
 def test_a_straight_roller_has_the_tractions_without_skew(ring, saturation, slip):
     laws = LAWS.but(traction_saturation=saturation, traction_limit_outer=0.04)
     contact = getattr(prepare(laws, BEARING, OIL, 1), ring)
-    found = resultants(skewed_contact(contact, BEARING, 1), LOADS, SPEED, slip, 0.0, 0.0, 0.0)
+    forces = resultants(skewed_contact(contact, BEARING, 1), LOADS, SPEED, slip, 0.0, 0.0, 0.0)
     pull, lag, skew, rough = tractions(contact, LOADS, np.full(3, SPEED), np.full(3, slip))
     reach = contact.interface.hertz.semi_axis_across * np.cbrt(LOADS)
     # Slip within the contact's width, which spin changes, is new in the skewed contact.
-    assert (np.abs(found.turning - (pull - lag)) < 2e-5 * LOADS).all()
+    assert (np.abs(forces.turning - (pull - lag)) < 2e-5 * LOADS).all()
     side = -1 if ring == "inner" else 1
-    assert (np.abs(-side * found.moment - skew) < 2e-5 * LOADS * reach).all()
+    assert (np.abs(-side * forces.moment - skew) < 2e-5 * LOADS * reach).all()
     assert not rough.any()
 
 

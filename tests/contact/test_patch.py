@@ -197,17 +197,17 @@ def test_whole_contact_against_integration_over_its_area(name, ring):
     heavy, promised = (2e5, 2e-3) if name != "barus" else (5e3, 4e-3)
     for load, slip in itertools.product((one for one in LOADS if one <= heavy), SLIPS):
         force, lag, skew, spent = whole_area(laws, patch, load, 6e-7, -0.396, slip)
-        found = summed(patch, chords, load, 6e-7, 0.0, -0.396, slip)
+        sums = summed(patch, chords, load, 6e-7, 0.0, -0.396, slip)
         across = patch.across * load ** (1 / 3)
         fastest = np.abs(slip_along(patch, np.linspace(-across, across, 101), -0.396, slip)).max()
         largest = abs(float(law.uniform_traction(load, 6e-7, fastest)))
         reach = across**2 / (2 * patch.contour_radius * RADIUS)
-        assert found[0] == pytest.approx(force, abs=promised * largest), (load, slip)
-        assert found[1] == pytest.approx(lag, abs=promised * largest * reach), (load, slip)
-        assert found[2] == pytest.approx(skew, abs=promised * largest * across), (load, slip)
-        assert power(patch, found, -0.396, slip) == pytest.approx(spent, rel=promised), (load, slip)
+        assert sums[0] == pytest.approx(force, abs=promised * largest), (load, slip)
+        assert sums[1] == pytest.approx(lag, abs=promised * largest * reach), (load, slip)
+        assert sums[2] == pytest.approx(skew, abs=promised * largest * across), (load, slip)
+        assert power(patch, sums, -0.396, slip) == pytest.approx(spent, rel=promised), (load, slip)
         assert patch_power(patch, chords, load, 6e-7, -0.396, slip) == power(
-            patch, found, -0.396, slip
+            patch, sums, -0.396, slip
         )
 
 
@@ -236,18 +236,20 @@ def test_bounds_and_signs(name):
     patch, chords = patch_of(law), chord_table(law.fluid)
     load, film, ring_speed, slip = random_states()
     none = np.zeros_like(load)
-    found = patch_tractions(patch, chords, load, film, none, ring_speed, slip)
-    spent = power(patch, found.T, ring_speed, slip)
-    scale = np.abs(slip * found[:, 0]) + np.abs(
-        ring_speed * (found[:, 1] + found[:, 2] * patch.spin_ratio)
+    tractions = patch_tractions(patch, chords, load, film, none, ring_speed, slip)
+    spent = power(patch, tractions.T, ring_speed, slip)
+    scale = np.abs(slip * tractions[:, 0]) + np.abs(
+        ring_speed * (tractions[:, 1] + tractions[:, 2] * patch.spin_ratio)
     )
-    assert (spent >= -1e-12 * scale).all() and (found[:, 3] == 0.0).all()
+    assert (spent >= -1e-12 * scale).all() and (tractions[:, 3] == 0.0).all()
     back = patch_tractions(patch, chords, load, film, none, -ring_speed, -slip)
-    np.testing.assert_allclose(back, -found, rtol=1e-9, atol=1e-9 * float(np.abs(found).max()))
+    np.testing.assert_allclose(
+        back, -tractions, rtol=1e-9, atol=1e-9 * float(np.abs(tractions).max())
+    )
     if CHOICES[name].rheology == "limiting-shear":
         half = np.minimum(patch.across * np.cbrt(load), patch.half_length)
         for values, arm in zip(
-            found.T, (1.0, half**2 / (2 * patch.contour_radius * RADIUS), half), strict=False
+            tractions.T, (1.0, half**2 / (2 * patch.contour_radius * RADIUS), half), strict=False
         ):
             assert (np.abs(values) <= GAMMA * load * arm * (1 + 1e-4)).all()
 
@@ -264,16 +266,16 @@ def test_without_microslip_slip_is_uniform(name):
     for load, slip in itertools.product(LOADS[:4], (-0.05, 1e-9, 1e-4, 0.1)):
         if name == "barus" and load > 1e4:
             continue
-        found = summed(patch, chords, load, 6e-7, 0.0, -0.4, slip)
+        sums = summed(patch, chords, load, 6e-7, 0.0, -0.4, slip)
         exact, _, _, spent = whole_area(
             CHOICES[name], patch._replace(contour_radius=1e9), load, 6e-7, 0.0, slip
         )
-        assert found[0] == pytest.approx(exact, rel=promised)
-        assert float(law.uniform_traction(load, 6e-7, slip)) == pytest.approx(found[0], rel=1e-12)
-        assert found[2] == pytest.approx(0.0, abs=1e-9 * abs(exact)) and found[1] == 0.0
+        assert sums[0] == pytest.approx(exact, rel=promised)
+        assert float(law.uniform_traction(load, 6e-7, slip)) == pytest.approx(sums[0], rel=1e-12)
+        assert sums[2] == pytest.approx(0.0, abs=1e-9 * abs(exact)) and sums[1] == 0.0
         assert spent == pytest.approx(exact * slip, rel=1e-3)
         assert summed(still, chords, load, 6e-7, 0.0, -0.4, slip)[0] == pytest.approx(
-            found[0], rel=1e-12
+            sums[0], rel=1e-12
         )
 
 
@@ -310,8 +312,8 @@ def test_friction_of_asperities_along_the_roller_against_dense_integration(
     """µ_b p min(|v|/v_full, 1) over the stations of the Hertz contact, beside the film's part of the load."""
     law = contact(FULL)
     patch, chords = patch_of(law), chord_table(law.fluid)
-    found = summed(patch, chords, load, 6e-7, share, ring_speed, slip)
-    found[:3] -= (1.0 - share) * summed(patch, chords, load, 6e-7, 0.0, ring_speed, slip)[:3]
+    sums = summed(patch, chords, load, 6e-7, share, ring_speed, slip)
+    sums[:3] -= (1.0 - share) * summed(patch, chords, load, 6e-7, 0.0, ring_speed, slip)[:3]
     across = patch.across * load ** (1 / 3)
     half = min(across, patch.half_length)
     z = (np.arange(100001) + 0.5) / 100001 * 2 * half - half
@@ -320,13 +322,13 @@ def test_friction_of_asperities_along_the_roller_against_dense_integration(
     part = 0.1 * share * carried * np.clip(v / law.full_slip, -1.0, 1.0)
     drop, largest = z**2 / (2 * patch.contour_radius), 0.1 * share * load
     film = 1e-9 * (1.0 - share) * 0.1 * load
-    assert found[0] == pytest.approx(part.sum(), abs=1e-6 * largest + film)
+    assert sums[0] == pytest.approx(part.sum(), abs=1e-6 * largest + film)
     reach = across**2 / (2 * patch.contour_radius * RADIUS)
-    assert found[1] == pytest.approx(
+    assert sums[1] == pytest.approx(
         (part * drop).sum() / RADIUS, abs=(1e-6 * largest + film) * reach
     )
-    assert found[2] == pytest.approx((part * z).sum(), abs=(1e-6 * largest + film) * across)
-    assert found[3] == pytest.approx((part * v).sum(), rel=1e-5, abs=1e-12 * largest)
+    assert sums[2] == pytest.approx((part * z).sum(), abs=(1e-6 * largest + film) * across)
+    assert sums[3] == pytest.approx((part * v).sum(), rel=1e-5, abs=1e-12 * largest)
 
 
 def test_film_and_asperities_share_the_load():

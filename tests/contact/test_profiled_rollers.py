@@ -200,10 +200,10 @@ def test_a_straight_roller_has_film_and_traction_of_an_even_line(name):
     ring_speed = np.full(3, SPEED)
     film = line_film(line, loads, SPEED - 0.5 * slip)
     assert law.film_thickness(loads, SPEED - 0.5 * slip) == pytest.approx(film, rel=1e-9)
-    found = law.tractions(loads, ring_speed, slip)
+    tractions = law.tractions(loads, ring_speed, slip)
     even = np.sign(slip) * line_traction(line, loads, film, np.abs(slip), FILM)
-    assert found.pull == pytest.approx(even, rel=1e-3)
-    assert np.all(found.lag == 0.0) and np.allclose(found.skew, 0.0, atol=1e-9 * LENGTH)
+    assert tractions.pull == pytest.approx(even, rel=1e-3)
+    assert np.all(tractions.lag == 0.0) and np.allclose(tractions.skew, 0.0, atol=1e-9 * LENGTH)
 
 
 @pytest.mark.parametrize(("load", "slip"), [(2e3, 1e-4), (3e4, -2e-4), (3e4, 5e-2)])
@@ -230,8 +230,8 @@ def test_traction_of_a_profile_by_quadrature(load, slip):
 
     turn = _pure_rolling(slip, curvature, end)
     expected = 2.0 * (pulled(0.0, turn) + pulled(turn, end * (1.0 - 1e-9)))
-    found = law.tractions(np.array([load]), np.array([SPEED]), np.array([slip]))
-    assert float(found.pull[0]) == pytest.approx(expected, rel=5e-3)
+    tractions = law.tractions(np.array([load]), np.array([SPEED]), np.array([slip]))
+    assert float(tractions.pull[0]) == pytest.approx(expected, rel=5e-3)
 
 
 def _pure_rolling(slip, curvature, end):

@@ -74,10 +74,10 @@ def test_the_ribs_torque_is_friction_times_height_times_thrust():
     row = tapered_geometry(bearing)
     thrust = 400e3
     ring = tapered_ring(bearing)
-    found = tapered_balance(ring, np.zeros(1), np.array([[0.0, 0.0, thrust]]), np.zeros((1, 2)))
+    balance = tapered_balance(ring, np.zeros(1), np.array([[0.0, 0.0, thrust]]), np.zeros((1, 2)))
     state = rib_state(
         rib_contact(bearing, OIL),
-        found.rib_force[0],
+        balance.rib_force[0],
         row.rib_entrainment_speed(SPEED),
         row.rib_sliding_speed(SPEED),
     )

@@ -32,15 +32,15 @@ def contact(ring, sign=1, shear=None, laws=LAWS):
 @pytest.mark.parametrize("slip", [-2e-3, 1e-3])
 def test_a_straight_roller_has_the_tractions_without_skew(ring, laws, slip):
     one = contact(ring, laws=laws)
-    found = resultants(one, LOADS, SPEED, slip, 0.0, 0.0, 0.0)
+    forces = resultants(one, LOADS, SPEED, slip, 0.0, 0.0, 0.0)
     pull, lag, skew, _ = tractions(one.laws, LOADS, np.full(3, SPEED), np.full(3, slip))
     # Net forces and moments are differences of what films of .04 Q pull either way. Their stress is tabulated to 1e-3 in places,
     # and spin within the contact's width is new here.
     friction, reach = 0.04 * LOADS, one.laws.interface.hertz.semi_axis_across * np.cbrt(LOADS)
-    assert (np.abs(found.turning - (pull - lag)) < 5e-4 * friction).all()
-    assert (np.abs(-one.side * found.moment - skew) < 5e-4 * friction * reach).all()
-    assert found.axial == pytest.approx(0.0, abs=1e-9)
-    assert found.pressure_moment == pytest.approx(0.0, abs=1e-9)
+    assert (np.abs(forces.turning - (pull - lag)) < 5e-4 * friction).all()
+    assert (np.abs(-one.side * forces.moment - skew) < 5e-4 * friction * reach).all()
+    assert forces.axial == pytest.approx(0.0, abs=1e-9)
+    assert forces.pressure_moment == pytest.approx(0.0, abs=1e-9)
 
 
 @sides
@@ -83,46 +83,48 @@ def test_forces_and_moments_are_those_of_an_integral_of_their_own(ring):
             -a, a, -math.pi / 2, math.pi / 2, epsabs=0.02, epsrel=1e-3,
         )[0]  # fmt: skip
 
-    found = resultants(one, load, SPEED, slip, skew, 0.0, 0.0)
-    assert found.axial == pytest.approx(integral(lambda z, x: traction(z, x)[0][2]), rel=3e-3)
+    forces = resultants(one, load, SPEED, slip, skew, 0.0, 0.0)
+    assert forces.axial == pytest.approx(integral(lambda z, x: traction(z, x)[0][2]), rel=3e-3)
 
     def moment(z, x):
         force, at, _ = traction(z, x)
         return np.cross(at, force)[1]
 
-    assert found.moment == pytest.approx(integral(moment), rel=3e-3)
+    assert forces.moment == pytest.approx(integral(moment), rel=3e-3)
 
     def power(z, x):
         force, _, tangent = traction(z, x)
         return force @ tangent
 
-    assert found.power == pytest.approx(integral(power), rel=3e-3)
+    assert forces.power == pytest.approx(integral(power), rel=3e-3)
 
 
 @sides
 def test_power_is_the_sum_of_torques_times_speeds(ring):
     one = contact(ring)
     slip, tilt = 8e-4, 3e-5
-    found = resultants(one, LOADS, SPEED, slip, 5e-3, one.side * 4e-4, tilt)
+    forces = resultants(one, LOADS, SPEED, slip, 5e-3, one.side * 4e-4, tilt)
     ring_rate, spin = one.side * SPEED / one.raceway_radius, (SPEED - slip) / one.roller_radius
     # The ring feels the opposite of the roller.
-    delivered = -(found.ring_torque * ring_rate + found.turning * one.roller_radius * spin)
-    assert found.power == pytest.approx(delivered, rel=1e-10)
+    delivered = -(forces.ring_torque * ring_rate + forces.turning * one.roller_radius * spin)
+    assert forces.power == pytest.approx(delivered, rel=1e-10)
 
 
 @sides
 def test_constant_friction_far_askew_is_all_axial(ring):
     """µ Q less what cos² of the direction takes: v is thousandths of w."""
-    found = resultants(contact(ring, shear=constant_friction(0.05)), 5e4, SPEED, 0.0, 0.5, 0.0, 0.0)
+    forces = resultants(
+        contact(ring, shear=constant_friction(0.05)), 5e4, SPEED, 0.0, 0.5, 0.0, 0.0
+    )
     side = -1 if ring == "inner" else 1
-    assert found.axial == pytest.approx(-side * math.copysign(0.05 * 5e4, SPEED), rel=2e-3)
+    assert forces.axial == pytest.approx(-side * math.copysign(0.05 * 5e4, SPEED), rel=2e-3)
 
 
 @sides
 def test_moment_of_the_pressure_is_the_slope_of_the_hertz_energy(ring):
     """−∂U/∂ψ at a fixed approach, U = (2/5) K δ^2.5 with the principal curvatures of the turned gap."""
     one, load = contact(ring), 5e4
-    found = resultants(one, load, SPEED, 0.0, 1e-3, 0.0, 0.0)
+    forces = resultants(one, load, SPEED, 0.0, 1e-3, 0.0, 0.0)
 
     def stiffness(skew):
         own = np.diag([1.0 / one.roller_radius, 1.0 / one.roller_contour])
@@ -136,7 +138,7 @@ def test_moment_of_the_pressure_is_the_slope_of_the_hertz_energy(ring):
     step = 0.02
     change = (stiffness(step) - stiffness(0.0)) / (0.5 * step**2)
     delta = (load / stiffness(0.0)) ** (2.0 / 3.0)
-    assert found.pressure_moment == pytest.approx(
+    assert forces.pressure_moment == pytest.approx(
         -0.4 * delta**2.5 * change * 1e-3, rel=0.05, abs=1e-6
     )
 

@@ -66,10 +66,10 @@ def test_an_axis_reaches_from_end_to_end(first, length, spacing):
 def test_coefficients_are_those_of_the_spline_without_knots_next_to_the_ends():
     x = np.arange(9.0)
     values = np.random.default_rng(2).normal(size=(9, 3))
-    found = BSpline(np.arange(-3.0, 12.0), spline_coefficients(values, 1), 3)
+    spline = BSpline(np.arange(-3.0, 12.0), spline_coefficients(values, 1), 3)
     expected = make_interp_spline(x, values, k=3, bc_type="not-a-knot")
     fine = np.linspace(0.0, 8.0, 100)
-    np.testing.assert_allclose(found(fine), expected(fine), atol=1e-12)
+    np.testing.assert_allclose(spline(fine), expected(fine), atol=1e-12)
 
 
 def test_cubics_are_exact_in_every_direction():
@@ -84,8 +84,8 @@ def test_cubics_are_exact_in_every_direction():
         (i, t), (k, s), (j, u) = (
             split(one, count) for one, count in zip(place, (8, 7, 9), strict=True)
         )
-        found = one_in_cube(flat, (i * 7 + k) * 9 + j, (63, 9), (t, s, u))
-        assert found == pytest.approx(cubic(*place), rel=1e-11, abs=1e-10)
+        value = one_in_cube(flat, (i * 7 + k) * 9 + j, (63, 9), (t, s, u))
+        assert value == pytest.approx(cubic(*place), rel=1e-11, abs=1e-10)
 
 
 @given(x=places[0], y=places[1], z=places[2])

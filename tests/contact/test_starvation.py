@@ -70,16 +70,16 @@ def test_flooded_is_a_lubricant_without_a_limit_and_nearly_one_with_a_wide_gap()
     known, wide = (
         prepare(Laws.physical(), bearing, one, 1).inner for one in (oil, oil.supplied(0.999))
     )
-    found = contacts("flooded")
+    laws = contacts("flooded")
     for one, tolerance in ((known, 0.0), (wide, 0.02)):
-        assert found.inner.film_thickness(LOAD, SPEED) == pytest.approx(
+        assert laws.inner.film_thickness(LOAD, SPEED) == pytest.approx(
             one.film_thickness(LOAD, SPEED), rel=tolerance
         )
         expected = np.array(light_contact(one.rolling, LOAD, SPEED))
-        assert np.array(light_contact(found.inner.rolling, LOAD, SPEED)) == pytest.approx(
+        assert np.array(light_contact(laws.inner.rolling, LOAD, SPEED)) == pytest.approx(
             expected, rel=tolerance
         )
-    assert math.isinf(found.inner.oil_gap) and math.isinf(contacts(1.0).inner.oil_gap)
+    assert math.isinf(laws.inner.oil_gap) and math.isinf(contacts(1.0).inner.oil_gap)
 
 
 @pytest.mark.parametrize("supply", [0.3, 0.5, 0.7, 0.9])
@@ -200,5 +200,5 @@ def test_a_raceway_at_another_gap_is_the_one_that_is_prepared_with_it():
     thick, thin = (prepare(laws, bearing, oil.supplied(gap), 1) for gap in (2e-4, 5e-5))
     moved = thick.outer.at_gap(5e-5)
     assert moved.film_thickness(LOAD, SPEED) == thin.outer.film_thickness(LOAD, SPEED)
-    found = light_contact(moved.rolling, 30.0, SPEED)
-    assert found == pytest.approx(light_contact(thin.outer.rolling, 30.0, SPEED), rel=1e-12)
+    contact = light_contact(moved.rolling, 30.0, SPEED)
+    assert contact == pytest.approx(light_contact(thin.outer.rolling, 30.0, SPEED), rel=1e-12)

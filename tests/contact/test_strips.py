@@ -90,8 +90,8 @@ def test_traction_of_a_tapered_line_by_quadrature(load, slip):
         for z, w in zip(place, part, strict=True):
             force, growth, local, drop = parts(z)
             sums += w * force * np.array([growth, 0.5 * drop / strips.radius, local])
-    found = law.tractions(np.array([load]), np.array([SPEED]), np.array([slip]))
-    pull, lag = float(found.pull[0]), float(found.lag[0])
+    tractions = law.tractions(np.array([load]), np.array([SPEED]), np.array([slip]))
+    pull, lag = float(tractions.pull[0]), float(tractions.lag[0])
     power = slip * (pull - lag) + SPEED * strips.curvature * strips.radius * lag
     assert pull == pytest.approx(sums[0], rel=5e-3)
     assert lag == pytest.approx(sums[1], rel=5e-3)
@@ -128,12 +128,12 @@ def test_asperities_carry_their_share_of_every_strip():
     """Where asperities alone are sheared, the force is µ_b times their share of the load."""
     law = contact(laws(asperities="film-ratio", microslip=False))
     load = np.array([5e4])
-    found = law.tractions(load, np.array([SPEED]), np.array([1e-2]))
+    tractions = law.tractions(load, np.array([SPEED]), np.array([1e-2]))
     without = contact(laws(microslip=False)).tractions(load, np.array([SPEED]), np.array([1e-2]))
-    share = float(found.asperity_power[0]) / 1e-2 / law.boundary_friction / load[0]
+    share = float(tractions.asperity_power[0]) / 1e-2 / law.boundary_friction / load[0]
     middle = float(law.asperity_share(load, SPEED, law.film_thickness(load, SPEED))[0])
     assert 0.3 * middle < share < 1.01 * middle
-    fluid = float(found.pull[0]) - law.boundary_friction * share * load[0]
+    fluid = float(tractions.pull[0]) - law.boundary_friction * share * load[0]
     assert fluid == pytest.approx((1.0 - share) * float(without.pull[0]), rel=0.01)
 
 

@@ -134,7 +134,7 @@ def shoot_rate(top):
     wall.terminal = True
     span = (0.0, 2.0 * math.sqrt(2.0 * top) + 3.0)
     step = 0.1 * min(math.sqrt(top), 1.0)
-    found = solve_ivp(
+    solution = solve_ivp(
         lambda _, s: [s[1], -math.exp(s[0])],
         span,
         [top, 0.0],
@@ -144,8 +144,8 @@ def shoot_rate(top):
         atol=1e-17,
         max_step=step,
     )
-    half, slope = found.t[-1], found.y[1, -1]
-    return half - found.y[0, -1] / slope, -slope
+    half, slope = solution.t[-1], solution.y[1, -1]
+    return half - solution.y[0, -1] / slope, -slope
 
 
 @pytest.mark.parametrize("top", [1e-4, 0.01, 0.3, 1.0, 3.0, 8.0])
@@ -161,8 +161,8 @@ def test_limited_stress_solves_the_conduction_problem(rheology, top):
         stress = stress_of_rate(rheology, equivalent)
         viscous = equivalent * gradient / half
         heat = (2.0 * half) ** 2 * viscous / (8.0 * stress * equivalent)
-        found = heated_shear(rheology, viscous * LIMIT, LIMIT, heat / LIMIT)
-        assert found == pytest.approx(stress * LIMIT, rel=2e-11, abs=0.0)
+        shear = heated_shear(rheology, viscous * LIMIT, LIMIT, heat / LIMIT)
+        assert shear == pytest.approx(stress * LIMIT, rel=2e-11, abs=0.0)
 
 
 @given(any_rheology, decades(-6, 14), decades(3, 9), decades(-14, 0))
@@ -238,15 +238,17 @@ def test_stress_peaks_where_power_reaches_eight_k_over_beta_h(rheology, viscosit
 
     grid = np.linspace(math.log(1e-6), math.log(1e4), 400)
     best = grid[np.argmax([heated_shear(rheology, *parts(x)) for x in grid])]
-    found = minimize_scalar(
+    minimum = minimize_scalar(
         lambda x: -math.log(heated_shear(rheology, *parts(x))),
         bounds=(best - 0.05, best + 0.05),
         method="bounded",
         options={"xatol": 1e-9},
     )
-    stress = heated_shear(rheology, *parts(found.x))
+    stress = heated_shear(rheology, *parts(minimum.x))
     flat = 1e-3 if rheology == LIMITING_SHEAR else 1e-6
-    assert stress * math.exp(found.x) == pytest.approx(8.0 * conductivity / (beta * film), rel=flat)
+    assert stress * math.exp(minimum.x) == pytest.approx(
+        8.0 * conductivity / (beta * film), rel=flat
+    )
 
 
 # --- Crook's film
@@ -456,8 +458,8 @@ def test_a_chord_is_good_up_to_the_slip_of_a_shaft_that_turns_round(name):
     rng = np.random.default_rng(5)
     pressure, film = 10.0 ** rng.uniform(3.0, 7.0, 500), 10.0 ** rng.uniform(-7.0, -4.5, 500)
     slip = rng.uniform(1.0, 5.0, 500)
-    found = interpolated_stress(table, pressure, film, slip)
-    assert found == pytest.approx(chord_stress(table.fluid, pressure, film, slip), rel=1e-3)
+    stress = interpolated_stress(table, pressure, film, slip)
+    assert stress == pytest.approx(chord_stress(table.fluid, pressure, film, slip), rel=1e-3)
 
 
 @choices
@@ -473,9 +475,9 @@ def test_limit_holds_in_the_table_too():
     table = chord_table(fluid("limiting shear"))
     rng = np.random.default_rng(11)
     pressure, film, slip = 10.0 ** rng.uniform([2.0, -8.0, -14.0], [9.6, -3.4, 1.0], (3000, 3)).T
-    found = interpolated_stress(table, pressure, film, slip)
+    stress = interpolated_stress(table, pressure, film, slip)
     assert np.all(
-        found <= 0.042 * np.minimum(pressure, HIGHEST_PRESSURE) * math.pi / 4 * (1.0 + 1e-12)
+        stress <= 0.042 * np.minimum(pressure, HIGHEST_PRESSURE) * math.pi / 4 * (1.0 + 1e-12)
     )
 
 
@@ -673,9 +675,9 @@ def test_agrees_with_the_polylogarithm_form_and_its_derivatives(p, q0):
         )
         by_exponent = (polylogarithms(p + step, q0) - polylogarithms(p - step, q0)) / (2 * step)
         exact, by_slip, by_exponent = float(exact), float(by_slip), float(by_exponent)
-    found = patch_integral(float(p), float(q0))
-    assert found[0] == pytest.approx(exact, rel=1e-12, abs=0.0)
-    assert found[1:] == pytest.approx((by_slip, by_exponent), abs=1e-11 * exact)
+    integral = patch_integral(float(p), float(q0))
+    assert integral[0] == pytest.approx(exact, rel=1e-12, abs=0.0)
+    assert integral[1:] == pytest.approx((by_slip, by_exponent), abs=1e-11 * exact)
 
 
 @pytest.mark.parametrize("p", [0.0, 1e-9, 0.1, 0.4, 0.999999, 1.0, 1.2, 5.0, 60.0, 350.0])
@@ -691,8 +693,8 @@ def test_cold_patch_is_the_linear_limit(p):
         # ∫ s² e^{xs} ds
         slope = (mpmath.exp(x) - 2 * value) / x if p > 1e-12 else mpmath.mpf(1) / 3
         value, slope = float(value), float(slope)
-    found = patch_integral(p, 0.0)
-    assert found == pytest.approx((value, 0.0, slope), rel=2e-14, abs=0.0)
+    integral = patch_integral(p, 0.0)
+    assert integral == pytest.approx((value, 0.0, slope), rel=2e-14, abs=0.0)
 
 
 def test_cold_patch_stays_a_number_beyond_the_range():

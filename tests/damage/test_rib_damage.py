@@ -44,8 +44,8 @@ def test_flash_temperature_is_that_of_blok_s_band():
     heat = 0.08 * load * 0.05
     uptake = STEEL_EFFUSIVITY * (math.sqrt(0.3) + math.sqrt(0.2))
     expected = 1.11 * heat / (uptake * math.sqrt(2.0 * 4e-3))
-    found = rib_flash_temperature(2e8, 4e-3, 0.08, 0.05, (0.3, 0.2))
-    assert found == pytest.approx(expected, rel=2e-3)
+    rise = rib_flash_temperature(2e8, 4e-3, 0.08, 0.05, (0.3, 0.2))
+    assert rise == pytest.approx(expected, rel=2e-3)
     assert rib_flash_temperature(0.0, 0.0, 0.0, 0.05, (0.3, 0.2)) == 0.0
 
 

@@ -27,24 +27,24 @@ def pressed(slip=SLIP, ring=5.0, roller=2.0, load=LOAD):
     st.floats(1e8, 1e12),
 )
 def test_slices_carry_the_load_and_never_pull(gap, load, stiffness):
-    found = slice_loads(gap, load, stiffness, 1e-3)
+    loads = slice_loads(gap, load, stiffness, 1e-3)
     # Where gaps are far larger than the approach, loads are small differences of large numbers.
     rounding = 1e-3 * len(gap) * 4.0 * np.finfo(float).eps * stiffness * max(gap)
-    assert (found >= 0.0).all() and found.sum() * 1e-3 == pytest.approx(
+    assert (loads >= 0.0).all() and loads.sum() * 1e-3 == pytest.approx(
         load, rel=1e-9, abs=rounding
     )
     # Where load is, the approach is the same everywhere; where none is, the gap is open.
-    approach = (found / stiffness + gap)[found > 0.0]
+    approach = (loads / stiffness + gap)[loads > 0.0]
     assert (
         np.ptp(approach) <= 1e-9 * approach.max()
-        and (np.array(gap)[found == 0.0] >= approach.max() * (1 - 1e-9)).all()
+        and (np.array(gap)[loads == 0.0] >= approach.max() * (1 - 1e-9)).all()
     )
 
 
 def test_unworn_slices_carry_what_hertz_has():
-    found = slice_loads(CONTOUR, LOAD, hertz_slices(LOAD, HALF, CURVATURE), WIDTH)
+    loads = slice_loads(CONTOUR, LOAD, hertz_slices(LOAD, HALF, CURVATURE), WIDTH)
     hertz = 0.75 * LOAD / HALF * np.maximum(1.0 - (PLACE / HALF) ** 2, 0.0)
-    np.testing.assert_allclose(found, hertz, atol=2e-3 * hertz.max())
+    np.testing.assert_allclose(loads, hertz, atol=2e-3 * hertz.max())
 
 
 def test_a_worn_profile_spreads_pressure_with_the_load_conserved():

@@ -85,8 +85,8 @@ def test_code_of_page_runs(page, pages):
 
 def test_numbers_that_the_model_page_quotes(pages):
     printed, _ = pages[ROOT / "docs" / "model.md"]
-    found = re.findall(r"([\d.]+) of the load", printed)
-    assert found == ["0.06", "0.14", "3.30", "47.11", "0.03", "0.04", "0.05", "0.05"]
+    matches = re.findall(r"([\d.]+) of the load", printed)
+    assert matches == ["0.06", "0.14", "3.30", "47.11", "0.03", "0.04", "0.05", "0.05"]
 
 
 def quoted_by(name):

@@ -26,9 +26,9 @@ def folder(tmp_path_factory):
 
 def _load(path):
     """Register the laws of a file, ask them at all interfaces, and take them away again."""
-    found = plugins.load_laws(path)
+    laws = plugins.load_laws(path)
     try:
-        for kind, names in zip(KINDS, found, strict=True):
+        for kind, names in zip(KINDS, laws, strict=True):
             for name in names:
                 for interface in interfaces(
                     Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
@@ -40,7 +40,7 @@ def _load(path):
                         # A law that is wrong when it is asked is named, with the interface.
                         assert f"law '{name}', {interface.name}" in problem.where
     finally:
-        for kind, names in zip(KINDS, found, strict=True):
+        for kind, names in zip(KINDS, laws, strict=True):
             for name in names:
                 kind.remove(name)
         plugins._loaded.clear()

@@ -33,8 +33,8 @@ def contents(folder):
 
 def _tables(path):
     """All tables, and the first stored result."""
-    found = open_study(path)
-    assert set(tables(found, Aggregation(Weibull(9.5, 2.0)))) >= {"cases", "lifetime"}
+    study = open_study(path)
+    assert set(tables(study, Aggregation(Weibull(9.5, 2.0)))) >= {"cases", "lifetime"}
     next(stored_results(path), None)
 
 

@@ -149,17 +149,17 @@ def test_steps_follow_one_another_and_end_at_every_stop():
 
 
 def test_a_roller_that_fails_says_so(turbulent):
-    found = simulate(
+    result = simulate(
         Case(loads=turbulent, laws=Laws.paper(), rollers=[3], integrator=Radau(max_steps=40))
     )
-    assert (found.status == Status.TOO_MANY_STEPS).all()
+    assert (result.status == Status.TOO_MANY_STEPS).all()
     assert (
-        found.energy.isnull().all()
-        and found.peak_power.isnull().all()
-        and found.min_spin_ratio.isnull().all()
+        result.energy.isnull().all()
+        and result.peak_power.isnull().all()
+        and result.min_spin_ratio.isnull().all()
     )
-    assert (found.end_time > turbulent.time[0]).all() and (
-        found.end_time < turbulent.time[-1]
+    assert (result.end_time > turbulent.time[0]).all() and (
+        result.end_time < turbulent.time[-1]
     ).all()
 
 
@@ -169,15 +169,15 @@ def test_a_short_load_in_the_middle_of_a_coast_is_not_passed_over():
     force[(time > 4.02) & (time < 4.12)] = [0.0, 300e3, 0.0]
     for tolerance in (1e-2, 1e-4):
         loads = BearingLoads(time, np.full(161, 2.143), force, "pulse")
-        found = run(loads, tolerance, range(0, 28, 4), traces=Traces(step=0.5), window=START).sel(
+        result = run(loads, tolerance, range(0, 28, 4), traces=Traces(step=0.5), window=START).sel(
             row="downwind"
         )
         # Rollers near the top are gripped by the pulse: their slip, built up for seconds, is gone just after it.
         before, after = (
-            abs(found.slip.sel(time=4.0)),
-            abs(found.slip.sel(time=4.5, method="nearest")),
+            abs(result.slip.sel(time=4.0)),
+            abs(result.slip.sel(time=4.5, method="nearest")),
         )
-        top = np.sin(found.start_angle + 0.45394 * 2.143 * 4.07) > 0.8
+        top = np.sin(result.start_angle + 0.45394 * 2.143 * 4.07) > 0.8
         assert top.any() and (before.where(top, drop=True) > 0.05).all()
         assert (after.where(top, drop=True) < 0.5 * before.where(top, drop=True)).all()
 
@@ -286,13 +286,13 @@ def test_energy_of_rollers_without_weight_and_drag():
 def test_any_load_and_speed_completes_within_the_exact_bounds(force, speed, late, tolerance):
     time = np.linspace(0.0, 6.0, 121)
     loads = BearingLoads(time, np.linspace(speed, late, 121), np.tile(force, (121, 1)), "any")
-    found = run(loads, tolerance, [0, 13], window=START)
-    assert (found.status == Status.COMPLETED).all()
-    assert np.isfinite(found.energy).all() and (found.energy >= 0.0).all()
-    assert (found.unbalanced_force < 1e-4).all()
+    result = run(loads, tolerance, [0, 13], window=START)
+    assert (result.status == Status.COMPLETED).all()
+    assert np.isfinite(result.energy).all() and (result.energy >= 0.0).all()
+    assert (result.unbalanced_force < 1e-4).all()
     # Cage power is at most traction of 60 N on the cage at the fastest surface; energy cannot exceed it.
     fastest = max(abs(speed), abs(late)) * 0.45394 * 0.407
-    assert float(found.energy.sel(interface="cage").max()) <= 5.0 * fastest * 6.0 + 1e-12
+    assert float(result.energy.sel(interface="cage").max()) <= 5.0 * fastest * 6.0 + 1e-12
 
 
 # --- Euler -----------------------------------------------------------------------------------------------------------
@@ -311,9 +311,12 @@ def test_euler_is_of_first_order_where_nothing_is_stiff(method):
             integrator=method(step=step),
             window=START,
         )
-        found = simulate(case).isel(roller=0).sel(row="upwind")
+        result = simulate(case).isel(roller=0).sel(row="upwind")
         errors.append(
-            [float(found.energy.sum() - exact.energy.sum()), float(found.end_slip - exact.end_slip)]
+            [
+                float(result.energy.sum() - exact.energy.sum()),
+                float(result.end_slip - exact.end_slip),
+            ]
         )
     assert np.log2(np.abs(np.array(errors[:-1]) / errors[1:])) == pytest.approx(1.0, abs=0.2)
 

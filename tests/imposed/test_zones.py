@@ -127,14 +127,14 @@ def test_edge_time_is_where_the_load_begins(paper, made):
             def approach(t, angle=angle):
                 return direct(model, motion, angle, np.array([t]))[0]
 
-            found = edge_time(body, motion, float(angle), 0, start, end)
+            time = edge_time(body, motion, float(angle), 0, start, end)
             if approach(start) * approach(end) < 0.0:
                 crossings += 1
-                assert found == pytest.approx(brentq(approach, start, end, xtol=1e-15), abs=1e-12)
+                assert time == pytest.approx(brentq(approach, start, end, xtol=1e-15), abs=1e-12)
                 # The far side is returned: there the sign has changed, and the edge is not found again.
-                assert edge_time(body, motion, float(angle), 0, found, end) == end
+                assert edge_time(body, motion, float(angle), 0, time, end) == end
             else:
-                assert found == end
+                assert time == end
     assert 10 < crossings < 72
 
 

@@ -73,8 +73,8 @@ def _solve_free_body(force, moment, drivetrain):
 @given(vector, vector, drivetrains | four_points)
 def test_loads_equal_the_free_body_solution(force, moment, drivetrain):
     first, second = _solve_free_body(force, moment, drivetrain)
-    found = support_loads(HubLoads.constant(force, moment, 2.0, 1.0), drivetrain)
-    for reaction, load in zip((first, second), found.values(), strict=True):
+    supports = support_loads(HubLoads.constant(force, moment, 2.0, 1.0), drivetrain)
+    for reaction, load in zip((first, second), supports.values(), strict=True):
         expected = -reaction[
             [1, 2, 0]
         ]  # (X0, Y0, Z0) = (y, z, x), and the load on the ring opposes its reaction

@@ -157,14 +157,16 @@ def stopped():
 
 @pytest.mark.slow
 def test_without_play_maps_and_criteria_are_those_of_straight_rollers(straight):
-    found = simulate(case(skew_play=0.0), threads=1)
+    result = simulate(case(skew_play=0.0), threads=1)
     for name in (
         one
         for one in straight.data_vars
         if one.startswith(("surface", "film_slip", "station", "asper"))
     ):
-        assert found[name].values == pytest.approx(straight[name].values, rel=1e-9, abs=1e-12), name
-    assert damage(found).value.values == pytest.approx(
+        assert result[name].values == pytest.approx(straight[name].values, rel=1e-9, abs=1e-12), (
+            name
+        )
+    assert damage(result).value.values == pytest.approx(
         damage(straight).value.values, rel=1e-9, nan_ok=True
     )
 

@@ -120,7 +120,7 @@ def test_spin_ratio_is_taken_where_rings_run(walked):
 
 def test_time_with_load_and_out_of_range(walked):
     model, _, _, steps = walked
-    found = law_times(booked_with_ends(steps)[1], model.laws)
+    times = law_times(booked_with_ends(steps)[1], model.laws)
     inside = steps[(steps["start"] >= EDGES[0]) & (steps["weight"][:, 0] > 0.0)]
     span = inside["end"] - inside["start"]
     loaded = [
@@ -128,11 +128,11 @@ def test_time_with_load_and_out_of_range(walked):
         inside["outer_load"][:, 2] > 0.0,
         inside["cage_load"][:, 2] != 0.0,
     ]
-    np.testing.assert_allclose(found[0], [span[one].sum() for one in loaded], rtol=1e-10)
-    assert ((found[1:] >= 0.0) & (found[1:] <= found[0] * (1 + 1e-12))).all()
+    np.testing.assert_allclose(times[0], [span[one].sum() for one in loaded], rtol=1e-10)
+    assert ((times[1:] >= 0.0) & (times[1:] <= times[0] * (1 + 1e-12))).all()
     loads = inside["inner_load"][:, 2]
     light = (loads > 0.0) & ~model.laws.inner.asperity_share_in_range(np.maximum(loads, 1e-9))
-    assert found[2, 0] == pytest.approx(span[light].sum(), rel=1e-10)
+    assert times[2, 0] == pytest.approx(span[light].sum(), rel=1e-10)
 
 
 def test_load_of_films_is_what_raceways_carry_beside_the_rings(walked):
@@ -161,10 +161,10 @@ def test_vertex_of_a_parabola_is_exact(top, height, bend):
         if middle == 0
         else (middle - 1.0, middle, middle + 1.0)
     )
-    found = vertex(
+    extreme = vertex(
         *(number for t in places for number in (float(t), height - bend * (t - top) ** 2))
     )
-    assert found == pytest.approx(height, rel=1e-12, abs=1e-9)
+    assert extreme == pytest.approx(height, rel=1e-12, abs=1e-9)
     assert vertex(0.0, 1.0, 1.0, 2.0, 2.0, 3.0) == 2.0
 
 
@@ -362,13 +362,13 @@ def test_what_makes_a_look_due(walked):
         rows["power"] = 10.0
         for name, value in change.items():
             rows[name.split()[0]][1, 0][(..., int(name[-1])) if " " in name else ...] = value
-        found = new_details(EDGES)
+        details = new_details(EDGES)
         return choose(
             rows,
             0,
             EDGES,
-            found.entries,
-            found.memory[0],
+            details.entries,
+            details.memory[0],
             radius,
             spacing,
             np.zeros(2, SAMPLE),
@@ -402,23 +402,23 @@ def test_traces_are_the_states_at_their_times(walked):
         for part in np.split(steps, cuts):
             measures.add(part[:, None].copy(), 0)
         measures.finish()
-        found = measures.traces()
+        traces = measures.traces()
         speed = (
             np.interp(times, motion.time, motion.shaft_speed)
             * model.orbit_ratio
             * model.outer_radius
         )
-        np.testing.assert_allclose(found["spin_pure"], -speed / model.radius, rtol=1e-12)
+        np.testing.assert_allclose(traces["spin_pure"], -speed / model.radius, rtol=1e-12)
         for k, time in enumerate(times[1:], start=1):
             at = steps[(np.abs(steps["end"] - time) < 1e-12) & (steps["weight"][:, 0] > 0.0)][0]
             assert (
-                found["slip"][k] == at["outer_slip"][2]
-                and found["roller_load"][k] == at["elastic_load"][2]
+                traces["slip"][k] == at["outer_slip"][2]
+                and traces["roller_load"][k] == at["elastic_load"][2]
             )
-            np.testing.assert_array_equal(found["power"][k], at["power"][2])
+            np.testing.assert_array_equal(traces["power"][k], at["power"][2])
             skew = -at["skew_power"][2] / (at["outer_speed"][2] * np.array([1.0, -1.0]))
             skew /= [model.laws.inner.shape.spin_ratio, model.laws.outer.shape.spin_ratio]
-            np.testing.assert_allclose(found["skew_moment"][k], skew, rtol=1e-12)
+            np.testing.assert_allclose(traces["skew_moment"][k], skew, rtol=1e-12)
         assert measures.details is None and measures.end_slip == steps["outer_slip"][-1, 2]
     # Where an integration ended early there is none.
     measures = RollerMeasures(row, ANGLE)

@@ -76,16 +76,16 @@ def test_explicit_euler_is_lost_where_the_step_exceeds_the_relaxation_time(varyi
 
 
 def test_a_loose_iteration_adds_energy_only_to_a_gripped_roller_under_varying_load(varying):
-    found = nonlinear_tolerance(varying.window(0.0, 26.0), tolerances=(1e-12, 1e-6))
-    tight, loose = found.sel(stopping_tolerance=1e-12), found.sel(stopping_tolerance=1e-6)
-    np.testing.assert_allclose(tight.energy, found.energy_converged, rtol=0.01)
+    experiment = nonlinear_tolerance(varying.window(0.0, 26.0), tolerances=(1e-12, 1e-6))
+    tight, loose = experiment.sel(stopping_tolerance=1e-12), experiment.sel(stopping_tolerance=1e-6)
+    np.testing.assert_allclose(tight.energy, experiment.energy_converged, rtol=0.01)
     assert loose.ratio.sel(row="downwind") > 100.0
     assert loose.ratio.sel(row="upwind") < 1.5
     np.testing.assert_allclose(loose.static_energy, tight.static_energy, rtol=1e-3)
 
 
 def test_a_coarse_step_misses_the_peak(varying):
-    found = step_size(varying, start=360.0, end=375.0, steps=(1e-2, 3e-3), rollers=(0,))
-    assert found.mean_peak_power.sel(row="upwind").max() < found.mean_peak_power_converged.sel(
+    experiment = step_size(varying, start=360.0, end=375.0, steps=(1e-2, 3e-3), rollers=(0,))
+    assert experiment.mean_peak_power.sel(
         row="upwind"
-    )
+    ).max() < experiment.mean_peak_power_converged.sel(row="upwind")

@@ -19,9 +19,9 @@ def test_a_polynomial_of_second_degree_is_found_again_exactly():
     places = sample(12)
     x = 2.0 * places - 1.0
     values = 3.0 + 2.0 * x[:, 0] - x[:, 4] * x[:, 7] + 0.5 * (1.5 * x[:, 2] ** 2 - 0.5)
-    found = fit(places, values)
-    np.testing.assert_allclose(found(sample(12, seed=8)), _of(sample(12, seed=8)), atol=1e-10)
-    first, total = sobol_indices(found)
+    polynomial = fit(places, values)
+    np.testing.assert_allclose(polynomial(sample(12, seed=8)), _of(sample(12, seed=8)), atol=1e-10)
+    first, total = sobol_indices(polynomial)
     # Variances of the terms: 4/3, 1/9 and 0.25/5.
     whole = 4.0 / 3.0 + 1.0 / 9.0 + 0.05
     expected_first, expected_total = np.zeros(12), np.zeros(12)
@@ -51,9 +51,11 @@ def test_indices_are_those_that_scipy_estimates_of_the_polynomial():
     )
     first, total = sobol_indices(polynomial)
     dists, rng = [stats.uniform()] * 6, np.random.default_rng(1)
-    found = stats.sobol_indices(func=lambda x: polynomial(x.T)[None], n=4096, dists=dists, rng=rng)
-    np.testing.assert_allclose(first, found.first_order.ravel(), atol=0.01)
-    np.testing.assert_allclose(total, found.total_order.ravel(), atol=0.01)
+    indices = stats.sobol_indices(
+        func=lambda x: polynomial(x.T)[None], n=4096, dists=dists, rng=rng
+    )
+    np.testing.assert_allclose(first, indices.first_order.ravel(), atol=0.01)
+    np.testing.assert_allclose(total, indices.total_order.ravel(), atol=0.01)
 
 
 def test_an_additive_function_of_known_indices_beside_many_idle_values():

@@ -55,13 +55,13 @@ def test_every_sample_is_a_run_of_its_own(made, sample):
     assert sample.sizes["sample"] == 5
     for k in (0, 3):
         result = simulate(case_of(made, k, "24B"))
-        found = sample.sel(case="24B").isel(sample=k)
+        point = sample.sel(case="24B").isel(sample=k)
         np.testing.assert_allclose(
-            found.orbit_energy, result.orbit_energy.mean(("roller", "orbit")), rtol=1e-12
+            point.orbit_energy, result.orbit_energy.mean(("roller", "orbit")), rtol=1e-12
         )
         peak = result.peak_power.max("interface").mean(("roller", "orbit"))
-        np.testing.assert_allclose(found.peak_power, peak, rtol=1e-12)
-        assert float(found.window_energy) == pytest.approx(float(result.energy.sum()), rel=1e-12)
+        np.testing.assert_allclose(point.peak_power, peak, rtol=1e-12)
+        assert float(point.window_energy) == pytest.approx(float(result.energy.sum()), rel=1e-12)
 
 
 def test_the_torque_is_work_over_angle(sample):
@@ -86,11 +86,11 @@ def test_a_refused_sample_is_counted_with_its_reason(made, tmp_path):
     content |= {"loads": {"bundled": ["12B"]}, "variations": {"list": points}}
     with pytest.raises(MacroslipError, match="1 cases of .* failed, case 12B first: .*ends"):
         compute(study_of(content), tmp_path / "out")
-    found = sampled(content, tmp_path / "out")
-    assert found.outcome.values.tolist() == [0, 0, 2]
-    assert "beyond the roller's ends" in str(found.reason.values[2])
-    assert np.isnan(found.orbit_energy[2]).all()
-    summary = uncertainty_summary(found)
+    sample = sampled(content, tmp_path / "out")
+    assert sample.outcome.values.tolist() == [0, 0, 2]
+    assert "beyond the roller's ends" in str(sample.reason.values[2])
+    assert np.isnan(sample.orbit_energy[2]).all()
+    summary = uncertainty_summary(sample)
     assert summary.attrs == {"completed": 1, "failed": 0, "refused": 1}
 
 
@@ -98,10 +98,10 @@ def test_a_failed_roller_takes_its_sample_out_and_is_counted(made, tmp_path):
     content = dict(made)
     point = content["variations"]["list"][1] | {"integrator.max_steps": 5}
     content |= {"loads": {"bundled": ["12B"]}, "variations": {"list": [{}, point]}}
-    found = sampled(content, tmp_path / "out")
-    assert found.outcome.values.tolist() == [0, 1]
-    assert uncertainty_summary(found).attrs["failed"] == 1
-    assert np.isnan(uncertainty_summary(found).range).all()
+    sample = sampled(content, tmp_path / "out")
+    assert sample.outcome.values.tolist() == [0, 1]
+    assert uncertainty_summary(sample).attrs["failed"] == 1
+    assert np.isnan(uncertainty_summary(sample).range).all()
 
 
 def synthetic(sample, count=64):
@@ -126,9 +126,9 @@ def synthetic(sample, count=64):
 
 def test_ranges_drivers_and_trends_follow_the_numbers(sample):
     made, place = synthetic(sample)
-    found = quantities(made)
+    numbers = quantities(made)
     name = "energy, downwind / upwind, 12B"
-    np.testing.assert_allclose(found.result.sel(quantity=name), 9.0 + place)
+    np.testing.assert_allclose(numbers.result.sel(quantity=name), 9.0 + place)
     # A quantity that does not change has no rank; that is no driver, and it has no number.
     summary = uncertainty_summary(made)
     assert drivers(summary, "energy in 12B / 24B") == []

@@ -207,8 +207,8 @@ def test_net_skew_moment_of_a_held_roller_is_the_small_difference_of_its_raceway
     """
     loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.1, 8.0)
     case = Case(loads=loads, rollers=[0], laws=FULL, traces=Traces(step=0.02, start=3.0))
-    found = simulate(case).isel(roller=0).sel(row="downwind")
-    at = found.isel(time=int(found.roller_load.argmax("time")))
+    result = simulate(case).isel(roller=0).sel(row="downwind")
+    at = result.isel(time=int(result.roller_load.argmax("time")))
     model = roller_model(BEARING, OIL, 1, tilt=case.drivetrain.tilt, laws=FULL)
     load, slip = float(at.roller_load), float(at.slip)
     ring_speed = float(at.spin_pure) * model.radius
@@ -275,9 +275,9 @@ def test_reversed_thrust_swaps_the_rows():
 
 def test_no_load_no_friction():
     nothing = BearingLoads.constant([0.0, 0.0, 0.0], 2.1, 3.0)
-    found = run(nothing, gravity=False, drag=False)
+    result = run(nothing, gravity=False, drag=False)
     # Centrifugal force alone presses the roller outward.
-    assert (found.energy.sel(interface="inner") == 0.0).all() and float(found.energy.max()) < 1e-2
+    assert (result.energy.sel(interface="inner") == 0.0).all() and float(result.energy.max()) < 1e-2
 
 
 # --- Each mechanism alone ---------------------------------------------------------------------------------------------
@@ -295,9 +295,9 @@ def energies(steady):
 
     def of(laws):
         if laws not in known:
-            found = run(steady, laws, rollers=[0, 14]).sel(row="downwind")
-            assert (found.status == Status.COMPLETED).all()
-            known[laws] = found
+            result = run(steady, laws, rollers=[0, 14]).sel(row="downwind")
+            assert (result.status == Status.COMPLETED).all()
+            known[laws] = result
         return known[laws]
 
     return of

@@ -49,10 +49,10 @@ def straight():
 
 @pytest.mark.slow
 def test_without_play_nothing_changes(straight):
-    found = simulate(case(skew_play=0.0), threads=1)
-    assert_nothing_but_ends_adds(found, straight)
-    assert (found.skew_residual == 0.0).all()
-    assert (found.stop_force.sel(row="downwind", roller=0) > 0.0).all()
+    result = simulate(case(skew_play=0.0), threads=1)
+    assert_nothing_but_ends_adds(result, straight)
+    assert (result.skew_residual == 0.0).all()
+    assert (result.stop_force.sel(row="downwind", roller=0) > 0.0).all()
 
 
 @pytest.mark.slow
@@ -131,8 +131,8 @@ def test_energy_is_that_at_a_tight_tolerance_where_rollers_leave_their_spars():
     speed = 11.0 * np.pi / 30.0 * (0.3 + 0.7 * (time / 3.0 % 1.0))
     loads = BearingLoads(time, speed, np.tile([0.0, -200e3, 40e3], (time.size, 1)), "sawtooth")
     rough = Case(loads=loads, laws=SKEWED, rollers=[0, 7, 14], contact_details=False)
-    found = simulate(rough, threads=1)
+    result = simulate(rough, threads=1)
     exact = simulate(replace(rough, integrator=Radau(tolerance=1e-5)), threads=1)
     total = exact.energy.sum("interface")
-    assert float(abs(found.energy.sum("interface") / total - 1.0).max()) < 2.5e-4
-    assert float(abs(found.energy / exact.energy - 1.0).max()) < 2e-3
+    assert float(abs(result.energy.sum("interface") / total - 1.0).max()) < 2.5e-4
+    assert float(abs(result.energy / exact.energy - 1.0).max()) < 2e-3

@@ -52,12 +52,12 @@ def test_without_weight_and_load_spin_hardly_follows_the_shaft():
         traces=Traces(step=0.25),
         window=Window(start=0.0),
     )
-    found = simulate(case).isel(roller=0)
-    change = abs(found.spin - found.spin.isel(time=0))
-    wanted = abs(found.spin_pure - found.spin_pure.isel(time=0))
+    result = simulate(case).isel(roller=0)
+    change = abs(result.spin - result.spin.isel(time=0))
+    wanted = abs(result.spin_pure - result.spin_pure.isel(time=0))
     assert (change <= wanted + 1e-12).all()
     assert float((change / wanted).isel(time=-1).max()) < 0.2
-    assert (found.traction.sel(interface="inner") == 0.0).all()
+    assert (result.traction.sel(interface="inner") == 0.0).all()
 
 
 def test_traction_balances_inertia_and_cage_friction(gusty):
@@ -97,9 +97,9 @@ def test_rollers_of_a_row_take_turns_under_a_steady_load():
         traces=Traces(step=pitch / 4),
         window=Window(start=0.0),
     )
-    found = simulate(case)
-    first, second = found.spin.isel(roller=0).values, found.spin.isel(roller=1).values
-    settled = found.time.values > 14.0
+    result = simulate(case)
+    first, second = result.spin.isel(roller=0).values, result.spin.isel(roller=1).values
+    settled = result.time.values > 14.0
     settled[-8:] = False
     ahead = np.flatnonzero(settled)
     assert first[:, ahead + 4] == pytest.approx(second[:, ahead], rel=2e-4)

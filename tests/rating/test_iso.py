@@ -236,10 +236,10 @@ def test_the_damage_of_a_series_is_that_of_its_samples(stationary):
     assert semi_axis * np.cbrt(load.max()) > 0.5 * length  # some ellipses reach beyond the ends
     per_sample = load.T
     laminae = lamina_loads(per_sample, semi_axis * np.cbrt(per_sample), length)
-    found = damage_series(load, semi_axis, length, rating, stationary)
+    damages = damage_series(load, semi_axis, length, rating, stationary)
     np.testing.assert_allclose(
-        found[0], ring_damage(laminae, rating / REDUCTION, stationary=stationary), rtol=1e-12
+        damages[0], ring_damage(laminae, rating / REDUCTION, stationary=stationary), rtol=1e-12
     )
     np.testing.assert_allclose(
-        found[1], ring_damage(per_sample[..., None], rating, stationary=stationary), rtol=1e-12
+        damages[1], ring_damage(per_sample[..., None], rating, stationary=stationary), rtol=1e-12
     )

@@ -56,19 +56,19 @@ def test_a_constant_load_by_hand(bearing):
 
 
 def test_every_variable_has_unit_and_name(bearing):
-    found = rated(bearing, [0.0, -400e3, 60e3])
-    for name, variable in found.variables.items():
+    rating = rated(bearing, [0.0, -400e3, 60e3])
+    for name, variable in rating.variables.items():
         if name not in ("row", "raceway", "load_along_roller", "load", "wohler_exponent"):
             assert variable.attrs["units"] and variable.attrs["long_name"], name
             assert np.isfinite(variable).all() or name.startswith("film_ratio"), name
 
 
 def test_rows_and_rings_together_give_the_life_of_the_bearing(bearing):
-    found = rated(bearing, [0.0, -800e3, 60e3])
+    rating = rated(bearing, [0.0, -800e3, 60e3])
     # Under a constant load Weibull's product law holds for the mean too, but for the rollers' passing.
-    parts = found.raceway_reference_life
+    parts = rating.raceway_reference_life
     together = (parts ** (-9 / 8)).sum(["row", "raceway"]) ** (-8 / 9)
-    np.testing.assert_allclose(together, found.reference_life, rtol=1e-3)
+    np.testing.assert_allclose(together, rating.reference_life, rtol=1e-3)
     # The row that carries the thrust is worn more, and its inner ring first.
     assert (parts.sel(row="downwind") < parts.sel(row="upwind")).all()
     assert (parts.sel(raceway="inner") < parts.sel(raceway="outer")).all()
@@ -99,8 +99,8 @@ def test_mirrored_loads_give_mirrored_rows(bearing):
 
 
 def test_largest_pressure_is_hertz(bearing):
-    found = rated(bearing, [0.0, -500e3, 0.0])
-    load = float(found.largest_roller_load.max())
+    rating = rated(bearing, [0.0, -500e3, 0.0])
+    load = float(rating.largest_roller_load.max())
     # The textbook form with complete elliptic integrals of m = 1 - (b/a)^2, which the program does not use: Johnson,
     # Contact Mechanics (1985), equations (4.28) to (4.31).
     along = 1 / 0.035 + math.cos(bearing.contact_angle) / (
@@ -118,7 +118,7 @@ def test_largest_pressure_is_hertz(bearing):
     # Curvature across: 1/R = 2 p0/E* (b/a^2) [K - E]/e^2, with p0 = 3Q/(2 pi a b), so that a^3 follows.
     semi_axis = (3 * load * (ellipk(m) - ellipe(m)) / (math.pi * modulus * across * m)) ** (1 / 3)
     pressure = 1.5 * load / (math.pi * semi_axis**2 * ratio)
-    assert found.largest_pressure.sel(raceway="inner").max().item() == pytest.approx(
+    assert rating.largest_pressure.sel(raceway="inner").max().item() == pytest.approx(
         pressure, rel=1e-6
     )
 
@@ -134,19 +134,19 @@ def test_spectra_balance(bearing):
         ]
     )
     loads = BearingLoads(time, np.linspace(1.0, 2.0, time.size), force, "noise")
-    found = rate(bearing, OIL, *roller_load_history(bearing, OIL, loads))
-    np.testing.assert_allclose(found.time_share.sum("load_class"), 1.0, rtol=1e-12)
-    np.testing.assert_allclose(found.revolution_share.sum("load_class"), 1.0, rtol=1e-12)
-    assert (found.damage_equivalent_load > 0).all()
+    rating = rate(bearing, OIL, *roller_load_history(bearing, OIL, loads))
+    np.testing.assert_allclose(rating.time_share.sum("load_class"), 1.0, rtol=1e-12)
+    np.testing.assert_allclose(rating.revolution_share.sum("load_class"), 1.0, rtol=1e-12)
+    assert (rating.damage_equivalent_load > 0).all()
     # A steeper line weighs the largest cycles more.
-    assert (np.diff(found.damage_equivalent_load, axis=-1) > 0).all()
+    assert (np.diff(rating.damage_equivalent_load, axis=-1) > 0).all()
     # Loads at higher speed count for more revolutions: the shares differ.
-    assert not np.allclose(found.time_share, found.revolution_share)
+    assert not np.allclose(rating.time_share, rating.revolution_share)
 
 
 def test_a_shaft_that_stands_has_no_life_but_a_safety(bearing):
-    found = rated(bearing, [0.0, -400e3, 60e3], speed=0.0)
-    assert found.static_safety > 0 and np.isfinite(found.largest_pressure).all()
+    rating = rated(bearing, [0.0, -400e3, 60e3], speed=0.0)
+    assert rating.static_safety > 0 and np.isfinite(rating.largest_pressure).all()
     for name in (
         "equivalent_load",
         "basic_life",
@@ -154,19 +154,19 @@ def test_a_shaft_that_stands_has_no_life_but_a_safety(bearing):
         "viscosity_ratio",
         "life_modification",
     ):
-        assert np.isnan(found[name]), name
-    assert np.isnan(found.reference_life).all() and np.isnan(found.film_ratio).all()
+        assert np.isnan(rating[name]), name
+    assert np.isnan(rating.reference_life).all() and np.isnan(rating.film_ratio).all()
 
 
 def test_a_bearing_without_load(bearing):
-    found = rated(bearing, [0.0, 0.0, 0.0])
+    rating = rated(bearing, [0.0, 0.0, 0.0])
     assert (
-        math.isinf(found.static_safety)
-        and math.isinf(found.basic_life)
-        and np.isinf(found.reference_life).all()
+        math.isinf(rating.static_safety)
+        and math.isinf(rating.basic_life)
+        and np.isinf(rating.reference_life).all()
     )
-    assert (found.share_below_minimum_load, found.largest_pressure.max()) == (1.0, 0.0)
-    assert found.loaded_share.values.tolist() == [0.0, 0.0]
+    assert (rating.share_below_minimum_load, rating.largest_pressure.max()) == (1.0, 0.0)
+    assert rating.loaded_share.values.tolist() == [0.0, 0.0]
     # Under thrust alone one row carries all round, and the other nothing.
     assert rated(bearing, [0.0, 0.0, 60e3]).loaded_share.values.tolist() == [1.0, 0.0]
 

@@ -36,8 +36,8 @@ def test_a_sinusoid_is_its_own_equivalent():
     # Ten cycles in ten seconds are one a second: the equivalent range is the range, whatever the slope.
     time = np.linspace(0.0, 10.0, 2001)
     for exponent in (1.0, 4.0, 10.0):
-        found = damage_equivalent_load(3e4 * np.sin(2 * np.pi * time), 10.0, exponent)
-        assert found == pytest.approx(6e4, rel=0.01)
+        load = damage_equivalent_load(3e4 * np.sin(2 * np.pi * time), 10.0, exponent)
+        assert load == pytest.approx(6e4, rel=0.01)
     # Four times as many cycles: 4^(1/m).
     faster = damage_equivalent_load(3e4 * np.sin(8 * np.pi * time), 10.0, 4.0)
     assert faster == pytest.approx(6e4 * 4**0.25, rel=0.01)
@@ -48,8 +48,8 @@ def test_a_sinusoid_is_its_own_equivalent():
 
 def test_a_small_cycle_on_a_large_one():
     # ASTM E 1049's example of the method: the small cycle is counted beside the large one, which it interrupts.
-    found = np.sort(rainflow_ranges(np.array([0.0, 10.0, 4.0, 7.0, 0.0])))
-    np.testing.assert_allclose(found, [3.0, 10.0], atol=10 / 256)
+    ranges = np.sort(rainflow_ranges(np.array([0.0, 10.0, 4.0, 7.0, 0.0])))
+    np.testing.assert_allclose(ranges, [3.0, 10.0], atol=10 / 256)
     both = damage_equivalent_load([0.0, 10.0, 4.0, 7.0, 0.0], 1.0, 3.0)
     assert both == pytest.approx((3.0**3 + 10.0**3) ** (1 / 3), rel=0.01)
 

@@ -53,16 +53,16 @@ def energies(found):
 
 
 def test_values_and_differences_are_those_by_hand():
-    found = energies(compare(result(1.0), result(1.1, osculation=0.98)))
+    energy = energies(compare(result(1.0), result(1.1, osculation=0.98)))
     # Two rows of 1 W each, by the hour.
-    np.testing.assert_allclose(found.value, [7200.0, 7920.0], rtol=1e-12)
-    np.testing.assert_allclose(found["difference [%]"], [np.nan, 10.0], rtol=1e-9)
+    np.testing.assert_allclose(energy.value, [7200.0, 7920.0], rtol=1e-12)
+    np.testing.assert_allclose(energy["difference [%]"], [np.nan, 10.0], rtol=1e-9)
 
 
 def test_the_wind_in_common_does_not_widen_the_range():
     """The wind changes power by 20 % from orbit to orbit; the difference of 10 % scales with it and is surer."""
-    found = energies(compare(result(1.0), result(1.1, osculation=0.98)))
-    half = found["high [%]"][1] - found["difference [%]"][1]
+    energy = energies(compare(result(1.0), result(1.1, osculation=0.98)))
+    half = energy["high [%]"][1] - energy["difference [%]"][1]
     assert 0.0 < half < 2.5
     assert (
         "From result 1 to result 2 the energy changes by +10 %"
@@ -83,24 +83,24 @@ def test_the_range_holds_the_true_difference_in_95_of_100_cases():
         other = other.assign(
             orbit_energy=orbits, energy=orbits.sum("orbit").transpose("row", "roller", "interface")
         )
-        found = energies(compare(one, other))
-        held += found["low [%]"][1] <= 100.0 * true <= found["high [%]"][1]
+        energy = energies(compare(one, other))
+        held += energy["low [%]"][1] <= 100.0 * true <= energy["high [%]"][1]
     assert 88 <= held <= 100
 
 
 def test_a_difference_within_its_scatter_is_not_told_apart():
-    found = compare(result(1.0), result(1.001, noise=0.5, osculation=0.98))
+    comparison = compare(result(1.0), result(1.001, noise=0.5, osculation=0.98))
     assert (
-        "is smaller than its scatter of" in found.attrs["ranking"]
-        and "cannot be distinguished" in found.attrs["ranking"]
+        "is smaller than its scatter of" in comparison.attrs["ranking"]
+        and "cannot be distinguished" in comparison.attrs["ranking"]
     )
 
 
 def test_inputs_that_differ_and_what_restricts_the_comparison():
-    found = compare(result(), result(1.1, osculation=0.98, model="physical"))
-    assert found.attrs["inputs"]["bearing.osculation"] == {"result 1": 0.97, "result 2": 0.98}
-    assert found.attrs["inputs"]["bearing.diametral_clearance"]["result 1"] == "9.7 mm"
-    notes = " ".join(found.attrs["notes"])
+    comparison = compare(result(), result(1.1, osculation=0.98, model="physical"))
+    assert comparison.attrs["inputs"]["bearing.osculation"] == {"result 1": 0.97, "result 2": 0.98}
+    assert comparison.attrs["inputs"]["bearing.diametral_clearance"]["result 1"] == "9.7 mm"
+    notes = " ".join(comparison.attrs["notes"])
     assert (
         "different models of the contacts" in notes
         and "2 of 2 values" in notes
@@ -138,9 +138,9 @@ def test_three_results_are_ranked():
 def test_a_bearing_at_standstill_is_compared_without_a_difference_in_per_cent():
     still = result(0.0)
     for pair in ((still, result(osculation=0.98)), (result(osculation=0.98), still)):
-        found = compare(*pair)
+        comparison = compare(*pair)
         least = 1 + (pair[1] is still)
-        assert found.attrs["ranking"].startswith(
+        assert comparison.attrs["ranking"].startswith(
             f"result {least} dissipates least, 0 J/h ({ENERGY}); result {3 - least} 7200 J/h."
         )
     # From nothing to something there is no per cent, from something to nothing it is all of it.
@@ -152,10 +152,10 @@ def test_a_failed_roller_leaves_its_result_out_of_the_ranking():
     failed = result(1.1, osculation=0.98)
     failed["energy"][0, 0] = np.nan
     failed["status"][0, 0] = 1
-    found = compare(result(), failed)
-    assert "cannot be ranked" in found.attrs[
+    comparison = compare(result(), failed)
+    assert "cannot be ranked" in comparison.attrs[
         "ranking"
-    ] and "Rollers failed in result 2" in " ".join(found.attrs["notes"])
+    ] and "Rollers failed in result 2" in " ".join(comparison.attrs["notes"])
 
 
 def study(better=0.8):
@@ -171,15 +171,17 @@ def study(better=0.8):
 
 
 def test_designs_of_a_study_are_compared_over_a_year():
-    found = compare(study(), by="bearing")
-    one = energies(found)
+    comparison = compare(study(), by="bearing")
+    one = energies(comparison)
     assert one.design.tolist() == ["A", "B"] and one["difference [%]"][1] == pytest.approx(
         -20.0, rel=1e-9
     )
     # All designs saw the same winds: of their scatter only that of the difference is left, a fifth of it.
     assert one["high [%]"][1] - one["low [%]"][1] > 0.0
-    assert found.attrs["ranking"].startswith("B dissipates least")
-    assert found.attrs["notes"][0].startswith("The study has no weights: all its cases count alike")
+    assert comparison.attrs["ranking"].startswith("B dissipates least")
+    assert comparison.attrs["notes"][0].startswith(
+        "The study has no weights: all its cases count alike"
+    )
     # Without weights a year is the mean of the cases: 4.4/3 W of either row.
     assert one.value[0] == pytest.approx(2.0 * 4.4 / 3.0 * YEAR, rel=1e-12)
 

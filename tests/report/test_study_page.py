@@ -33,9 +33,9 @@ def opened(folder, **further):
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("study") / "out"
-    found = opened(folder)
+    page = opened(folder)
     assert is_study(folder) and not is_study(folder.parent)
-    return found
+    return page
 
 
 @pytest.fixture(scope="module")

@@ -52,8 +52,8 @@ def test_simulations_that_look_for_a_temperature_leave_them_out(monkeypatch):
     monkeypatch.setattr(heat_balance, "bearing_friction_power", power)
     heat = {"temperature": "balance", "heat": {"conductance": "60 W/K", "ambient": "15 degC"}}
     case, _ = template({"laws": {"model": "physical"}, "rollers": [7], **heat}, [], {})
-    found = heat_balance.case_at_balance(replace(case, loads=LOADS.window(30.0, 31.0)), simulate)
-    assert found.contact_details and seen
+    balanced = heat_balance.case_at_balance(replace(case, loads=LOADS.window(30.0, 31.0)), simulate)
+    assert balanced.contact_details and seen
     assert all(names.isdisjoint(CONTACT_DETAILS) and "mechanism_energy" in names for names in seen)
 
 

@@ -83,24 +83,24 @@ def test_traction_all_the_way_round_is_that_of_the_laws(traced):
 def test_finer_tables_change_nothing_that_is_promised(monkeypatch):
     """Energies to 2e-4, peaks to 2e-3 and spin to 2e-4 of pure rolling, against tables with half the distances."""
     case = Case(loads=HubLoads.bundled("14B").window(30.0, 60.0), laws=Laws.physical(), rollers=[7])
-    found = simulate(case)
+    result = simulate(case)
     table_box = prepared.table_box
     monkeypatch.setattr(
         prepared, "table_box", lambda *given: table_box(*given)._replace(fineness=0.5)
     )
     fine = simulate(case)
-    assert fine.attrs["table_size"] > 3 * found.attrs["table_size"]
-    assert (found.status == Status.COMPLETED).all() and (fine.status == Status.COMPLETED).all()
+    assert fine.attrs["table_size"] > 3 * result.attrs["table_size"]
+    assert (result.status == Status.COMPLETED).all() and (fine.status == Status.COMPLETED).all()
     for name, most in (("energy", 5e-5), ("orbit_energy", 2e-4), ("rolling_energy", 5e-5)):
-        total = found[name].sum("interface") / fine[name].sum("interface") - 1.0
+        total = result[name].sum("interface") / fine[name].sum("interface") - 1.0
         assert float(abs(total).max()) < most, name
-    peak = found.peak_power.max("interface") / fine.peak_power.max("interface") - 1.0
+    peak = result.peak_power.max("interface") / fine.peak_power.max("interface") - 1.0
     assert float(abs(peak).max()) < 2e-3
     for name in ("mechanism_energy", "asperity_energy", "station_energy"):
         scale = float(fine[name].sel(row="downwind").max())
-        assert float(abs(found[name] - fine[name]).sel(row="downwind").max()) < 2e-4 * scale, name
+        assert float(abs(result[name] - fine[name]).sel(row="downwind").max()) < 2e-4 * scale, name
     # Spin is good to 1e-4 of pure rolling at the default tolerance in either run, whose steps are not the same.
-    np.testing.assert_allclose(found.min_spin_ratio, fine.min_spin_ratio, rtol=0.0, atol=2e-4)
+    np.testing.assert_allclose(result.min_spin_ratio, fine.min_spin_ratio, rtol=0.0, atol=2e-4)
 
 
 @pytest.mark.parametrize("model", [Laws.paper(), Laws.physical()], ids=["paper", "physical"])
@@ -130,9 +130,9 @@ def test_a_state_beyond_the_tables_makes_them_larger(monkeypatch, dynamics):
     monkeypatch.setattr(
         prepared, "table_box", lambda *given: table_box(*given)._replace(load=8192.0)
     )
-    found = simulate(case)
-    assert (wanted.status == Status.COMPLETED).all() and (found.status == Status.COMPLETED).all()
-    total = found.energy.sum("interface") / wanted.energy.sum("interface") - 1.0
+    result = simulate(case)
+    assert (wanted.status == Status.COMPLETED).all() and (result.status == Status.COMPLETED).all()
+    total = result.energy.sum("interface") / wanted.energy.sum("interface") - 1.0
     assert float(abs(total).max()) < 1e-3
     monkeypatch.setattr(runs, "_ENLARGED", 0)
     failed = simulate(case).sel(row="downwind")

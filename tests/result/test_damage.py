@@ -56,8 +56,8 @@ def result():
 def test_pressure_times_slip_of_a_pass(load, inner, outer):
     """Derived apart from this code for films of 0.7 times the flooded thickness: largest ∫ p |v| dt of a pass [J/m²], and passes a second at rated speed."""
     result = simulate(thrust(load))
-    found = damage(result)
-    passes = found.pass_rate.values
+    criteria = damage(result)
+    passes = criteria.pass_rate.values
     assert passes[:2] == pytest.approx([5.21, 4.33], rel=2e-3)
     spin = (
         RATED
@@ -67,17 +67,17 @@ def test_pressure_times_slip_of_a_pass(load, inner, outer):
     )
     assert passes[2] == pytest.approx(2.0 * spin / (2.0 * math.pi), rel=1e-6)
     inner_pass = (
-        float(found.pressure_slip_rate.sel(row="downwind", surface="inner").max()) / passes[0]
+        float(criteria.pressure_slip_rate.sel(row="downwind", surface="inner").max()) / passes[0]
     )
     outer_pass = (
-        float(found.pressure_slip_rate.sel(row="downwind", surface="outer").max()) / passes[1]
+        float(criteria.pressure_slip_rate.sel(row="downwind", surface="outer").max()) / passes[1]
     )
     # Stations of 4.4 mm do not catch the very top.
     assert [inner_pass, outer_pass] == pytest.approx([inner, outer], rel=0.025)
     where = (
         1e3
         * result.station.values[
-            found.pressure_slip_rate.sel(row="downwind", surface="inner").argmax("station")
+            criteria.pressure_slip_rate.sel(row="downwind", surface="inner").argmax("station")
         ]
     )
     assert 15.0 < abs(where) < 25.0
@@ -85,7 +85,9 @@ def test_pressure_times_slip_of_a_pass(load, inner, outer):
         load, rel=1e-6
     )
     # Full contact at k = 1e-17 m²/N for a year: 9.8, 18.9, 28.7 µm.
-    full = 1e-17 * YEAR * float(found.pressure_slip_rate.sel(row="downwind", surface="inner").max())
+    full = (
+        1e-17 * YEAR * float(criteria.pressure_slip_rate.sel(row="downwind", surface="inner").max())
+    )
     assert 1e6 * full == pytest.approx({20e3: 9.8, 35e3: 18.9, 50e3: 28.7}[load], rel=0.025)
 
 
@@ -101,15 +103,15 @@ def test_a_sector_that_is_passed_once_more_is_no_worse_than_the_others(orbits, r
     period = 2.0 * math.pi / (RATED * geometry.orbit_ratio(BEARING))
     loads = BearingLoads.constant(case.loads.force[0], RATED, orbits * period)
     result = simulate(replace(case, loads=loads, rollers=rollers, window=Window(start=0.0)))
-    found = damage(result).sel(row="downwind", surface="outer")
-    assert float(found.pressure_slip_rate.max()) == pytest.approx(0.0405e6, rel=1e-3)
-    assert float(found.pressure_slip_rate.max()) == pytest.approx(0.93e4 * 4.33, rel=0.01)
+    criteria = damage(result).sel(row="downwind", surface="outer")
+    assert float(criteria.pressure_slip_rate.max()) == pytest.approx(0.0405e6, rel=1e-3)
+    assert float(criteria.pressure_slip_rate.max()) == pytest.approx(0.93e4 * 4.33, rel=0.01)
     # The sum over all sectors does not know how often each was passed.
     outer = result.sel(row="downwind", raceway="outer")
     mean = outer.surface_asperity_energy.mean("angle") / outer.cell_area
     mean = mean * 28 / len(rollers) / (orbits * period)
     friction = json.loads(result.attrs["input"])["lubricant"]["boundary_friction"]["value"]
-    assert float(found.asperity_work_rate.max()) == pytest.approx(
+    assert float(criteria.asperity_work_rate.max()) == pytest.approx(
         float(mean.max()) / friction, rel=1e-3
     )
     density = energy_density(result).sel(row="downwind", raceway="outer")
@@ -201,33 +203,33 @@ def test_maps_hold_all_that_asperities_dissipate(result):
 
 
 def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
-    found = damage(result)
+    criteria = damage(result)
     settings = json.loads(result.attrs["input"])
     friction = settings["lubricant"]["boundary_friction"]["value"]
     seconds = result.attrs["window_end"] - result.attrs["window_start"]
     area = result.cell_area.sel(raceway="inner") * result.sizes["angle"]
-    volume = (found.asperity_work_rate.sel(surface="inner", drop=True) * area).sum("station")
+    volume = (criteria.asperity_work_rate.sel(surface="inner", drop=True) * area).sum("station")
     energy = result.asperity_energy.sel(interface="inner").sum("roller") * (
         28 / result.sizes["roller"]
     )
     np.testing.assert_allclose(volume.values, energy.values / friction / seconds, rtol=1e-9)
     half = damage(result, wear_coefficients=[5e-18])
     np.testing.assert_allclose(
-        half.wear_time.values[..., 0], 2.0 * found.wear_time.values[..., 1], rtol=1e-12
+        half.wear_time.values[..., 0], 2.0 * criteria.wear_time.values[..., 1], rtol=1e-12
     )
     hard = damage(result, wear_coefficients=[7e-8], hardness=7e9)
     np.testing.assert_allclose(
-        hard.wear_time.values[..., 0], found.wear_time.values[..., 1], rtol=1e-12
+        hard.wear_time.values[..., 0], criteria.wear_time.values[..., 1], rtol=1e-12
     )
     # A thousandth of the time to 1 µm wears a thousandth of it, at the place that wears most.
-    rate = found.asperity_work_rate.max("station")
-    first = found.wear_time.isel(depth=0, wear_coefficient=1) * 1e-17 * rate
+    rate = criteria.asperity_work_rate.max("station")
+    first = criteria.wear_time.isel(depth=0, wear_coefficient=1) * 1e-17 * rate
     # The profile grows under the mean load, whose place of most wear has a tenth more than that of all loads.
     np.testing.assert_allclose(first.sel(row="downwind").values, 1e-6, rtol=0.2)
-    year = found.asperity_work_rate * 1e-17 * YEAR
-    worn = found.worn_depth.isel(age=0).sum("station") / year.sum("station")
+    year = criteria.asperity_work_rate * 1e-17 * YEAR
+    worn = criteria.worn_depth.isel(age=0).sum("station") / year.sum("station")
     np.testing.assert_allclose(worn.sel(row="downwind").values, 1.0, rtol=1e-3)
-    assert list(found.surface.values) == list(SURFACES)
+    assert list(criteria.surface.values) == list(SURFACES)
 
 
 @pytest.mark.slow
@@ -248,8 +250,8 @@ def test_free_orbits_change_the_criteria_little(result):
 
 
 def test_films_and_slip_are_shares_of_loaded_time(result):
-    found = damage(result)
-    mixed = found.mixed_time.sel(row="downwind").values
+    criteria = damage(result)
+    mixed = criteria.mixed_time.sel(row="downwind").values
     assert (np.diff(mixed, axis=-1) >= 0.0).all() and (mixed <= 1.0).all() and mixed.max() > 0.9
     loaded = result.film_slip_time.sum(("film_class", "slip_class"))
     seconds = result.attrs["window_end"] - result.attrs["window_start"]
@@ -259,22 +261,24 @@ def test_films_and_slip_are_shares_of_loaded_time(result):
     passes = result.film_slip_passes.sum(("film_class", "slip_class")) / loaded
     # Over either ring a roller travels as its orbit does against it.
     np.testing.assert_allclose(
-        passes.sel(row="downwind").values * 28, found.pass_rate.values[:2], rtol=0.05
+        passes.sel(row="downwind").values * 28, criteria.pass_rate.values[:2], rtol=0.05
     )
 
 
 def test_entries_into_the_load_zone(result):
-    found = damage(result)
+    criteria = damage(result)
     held = result.entries > 0
-    assert held.any() and (found.entry_rate > 0.0).any()
+    assert held.any() and (criteria.entry_rate > 0.0).any()
     for name in ("entry_slide_roll_ratio", "entry_power_density", "entry_flash_temperature"):
         values = result[name]
         assert (values.where(held.any("roller")).max() > 0.0).all()
         interface = result[name.removeprefix("entry_")].sel(interface=["inner", "outer"]).max()
         # A transient is below what the same power gives for ever, and no entry is above the orbit's extreme.
         assert float(values.max()) <= float(interface) * (1 + 1e-9)
-    at_least, at_most = (found[f"entry_slide_roll_ratio_beyond_{one}"] for one in ("least", "most"))
-    assert (at_least <= at_most).all() and (at_most <= found.entry_rate.max()).all()
+    at_least, at_most = (
+        criteria[f"entry_slide_roll_ratio_beyond_{one}"] for one in ("least", "most")
+    )
+    assert (at_least <= at_most).all() and (at_most <= criteria.entry_rate.max()).all()
 
 
 def test_a_line_a_criterion_and_own_thresholds(result):

@@ -38,17 +38,17 @@ def test_a_given_window_holds_for_an_event_too(bearing):
 
 def test_peaks_of_a_window_without_a_complete_orbit_are_those_of_the_traces(bearing):
     case = Case(loads=_swing(bearing, event=True), rollers=[0, 9], traces=Traces(step=0.002))
-    found = simulate(case)
-    assert found.sizes["orbit"] == 0 and (found.status == 0).all()
-    traced = found.power.max("time")
-    peak = found.window_peak_power
+    result = simulate(case)
+    assert result.sizes["orbit"] == 0 and (result.status == 0).all()
+    traced = result.power.max("time")
+    peak = result.window_peak_power
     assert (peak >= traced * (1.0 - 1e-9)).all()
     np.testing.assert_allclose(peak.max(), traced.max(), rtol=0.03)
     # Rollers pass 0.3 of the orbit, each from its own place on; in places that none passes there is no power.
-    places = found.peak_power_by_position
+    places = result.peak_power_by_position
     for row in ("downwind", "upwind"):
-        starts = found.start_angle.sel(row=row).values
-        way = np.mod(found.position.values[:, None] - starts, 2.0 * np.pi) / (2.0 * np.pi)
+        starts = result.start_angle.sel(row=row).values
+        way = np.mod(result.position.values[:, None] - starts, 2.0 * np.pi) / (2.0 * np.pi)
         near, far = 3.0 / 72.0, 0.3 + 3.0 / 72.0
         outside = ((way > far) & (way < 1.0 - near)).all(axis=1)
         assert outside.sum() > 20
@@ -63,29 +63,29 @@ def test_the_rest_after_the_last_orbit_counts_for_the_peak_of_the_window(bearing
     turn = 2.0 * np.pi / orbit_ratio(bearing)
     speed = np.where(time < 38.0, 1.05 * turn / 38.0, 1.05 * turn / 38.0 + (time - 38.0) * 2.0)
     force = np.tile([0.0, -300e3, 100e3], (time.size, 1))
-    found = simulate(Case(loads=BearingLoads(time, speed, force, "late", True), rollers=[0]))
-    assert found.sizes["orbit"] >= 1
-    inside = found.orbit_end[-1].item()
+    result = simulate(Case(loads=BearingLoads(time, speed, force, "late", True), rollers=[0]))
+    assert result.sizes["orbit"] >= 1
+    inside = result.orbit_end[-1].item()
     assert inside < 40.0
-    assert found.window_peak_power.max() > 1.5 * found.peak_power.isel(orbit=0).max()
+    assert result.window_peak_power.max() > 1.5 * result.peak_power.isel(orbit=0).max()
 
 
 @pytest.mark.parametrize("name", ["idle-6", "parked-12", "estop-20"])
 def test_a_slice_of_bundled_events_under_the_paper_s_model(name):
     loads = HubLoads.bundled(name)
-    found = simulate(Case(loads=loads.window(30.0, 50.0), rollers=[0, 14]))
-    assert (found.status == 0).all() and found.attrs["window_start"] == 30.0
-    assert bool(np.isfinite(found.window_peak_power).all())
-    assert "its supervisor is assumed" in found.attrs["title"]
+    result = simulate(Case(loads=loads.window(30.0, 50.0), rollers=[0, 14]))
+    assert (result.status == 0).all() and result.attrs["window_start"] == 30.0
+    assert bool(np.isfinite(result.window_peak_power).all())
+    assert "its supervisor is assumed" in result.attrs["title"]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["start-8", "idle-25", "stop-24"])
 def test_a_slice_of_bundled_events_under_the_physical_model(name):
-    found = simulate(
+    result = simulate(
         Case(loads=HubLoads.bundled(name).window(38.0, 48.0), rollers=[0], laws=Laws.physical())
     )
-    assert (found.status == 0).all() and bool((found.window_peak_power >= 0.0).all())
+    assert (result.status == 0).all() and bool((result.window_peak_power >= 0.0).all())
 
 
 @pytest.mark.slow
@@ -95,5 +95,5 @@ def test_a_slice_of_an_emergency_stop_of_the_whole_bearing():
         dynamics="whole-bearing",
         rollers=[0, 14],
     )
-    found = simulate(case)
-    assert (found.status == 0).all() and bool((found.window_peak_power > 0.0).any())
+    result = simulate(case)
+    assert (result.status == 0).all() and bool((result.window_peak_power > 0.0).any())

@@ -30,16 +30,20 @@ def test_constant_power_warms_by_power_over_conductance(power, conductance, ambi
 @given(st.floats(10.0, 3000.0), st.floats(0.0, 50.0), st.floats(250.0, 310.0))
 def test_power_that_falls_in_proportion(power, slope, ambient):
     # P0 - s (T - Ta) = G (T - Ta)
-    found = balance_temperature(lambda t: max(power - slope * (t - ambient), 0.0), 60.0, ambient)
-    assert found == pytest.approx(ambient + power / (60.0 + slope), abs=1e-8)
+    temperature = balance_temperature(
+        lambda t: max(power - slope * (t - ambient), 0.0), 60.0, ambient
+    )
+    assert temperature == pytest.approx(ambient + power / (60.0 + slope), abs=1e-8)
 
 
 @pytest.mark.parametrize("beta", [0.01, 0.056, 0.2])
 def test_power_that_falls_exponentially(beta):
     # x = (P0/G) exp(-beta x) is solved by x = W(beta P0/G)/beta, W being Lambert's function.
     expected = 288.15 + lambertw(beta * 900.0 / 60.0).real / beta
-    found = balance_temperature(lambda t: 900.0 * math.exp(-beta * (t - 288.15)), 60.0, 288.15)
-    assert found == pytest.approx(expected, abs=1e-8)
+    temperature = balance_temperature(
+        lambda t: 900.0 * math.exp(-beta * (t - 288.15)), 60.0, 288.15
+    )
+    assert temperature == pytest.approx(expected, abs=1e-8)
 
 
 def test_a_better_cooled_bearing_is_colder_and_no_friction_leaves_it_at_ambient():
@@ -118,7 +122,7 @@ RINGS = Heat(
 
 def test_rings_warm_as_their_equations_say():
     time = np.array([600.0, 7200.0, 36000.0])
-    found = ring_temperatures(RINGS, 1200.0, time, (300.0, 290.0))
+    temperatures = ring_temperatures(RINGS, 1200.0, time, (300.0, 290.0))
 
     def rise(_, now):
         flow = 100.0 * (now[0] - now[1])
@@ -128,7 +132,7 @@ def test_rings_warm_as_their_equations_say():
         ]
 
     known = solve_ivp(rise, (0.0, 36000.0), [300.0, 290.0], t_eval=time, rtol=1e-10, atol=1e-9).y.T
-    assert found == pytest.approx(known, abs=1e-5)
+    assert temperatures == pytest.approx(known, abs=1e-5)
 
 
 def test_rings_in_the_steady_state_lose_what_they_get():

@@ -9,11 +9,11 @@ from macroslip.whole.books import FLOWS, STOCKS, Books
 
 def books(**flows):
     """Books with these flows at the end, and nothing held."""
-    found = Books(None, np.array([0.0, 1.0, 2.0]))
-    found.flows[:], found.stocks[:] = 0.0, 0.0
+    books = Books(None, np.array([0.0, 1.0, 2.0]))
+    books.flows[:], books.stocks[:] = 0.0, 0.0
     for name, value in flows.items():
-        found.flows[1:, FLOWS.index(name)] = value
-    return found
+        books.flows[1:, FLOWS.index(name)] = value
+    return books
 
 
 @pytest.mark.parametrize(
@@ -38,23 +38,23 @@ def books(**flows):
     ],
 )
 def test_a_rest_above_half_a_percent_is_told(flows, words):
-    found = open_books(books(**flows))
-    assert words in found and bool(words) == bool(found)
-    assert not found or "smaller integrator.tolerance" in found
+    warning = open_books(books(**flows))
+    assert words in warning and bool(words) == bool(warning)
+    assert not warning or "smaller integrator.tolerance" in warning
 
 
 def test_what_the_bearing_holds_is_not_missing():
-    found = books(shaft_work=10.0, raceway_loss=4.0)
-    found.stocks[1:, STOCKS.index("kinetic_energy")] = 6.0
-    assert open_books(found) == ""
+    books_of_run = books(shaft_work=10.0, raceway_loss=4.0)
+    books_of_run.stocks[1:, STOCKS.index("kinetic_energy")] = 6.0
+    assert open_books(books_of_run) == ""
 
 
 def test_friction_that_drives_is_told():
-    found = books(shaft_work=100.0, raceway_loss=100.0)
-    found.driven = 0.05
-    assert open_books(found) == ""
-    found.driven = 0.4
-    assert open_books(found).startswith(
+    books_of_run = books(shaft_work=100.0, raceway_loss=100.0)
+    books_of_run.driven = 0.05
+    assert open_books(books_of_run) == ""
+    books_of_run.driven = 0.4
+    assert open_books(books_of_run).startswith(
         "friction gave back 0.4 % of what is dissipated, which it cannot; results"
     )
 

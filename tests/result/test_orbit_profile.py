@@ -149,10 +149,10 @@ def test_scene_is_the_part_with_the_largest_power(varying):
 
 
 def test_a_profile_keeps_no_traces(varying):
-    found = orbit_profile(varying)
-    assert "time" not in found["result"].dims
-    assert found["scene"].slip.dtype == np.float32
-    assert set(found) == {"result", "orbit", "load_zone", "scene", "still"}
+    profile = orbit_profile(varying)
+    assert "time" not in profile["result"].dims
+    assert profile["scene"].slip.dtype == np.float32
+    assert set(profile) == {"result", "orbit", "load_zone", "scene", "still"}
 
 
 def test_traces_that_begin_late_or_not_at_all_are_refused(varying):

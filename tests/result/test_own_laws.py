@@ -33,18 +33,18 @@ def test_a_copy_of_a_law_of_the_package_gives_its_results():
     register_film(
         "copy", lambda interface, load, speed: mine(interface, load, speed), reference="none"
     )
-    found = simulate(Case(loads=LOADS, rollers=[0], laws=Laws.paper().but(film="copy")))
-    np.testing.assert_array_equal(found.energy, simulate(case).energy)
+    result = simulate(Case(loads=LOADS, rollers=[0], laws=Laws.paper().but(film="copy")))
+    np.testing.assert_array_equal(result.energy, simulate(case).energy)
 
 
 def test_the_examples_run_and_are_cited():
     laws = Laws.paper().but(film="dowson-higginson", traction="isothermal-barus")
-    found = simulate(Case(loads=LOADS, rollers=[0], laws=laws))
-    assert (found.status == 0).all() and float(found.energy.sum()) > 0.0
-    assert "Barus" in found.attrs["citations"] and "Dowson" in found.attrs["citations"]
+    result = simulate(Case(loads=LOADS, rollers=[0], laws=laws))
+    assert (result.status == 0).all() and float(result.energy.sum()) > 0.0
+    assert "Barus" in result.attrs["citations"] and "Dowson" in result.attrs["citations"]
     # The paper's traction heats its film; a roller that grips slips so little that it hardly matters.
     heated = simulate(Case(loads=LOADS, rollers=[0], laws=laws.but(traction="mechanisms")))
     raceways = ["inner", "outer"]
-    assert float(found.energy.sel(interface=raceways).sum()) == pytest.approx(
+    assert float(result.energy.sel(interface=raceways).sum()) == pytest.approx(
         float(heated.energy.sel(interface=raceways).sum()), rel=0.05
     )

@@ -108,9 +108,9 @@ def case(force=FORCE, **others):
 
 
 def test_table_and_matrices_agree_and_have_units():
-    found = ring_stiffness({"a": case(), "b": case([0.0, -200e3, 50e3])})
-    table = stiffness_table(found)
-    data = json.loads(json.dumps(stiffness_data(found)))
+    stiffness = ring_stiffness({"a": case(), "b": case([0.0, -200e3, 50e3])})
+    table = stiffness_table(stiffness)
+    data = json.loads(json.dumps(stiffness_data(stiffness)))
     assert len(table) == 6 and len(data["points"]) == 6
     for (_, line), point in zip(table.iterrows(), data["points"], strict=True):
         matrix = np.array(point["stiffness"])
@@ -131,8 +131,8 @@ def test_stiffness_grows_with_the_load():
 
 def test_a_ring_that_is_not_held_is_marked():
     """Without load nothing holds it."""
-    found = ring_stiffness({"idle": case([0.0, 0.0, 0.0])})
-    assert not found.held.any() and (found.stiffness == 0.0).all()
+    stiffness = ring_stiffness({"idle": case([0.0, 0.0, 0.0])})
+    assert not stiffness.held.any() and (stiffness.stiffness == 0.0).all()
 
 
 def test_bearings_that_do_not_align_themselves_are_refused():

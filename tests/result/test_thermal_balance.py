@@ -106,13 +106,13 @@ def test_keys_of_a_case_file(tmp_path, text, expected):
         with pytest.raises(InputError, match="line 3, heat: only a balance of heat uses it"):
             read_case(path)
         path.write_text(loads)
-    found = read_case(path)
+    case = read_case(path)
     assert (
-        found.temperature == pytest.approx(expected)
+        case.temperature == pytest.approx(expected)
         if expected != "balance"
-        else found.temperature == expected
+        else case.temperature == expected
     )
-    assert found.heat == (Heat(conductance=60.0, ambient=293.15) if expected == "balance" else None)
+    assert case.heat == (Heat(conductance=60.0, ambient=293.15) if expected == "balance" else None)
 
 
 @pytest.mark.parametrize(

@@ -26,8 +26,8 @@ def two_orbits(bearing, **choices) -> Case:
 
 def test_times_within_some_roundings_of_an_anchor_become_it():
     anchors = np.array([0.0, 0.3, 600.0])
-    found = merged_times(np.array([-1e-17, 0.1 + 0.2, 0.3001, 600.0 + 1e-12, 601.0]), anchors)
-    assert found.tolist() == [0.0, 0.3, 0.3001, 600.0, 601.0]
+    times = merged_times(np.array([-1e-17, 0.1 + 0.2, 0.3001, 600.0 + 1e-12, 601.0]), anchors)
+    assert times.tolist() == [0.0, 0.3, 0.3001, 600.0, 601.0]
 
 
 def test_an_orbit_that_ends_with_the_loads_ends_at_their_last_sample(bearing):
@@ -82,9 +82,9 @@ def test_traces_take_over_the_times_of_samples_and_edges(bearing):
 @pytest.mark.parametrize("dynamics", [IMPOSED_ORBIT, WHOLE_BEARING])
 def test_both_engines_complete_when_the_last_orbit_ends_with_the_loads(bearing, dynamics):
     rollers = "all" if dynamics == WHOLE_BEARING else [0]
-    found = simulate(two_orbits(bearing, dynamics=dynamics, rollers=rollers))
-    assert (found.status == 0).all()
-    assert bool(np.isfinite(found.energy).all())
+    result = simulate(two_orbits(bearing, dynamics=dynamics, rollers=rollers))
+    assert (result.status == 0).all()
+    assert bool(np.isfinite(result.energy).all())
     # The load is steady, and the window is one whole orbit.
-    assert found.orbit_end[-1].item() == found.attrs["window_end"]
-    assert found.energy.sum().item() == pytest.approx(found.orbit_energy.sum().item(), rel=1e-12)
+    assert result.orbit_end[-1].item() == result.attrs["window_end"]
+    assert result.energy.sum().item() == pytest.approx(result.orbit_energy.sum().item(), rel=1e-12)

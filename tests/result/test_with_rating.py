@@ -44,9 +44,9 @@ def test_a_bearing_without_load_ratings_is_not_rated(result):
     entries = Bearing.read("skf-240-600-bc").as_dict()
     del entries["static_load_rating"]
     case = Case(loads=LOADS, laws=Laws.paper(), rollers=[0], bearing=Bearing.from_dict(entries))
-    found = with_rating(result, case)
-    assert "static_safety" not in found
-    assert "static_load_rating" in found.attrs["rating_problem"]
+    rating = with_rating(result, case)
+    assert "static_safety" not in rating
+    assert "static_load_rating" in rating.attrs["rating_problem"]
     assert np.isnan(list(rating_values(case).values())).all()
 
 

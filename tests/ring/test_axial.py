@@ -24,8 +24,8 @@ def sine(amplitude, mean=0.0):
 
 
 def test_a_sine_travels_four_amplitudes_a_period():
-    found = travel_rate(TIME, sine(3e-5), 0.0, 200.0)
-    assert found == pytest.approx(4.0 * 3e-5 * 3600.0 / PERIOD, rel=1e-12)
+    rate = travel_rate(TIME, sine(3e-5), 0.0, 200.0)
+    assert rate == pytest.approx(4.0 * 3e-5 * 3600.0 / PERIOD, rel=1e-12)
     # A part of a rise, whose ends lie between samples.
     start, end = 0.0137, 4.0021
     way = 3e-5 * (math.sin(math.pi / 10.0 * end) - math.sin(math.pi / 10.0 * start))
@@ -62,9 +62,9 @@ def test_a_bearing_under_sinusoidal_thrust_alone():
     sine_of, cosine_of = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     approach = (2e5 / (bearing.rollers_per_row * ring.stiffness * sine_of)) ** (2.0 / 3.0)
     largest = (approach + ring.radial_play * cosine_of) / sine_of
-    found = axial_values(ready)
-    assert float(found["axial_travel"]) == pytest.approx(4.0 * largest * 3600.0 / PERIOD, rel=1e-6)
-    assert float(found["thrust_reversals"]) == 19 * 18.0
+    values = axial_values(ready)
+    assert float(values["axial_travel"]) == pytest.approx(4.0 * largest * 3600.0 / PERIOD, rel=1e-6)
+    assert float(values["thrust_reversals"]) == 19 * 18.0
 
 
 def test_thrust_within_a_thousandth_of_the_static_rating_has_no_sign():

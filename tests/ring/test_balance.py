@@ -178,16 +178,16 @@ def model(bearing, lubricant):
 
 
 def test_ring_geometry_is_the_bearings(bearing, model):
-    found = ring_geometry(bearing, model)
-    assert found.cosine == pytest.approx(np.cos(angles), abs=1e-15)
-    assert found.sine == pytest.approx(np.sin(angles), abs=1e-15)
-    assert found.axial == pytest.approx(signs * math.sin(ALPHA), abs=1e-15)
-    assert (found.cos_contact_angle, found.radial_play) == pytest.approx(
+    ring = ring_geometry(bearing, model)
+    assert ring.cosine == pytest.approx(np.cos(angles), abs=1e-15)
+    assert ring.sine == pytest.approx(np.sin(angles), abs=1e-15)
+    assert ring.axial == pytest.approx(signs * math.sin(ALPHA), abs=1e-15)
+    assert (ring.cos_contact_angle, ring.radial_play) == pytest.approx(
         (math.cos(ALPHA), 1e-4), rel=1e-14, abs=0.0
     )
     inner, outer = (0.3727 + sign * 0.035 * math.cos(ALPHA) for sign in (-1.0, 1.0))
-    assert found.orbit_ratio == pytest.approx(inner / (inner + outer), rel=1e-14, abs=0.0)
-    assert found.stiffness == pytest.approx(9.26e10, rel=5e-4, abs=0.0)
+    assert ring.orbit_ratio == pytest.approx(inner / (inner + outer), rel=1e-14, abs=0.0)
+    assert ring.stiffness == pytest.approx(9.26e10, rel=5e-4, abs=0.0)
 
 
 def history(force, speed=2.0, time=(0.0, 0.01, 0.02)):
@@ -201,14 +201,14 @@ def test_motion_balances_every_sample_with_rollers_where_they_are(bearing, model
         history(force), bearing, ring_geometry(bearing, model), truncation_load(bearing, lubricant)
     )
     assert motion.shaft_angle == pytest.approx([0.0, 0.02, 0.04], rel=1e-14, abs=0.0)
-    found = ring_geometry(bearing, model)
+    ring = ring_geometry(bearing, model)
     peak = 0.0
     for k in range(3):
-        turned = angles + found.orbit_ratio * motion.shaft_angle[k]
+        turned = angles + ring.orbit_ratio * motion.shaft_angle[k]
         n = np.column_stack(
-            [np.cos(turned) * math.cos(ALPHA), np.sin(turned) * math.cos(ALPHA), found.axial]
+            [np.cos(turned) * math.cos(ALPHA), np.sin(turned) * math.cos(ALPHA), ring.axial]
         )
-        loads = loads_of(found, motion.shaft_angle[k], motion.displacement[k])
+        loads = loads_of(ring, motion.shaft_angle[k], motion.displacement[k])
         assert n.T @ loads == pytest.approx(force[k], abs=1e-8 * np.linalg.norm(force[k]))
         peak = max(peak, loads.max())
     assert largest == pytest.approx(peak, rel=1e-14, abs=0.0)
@@ -288,50 +288,48 @@ def oval_loads(found, bearing, d, shaft_angle=0.0):
 )
 def test_ring_out_of_round_is_balanced_by_loads_of_its_own_definition(waves, bearing, lubricant):
     oval = bearing.replace(**{f"out_of_round_{key}": value for key, value in waves.items()})
-    found = ring_geometry(oval, roller_model(oval, lubricant, 1, tilt=0.0))
+    ring = ring_geometry(oval, roller_model(oval, lubricant, 1, tilt=0.0))
     force = np.array([2e4, -4e5, 1e5])
-    d, unbalanced = balance_of(found, 3.0, force)
+    d, unbalanced = balance_of(ring, 3.0, force)
     assert unbalanced <= 1e-4
-    n, expected = oval_loads(found, oval, d, 3.0)
+    n, expected = oval_loads(ring, oval, d, 3.0)
     assert n.T @ expected == pytest.approx(force, abs=1e-3)
-    loads = loads_of(found, 3.0, d)
+    loads = loads_of(ring, 3.0, d)
     assert loads == pytest.approx(expected, rel=1e-9, abs=1e-3)
     # An independent root of the equations of force, from another start.
     root = fsolve(
-        lambda x: n.T @ oval_loads(found, oval, 1e-4 * x, 3.0)[1] / 1e5 - force / 1e5,
+        lambda x: n.T @ oval_loads(ring, oval, 1e-4 * x, 3.0)[1] / 1e5 - force / 1e5,
         1.1e4 * d,
         xtol=1e-13,
     )
-    assert oval_loads(found, oval, 1e-4 * root, 3.0)[1] == pytest.approx(
-        expected, rel=1e-6, abs=1.0
-    )
+    assert oval_loads(ring, oval, 1e-4 * root, 3.0)[1] == pytest.approx(expected, rel=1e-6, abs=1.0)
 
 
 def test_given_loads_of_a_balance_are_those_of_the_balance(bearing, model, lubricant):
     time, force = np.linspace(0.0, 2.0, 201), np.array([0.0, -4e5, 1e5])
-    found = ring_geometry(bearing, model)
-    balanced, largest = ring_motion(history(force, 2.0, time), bearing, found, 1e9)
-    known = elastic_loads(history(force, 2.0, time), found, balanced)
+    ring = ring_geometry(bearing, model)
+    balanced, largest = ring_motion(history(force, 2.0, time), bearing, ring, 1e9)
+    known = elastic_loads(history(force, 2.0, time), ring, balanced)
     own = RollerLoads(
         balanced.time, balanced.shaft_speed,
-        (angles + found.orbit_ratio * balanced.shaft_angle[:, None]).reshape(-1, 2, COUNT), known.reshape(-1, 2, COUNT), "own",
+        (angles + ring.orbit_ratio * balanced.shaft_angle[:, None]).reshape(-1, 2, COUNT), known.reshape(-1, 2, COUNT), "own",
     )  # fmt: skip
     assert own.resultant(bearing.contact_angle, COUNT).force == pytest.approx(
         np.tile(force, (own.time.size, 1)), abs=1e-2
     )
-    motion, again = ring_motion(own, bearing, found, 1e9)
+    motion, again = ring_motion(own, bearing, ring, 1e9)
     assert again == pytest.approx(largest, rel=1e-9, abs=0.0)
-    fine = elastic_loads(own, found, motion)
+    fine = elastic_loads(own, ring, motion)
     at = np.searchsorted(motion.time, own.time)
     assert fine[at] == pytest.approx(known, rel=1e-9, abs=1e-6)
     # What a kernel makes of a roller's own motion: approach from displacement and place.
     for roller in (0, 3, 30):
-        one = own_motions(own, found, motion)[roller]
-        place = angles[roller] + found.orbit_ratio * motion.shaft_angle
+        one = own_motions(own, ring, motion)[roller]
+        place = angles[roller] + ring.orbit_ratio * motion.shaft_angle
         radial = (
             one.displacement[:, 0] * np.cos(place)
             + one.displacement[:, 1] * np.sin(place)
-            - found.radial_play
+            - ring.radial_play
         )
-        load = found.stiffness * np.maximum(radial * found.cos_contact_angle, 0.0) ** 1.5
+        load = ring.stiffness * np.maximum(radial * ring.cos_contact_angle, 0.0) ** 1.5
         assert load == pytest.approx(fine[:, roller], rel=1e-7, abs=1e-3)

@@ -54,11 +54,11 @@ def test_path_counts_forth_and_back(history):
 @settings(deadline=None, max_examples=60)
 def test_orbits_end_where_the_path_says(history):
     time, speed = arrays(history)
-    found = orbit_times(time, speed, RATIO)
+    times = orbit_times(time, speed, RATIO)
     total = dense_path(time, speed, RATIO, time[-1])
-    assert abs(found.size - total / (2 * math.pi)) <= 1.0 + 1e-9
-    assert np.all(np.diff(found) > 0.0)
-    for number, end in enumerate(found, start=1):
+    assert abs(times.size - total / (2 * math.pi)) <= 1.0 + 1e-9
+    assert np.all(np.diff(times) > 0.0)
+    for number, end in enumerate(times, start=1):
         assert time[0] < end <= time[-1]
         assert dense_path(time, speed, RATIO, end) == pytest.approx(
             2 * math.pi * number, rel=1e-10, abs=1e-10
@@ -69,17 +69,17 @@ def test_whole_number_of_orbits_keeps_the_last():
     # Sums of many samples round; the orbit that ends with the record still counts.
     for samples in (2, 9, 15, 101, 527, 543, 1001, 12001, 19999):
         time = np.linspace(0.0, 12.0, samples)
-        found = orbit_times(time, np.full(samples, 2.0 * math.pi), 0.25)
-        assert found == pytest.approx([4.0, 8.0, 12.0], rel=1e-12, abs=0.0)
-        assert found[-1] <= 12.0
+        times = orbit_times(time, np.full(samples, 2.0 * math.pi), 0.25)
+        assert times == pytest.approx([4.0, 8.0, 12.0], rel=1e-12, abs=0.0)
+        assert times[-1] <= 12.0
 
 
 def test_a_shaft_may_turn_round_at_a_sample_but_for_rounding():
     time = np.arange(41) / 2
     speed = 2.0 * math.pi * np.cos(np.pi * time)
     assert 0.0 < abs(speed[1]) < 1e-14
-    found = orbit_times(time, speed, 1.0)
-    assert found == pytest.approx(2.0 * np.arange(1, 11), rel=1e-12)
+    times = orbit_times(time, speed, 1.0)
+    assert times == pytest.approx(2.0 * np.arange(1, 11), rel=1e-12)
 
 
 def test_standstill_completes_nothing():

@@ -73,7 +73,7 @@ def now(speed=0.0, displacement=(0.0, 0.0, 0.0), shaft_angle=0.0):
 @clock
 @rows
 def test_weight_by_hand(paper, angle, row):
-    found = station_of(paper[row], angle, now())
+    conditions = station_of(paper[row], angle, now())
     # Weight vector in the bearing frame: the shaft falls towards downwind, so part of it points along +Z0.
     weight = WEIGHT * np.array([0.0, -math.cos(TILT), math.sin(TILT)])
     y = [
@@ -82,26 +82,26 @@ def test_weight_by_hand(paper, angle, row):
         SIGNS[row] * math.sin(ALPHA),
     ]
     outward = float(weight @ np.array(y))
-    assert found["tangential"] == pytest.approx(
+    assert conditions["tangential"] == pytest.approx(
         weight @ [math.sin(angle), -math.cos(angle), 0.0], abs=1e-12
     )
-    assert found["outer_load"] == pytest.approx(max(outward, 0.0), abs=1e-12)
-    assert found["inner_load"] == pytest.approx(max(-outward, 0.0), abs=1e-12)
+    assert conditions["outer_load"] == pytest.approx(max(outward, 0.0), abs=1e-12)
+    assert conditions["inner_load"] == pytest.approx(max(-outward, 0.0), abs=1e-12)
 
 
 @clock
 @pytest.mark.parametrize("speed", [RATED, -RATED])
 def test_centrifugal_force_and_drag_by_hand(angle, speed):
     made = models(Laws.paper(), tilt=0.0, gravity=False)
-    found = station_of(rollers(made)["downwind"], angle, now(speed))
+    conditions = station_of(rollers(made)["downwind"], angle, now(speed))
     orbital = speed * ORBITAL / RATED
-    assert found["outer_load"] == pytest.approx(
+    assert conditions["outer_load"] == pytest.approx(
         MASS * PITCH_RADIUS * orbital**2 * math.cos(ALPHA), rel=1e-12
     )
-    assert found["inner_load"] == 0.0
+    assert conditions["inner_load"] == 0.0
     drag = 0.5 * 1.0 * (0.7 * 900.0) * (2 * RADIUS * 0.106) * (orbital * PITCH_RADIUS) ** 2
     # Against the motion: a roller moves along −x for a positive shaft speed.
-    assert found["tangential"] == pytest.approx(math.copysign(drag, speed), rel=1e-12)
+    assert conditions["tangential"] == pytest.approx(math.copysign(drag, speed), rel=1e-12)
     assert models(Laws.paper(), drag=False)["downwind"].drag == 0.0
     # r²/I = 2/m of a cylinder.
     assert made["downwind"].mobility == pytest.approx(2.0 / MASS, rel=1e-12)
@@ -111,7 +111,7 @@ def test_centrifugal_force_and_drag_by_hand(angle, speed):
 @rows
 def test_elastic_load_by_hand(paper, angle, row):
     d = np.array([1.5e-4, -2.5e-4, 3e-4])
-    found = station_of(paper[row], angle, now(RATED, d))
+    conditions = station_of(paper[row], angle, now(RATED, d))
     n = [
         math.cos(angle) * math.cos(ALPHA),
         math.sin(angle) * math.cos(ALPHA),
@@ -119,18 +119,18 @@ def test_elastic_load_by_hand(paper, angle, row):
     ]
     approach = float(np.array(n) @ d) - 1e-4 * math.cos(ALPHA)
     load = paper[row].body[0]["stiffness"] * max(approach, 0.0) ** 1.5
-    assert found["approach"] == pytest.approx(approach, abs=1e-18)
-    assert found["elastic_load"] == pytest.approx(load, rel=1e-12)
+    assert conditions["approach"] == pytest.approx(approach, abs=1e-18)
+    assert conditions["elastic_load"] == pytest.approx(load, rel=1e-12)
     # Body forces add to what the rings press, at the side they point to.
     bare = station_of(paper[row], angle, now(RATED))
     for side in ("inner_load", "outer_load"):
-        assert found[side] - load == pytest.approx(bare[side], abs=1e-9)
+        assert conditions[side] - load == pytest.approx(bare[side], abs=1e-9)
 
 
 def test_rings_pass_with_the_speeds_of_pure_rolling_and_the_roller_moves_on(paper):
-    found = station_of(paper["downwind"], 0.3, now(RATED))
-    assert found["ring_speed"] == pytest.approx(-(RATED - ORBITAL) * INNER_RADIUS, rel=1e-12)
-    assert found["ring_speed"] == pytest.approx(-ORBITAL * OUTER_RADIUS, rel=1e-12)
+    conditions = station_of(paper["downwind"], 0.3, now(RATED))
+    assert conditions["ring_speed"] == pytest.approx(-(RATED - ORBITAL) * INNER_RADIUS, rel=1e-12)
+    assert conditions["ring_speed"] == pytest.approx(-ORBITAL * OUTER_RADIUS, rel=1e-12)
     here = station_of(
         paper["downwind"], 0.4 + ORBITAL / RATED * 2.5, now(RATED, (1e-4, 2e-4, 3e-4))
     )
@@ -308,22 +308,22 @@ def test_slopes_are_the_derivatives_of_all_forces(request, kind, load, slip):
 def test_pure_rolling_and_standstill(paper):
     for load in (0.0, 100.0, 2e4):
         at = a_station(load, 12.0)
-        found = forces_of(paper["downwind"], at, 0.0)
-        assert found["inner"] == found["outer"] == 0.0 and found["cage_load"] == at["tangential"]
+        forces = forces_of(paper["downwind"], at, 0.0)
+        assert forces["inner"] == forces["outer"] == 0.0 and forces["cage_load"] == at["tangential"]
         # The surface moves along −x, the pocket is at rest: friction drives ω up, that is towards zero.
-        assert found["cage"] > 0.0
+        assert forces["cage"] > 0.0
     at = station_of(paper["downwind"], 0.7, now(0.0, (0.0, 0.0, 8e-4)))
-    found = forces_of(paper["downwind"], at, 0.0)
-    assert at["elastic_load"] > 0.0 and found["inner"] == found["outer"] == found["cage"] == 0.0
-    assert math.isfinite(found["slope"]) and found["slope"] > 0.0
-    assert found["cage_load"] == pytest.approx(WEIGHT * math.cos(TILT) * math.cos(0.7), rel=1e-12)
+    forces = forces_of(paper["downwind"], at, 0.0)
+    assert at["elastic_load"] > 0.0 and forces["inner"] == forces["outer"] == forces["cage"] == 0.0
+    assert math.isfinite(forces["slope"]) and forces["slope"] > 0.0
+    assert forces["cage_load"] == pytest.approx(WEIGHT * math.cos(TILT) * math.cos(0.7), rel=1e-12)
 
 
 def test_no_load_no_force(paper, dry):
     at = a_station(0.0, tangential=0.0)
     for made in (paper, dry):
-        found = forces_of(made["downwind"], at, 0.1)
-        assert all(np.all(found[name] == 0.0) for name in found.dtype.names)
+        forces = forces_of(made["downwind"], at, 0.1)
+        assert all(np.all(forces[name] == 0.0) for name in forces.dtype.names)
 
 
 @pytest.mark.parametrize("kind", ["paper", "physical"])

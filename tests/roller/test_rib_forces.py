@@ -50,16 +50,16 @@ def test_the_rib_slides_in_pure_rolling_by_the_turning_rate_times_its_height(mad
 def test_friction_and_power_in_pure_rolling_are_those_of_the_contact(made, load):
     """By hand: µ F_f v_f with the film's own coefficient of friction."""
     model, roller = made
-    found = forces_at(roller, station(load), 0.0)
+    forces = forces_at(roller, station(load), 0.0)
     pressed = model.rib.share * load
     sliding = float(ROW.rib_sliding_speed(SHAFT))
     entrainment = float(ROW.rib_entrainment_speed(SHAFT))
     bare = rib_contact(MAIN, OIL)._replace(roughness=1e-12)
     state = rib_state(bare, pressed, entrainment, sliding, LAWS)
     friction = float(state.friction_coefficient) * pressed
-    assert -float(found["rib"]) == pytest.approx(friction, rel=2e-3)
-    assert float(found["rib_power"]) == pytest.approx(friction * sliding, rel=2e-3)
-    assert float(found["rib_rough"]) == 0.0
+    assert -float(forces["rib"]) == pytest.approx(friction, rel=2e-3)
+    assert float(forces["rib_power"]) == pytest.approx(friction * sliding, rel=2e-3)
+    assert float(forces["rib_rough"]) == 0.0
 
 
 def test_slope_of_all_forces_by_slip(made):

@@ -52,24 +52,24 @@ def test_check_values_of_a_second_derivation(skew, package_laws):
     flooded = FILM_LAWS.named(Laws.physical().film)
     register_film("thinner", lambda *contact: 0.7 * flooded(*contact), reference="none")
     laws = prepare(CHOICE.but(film="thinner", starvation=False), BEARING, OIL, 1)
-    found = equilibrium(raceways(laws, BEARING, 1, None), laws, LOADS, SPEED, skew)
+    state = equilibrium(raceways(laws, BEARING, 1, None), laws, LOADS, SPEED, skew)
     moment, inner, outer, axial = np.array(CHECK[skew]).T
     # The other derivation leaves out what the ellipse's own width and turn do: 2 % at the largest skew and load.
-    assert found.moment == pytest.approx(moment, rel=0.025)
-    assert found.power[..., 0] == pytest.approx(inner, rel=0.011)
-    assert found.power[..., 1] == pytest.approx(outer, rel=0.011)
+    assert state.moment == pytest.approx(moment, rel=0.025)
+    assert state.power[..., 0] == pytest.approx(inner, rel=0.011)
+    assert state.power[..., 1] == pytest.approx(outer, rel=0.011)
     # Those are rounded to newtons.
-    assert (np.abs(found.axial - axial) < 0.51 + 0.01 * axial).all()
+    assert (np.abs(state.axial - axial) < 0.51 + 0.01 * axial).all()
 
 
 def test_conditions_hold_with_contacts_where_the_roller_puts_them():
     both, load, skew = pair(), 5e4, 5e-3
-    found = equilibrium(both, LAWS, load, SPEED, skew)
-    tilt, shift, forces, couple = found.tilt, found.shift, 0.0, 0.0
+    state = equilibrium(both, LAWS, load, SPEED, skew)
+    tilt, shift, forces, couple = state.tilt, state.shift, 0.0, 0.0
     for one in both:
         k, r, bend = one.side, one.roller_radius, one.along
         middle = (-k * tilt + bend * (shift + k * r * tilt)) / one.lateral
-        traction = resultants(one, load, SPEED, found.slip, skew, middle, tilt).axial
+        traction = resultants(one, load, SPEED, state.slip, skew, middle, tilt).axial
         place = middle + shift + k * r * tilt
         normal = np.array([-k * load, -load * bend * place])  # along y' and z'
         forces += traction + normal[1]
@@ -136,6 +136,6 @@ def test_a_roller_at_its_stop_touches_its_pocket(guidance, gap):
             at(half),
         )
 
-    found = pocket(BEARING, guidance, gap)
+    stop = pocket(BEARING, guidance, gap)
     touching = brentq(clearance, 1e-5, 0.1)
-    assert found.largest == pytest.approx(touching, rel=0.01)
+    assert stop.largest == pytest.approx(touching, rel=0.01)

@@ -47,9 +47,9 @@ QUANTITIES += ("bearing_temperature", "nacelle_temperature", "ambient_temperatur
 @pytest.mark.parametrize("maker", EXPORTS)
 def test_columns_of_common_exports_are_recognized(maker):
     names, expected = EXPORTS[maker]
-    found = recognized(name.removeprefix("# ") for name in names.split(","))
-    assert tuple(found.get(quantity) for quantity in QUANTITIES) == expected
-    assert "time" in found
+    columns = recognized(name.removeprefix("# ") for name in names.split(","))
+    assert tuple(columns.get(quantity) for quantity in QUANTITIES) == expected
+    assert "time" in columns
 
 
 @pytest.mark.parametrize(

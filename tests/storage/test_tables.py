@@ -42,9 +42,9 @@ def test_a_table_is_found_on_the_disk(place, monkeypatch):
     make = Maker()
     made = store.stored("ab12", make)
     forget(monkeypatch)
-    found = store.stored("ab12", make)
-    assert make.count == 1 and len(found) == 2
-    for one, other in zip(found, made, strict=True):
+    stored = store.stored("ab12", make)
+    assert make.count == 1 and len(stored) == 2
+    for one, other in zip(stored, made, strict=True):
         np.testing.assert_array_equal(one, other)
         assert one.dtype == other.dtype and not one.flags.writeable and not other.flags.writeable
 

@@ -47,32 +47,32 @@ def directory(tmp_path_factory):
 
 
 def test_the_mean_power_of_all_loads_is_what_is_lost_at_one_temperature(directory):
-    found = open_study(directory)
-    assert np.unique(found.temperature).size == 1
+    study = open_study(directory)
+    assert np.unique(study.temperature).size == 1
     weights = np.array(
         [
             np.exp(-(((v - 1.0) / 9.5) ** 2)) - np.exp(-(((v + 1.0) / 9.5) ** 2))
             for v in (12.0, 24.0)
         ]
     )
-    mean = float((found.friction_power * weights).sum() / weights.sum())
-    assert mean == pytest.approx(float(lost(found.temperature[0])), abs=0.3 * CONDUCTANCE)
+    mean = float((study.friction_power * weights).sum() / weights.sum())
+    assert mean == pytest.approx(float(lost(study.temperature[0])), abs=0.3 * CONDUCTANCE)
     # No load history is at its own balance: 12B heats more than the mean, 24B less.
-    assert found.friction_power[0] > lost(found.temperature[0]) > found.friction_power[1]
-    assert found.temperature.attrs["units"] == "K"
+    assert study.friction_power[0] > lost(study.temperature[0]) > study.friction_power[1]
+    assert study.temperature.attrs["units"] == "K"
 
 
 def test_every_result_was_computed_at_that_temperature(directory):
-    found = open_study(directory)
-    np.testing.assert_array_equal(found.inlet_temperature, found.temperature)
-    assert (found.outcome == "completed").all()
+    study = open_study(directory)
+    np.testing.assert_array_equal(study.inlet_temperature, study.temperature)
+    assert (study.outcome == "completed").all()
     # The way there: the surroundings' temperature, 30 K above, and ever closer, each for both load histories.
     log = (directory / BALANCE_RUNS / "log.txt").read_text()
     on_the_way = [float(one) for one in re.findall(r"temperature ([\d.]+): completed", log)]
     assert {AMBIENT, AMBIENT + 30.0} <= set(on_the_way) and len(on_the_way) == 2 * len(
         set(on_the_way)
     ) >= 6
-    assert min(abs(one - float(found.temperature[0])) for one in on_the_way) < 0.2
+    assert min(abs(one - float(study.temperature[0])) for one in on_the_way) < 0.2
 
 
 def test_going_on_computes_nothing_again(directory):
@@ -90,10 +90,10 @@ def test_oils_have_a_temperature_each(tmp_path):
     content["case"]["laws"] = {"model": "paper"}
     content["case"]["loads"] = {"end": "7 s"}
     run_study(study_of(content), tmp_path / "out", threads=1)
-    found = open_study(tmp_path / "out")
-    by_point = found.temperature.values.reshape(2, 3)
+    study = open_study(tmp_path / "out")
+    by_point = study.temperature.values.reshape(2, 3)
     np.testing.assert_array_equal(by_point[0], by_point[1])
-    power = found.friction_power.values.reshape(2, 3).mean(axis=0)
+    power = study.friction_power.values.reshape(2, 3).mean(axis=0)
     conductance = np.array([60.0, 60.0, 30.0])
     np.testing.assert_allclose(power, conductance * (by_point[0] - AMBIENT), atol=0.3 * 60.0)
     assert by_point[0, 2] > by_point[0, 0]
@@ -122,8 +122,8 @@ def test_warmer_inner_rings_take_clearance_in_a_study_too(tmp_path):
         "ring_conductance": "100 W/K",
     }
     assert not run_study(study_of(content), tmp_path / "out", threads=1).failures
-    found = open_study(tmp_path / "out")
-    at = float(found.temperature[0])
+    study = open_study(tmp_path / "out")
+    at = float(study.temperature[0])
     case = case_at(content, at)
     # Half of the power goes from ring to ring; 11.9e-6 per kelvin over the pitch diameter. The bearing's clearance is warm,
     # with its oil at 35 degC.
@@ -132,7 +132,7 @@ def test_warmer_inner_rings_take_clearance_in_a_study_too(tmp_path):
     assert 0.0 < left == pytest.approx(case.bearing.diametral_clearance, rel=1e-6)
     result = simulate(replace(case, loads=HubLoads.bundled("12B").window(0.0, 9.0)))
     energy = result.energy.mean("roller").sel(row="downwind").values
-    np.testing.assert_allclose(found.energy_mean.sel(row="downwind")[0], energy.sum(), rtol=1e-6)
+    np.testing.assert_allclose(study.energy_mean.sel(row="downwind")[0], energy.sum(), rtol=1e-6)
 
 
 def case_at(content, temperature):

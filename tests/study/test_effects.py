@@ -50,12 +50,12 @@ def sample(of, lubricants=("a", "b")):
 
 def test_effects_of_a_plane_are_its_slopes():
     """P = 10 + 4 x: halves of an even sample of [0, 1] differ by 0.5 in their mean, so by 2 W of 12 W; y does nothing."""
-    found = effects(sample(lambda x, y: 10.0 + 4.0 * x)).sel(quantity="energy")
-    assert found.main_effect.values[0] == pytest.approx(2.0 / 12.0, rel=0.02)
-    assert abs(found.main_effect.values[1]) < 2.0 * found.main_effect_error.values[1]
+    effect = effects(sample(lambda x, y: 10.0 + 4.0 * x)).sel(quantity="energy")
+    assert effect.main_effect.values[0] == pytest.approx(2.0 / 12.0, rel=0.02)
+    assert abs(effect.main_effect.values[1]) < 2.0 * effect.main_effect_error.values[1]
     # The second oil has ten times the energy: the ranks are those within each oil.
-    assert found.rank_correlation.values[0] > 0.99 and abs(found.rank_correlation.values[1]) < 0.2
-    assert found.probability.values[0] < 1e-9 and int(found.points) == 64
+    assert effect.rank_correlation.values[0] > 0.99 and abs(effect.rank_correlation.values[1]) < 0.2
+    assert effect.probability.values[0] < 1e-9 and int(effect.points) == 64
     one = effects(sample(lambda x, y: 10.0 + 4.0 * x, ("a",)))
     middle = one["range"].sel(quantity="energy", quantile=0.5)
     assert (
@@ -123,8 +123,8 @@ def test_designs_of_a_year_by_hand():
     weights = Year(
         BinProbabilities({12.0: 0.5}), {"parked-12": Rate(87.66, in_hours=True)}
     )  # 1 % of a year
-    found = year(of_year(), Aggregation(weights))
-    table, told = designs(found)
+    annual = year(of_year(), Aggregation(weights))
+    table, told = designs(annual)
     windy = 0.5 * 0.99 * YEAR
     assert table.lubricant.tolist() == ["b", "a"]  # 2 W and 3 W in both rows
     np.testing.assert_allclose(table.energy, [2.0 * windy, 3.0 * windy], rtol=1e-12)
@@ -143,7 +143,7 @@ def test_designs_of_a_year_by_hand():
     assert "wear" not in table and "entry_slip" not in table
     assert any("wear at k = 1e-17 m²/N" in one for one in told)
     assert "Entries leave out 87.7 h a year in which no orbit is complete." in told
-    assert design_names(found) == ["a", "b"]
+    assert design_names(annual) == ["a", "b"]
 
 
 def test_a_value_that_one_model_sets_is_said_by_its_name():
@@ -167,9 +167,11 @@ def test_designs_that_differ_in_their_names_only_are_told():
 def test_a_design_without_results_is_not_ranked():
     gone = of_year()
     gone["energy_mean"][2:] = np.nan
-    found = compare(gone, by="lubricant")
-    assert found.attrs["ranking"] == "The designs cannot be ranked: the energy of b is not known."
-    assert "2 runs without a result are left out." in found.attrs["notes"]
+    comparison = compare(gone, by="lubricant")
+    assert (
+        comparison.attrs["ranking"] == "The designs cannot be ranked: the energy of b is not known."
+    )
+    assert "2 runs without a result are left out." in comparison.attrs["notes"]
 
 
 def test_a_sample_of_three_points_tells_nothing():

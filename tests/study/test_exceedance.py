@@ -33,7 +33,7 @@ def study(tmp_path_factory):
 
 
 def test_curves_count_orbits(study):
-    found = exceedance(study, Aggregation(WEIGHTS)).isel(group=0)
+    curves = exceedance(study, Aggregation(WEIGHTS)).isel(group=0)
     good = study.isel(case=[0, 2, 4])
     for name, values in (
         ("energy_orbits", good.orbit_energy.sum("interface", skipna=False)),
@@ -41,7 +41,7 @@ def test_curves_count_orbits(study):
     ):
         for row in ("downwind", "upwind"):
             part, length = values.sel(row=row), (good.orbit_end - good.orbit_start)
-            for threshold in found.threshold.values[[1, found.sizes["threshold"] // 2, -2]]:
+            for threshold in curves.threshold.values[[1, curves.sizes["threshold"] // 2, -2]]:
                 rates = []
                 for cases in ([0, 1], [2]):
                     number = int((part.isel(case=cases) > threshold).sum())
@@ -50,38 +50,40 @@ def test_curves_count_orbits(study):
                     )
                     rates.append(number / seconds)
                 expected = YEAR * (0.6 * rates[0] + 0.3 * rates[1])
-                assert float(found[name].sel(row=row, threshold=threshold)) == pytest.approx(
+                assert float(curves[name].sel(row=row, threshold=threshold)) == pytest.approx(
                     expected, rel=1e-12
                 )
 
 
 def test_curves_fall_from_all_orbits_to_none(study):
-    found = exceedance(study, Aggregation(WEIGHTS)).isel(group=0)
+    curves = exceedance(study, Aggregation(WEIGHTS)).isel(group=0)
     for name in ("energy_orbits", "power_orbits"):
-        assert (np.diff(found[name]) <= 0.0).all()
-    assert (found.energy_orbits.isel(threshold=-1) == 0.0).all() and (
-        found.power_orbits.isel(threshold=-1) == 0.0
+        assert (np.diff(curves[name]) <= 0.0).all()
+    assert (curves.energy_orbits.isel(threshold=-1) == 0.0).all() and (
+        curves.power_orbits.isel(threshold=-1) == 0.0
     ).all()
     np.testing.assert_allclose(
-        found.orbits,
-        np.maximum(found.energy_orbits, found.power_orbits).max("threshold"),
+        curves.orbits,
+        np.maximum(curves.energy_orbits, curves.power_orbits).max("threshold"),
         rtol=1e-12,
     )
     # About 0.15 orbits a second.
-    assert 0.1 < float(found.orbits[0]) / (0.9 * YEAR) < 0.2
+    assert 0.1 < float(curves.orbits[0]) / (0.9 * YEAR) < 0.2
 
 
 def test_a_group_without_results_has_no_curve(study):
-    found = exceedance(study, Aggregation(WEIGHTS))
-    assert found.sizes["group"] == 2 and np.isnan(found.energy_orbits.isel(group=1)).all()
-    assert found.left_out.values.tolist() == [[0, 0], [2, 1]]
+    curves = exceedance(study, Aggregation(WEIGHTS))
+    assert curves.sizes["group"] == 2 and np.isnan(curves.energy_orbits.isel(group=1)).all()
+    assert curves.left_out.values.tolist() == [[0, 0], [2, 1]]
 
 
 def test_spectrum_is_the_weighted_sum_of_what_was_counted(study):
-    found = load_spectrum(study, Aggregation(WEIGHTS, years=3.0)).isel(group=0)
-    cycles = study.load_cycles.isel(case=[0, 2, 4]).sel(load_range=found.load_range).values / 40.0
+    spectrum = load_spectrum(study, Aggregation(WEIGHTS, years=3.0)).isel(group=0)
+    cycles = (
+        study.load_cycles.isel(case=[0, 2, 4]).sel(load_range=spectrum.load_range).values / 40.0
+    )
     expected = 3.0 * YEAR * (0.6 * cycles[:2].mean(axis=0) + 0.3 * cycles[2])
-    np.testing.assert_allclose(found.cycles, expected, rtol=1e-9)
+    np.testing.assert_allclose(spectrum.cycles, expected, rtol=1e-9)
     with pytest.raises(InputError, match="has not counted cycles"):
         load_spectrum(study.drop_vars("load_cycles"), Aggregation(WEIGHTS))
 
@@ -109,12 +111,14 @@ def test_cycles_against_the_example_of_the_standard():
     fine = np.linspace(0, peaks.size - 1, 8 * 100 + 1)
     force = np.zeros((fine.size, 3))
     force[:, 2] = np.interp(fine, np.arange(peaks.size), peaks)
-    found = counted(BearingLoads(fine, np.full(fine.size, 2.0), force, "standard")).load_cycles.sel(
-        component="axial"
-    )
-    assert float(found.sum()) == 4.0
+    cycles = counted(
+        BearingLoads(fine, np.full(fine.size, 2.0), force, "standard")
+    ).load_cycles.sel(component="axial")
+    assert float(cycles.sum()) == 4.0
     counts = {
-        float(r): float(n) for r, n in zip(found.load_range.values, found.values, strict=True) if n
+        float(r): float(n)
+        for r, n in zip(cycles.load_range.values, cycles.values, strict=True)
+        if n
     }
     assert sorted(round(r / 1e4) for r in counts) == [3, 4, 7, 9]
 

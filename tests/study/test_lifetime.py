@@ -39,10 +39,10 @@ def study(energy=(600.0, 1200.0, 1800.0, 60.0, 60.0, 6.0, 6.0)):
 
 
 def test_lifetime_energy_is_the_weighted_sum():
-    found = lifetime_energy(
+    life = lifetime_energy(
         study(), Aggregation(BinProbabilities({12.0: 0.5, 14.0: 0.25}), years=2.0)
     )
-    first, second = found.isel(group=0), found.isel(group=1)
+    first, second = life.isel(group=0), life.isel(group=1)
     assert float(first["bearing.diametral_clearance"]) == 0.0
     seconds = 2.0 * YEAR
     expected = seconds * (0.5 * 2.0 + 0.25 * 0.1)  # means of 1, 2, 3 W and of 0.1, 0.1 W
@@ -50,7 +50,7 @@ def test_lifetime_energy_is_the_weighted_sum():
     np.testing.assert_allclose(
         second.lifetime_energy, seconds * 0.75 * np.array([0.01, 0.02]), rtol=1e-14
     )
-    assert float(found.covered) == 0.75 and found.runs.values.tolist() == [[3, 2], [1, 1]]
+    assert float(life.covered) == 0.75 and life.runs.values.tolist() == [[3, 2], [1, 1]]
 
 
 @pytest.mark.slow
@@ -64,42 +64,44 @@ def test_weibull_bins_cover_all_speeds(scale, shape, width):
 
 def test_a_run_without_a_result_is_left_out_and_reported():
     broken = study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, np.nan))
-    found = lifetime_energy(broken, Aggregation(BinProbabilities({12.0: 0.5, 14.0: 0.25})))
-    assert found.left_out.values.tolist() == [[1, 0], [0, 1]]
-    assert float(found.power.isel(group=0).sel(bin=12.0, row="downwind")) == 2.0
+    life = lifetime_energy(broken, Aggregation(BinProbabilities({12.0: 0.5, 14.0: 0.25})))
+    assert life.left_out.values.tolist() == [[1, 0], [0, 1]]
+    assert float(life.power.isel(group=0).sel(bin=12.0, row="downwind")) == 2.0
     # A bin without any run gives no number, unless it has no weight.
-    assert np.isnan(found.lifetime_energy.isel(group=1)).all()
+    assert np.isnan(life.lifetime_energy.isel(group=1)).all()
     without = lifetime_energy(broken, Aggregation(BinProbabilities({12.0: 0.5, 14.0: 0.0})))
     assert np.isfinite(without.lifetime_energy).all()
 
 
 def test_percentiles_over_seeds():
-    found = (
+    spread = (
         percentiles(study(), quantiles=(0.0, 0.5, 1.0)).isel(group=0).sel(bin=12.0, row="downwind")
     )
-    assert found.power.values.tolist() == [1.0, 2.0, 3.0]
+    assert spread.power.values.tolist() == [1.0, 2.0, 3.0]
     assert (
-        found.peak_power_max.values.tolist() == [600.0, 1200.0, 1800.0] and float(found.runs) == 3
+        spread.peak_power_max.values.tolist() == [600.0, 1200.0, 1800.0] and float(spread.runs) == 3
     )
 
 
 def test_the_worst_come_first():
-    found = worst(study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, 6.0)), "peak_power_max", count=3)
-    assert found.peak_power_max.values.tolist() == [3600.0, 1800.0, 1200.0]
-    assert found.row.values.tolist() == [
+    worst_runs = worst(
+        study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, 6.0)), "peak_power_max", count=3
+    )
+    assert worst_runs.peak_power_max.values.tolist() == [3600.0, 1800.0, 1200.0]
+    assert worst_runs.row.values.tolist() == [
         "upwind",
         "downwind",
         "upwind",
-    ] and found.seed.values.tolist() == [3, 3, 1]
+    ] and worst_runs.seed.values.tolist() == [3, 3, 1]
     assert worst(study(), "energy_mean", count=1, smallest=True).energy_mean.values.tolist() == [
         6.0
     ]
 
 
 def test_bins_and_groups():
-    found = binned(study(), "wind_speed", 2.0, by=["seed"])
-    assert found.centres.tolist() == [12.0, 14.0] and found.bin.tolist() == [0, 0, 0, 1, 1, 0, 1]
-    assert len(found.groups) == 4
+    bins = binned(study(), "wind_speed", 2.0, by=["seed"])
+    assert bins.centres.tolist() == [12.0, 14.0] and bins.bin.tolist() == [0, 0, 0, 1, 1, 0, 1]
+    assert len(bins.groups) == 4
     # A parameter that some runs leave to the base case is one value of it.
     some = study().assign_coords(
         {"bearing.diametral_clearance": ("case", [math.nan] * 5 + [0.2] * 2)}
@@ -127,12 +129,12 @@ def test_a_bin_reaches_half_its_width_to_either_side():
     expected = np.array([low, 0.5 * middle, 0.5 * middle, high]) / (low + middle + high)
     loads = [Load(str(speed), {"wind_speed": speed}) for speed in speeds]
     np.testing.assert_allclose(Weighting(scale=9.5, shape=2.0).of(loads), expected, rtol=1e-12)
-    found = binned(
+    bins = binned(
         study().isel(case=slice(4)).assign_coords(wind_speed=("case", speeds)), "wind_speed", 2.0
     )
-    assert (found.centres.tolist(), found.bin.tolist()) == ([10.0, 12.0, 14.0], [0, 1, 1, 2])
+    assert (bins.centres.tolist(), bins.bin.tolist()) == ([10.0, 12.0, 14.0], [0, 1, 1, 2])
     np.testing.assert_allclose(
-        found.probabilities(Weibull(9.5, 2.0)), [low, middle, high], rtol=1e-12
+        bins.probabilities(Weibull(9.5, 2.0)), [low, middle, high], rtol=1e-12
     )
 
 

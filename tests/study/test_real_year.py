@@ -85,14 +85,14 @@ def months(rows=9000, seed=2):
 def test_one_temperature_gives_the_year_of_aggregate():
     wind, _ = months()
     turning = np.arange(9000) % 5 > 0
-    found = real_year(turbine(wind, np.full(9000, 35.0), turning), made_up_study(weights=WEIGHTS))
+    real = real_year(turbine(wind, np.full(9000, 35.0), turning), made_up_study(weights=WEIGHTS))
     study = made_up_study(weights=WEIGHTS)
     at_35 = study.isel(case=np.flatnonzero(study["lubricant.at"].values == 35.0))
     share = {speed: float((wind[turning] == speed).sum() / 9000) for speed in (4.0, 8.0, 12.0)}
     events = {name: Rate.written(text) for name, text in EVENTS.items()}
     weights = Year(BinProbabilities(share), events)
     expected = designs(year(at_35, Aggregation(weights, 1.0, width=4.0)))[0].iloc[0]
-    for line in found.table.to_dict("records"):
+    for line in real.table.to_dict("records"):
         for name in ("real", "at_mean", "fixed"):
             assert line[name] == pytest.approx(expected[line["quantity"]], rel=1e-9), line
 
@@ -147,8 +147,8 @@ def test_a_year_is_the_sum_over_bins_that_a_loop_makes():
 
 def test_five_kelvin_change_wear_by_what_the_rates_say():
     wind, celsius = months()
-    found = real_year(turbine(wind, celsius.clip(16.0, 34.0)), made_up_study(weights=WEIGHTS))
-    wear = found.table.set_index("quantity").loc["wear"]
+    real = real_year(turbine(wind, celsius.clip(16.0, 34.0)), made_up_study(weights=WEIGHTS))
+    wear = real.table.set_index("quantity").loc["wear"]
     assert wear["oil_warmer"] / wear["real"] == pytest.approx(np.exp(0.158 * 5.0), rel=1e-9)
     assert wear["real"] / wear["oil_cooler"] == pytest.approx(np.exp(0.158 * 5.0), rel=1e-9)
     offset = real_year(
@@ -173,14 +173,14 @@ def test_bins_add_up_to_the_year():
 
 def test_seeds_scatter_as_the_two_runs_of_a_bin():
     wind = np.full(9000, 8.0)
-    found = real_year(turbine(wind, np.full(9000, 35.0)), made_up_study(weights=WEIGHTS))
+    real = real_year(turbine(wind, np.full(9000, 35.0)), made_up_study(weights=WEIGHTS))
     runs = np.array([wear_rate(8.0, 35.0, n) for n in (1, 2)])
     events = 200.0 * SECONDS / YEAR + 400.0 * 3600.0 / YEAR
     of_events = 200.0 * SECONDS * wear_rate(8.0, 35.0, 4) / YEAR
     of_events += 400.0 * 3600.0 * wear_rate(6.0, 35.0, 5) / YEAR
     error = (1.0 - events) * runs.std(ddof=1) / np.sqrt(2.0)
     expected = 100.0 * error / ((1.0 - events) * runs.mean() + of_events)
-    assert found.table.set_index("quantity").loc["wear", "seeds [%]"] == pytest.approx(expected)
+    assert real.table.set_index("quantity").loc["wear", "seeds [%]"] == pytest.approx(expected)
 
 
 def test_a_distribution_of_the_wind_keeps_the_temperatures():
@@ -188,9 +188,9 @@ def test_a_distribution_of_the_wind_keeps_the_temperatures():
     celsius = np.where(wind == 4.0, 15.0, np.where(wind == 8.0, 25.0, 35.0))
     study = made_up_study(weights=WEIGHTS)
     weibull = Weibull(8.0, 2.0)
-    found = real_year(turbine(wind, celsius), study, wind=weibull)
+    real = real_year(turbine(wind, celsius), study, wind=weibull)
     events = 200.0 * SECONDS / YEAR + 400.0 * 3600.0 / YEAR
-    bins = found.bins.groupby("wind_speed [m/s]")["share"].sum()
+    bins = real.bins.groupby("wind_speed [m/s]")["share"].sum()
     for speed in (4.0, 8.0, 12.0):
         expected = (1.0 - events) * weibull.probability(speed, 4.0)
         assert bins[speed] == pytest.approx(expected, rel=1e-12)
@@ -199,8 +199,8 @@ def test_a_distribution_of_the_wind_keeps_the_temperatures():
 def test_designs_are_kept_apart():
     wind, celsius = months()
     study = made_up_study(weights=WEIGHTS, clearances=(0.0, 0.5))
-    found = real_year(turbine(wind, celsius), study)
-    wear = found.table[found.table["quantity"] == "wear"]
+    real = real_year(turbine(wind, celsius), study)
+    wear = real.table[real.table["quantity"] == "wear"]
     assert sorted(wear["design"]) == ["diametral clearance 0 mm", "diametral clearance 0.5 mm"]
     assert wear["real"].max() / wear["real"].min() == pytest.approx(1.5, rel=1e-12)
 
@@ -228,9 +228,9 @@ def test_a_failed_run_is_left_out_and_told():
     case = np.flatnonzero((study.loads.values == "8b") & (study["lubricant.at"].values == 45.0))
     study.energy_mean[case] = np.nan
     study.wear_rate[case] = np.nan
-    found = real_year(turbine(wind, celsius), study)
-    assert found.table.set_index("quantity").loc["wear", "real"] > 0.0
-    assert any("left out" in note for note in found.notes)
+    real = real_year(turbine(wind, celsius), study)
+    assert real.table.set_index("quantity").loc["wear", "real"] > 0.0
+    assert any("left out" in note for note in real.notes)
 
 
 def test_load_by_power_takes_the_wind_of_the_same_share_of_rated_power():
@@ -414,8 +414,8 @@ def test_two_designs_are_compared_on_a_measured_year():
     joint = JointShares.of(turbine(wind, celsius), np.array([4.0, 8.0, 12.0]), 4.0)
     weights = {"width": 4.0, "scada": joint.content(), "events": EVENTS}
     study = made_up_study(weights=weights, clearances=(0.0, 0.5))
-    found = compare_designs(study)
-    wear = found[found["quantity"].str.startswith("wear")]
+    comparison = compare_designs(study)
+    wear = comparison[comparison["quantity"].str.startswith("wear")]
     assert wear["difference [%]"].iloc[1] == pytest.approx(50.0, rel=1e-9)
     expected = real_year(turbine(wind, celsius), study).table
     real = expected[expected["quantity"] == "wear"]["real"].to_numpy()

@@ -253,8 +253,8 @@ WORDS = st.text("abcXYZ-_. ", min_size=1, max_size=8).filter(lambda text: text.s
 @given(st.floats(-1e3, 1e3, allow_nan=False), st.integers(0, 10**6), WORDS)
 def test_what_was_written_into_a_name_is_read_from_it(speed, seed, site):
     name = f"{site}/dlc12_{speed!r}mps_seed{seed}.outb"
-    found = Pattern("{site}/dlc12_{wind_speed:g}mps_seed{seed:d}.outb").fields_of(name)
-    assert found == {"site": site, "wind_speed": speed, "seed": seed}
+    fields = Pattern("{site}/dlc12_{wind_speed:g}mps_seed{seed:d}.outb").fields_of(name)
+    assert fields == {"site": site, "wind_speed": speed, "seed": seed}
 
 
 @pytest.mark.parametrize(

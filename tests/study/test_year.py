@@ -65,35 +65,35 @@ def test_all_rollers_of_events_are_computed(tmp_path):
 
 
 def test_events_take_their_time_and_wind_speeds_the_rest():
-    found = year(study(), Aggregation(YEARLY))
+    annual = year(study(), Aggregation(YEARLY))
     starts, idle = 300.0 * 100.0, 400.0 * HOUR
     windy = 0.5 * (YEAR - starts - idle)
-    np.testing.assert_allclose(found.hours * HOUR, [windy, starts, idle], rtol=1e-12)
-    assert found.event.values.tolist() == ["", "start-8", "idle-6"]
+    np.testing.assert_allclose(annual.hours * HOUR, [windy, starts, idle], rtol=1e-12)
+    assert annual.event.values.tolist() == ["", "start-8", "idle-6"]
     # 1.5 W in the mean of two runs; 300 starts of 300 J each; 0.25 W.
     np.testing.assert_allclose(
-        found.energy.isel(group=0).sel(row="downwind"),
+        annual.energy.isel(group=0).sel(row="downwind"),
         [1.5 * windy, 300.0 * 300.0, 0.25 * idle],
         rtol=1e-12,
     )
     np.testing.assert_allclose(
-        found.per_hour.isel(group=0).sel(row="upwind"), 2.0 * HOUR * np.array([1.5, 3.0, 0.25])
+        annual.per_hour.isel(group=0).sel(row="upwind"), 2.0 * HOUR * np.array([1.5, 3.0, 0.25])
     )
     life = lifetime_energy(study(), Aggregation(YEARLY, years=2.0))
-    np.testing.assert_allclose(life.lifetime_energy, 2.0 * found.total, rtol=1e-12)
+    np.testing.assert_allclose(life.lifetime_energy, 2.0 * annual.total, rtol=1e-12)
     # 8.33 h of starts, 400 h of idling, and half of the 8357.7 h that are left of 8766 h.
     expected = "The cases cover 52 % of a year: 4179 h of wind speeds and 408 h of events, whose supervisor is assumed."
-    assert coverage(found) == expected
+    assert coverage(annual) == expected
 
 
 def test_lives_accumulate_by_damage_and_loads_by_their_power():
-    found = year(study(), Aggregation(YEARLY))
-    share = found.hours.values / found.hours.values.sum()
+    annual = year(study(), Aggregation(YEARLY))
+    share = annual.hours.values / annual.hours.values.sum()
     np.testing.assert_allclose(
-        1.0 / found.basic_life.item(), share[0] / 2e4 + share[1] / 1e4, rtol=1e-12
+        1.0 / annual.basic_life.item(), share[0] / 2e4 + share[1] / 1e4, rtol=1e-12
     )
     expected = (share[0] * 3e5**4 + share[1] * 4e5**4) ** 0.25
-    np.testing.assert_allclose(found.damage_equivalent_load_4.item(), expected, rtol=1e-12)
+    np.testing.assert_allclose(annual.damage_equivalent_load_4.item(), expected, rtol=1e-12)
     # A life that is not known is not passed over.
     assert np.isnan(
         year(study(life=(2e4, 2e4, np.nan, np.inf)), Aggregation(YEARLY)).basic_life.item()
@@ -101,9 +101,9 @@ def test_lives_accumulate_by_damage_and_loads_by_their_power():
 
 
 def test_scatter_is_that_of_runs_in_a_bin():
-    found = year(study().isel(case=slice(2)), Aggregation(BinProbabilities({12.0: 1.0})))
+    annual = year(study().isel(case=slice(2)), Aggregation(BinProbabilities({12.0: 1.0})))
     # 1 and 2 W: s = 0.707 W, over the root of two, in 1.5 W.
-    np.testing.assert_allclose(found.scatter, 0.5 / 1.5, rtol=1e-12)
+    np.testing.assert_allclose(annual.scatter, 0.5 / 1.5, rtol=1e-12)
     assert np.isnan(
         year(study().isel(case=[0, 2, 3]), Aggregation(BinProbabilities({12.0: 1.0}))).scatter
     ).all()
@@ -249,6 +249,6 @@ def test_weights_that_underflow_are_refused_where_results_are_weighted():
 
 
 def test_events_are_in_no_bin_of_wind_speeds():
-    found = binned(study(), "wind_speed", 2.0)
-    np.testing.assert_array_equal(found.centres, [12.0, np.nan, np.nan])
-    assert found.bin.tolist() == [0, 0, 1, 2]
+    bins = binned(study(), "wind_speed", 2.0)
+    np.testing.assert_array_equal(bins.centres, [12.0, np.nan, np.nan])
+    assert bins.bin.tolist() == [0, 0, 1, 2]

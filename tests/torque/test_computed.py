@@ -35,30 +35,30 @@ def constant(force, speed=SPEED, laws=Laws.paper(), **options):
 
 
 def test_torque_times_speed_is_what_is_dissipated(result):
-    found = computed_torque(result)
+    torque = computed_torque(result)
     loads = main_bearing_load(HubLoads.bundled("14B"), Drivetrain())
     np.testing.assert_allclose(
-        found.shaft_speed, np.interp(found.time, loads.time, loads.shaft_speed), rtol=1e-9
+        torque.shaft_speed, np.interp(torque.time, loads.time, loads.shaft_speed), rtol=1e-9
     )
     power = (result.power + result.rolling_power).sum(("row", "roller", "interface"))
     np.testing.assert_allclose(
-        (found.torque - found.drag_torque) * found.shaft_speed, power, rtol=1e-9
+        (torque.torque - torque.drag_torque) * torque.shaft_speed, power, rtol=1e-9
     )
-    inside = found.time >= result.attrs["window_start"]
-    work = np.trapezoid((power.values)[inside], found.time.values[inside])
+    inside = torque.time >= result.attrs["window_start"]
+    work = np.trapezoid((power.values)[inside], torque.time.values[inside])
     assert work == pytest.approx(float(result.energy.sum() + result.rolling_energy.sum()), rel=0.02)
 
 
 def test_parts_add_up_and_have_units(result):
-    found = computed_torque(result)
-    parts = (found.contact_torque + found.rolling_torque).sum(
+    torque = computed_torque(result)
+    parts = (torque.contact_torque + torque.rolling_torque).sum(
         ("row", "interface")
-    ) + found.drag_torque
-    np.testing.assert_allclose(parts, found.torque, rtol=1e-12)
-    assert (found.contact_torque >= 0.0).all()
-    assert (found.rolling_torque >= 0.0).all()
-    assert bool((found.rolling_torque > 0.0).any()) == (result.attrs["model"] == "physical")
-    assert {name: one.attrs["units"] for name, one in found.data_vars.items()} == {
+    ) + torque.drag_torque
+    np.testing.assert_allclose(parts, torque.torque, rtol=1e-12)
+    assert (torque.contact_torque >= 0.0).all()
+    assert (torque.rolling_torque >= 0.0).all()
+    assert bool((torque.rolling_torque > 0.0).any()) == (result.attrs["model"] == "physical")
+    assert {name: one.attrs["units"] for name, one in torque.data_vars.items()} == {
         "shaft_speed": "rad/s",
         "torque": "N m",
         "contact_torque": "N m",
@@ -86,11 +86,11 @@ def test_microslip_is_felt_downwind_and_the_cage_under_the_papers_model():
 
 
 def test_drag_is_that_of_the_rollers_at_their_speed():
-    found = computed_torque(constant([0.0, -300e3, 100e3]))
+    torque = computed_torque(constant([0.0, -300e3, 100e3]))
     # Half of C_D times density times fill factor, the area 2 r l, and (Ω r~)² at Ω = Ω_in r~_in/(r~_in + r~_out).
     speed = SPEED * 0.338367 / (0.338367 + 0.407033) * 0.3727
     force = 0.5 * 1.0 * 900.0 * 0.7 * (2.0 * 0.035 * 0.106) * speed**2
-    np.testing.assert_allclose(found.drag_torque, 56 * force * speed / SPEED, rtol=1e-5)
+    np.testing.assert_allclose(torque.drag_torque, 56 * force * speed / SPEED, rtol=1e-5)
     assert (computed_torque(constant([0.0, -300e3, 100e3], drag=False)).drag_torque == 0.0).all()
 
 
@@ -110,9 +110,9 @@ def test_a_failed_roller_leaves_no_number(result):
     broken = result.copy(deep=True)
     for name in ("power", "spin_pure"):
         broken[name][0, 0, 100:] = np.nan
-    found = computed_torque(broken)
-    assert np.isfinite(found.torque[:100]).all()
-    assert np.isnan(found.torque[100:]).all()
+    torque = computed_torque(broken)
+    assert np.isfinite(torque.torque[:100]).all()
+    assert np.isnan(torque.torque[100:]).all()
 
 
 def test_what_is_needed_is_said():
@@ -134,12 +134,12 @@ def test_handbooks_are_told_of_the_same_times(result):
     case = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper())
     loads = main_bearing_load(case.loads, case.drivetrain)
     computed = computed_torque(result)
-    found = torque_histories({"one": computed}, loads, case.bearing, case.lubricant)
-    assert list(found) == ["model one", "SKF, sliding", "SKF, all", "Palmgren, all"]
-    np.testing.assert_array_equal(found["model one"].torque, computed.torque)
-    assert found["SKF, all"].time[-1] <= float(computed.time[-1])
+    histories = torque_histories({"one": computed}, loads, case.bearing, case.lubricant)
+    assert list(histories) == ["model one", "SKF, sliding", "SKF, all", "Palmgren, all"]
+    np.testing.assert_array_equal(histories["model one"].torque, computed.torque)
+    assert histories["SKF, all"].time[-1] <= float(computed.time[-1])
     k = 100
     radial = np.hypot(*loads.force[k, :2])
     skf = skf_torque(case.bearing, case.lubricant, radial, loads.force[k, 2], loads.shaft_speed[k])
-    assert found["SKF, all"].time[k - 1] == loads.time[k]
-    assert found["SKF, sliding"].torque[k - 1] == pytest.approx(float(skf.sliding), rel=1e-12)
+    assert histories["SKF, all"].time[k - 1] == loads.time[k]
+    assert histories["SKF, sliding"].torque[k - 1] == pytest.approx(float(skf.sliding), rel=1e-12)

@@ -8,9 +8,9 @@ from validation.heat import Heat, State
 
 
 def test_measured_ratios_carry_both_errors():
-    found = heat.measured_ratio((17.0, 12.0), (17.0, 8.0))
-    assert 0.5 * (found.low + found.high) == pytest.approx(1.99 / 1.44)
-    assert 0.5 * (found.high - found.low) == pytest.approx(
+    ratio = heat.measured_ratio((17.0, 12.0), (17.0, 8.0))
+    assert 0.5 * (ratio.low + ratio.high) == pytest.approx(1.99 / 1.44)
+    assert 0.5 * (ratio.high - ratio.low) == pytest.approx(
         1.99 / 1.44 * ((0.08 / 1.99) ** 2 + (0.04 / 1.44) ** 2) ** 0.5
     )
     assert heat.measured_level().low == pytest.approx(1.99 / 3600.0 * 2e6)
@@ -66,7 +66,7 @@ def test_the_record_is_stretched_to_the_speed_of_the_point(monkeypatch):
 
     monkeypatch.setattr(heat, "torque", torque)
     heat.power_of_case.cache_clear()
-    found = heat.power_of_case(8, 0.5, 30.0, "flooded")
+    heat_of_case = heat.power_of_case(8, 0.5, 30.0, "flooded")
     heat.power_of_case.cache_clear()
     case, loads = seen[0]
     assert loads.shaft_speed.mean() == pytest.approx(0.5 * heat.SPEED)
@@ -76,7 +76,7 @@ def test_the_record_is_stretched_to_the_speed_of_the_point(monkeypatch):
     assert turns == pytest.approx(np.trapezoid(whole.shaft_speed, whole.time), rel=1e-6)
     assert loads.time[-1] > 1.4 * whole.time[-1]
     assert case.oil.inlet_temperature == pytest.approx(303.15) and case.oil_supply == "flooded"
-    assert found == pytest.approx([0.5 * heat.SPEED * one for one in (100.0, 80.0, 60.0)])
+    assert heat_of_case == pytest.approx([0.5 * heat.SPEED * one for one in (100.0, 80.0, 60.0)])
 
 
 @pytest.mark.slow
@@ -91,6 +91,6 @@ def test_measured_heat_over_the_speed_lies_between_own_loads_and_equal_loads():
 
 @pytest.mark.slow
 def test_heat_grows_with_the_wind_less_than_measured():
-    found = heat.lhb_ratio((17.0, 12.0))
-    assert found["own"] == pytest.approx((0.991, 1.226), abs=0.005)
-    assert found["own"].high < heat.measured_ratio((17.0, 12.0), (17.0, 8.0)).low
+    ratios = heat.lhb_ratio((17.0, 12.0))
+    assert ratios["own"] == pytest.approx((0.991, 1.226), abs=0.005)
+    assert ratios["own"].high < heat.measured_ratio((17.0, 12.0), (17.0, 8.0)).low

@@ -35,13 +35,13 @@ def raceway(body, law, tables, load, speed, slip):
         return 0.0, 0.0, 0.0
     speeds = contact_speeds(speed, slip, body.closed_form)
     state = raceway_state(law, tables, body.closed_form, contact_load(load), speeds)
-    found = raceway_forces(body, law, tables, state, speeds)
-    spin = found.friction + found.shear
-    pull = found.pull
-    power = found.friction * slip + speed * (
-        law.curvature * found.lag - law.spin_ratio * found.skew
+    forces = raceway_forces(body, law, tables, state, speeds)
+    spin = forces.friction + forces.shear
+    pull = forces.pull
+    power = forces.friction * slip + speed * (
+        law.curvature * forces.lag - law.spin_ratio * forces.skew
     )
-    power += found.rolling_power
+    power += forces.rolling_power
     return spin, pull, power
 
 
@@ -161,7 +161,7 @@ def test_speeds_places_and_energies(run, bearing, displacement, cage, span, laws
     # Places at rounding of the angles (1e-16 rad) over pockets of 1e-4 m leave ten digits.
     # Energies act on nothing; SciPy enlarges their differences until they overflow.
     with np.errstate(over="ignore"):
-        found = solve_ivp(
+        solution = solve_ivp(
             rate,
             (0.0, span),
             begin,
@@ -171,17 +171,17 @@ def test_speeds_places_and_energies(run, bearing, displacement, cage, span, laws
             atol=1e-11,
             max_step=2e-3,
         )
-    assert found.success
-    relative = found.y[2 * n : 3 * n] - found.y[n : 2 * n] * math.cos(bearing.contact_angle)
+    assert solution.success
+    relative = solution.y[2 * n : 3 * n] - solution.y[n : 2 * n] * math.cos(bearing.contact_angle)
     scale = np.abs(relative).max()
     surface = result.at_end("outer_speed") - result.at_end("outer_slip")
     assert surface.T / prepared.radius == pytest.approx(relative, abs=3e-5 * scale)
-    assert result.cage_speed() == pytest.approx(found.y[3 * n + 1], rel=3e-5)
+    assert result.cage_speed() == pytest.approx(solution.y[3 * n + 1], rel=3e-5)
     outputs = result.at_outputs()
-    assert result.whole["cages"][outputs, 0, 5] == pytest.approx(found.y[3 * n + 3], abs=2e-8)
-    theta = start[:, None] + found.y[3 * n]
-    offset = prepared.pitch_radius * (found.y[:n] - theta)
-    offset += found.y[3 * n + 2] * np.sin(theta) - found.y[3 * n + 3] * np.cos(theta)
+    assert result.whole["cages"][outputs, 0, 5] == pytest.approx(solution.y[3 * n + 3], abs=2e-8)
+    theta = start[:, None] + solution.y[3 * n]
+    offset = prepared.pitch_radius * (solution.y[:n] - theta)
+    offset += solution.y[3 * n + 2] * np.sin(theta) - solution.y[3 * n + 3] * np.cos(theta)
     np.testing.assert_allclose(result.offset[outputs].T, offset, rtol=0.0, atol=5e-8)
     dissipated = result.energy().sum(axis=0) + result.energy("rolling").sum(axis=0)
-    assert dissipated == pytest.approx(found.y[3 * n + 6 :, -1], rel=2e-3, abs=1e-7)
+    assert dissipated == pytest.approx(solution.y[3 * n + 6 :, -1], rel=2e-3, abs=1e-7)

@@ -33,12 +33,12 @@ def assert_momentum_closes(found):
 @pytest.mark.parametrize("arrangement", ["one", "per-row"])
 def test_books_close(run, impact, arrangement):
     cage = Cage(impact=impact, arrangement=arrangement, guide_friction=5.0, offsets="random")
-    found = run(cage, RADIAL, 2.143, 0.4)
-    assert found.status == 0
-    assert_momentum_closes(found)
-    turned_over = np.abs(found.flow("friction_loss")[-1]) + np.abs(found.books.pocket_loss()[-1])
+    result = run(cage, RADIAL, 2.143, 0.4)
+    assert result.status == 0
+    assert_momentum_closes(result)
+    turned_over = np.abs(result.flow("friction_loss")[-1]) + np.abs(result.books.pocket_loss()[-1])
     assert turned_over > 0.0
-    assert np.abs(found.books.energy_residual()).max() < 0.02 * turned_over
+    assert np.abs(result.books.energy_residual()).max() < 0.02 * turned_over
 
 
 ROLLING = Laws.paper().but(rolling="whole-film")
@@ -47,27 +47,27 @@ ROLLING = Laws.paper().but(rolling="whole-film")
 def test_books_close_with_rolling_resistance(run):
     """Shear and push of the inlets act on roller and ring with equal and opposite torques, and cost 2 F_R u."""
     cage = Cage(guide_friction=5.0, offsets="random")
-    found = run(cage, RADIAL, 2.143, 0.4, tolerance=2e-5, laws=ROLLING)
-    assert found.status == 0
-    assert_momentum_closes(found)
-    lost = np.array([found.flow("raceway_loss")[-1], found.flow("friction_loss")[-1]])
-    assert np.abs(found.books.energy_residual()).max() < 2e-4 * lost.sum()
-    rolling = found.energy("rolling")
-    booked = found.energy().sum(axis=0) + rolling.sum(axis=0)
+    result = run(cage, RADIAL, 2.143, 0.4, tolerance=2e-5, laws=ROLLING)
+    assert result.status == 0
+    assert_momentum_closes(result)
+    lost = np.array([result.flow("raceway_loss")[-1], result.flow("friction_loss")[-1]])
+    assert np.abs(result.books.energy_residual()).max() < 2e-4 * lost.sum()
+    rolling = result.energy("rolling")
+    booked = result.energy().sum(axis=0) + rolling.sum(axis=0)
     # The couple that keeps rollers from skewing is an outside one: its power is no part of the books.
-    booked[:2] -= found.energy("skew_power").sum(axis=0)
+    booked[:2] -= result.energy("skew_power").sum(axis=0)
     assert [booked[:2].sum(), booked[2]] == pytest.approx(lost, rel=1e-6)
     assert (rolling > 0.0).all()
 
 
 def test_energies_spin_and_force_converge(run):
     def figures(tolerance):
-        found = run(Cage(), RADIAL, 2.143, 1.0, tolerance=tolerance)
+        result = run(Cage(), RADIAL, 2.143, 1.0, tolerance=tolerance)
         return np.array(
             [
-                *found.energy().sum(axis=0),
-                found.at_end("outer_slip")[-1, :28].mean(),
-                np.abs(found.offset[-1]).mean(),
+                *result.energy().sum(axis=0),
+                result.at_end("outer_slip")[-1, :28].mean(),
+                np.abs(result.offset[-1]).mean(),
             ]
         )
 
@@ -79,31 +79,31 @@ def test_energies_spin_and_force_converge(run):
 
 def test_tractions_that_rest_change_nothing(run):
     """Between evaluations tractions follow from slopes; evaluated in every iteration they give the same."""
-    found = run(Cage(), RADIAL, 2.143, 0.2)
+    result = run(Cage(), RADIAL, 2.143, 0.2)
     other = run(Cage(), RADIAL, 2.143, 0.2, extrapolates=False)
-    assert found.memory["evaluations"] < 0.5 * other.memory["evaluations"]
-    assert found.energy().sum(axis=0) == pytest.approx(
+    assert result.memory["evaluations"] < 0.5 * other.memory["evaluations"]
+    assert result.energy().sum(axis=0) == pytest.approx(
         other.energy().sum(axis=0), rel=2e-3, abs=1e-6
     )
 
 
 def test_free_coast_only_loses_energy(run):
     """No gravity, no drag, rings at rest: friction never gives energy, and nothing but the rings takes momentum."""
-    found = run(
+    result = run(
         Cage(weight=False), FREE, 0.0, 0.5, gravity=False, drag=False,
         start=lambda begin: begin._replace(cage_lead=np.full(1, 0.05)),
     )  # fmt: skip
-    energy = found.books.stocks[:, 1]
+    energy = result.books.stocks[:, 1]
     assert energy[0] > 0.0
     assert (np.diff(energy) <= 1e-12).all()
-    assert np.abs(found.flow("body_impulse")).max() == 0.0
-    assert np.abs(found.books.momentum_residual()).max() < 1e-6 * found.books.stocks[0, 0]
+    assert np.abs(result.flow("body_impulse")).max() == 0.0
+    assert np.abs(result.books.momentum_residual()).max() < 1e-6 * result.books.stocks[0, 0]
 
 
 def test_a_released_cage_is_caught_by_the_rollers(run):
     """A cage at rest among gripped rollers is carried along within its gap, and the rollers do not notice."""
     nominal = 2.143 * 0.5 * 0.338367
-    found = run(
+    result = run(
         Cage(),
         THRUST,
         2.143,
@@ -111,17 +111,17 @@ def test_a_released_cage_is_caught_by_the_rollers(run):
         start=lambda begin: begin._replace(cage_lead=np.full(1, -nominal)),
         outputs=31,
     )
-    assert found.status == 0
-    assert found.cage_speed()[0] == pytest.approx(0.0, abs=1e-5)
-    assert found.cage_speed()[-1] == pytest.approx(nominal / 0.3727, rel=0.02)
+    assert result.status == 0
+    assert result.cage_speed()[0] == pytest.approx(0.0, abs=1e-5)
+    assert result.cage_speed()[-1] == pytest.approx(nominal / 0.3727, rel=0.02)
     # Gripped rollers keep their orbit's speed.
-    assert np.abs(found.at_end("inner_slip") - found.at_end("outer_slip"))[-1, :28].max() < 1e-5
+    assert np.abs(result.at_end("inner_slip") - result.at_end("outer_slip"))[-1, :28].max() < 1e-5
 
 
 def test_mirrored_thrust_swaps_the_rows(run):
-    found = run(Cage(weight=False), THRUST, 2.143, 0.5, gravity=False)
+    result = run(Cage(weight=False), THRUST, 2.143, 0.5, gravity=False)
     mirrored = run(Cage(weight=False), (0.0, 0.0, -THRUST[2]), 2.143, 0.5, gravity=False)
-    energy, other = found.energy(), mirrored.energy()
+    energy, other = result.energy(), mirrored.energy()
     assert energy[:28].sum(axis=0) == pytest.approx(other[28:].sum(axis=0), rel=1e-6, abs=1e-12)
     assert energy[28:].sum(axis=0) == pytest.approx(other[:28].sum(axis=0), rel=1e-6, abs=1e-12)
 
@@ -132,9 +132,9 @@ def test_renumbering_changes_nothing(run):
     def renumber(prepared):
         return replace(prepared, positions=prepared.positions[order])
 
-    found = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5)
+    result = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5)
     other = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5, change=renumber)
-    assert other.energy() == pytest.approx(found.energy()[order], rel=1e-3, abs=1e-6)
+    assert other.energy() == pytest.approx(result.energy()[order], rel=1e-3, abs=1e-6)
 
 
 def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
@@ -154,9 +154,9 @@ def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
     assembly = assembly._replace(tables=bodies["downwind"].tables)
     window = np.array([imposed.attrs["window_start"], imposed.attrs["window_end"]])
     times = np.union1d(ready.motion.time[:1], window)
-    found = gather(held, assembly, ready.motion, pure_rolling(held, cage), times, tolerance=2e-5)
-    assert found.status == 0
-    within = found._replace(steps=found.steps[found.whole["start"] >= window[0]])
+    measures = gather(held, assembly, ready.motion, pure_rolling(held, cage), times, tolerance=2e-5)
+    assert measures.status == 0
+    within = measures._replace(steps=measures.steps[measures.whole["start"] >= window[0]])
     rolling, friction = (
         each.values.reshape(56, 3) for each in (imposed.rolling_energy, imposed.energy)
     )
@@ -176,28 +176,28 @@ def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
     ids=["start", "reversal", "emergency stop", "standstill"],
 )
 def test_every_operation_runs(run, shaft):
-    found = run(Cage(), RADIAL, shaft, 1.0)
-    assert found.status == 0
-    assert np.isfinite(found.energy()).all()
-    assert (found.energy() > -1e-9).all()
+    result = run(Cage(), RADIAL, shaft, 1.0)
+    assert result.status == 0
+    assert np.isfinite(result.energy()).all()
+    assert (result.energy() > -1e-9).all()
 
 
 def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
     """δΩ/Ω = −0.11 δr/r in pure rolling; gripped rollers' places drift apart by it."""
     cage = Cage(diameter_scatter=1.5e-6, weight=False, gap=5e-4)
-    found = run(cage, THRUST, 2.143, 1.0)
-    nominal = 2.143 * 0.5 * found.bearing.inner_radius
+    result = run(cage, THRUST, 2.143, 1.0)
+    nominal = 2.143 * 0.5 * result.bearing.inner_radius
     expected = (
-        0.5 * 2.143 * (found.bearing.positions["inner_radius"][:28] - found.bearing.inner_radius)
+        0.5 * 2.143 * (result.bearing.positions["inner_radius"][:28] - result.bearing.inner_radius)
     )
-    drift = found.offset[-1, :28] - found.offset[-1, :28].mean()
+    drift = result.offset[-1, :28] - result.offset[-1, :28].mean()
     assert np.abs(expected).max() > 1e-6 * nominal
     assert drift == pytest.approx(expected - expected.mean(), abs=0.05 * np.abs(expected).max())
 
 
 def test_rollers_that_drop_faster_than_the_rings_creep_stay_in_the_tables():
     loads = BearingLoads.constant((0.0, -5e3, 0.0), 0.01, 3.0)
-    found = simulate(
+    result = simulate(
         Case(
             loads=loads,
             laws=Laws.paper(),
@@ -206,9 +206,9 @@ def test_rollers_that_drop_faster_than_the_rings_creep_stay_in_the_tables():
             contact_details=False,
         )
     )
-    assert (found.status == 0).all()
-    drop = found.book_body_work.max() + found.book_cage_weight_work.max()
-    assert np.abs(found.energy_residual).max() < 5e-3 * drop
+    assert (result.status == 0).all()
+    drop = result.book_body_work.max() + result.book_cage_weight_work.max()
+    assert np.abs(result.energy_residual).max() < 5e-3 * drop
 
 
 def test_a_shaft_that_starts_under_load_gives_rollers_no_energy_of_their_own():
@@ -221,10 +221,10 @@ def test_a_shaft_that_starts_under_load_gives_rollers_no_energy_of_their_own():
         lubricant=Lubricant.read("skf-lgwm-1"), temperature=292.0, laws=Laws.physical(), dynamics="whole-bearing",
         rating=False, contact_details=False, gravity=False, window=Window(start=0.0, end=0.28),
     )  # fmt: skip
-    found = simulate(case)
-    assert (found.status == 0).all()
-    assert (found.energy > -1e-9).all()
+    result = simulate(case)
+    assert (result.status == 0).all()
+    assert (result.energy > -1e-9).all()
     # Nothing but the shaft and falling rollers can move a raceway's rollers.
-    assert float(found.book_kinetic_energy.sum()) < float(
-        (found.book_shaft_work + found.book_body_work).sum()
+    assert float(result.book_kinetic_energy.sum()) < float(
+        (result.book_shaft_work + result.book_body_work).sum()
     )

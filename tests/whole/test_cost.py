@@ -20,13 +20,13 @@ def test_work_grows_in_proportion_to_the_rollers(run):
     iterations = {}
     for rollers in (7, 14, 28):
         shaft = ([0.0, 0.25, 0.5], [2.0, 2.5, 1.5])
-        found = run(
+        result = run(
             Cage(weight=False, mass=50.0 * rollers / 28), (0.0, 0.0, 8e-4), shaft, 0.5, rollers=rollers, extrapolates=False,
             gravity=False, tolerance=2e-5,
         )  # fmt: skip
-        iterations[rollers] = int(found.memory["iterations"])
+        iterations[rollers] = int(result.memory["iterations"])
         # At most both raceways of every roller are evaluated in a pass.
-        assert found.memory["evaluations"] <= 2.1 * rollers * 2 * found.memory["iterations"]
+        assert result.memory["evaluations"] <= 2.1 * rollers * 2 * result.memory["iterations"]
     counts = np.array(list(iterations.values()), dtype=float)
     assert counts == pytest.approx(counts[0], rel=0.1)
 
@@ -37,14 +37,14 @@ def test_nothing_drifts(run):
     Orbits after the first cost the same energy, and the cage stays where the rollers hold it.
     """
     orbit = 2.0 * math.pi / (SPEED * 0.45397)
-    found = run(
+    result = run(
         Cage(weight=False), (0.0, -1.05e-4, 0.0), SPEED, 150.0 * orbit, rollers=3, outputs=7
     )
-    assert found.status == 0
-    passed = np.abs(np.diff(found.flow("inner_impulse")))
-    assert (np.abs(np.diff(found.books.momentum_residual())) < 1e-6 * passed).all()
-    spent = np.diff(found.flow("friction_loss") + found.flow("raceway_loss"))
+    assert result.status == 0
+    passed = np.abs(np.diff(result.flow("inner_impulse")))
+    assert (np.abs(np.diff(result.books.momentum_residual())) < 1e-6 * passed).all()
+    spent = np.diff(result.flow("friction_loss") + result.flow("raceway_loss"))
     assert spent[2:] == pytest.approx(spent[1], rel=2e-3)
     # The cage stays within its gap of the rollers that carry it.
-    lag = found.whole["cages"][found.at_outputs(), 0, 1]
+    lag = result.whole["cages"][result.at_outputs(), 0, 1]
     assert np.abs(np.diff(lag[1:])).max() < 2.0 * np.abs(lag[1]) + 1e-3

@@ -113,7 +113,7 @@ def test_a_land_alone_brings_the_cage_to_its_ring_as_petroff_says(ring, turns):
     """Pockets so wide that no roller meets the cage: dw/dt = k/m (Ω_ring r~ − w), and its loss is what is booked."""
     loose = replace(LED, guided_by=ring, gap=6e-3, impact="dry", weight=False, mass=40.0)
     slow, span = 0.2, 0.2
-    found = simulate(
+    result = simulate(
         case(
             span=span,
             speed=slow,
@@ -131,17 +131,17 @@ def test_a_land_alone_brings_the_cage_to_its_ring_as_petroff_says(ring, turns):
     )
     ratio = geometry.orbit_ratio(BEARING)
     rate = drag / 40.0
-    assert found.pocket_contact_time.sum() == 0.0
-    expected = slow * (turns + (ratio - turns) * np.exp(-rate * found.time))
-    assert found.cage_speed.values[0] == pytest.approx(expected.values, rel=1e-4)
+    assert result.pocket_contact_time.sum() == 0.0
+    expected = slow * (turns + (ratio - turns) * np.exp(-rate * result.time))
+    assert result.cage_speed.values[0] == pytest.approx(expected.values, rel=1e-4)
     lost = (
         drag
         * (pitch * slow * (ratio - turns)) ** 2
         * (1.0 - np.exp(-2.0 * rate * span))
         / (2.0 * rate)
     )
-    assert float(found.book_guide_loss[-1]) == pytest.approx(lost, rel=1e-3)
-    assert np.abs(found.energy_residual).max() < 1e-2 * lost
+    assert float(result.book_guide_loss[-1]) == pytest.approx(lost, rel=1e-3)
+    assert np.abs(result.energy_residual).max() < 1e-2 * lost
 
 
 @pytest.mark.slow
@@ -150,10 +150,10 @@ def test_a_roller_past_the_peak_of_traction_does_not_run_away():
     time = np.linspace(0.0, 1.6, 81)
     force = np.column_stack([0.0 * time, -30e3 * np.exp(-0.34 * time), 0.0 * time])
     loads = BearingLoads(time, np.full(time.size, SPEED), force, "a load that falls")
-    found = simulate(case(loads=loads, laws=Laws.paper(), oil_supply=None))
-    assert found.status.max() == 0
+    result = simulate(case(loads=loads, laws=Laws.paper(), oil_supply=None))
+    assert result.status.max() == 0
     ring = SPEED * geometry.inner_contact_radius(BEARING)
-    assert np.abs(found.raceway_slip).max() < ring
+    assert np.abs(result.raceway_slip).max() < ring
 
 
 @pytest.mark.parametrize(
@@ -211,11 +211,11 @@ def test_its_ratings_are_those_of_a_line_contact_by_hand():
     factor = shape * (1.0 + inner_over_outer**4.5) ** (-2.0 / 9.0)
     dynamic = 1.1 * factor * 50.0 ** (7.0 / 9.0) * 18.0**0.75 * 32.0 ** (29.0 / 27.0)
     static = 44.0 * (1.0 - gamma) * 18.0 * 50.0 * 32.0
-    found = ratings_of(BEARING)
-    assert found.dynamic == pytest.approx(dynamic, rel=1e-3)
-    assert found.static == pytest.approx(static, rel=1e-12)
-    assert found.fatigue_limit == pytest.approx(static / 8.2 * (100.0 / 225.0) ** 0.3, rel=1e-12)
-    assert found.minimum == pytest.approx(0.02 * dynamic, rel=1e-3)
+    ratings = ratings_of(BEARING)
+    assert ratings.dynamic == pytest.approx(dynamic, rel=1e-3)
+    assert ratings.static == pytest.approx(static, rel=1e-12)
+    assert ratings.fatigue_limit == pytest.approx(static / 8.2 * (100.0 / 225.0) ** 0.3, rel=1e-12)
+    assert ratings.minimum == pytest.approx(0.02 * dynamic, rel=1e-3)
     given = BEARING.replace(dynamic_load_rating=600e3, static_load_rating=900e3)
     assert ratings_of(given)[:2] == (600e3, 900e3)
 
@@ -293,10 +293,10 @@ def test_it_is_studied_and_not_beside_bearings_of_another_kind(tmp_path):
     (tmp_path / "study.yaml").write_text(text.replace("MORE", ""), encoding="utf-8")
     ended = run_study(read_study(tmp_path / "study.yaml"), tmp_path / "out", threads=1)
     assert not ended.failures
-    found = open_study(tmp_path / "out")
-    assert found.row.values.tolist() == ["single"]
-    assert (found.energy_mean > 0.0).all()
-    assert found.basic_life[0] / found.basic_life[1] == pytest.approx((60 / 50) ** (10 / 3))
+    study = open_study(tmp_path / "out")
+    assert study.row.values.tolist() == ["single"]
+    assert (study.energy_mean > 0.0).all()
+    assert study.basic_life[0] / study.basic_life[1] == pytest.approx((60 / 50) ** (10 / 3))
     assert "energy_mean_upwind" not in pd.read_parquet(tmp_path / "out" / "summary.parquet")
     (tmp_path / "both.yaml").write_text(text.replace("MORE", ", skf-240-600-bc"), encoding="utf-8")
     with pytest.raises(InputError, match="there are cylindrical and spherical roller bearings"):
@@ -333,7 +333,7 @@ def test_line_contacts_run_in_both_dynamics_and_agree_where_rollers_are_gripped(
 @pytest.mark.parametrize("profile", ["straight", "logarithmic"])
 def test_maps_of_line_contacts_hold_the_energy_of_raceways(profile):
     """Energy over stations is that of the raceways, and a straight roller's lies evenly."""
-    found = simulate(
+    result = simulate(
         case(
             (0.0, -50e3, 0.0),
             0.3,
@@ -342,8 +342,8 @@ def test_maps_of_line_contacts_hold_the_energy_of_raceways(profile):
             cage=Cage(),
         )
     )
-    along = found.station_energy.sum("roller").isel(row=0)
-    raceways = found.energy.sum("roller").isel(row=0)
+    along = result.station_energy.sum("roller").isel(row=0)
+    raceways = result.energy.sum("roller").isel(row=0)
     for raceway in ("inner", "outer"):
         total = float(along.sel(raceway=raceway).sum("station"))
         assert total > 0.0

@@ -43,10 +43,12 @@ def test_a_sawtooth_of_speed_keeps_the_energy_of_its_rows():
         contact_details=False,
         window=Window(start=3.54, end=7.06),
     )
-    found = simulate(case)
-    assert found.energy.sum(["roller", "interface"]).max().item() == pytest.approx(2.1994, rel=1e-3)
-    assert found.min_spin_ratio.min().item() == pytest.approx(0.2389, rel=1e-3)
-    assert found.window_peak_power.max().item() == pytest.approx(12.93, rel=1e-2)
+    result = simulate(case)
+    assert result.energy.sum(["roller", "interface"]).max().item() == pytest.approx(
+        2.1994, rel=1e-3
+    )
+    assert result.min_spin_ratio.min().item() == pytest.approx(0.2389, rel=1e-3)
+    assert result.window_peak_power.max().item() == pytest.approx(12.93, rel=1e-2)
 
 
 def test_stops_a_rounding_apart_end_a_step_each(run):
@@ -55,7 +57,9 @@ def test_stops_a_rounding_apart_end_a_step_each(run):
     time = np.linspace(0.0, 0.1, 3)
     motion = Motion(time, np.ones(3), time, np.tile([0.0, 0.0, 8e-4], (3, 1)))
     stops = np.array([0.0, np.nextafter(0.1, 0.0), 0.1])
-    found = gather(known.bearing, known.assembly, motion, pure_rolling(known.bearing, cage), stops)
-    assert found.status == 0
-    assert np.isfinite(found.books.stocks).all()
-    assert found.energy().sum() == pytest.approx(known.energy().sum(), rel=1e-4)
+    measures = gather(
+        known.bearing, known.assembly, motion, pure_rolling(known.bearing, cage), stops
+    )
+    assert measures.status == 0
+    assert np.isfinite(measures.books.stocks).all()
+    assert measures.energy().sum() == pytest.approx(known.energy().sum(), rel=1e-4)

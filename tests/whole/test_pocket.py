@@ -112,7 +112,7 @@ def test_restitution_is_what_an_impact_gives_back(speed, mass):
         return y[0] - DRY.half_gap + 1e-15
 
     leaves.terminal, leaves.direction = True, -1
-    found = solve_ivp(
+    solution = solve_ivp(
         rate,
         (0.0, duration),
         [DRY.half_gap, speed],
@@ -121,7 +121,7 @@ def test_restitution_is_what_an_impact_gives_back(speed, mass):
         atol=[1e-16, 1e-12],
         method="DOP853",
     )
-    assert -found.y[1, -1] / speed == pytest.approx(restitution, rel=1e-5)
+    assert -solution.y[1, -1] / speed == pytest.approx(restitution, rel=1e-5)
 
 
 def test_elastic_energy_is_the_work_of_the_slow_push():

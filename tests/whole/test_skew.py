@@ -55,40 +55,40 @@ def pressed(found, least=2e3):
 
 
 def test_without_play_all_but_the_friction_of_the_ends_is_that_of_straight_rollers(straight):
-    found = simulate(case(cage=Cage(skew_play=0.0)))
+    result = simulate(case(cage=Cage(skew_play=0.0)))
     for name in straight.data_vars:
         # Rollers that are held straight have the moment of the ends beside, and friction at the cage.
         if name in ("skew_moment", "start_angle"):
             continue
-        mine, other = found[name], straight[name]
+        mine, other = result[name], straight[name]
         if "interface" in mine.dims:
             mine, other = mine.sel(RACEWAYS), other.sel(RACEWAYS)
         np.testing.assert_array_equal(mine, other, err_msg=str(name))
-    assert (found.skew_energy == 0.0).all() and float(found.stop_force.max()) > 1.0
-    added = (found.energy - straight.energy).sel(interface="cage").values
-    assert added == pytest.approx(found.stop_energy.values, rel=1e-9, abs=1e-10)
+    assert (result.skew_energy == 0.0).all() and float(result.stop_force.max()) > 1.0
+    added = (result.energy - straight.energy).sel(interface="cage").values
+    assert added == pytest.approx(result.stop_energy.values, rel=1e-9, abs=1e-10)
     assert (added[0] > 0.0).all()
 
 
 def test_what_skew_adds_stands_beside_closed_books():
     """Books are those of the equations of motion; raceways and ends of spars add to them what the result says."""
-    found = simulate(case(traces=None))
-    lost = losses_of_closed_books(found)
-    spent = (found.energy + found.rolling_energy).sum(("row", "roller"))
+    result = simulate(case(traces=None))
+    lost = losses_of_closed_books(result)
+    spent = (result.energy + result.rolling_energy).sum(("row", "roller"))
     beside = float(
-        found.mechanism_energy.sel(RACEWAYS).sel(mechanism="contact angle").sum()
-        + found.skew_energy.sum()
+        result.mechanism_energy.sel(RACEWAYS).sel(mechanism="contact angle").sum()
+        + result.skew_energy.sum()
     )
     assert float(spent.sel(RACEWAYS).sum()) - beside == pytest.approx(
         lost["raceway_loss"], rel=1e-6
     )
-    ends = float(found.stop_energy.sum())
+    ends = float(result.stop_energy.sum())
     assert float(spent.sel(interface="cage")) - ends == pytest.approx(
         lost["friction_loss"], rel=1e-6
     )
     assert 0.05 * lost["friction_loss"] < ends < lost["friction_loss"]
-    assert float(found.skew_energy.sum()) > 0.1 * float(
-        found.energy.sel(RACEWAYS | {"row": "downwind"}).sum()
+    assert float(result.skew_energy.sum()) > 0.1 * float(
+        result.energy.sel(RACEWAYS | {"row": "downwind"}).sum()
     )
 
 
@@ -127,9 +127,9 @@ def test_under_the_forces_of_an_imposed_orbit_rests_are_those_of_an_imposed_orbi
     raw["outer_speed"] = one.spin_pure.values * roller_radius(whole.bearing)
     roller = with_tables(ready.models, ready.box)[0]["downwind"]
     skews = skewing(whole, ready.model.laws, ready.box)["downwind"]
-    found = SkewMeasures(skews, roller, 0.0).traces(raw)
+    traces = SkewMeasures(skews, roller, 0.0).traces(raw)
     for name, size in (("skew_angle", 2e-5), ("axial_force", 1.0), ("stop_force", 0.02)):
-        np.testing.assert_allclose(found[name], one[name], atol=size, err_msg=name)
+        np.testing.assert_allclose(traces[name], one[name], atol=size, err_msg=name)
 
 
 def test_spars_that_press_less_leave_rollers_to_their_stops(skewed):
@@ -140,10 +140,10 @@ def test_spars_that_press_less_leave_rollers_to_their_stops(skewed):
 
 
 def test_without_guidance_nothing_rubs():
-    found = simulate(case(cage=Cage(guidance="none", alignment="none")))
-    assert (found.status == 0).all()
-    assert (found.stop_energy == 0.0).all() and not (found.stop_force > 0.0).any()
-    assert float(np.abs(found.skew_angle).max()) == pytest.approx(0.06, rel=1e-9)
+    result = simulate(case(cage=Cage(guidance="none", alignment="none")))
+    assert (result.status == 0).all()
+    assert (result.stop_energy == 0.0).all() and not (result.stop_force > 0.0).any()
+    assert float(np.abs(result.skew_angle).max()) == pytest.approx(0.06, rel=1e-9)
 
 
 @jit
