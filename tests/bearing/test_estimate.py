@@ -133,7 +133,7 @@ def test_every_sample_is_a_bearing_with_the_static_rating():
     assert np.all(samples["rollers_per_row"] == np.round(samples["rollers_per_row"]))
     base = Bearing.read("skf-240-600-bc")
     for k in range(0, samples["contact_angle"].size, 500):
-        values = {key: float(one[k]) for key, one in samples.items()}
+        values = {key: float(sample[k]) for key, sample in samples.items()}
         osculation = values.pop("osculation")
         bearing = base.replace(osculation_inner=osculation, osculation_outer=osculation, **values)
         wall = 2 * geometry.envelope(bearing).inside - PAGE.bore

@@ -114,7 +114,7 @@ def test_quiet_says_nothing(monkeypatch, tmp_path):
     ):
         monkeypatch.setattr(run, name, lambda *arguments, **options: {})
     monkeypatch.setattr(room, "QUICK", (("24A",), 100.0, 100.1))
-    missing = [one._replace(load=lambda: None) for one in rivals.RIVALS if one.key == "lsoda"]
+    missing = [rival._replace(load=lambda: None) for rival in rivals.RIVALS if rival.key == "lsoda"]
     monkeypatch.setattr("benchmarks.comparison.RIVALS", tuple(missing))
     monkeypatch.setattr(run, "verify", lambda histories, references: {"agrees": True})
     done = bench("--quick", "--quiet", "-o", tmp_path / "out")

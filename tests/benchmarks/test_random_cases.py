@@ -120,7 +120,7 @@ def test_any_legal_case_of_both_models_and_dynamics(number, whole):
 @pytest.mark.parametrize(("physical", "count"), [(0.0, 300), (1.0, 10)])
 def test_a_slice(physical, count):
     outcomes = [compare(number, physical=physical) for number in range(count)]
-    assert [one for one in outcomes if one.verdict != "agrees"] == []
+    assert [outcome for outcome in outcomes if outcome.verdict != "agrees"] == []
     assert len(list(table(outcomes))) == 2 + len(HISTORIES)
 
 
@@ -129,5 +129,6 @@ def test_cases_in_which_the_whole_bearing_moves_end_well():
     # Rows agree to 1e-3 in two of three; docs/meaning.md has the largest differences.
     outcomes = [compare(number, physical=0.0, whole=1.0) for number in range(9940, 9946)]
     assert all(
-        one.verdict.startswith(("agrees", "off")) and one.energy_error < 5e-3 for one in outcomes
+        outcome.verdict.startswith(("agrees", "off")) and outcome.energy_error < 5e-3
+        for outcome in outcomes
     )

@@ -68,7 +68,7 @@ SETTINGS = [{"rtol": rtol, "atol": atol} for rtol in (1e-3, 5e-5, 1e-6) for atol
 def test_a_scan_tries_all_and_puts_an_accurate_run_first():
     log = []
     measurements = scan(fake(log), SETTINGS, REFERENCE, budget=math.inf, prune=False)
-    assert {(one["rtol"], one["atol"]) for one in SETTINGS} <= set(log)
+    assert {(setting["rtol"], setting["atol"]) for setting in SETTINGS} <= set(log)
     assert len(measurements) == len(SETTINGS)
     assert measurements[0].setting["rtol"] <= ASKED
 
@@ -78,7 +78,9 @@ def test_pruning_leaves_out_what_is_dearer_for_certain():
     measurements = scan(fake(log), SETTINGS, REFERENCE, budget=math.inf, prune=True)
     assert (5e-5, 1e-6) in log and (5e-5, 1e-8) not in log
     # 1e-6 needs more evaluations than the run already found, and is given up.
-    assert [one.error for one in measurements if one.setting["rtol"] == 1e-6] == [
+    assert [
+        measurement.error for measurement in measurements if measurement.setting["rtol"] == 1e-6
+    ] == [
         math.inf,
         math.inf,
     ]
@@ -132,5 +134,5 @@ def test_every_rival_has_settings_and_a_target():
         for edges in (False, True):
             for quick in (False, True):
                 settings = list(rival.settings(edges, quick))
-                assert settings and len({str(one) for one in settings}) == len(settings)
+                assert settings and len({str(setting) for setting in settings}) == len(settings)
         assert rival.target >= 5.0

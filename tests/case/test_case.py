@@ -139,7 +139,7 @@ def test_every_field_of_a_case_is_in_its_input():
     loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 1.0)
     case = Case(loads=loads, dynamics="whole-bearing", gravity=False)
     settings = case.as_dict()
-    names = {one.name for one in dataclasses.fields(Case)} - {"gravity", "drag"} | {"forces"}
+    names = {field.name for field in dataclasses.fields(Case)} - {"gravity", "drag"} | {"forces"}
     # Only a tapered roller bearing has it.
     assert settings.keys() == names - {"temperature_difference"}
     assert settings["forces"] == {"gravity": False, "drag": True}

@@ -17,7 +17,7 @@ def test_versions_kernels_and_commands(macroslip):
     assert printed["machine"]["cores"] >= 1
     numba = next(one for one in printed["packages"] if one["package"] == "numba")
     assert numba["installed"] and numba["wanted"].startswith(">=")
-    assert all(one["missing"] == [] for one in printed["commands"])
+    assert all(command["missing"] == [] for command in printed["commands"])
 
 
 def test_what_the_folder_of_kernels_holds(macroslip, tmp_path, monkeypatch):

@@ -68,7 +68,7 @@ def folder(tmp_path_factory):
         ("report", folder / "out", "-o", folder / "study.html"): "3",
         ("aggregate", folder / "out", "-o", folder / "tables", "--field", "wind_speed"): "0",
     }
-    done = ran(folder, json.dumps([[str(word) for word in one] for one in commands]))
+    done = ran(folder, json.dumps([[str(word) for word in command] for command in commands]))
     assert "the network was asked for" not in done.stderr
     assert re.findall(r"^ended with (.*)$", done.stdout, re.MULTILINE) == list(commands.values()), (
         done.stderr

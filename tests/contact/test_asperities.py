@@ -57,7 +57,7 @@ def test_load_ratio_is_the_formula(base, number, log_load, log_speed):
             interface.roughness / radius, interface.hardness / modulus,
         )  # fmt: skip
         expected = float(formula(*groups))
-    assert load_ratio(*(float(one) for one in groups)) == pytest.approx(
+    assert load_ratio(*(float(group) for group in groups)) == pytest.approx(
         expected, rel=1e-11, abs=1e-300
     )
     share = asperity_share("masjedi-khonsari", interface, load, speed, 1e-6)

@@ -106,7 +106,7 @@ def test_the_cage_keeps_its_film():
 
 
 def test_numbers_go_with_the_law_and_the_source_is_named():
-    assert any("79-Lub-23" in one for one in references(LAWS))
+    assert any("79-Lub-23" in reference for reference in references(LAWS))
     assert LAWS.but(traction_saturation=0.003).name.endswith(
         "traction kellstroem, traction_saturation 0.003"
     )

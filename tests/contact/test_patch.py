@@ -339,5 +339,5 @@ def test_film_and_asperities_share_the_load():
     assert 0.01 < share < 1.0
     patch, chords = patch_of(law), chord_table(law.fluid)
     both = [summed(patch, chords, 2e4, film[0], one, 0.02, 3e-3) for one in (0.0, 1.0)]
-    found = np.array([one[0] for one in tractions(law, load, speed, slip)])
+    found = np.array([traction[0] for traction in tractions(law, load, speed, slip)])
     np.testing.assert_allclose(found, (1.0 - share) * both[0] + share * both[1], rtol=1e-9)

@@ -448,7 +448,7 @@ def test_free_roller_turns_at_an_eighth_to_a_fifth(laws, where, gap):
 def test_a_short_inlet_lets_the_free_roller_turn_faster(contacts):
     gaps = [inlet * martin.FLOW * 2e-5 for inlet in (math.inf, 30, 10, 2)]
     found = [
-        free_ratio(prepare_rolling("inlet", *contacts["inner"], oil_gap=one), 2e-5) for one in gaps
+        free_ratio(prepare_rolling("inlet", *contacts["inner"], oil_gap=gap), 2e-5) for gap in gaps
     ]
     assert found == pytest.approx((0.140, 0.26, 0.375, 0.81), abs=0.02)
 

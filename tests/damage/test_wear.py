@@ -53,7 +53,7 @@ def test_a_worn_profile_spreads_pressure_with_the_load_conserved():
         slice_loads(CONTOUR + one[0] + one[2], LOAD, hertz_slices(LOAD, HALF, CURVATURE), WIDTH)
         for one in worn.depth
     ]
-    assert all(one.sum() * WIDTH == pytest.approx(LOAD, rel=1e-12) for one in loads)
+    assert all(load.sum() * WIDTH == pytest.approx(LOAD, rel=1e-12) for load in loads)
     deepest = np.argmax(worn.depth[-1, 0])
     assert loads[-1][deepest] < 0.8 * loads[0][deepest]
     # More of the roller carries load than before, and the pure rolling lines more than they did.

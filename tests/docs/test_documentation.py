@@ -100,7 +100,7 @@ def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
     files = [
         f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()
     ]
-    labels = [name for name, one in opened.coords.items() if one.dims == ("case",)]
+    labels = [name for name, coordinate in opened.coords.items() if coordinate.dims == ("case",)]
     names = [
         *files,
         *found,
@@ -230,8 +230,10 @@ def test_readme_for_a_package_index_has_no_link_into_the_repository():
 
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    for one in settings["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]:
-        text = re.sub(one["pattern"], one["replacement"], text)
+    for substitution in settings["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"][
+        "substitutions"
+    ]:
+        text = re.sub(substitution["pattern"], substitution["replacement"], text)
     assert "](" not in text and "bearing_slip" not in text and re.search(r"first\srun", text)
 
 

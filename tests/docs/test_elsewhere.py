@@ -28,8 +28,10 @@ def test_workflows_run_every_python_of_the_classifiers():
         (ROOT / ".github" / "workflows" / "tests.yml").read_text(encoding="utf-8")
     )
     matrix = workflow["jobs"]["tests"]["strategy"]["matrix"]
-    classifiers = [re.fullmatch(r".*Python :: (3\.\d+)", one) for one in PROJECT["classifiers"]]
-    assert matrix["python"] == [one[1] for one in classifiers if one]
+    classifiers = [
+        re.fullmatch(r".*Python :: (3\.\d+)", classifier) for classifier in PROJECT["classifiers"]
+    ]
+    assert matrix["python"] == [classifier[1] for classifier in classifiers if classifier]
     assert matrix["system"] == ["ubuntu-latest", "macos-latest", "windows-latest"]
 
 

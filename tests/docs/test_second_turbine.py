@@ -32,7 +32,7 @@ def _seat(rules, measures):
 
 
 def _conclusion(rules, words):
-    return next(one for one in rules.CONCLUSIONS if words in one.statement)
+    return next(conclusion for conclusion in rules.CONCLUSIONS if words in conclusion.statement)
 
 
 def test_shares_of_a_year_are_those_of_a_rayleigh_distribution(rules):

@@ -20,11 +20,11 @@ LONG = {"--workers", "--dask", "--dry-run"}
 
 
 def _commands(group, *names):
-    for name, one in group.commands.items():
-        if isinstance(one, click.Group):
-            yield from _commands(one, *names, name)
+    for name, command in group.commands.items():
+        if isinstance(command, click.Group):
+            yield from _commands(command, *names, name)
         else:
-            yield (*names, name), one
+            yield (*names, name), command
 
 
 COMMANDS = dict(_commands(typer.main.get_command(app)))

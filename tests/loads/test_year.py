@@ -87,7 +87,7 @@ def test_an_event_says_that_its_supervisor_is_assumed_wherever_it_goes():
 
 
 def test_labels_in_a_study():
-    found = {one.name: one.fields for one in load_list(None, kind="hub", bundled=["year"]).loads}
+    found = {load.name: load.fields for load in load_list(None, kind="hub", bundled=["year"]).loads}
     assert list(found) == bundled_cases("year")
     assert found["8B-2"] == {"wind_speed": 8.0, "turbulence": "B", "seed": 2, "event": ""}
     assert found["eog-14"] == {"wind_speed": 14.0, "turbulence": "-", "seed": 1, "event": "eog-14"}

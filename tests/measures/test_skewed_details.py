@@ -159,9 +159,9 @@ def stopped():
 def test_without_play_maps_and_criteria_are_those_of_straight_rollers(straight):
     result = simulate(case(skew_play=0.0), threads=1)
     for name in (
-        one
-        for one in straight.data_vars
-        if one.startswith(("surface", "film_slip", "station", "asper"))
+        variable
+        for variable in straight.data_vars
+        if variable.startswith(("surface", "film_slip", "station", "asper"))
     ):
         assert result[name].values == pytest.approx(straight[name].values, rel=1e-9, abs=1e-12), (
             name

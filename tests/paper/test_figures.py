@@ -99,7 +99,7 @@ def line(axes, label):
     for container in axes.containers:
         if container.get_label() == label:
             return container.lines[0].get_data()
-    return next(one for one in axes.lines if one.get_label() == label).get_data()
+    return next(line for line in axes.lines if line.get_label() == label).get_data()
 
 
 @pytest.fixture
@@ -241,14 +241,14 @@ def test_models_stand_on_the_same_axes(axes, numbers):
     draw.plot_models(
         axes, {"paper": numbers, "physical": 10.0 * numbers}, "energy_ratio", "ratio [–]"
     )
-    lines = {one.get_label(): one.get_ydata().tolist() for one in axes.lines}
+    lines = {line.get_label(): line.get_ydata().tolist() for line in axes.lines}
     assert lines == {"paper": [32.0, 36.0], "physical": [320.0, 360.0]}
-    assert len({one.get_linestyle() for one in axes.lines}) == 2
+    assert len({line.get_linestyle() for line in axes.lines}) == 2
 
 
 def test_ranges_correlations_and_indices(axes, summary):
     draw.plot_ranges(axes, summary)
-    assert [list(one.get_xdata()) for one in axes.lines[:2]] == [[0.5, 2.0], [1.0]]
+    assert [list(line.get_xdata()) for line in axes.lines[:2]] == [[0.5, 2.0], [1.0]]
     assert axes.get_yticklabels()[0].get_text() == "energy\n2 J (1 to 4)"
     other = draw.plot_squares(new_figure(4.0, 3.0)[1][0], summary, "rank_correlation")
     assert [text.get_text() for text in other.texts] == ["+", "−"]

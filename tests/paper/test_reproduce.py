@@ -136,9 +136,9 @@ def test_the_page_has_every_section_number_and_figure_and_needs_no_network(writt
     assert links <= set(re.findall(r'id="([^"]+)"', page))
     assert page.count("<img") == len(list(target.glob("*.svg")))
     assert not re.search(r'(src|href)="(?!data:|#)', page)
-    for one in summary["statements"]:
-        assert one["paper"] in page
-        assert one["models"]["paper"]["verdict"] in page
+    for statement in summary["statements"]:
+        assert statement["paper"] in page
+        assert statement["models"]["paper"]["verdict"] in page
     for words in (
         "@software{macroslip",
         "bundled case 14a",
@@ -193,7 +193,7 @@ def test_a_failed_roller_is_seen_on_the_page_and_never_averaged_over(
     assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
     assert summary["failed_rollers"]["study_by_case"] == {"14B": 1}
     assert summary["figures"]["4b"]["data_vars"]["energy_ratio"]["data"][2] is None
-    verdicts = [one["models"]["paper"]["verdict"] for one in summary["statements"]]
+    verdicts = [statement["models"]["paper"]["verdict"] for statement in summary["statements"]]
     assert verdicts[:4] == [UNKNOWN] * 4 and verdicts[5:7] == [UNKNOWN] * 2
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
     assert '<p class="failed">FAILED INTEGRATIONS: 1 in study' in page

@@ -34,4 +34,4 @@ def test_only_the_times_asked_for_count():
     mean = 0.5 * (halves[0].roller_load + halves[1].roller_load)
     np.testing.assert_allclose(both.roller_load, mean, rtol=0.01)
     assert abs(float(halves[0].thrust) - float(halves[1].thrust)) > 1e3
-    assert all(one.attrs["units"] for one in both.data_vars.values())
+    assert all(variable.attrs["units"] for variable in both.data_vars.values())

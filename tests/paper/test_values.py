@@ -45,8 +45,10 @@ def in_si_units(settings):
     """Values of settings by key, in SI units."""
     units = {one.key: one.unit for one in VALUES if not one.choices}
     return {
-        one.key: in_si(one.value, units[one.key]) if one.key in units else one.value
-        for one in settings
+        setting.key: in_si(setting.value, units[setting.key])
+        if setting.key in units
+        else setting.value
+        for setting in settings
     }
 
 

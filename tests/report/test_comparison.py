@@ -235,8 +235,8 @@ def test_maps_have_one_scale_and_their_difference_another(monkeypatch):
     page = comparison_page(compare_results(results), results)
     images = {one.get_title(loc="left"): one.images[0] for one in drawn}
     assert len(images) == 12 and page.count("<img") == 14
-    assert {one.get_clim() for name, one in images.items() if "−" not in name} == {(0.0, 40.0)}
-    less = {name: one for name, one in images.items() if name.endswith("\nb − a")}
+    assert {image.get_clim() for name, image in images.items() if "−" not in name} == {(0.0, 40.0)}
+    less = {name: image for name, image in images.items() if name.endswith("\nb − a")}
     assert {one.get_clim() for one in less.values()} == {(-30.0, 30.0)}
     whole = {name: np.abs(one.get_array()).sum() for name, one in less.items()}
     assert whole.pop("downwind row, inner raceway\nb − a") == pytest.approx(30.0) and not any(

@@ -144,8 +144,8 @@ def test_every_picture_says_what_it_shows(page):
     pictures = re.findall(r"<img [^>]*>", page)
     assert len(pictures) > 8
     assert all(
-        re.search(r'alt="[^"]{10,}"', one) and re.search(r'width="\d+" height="\d+"', one)
-        for one in pictures
+        re.search(r'alt="[^"]{10,}"', picture) and re.search(r'width="\d+" height="\d+"', picture)
+        for picture in pictures
     )
 
 
@@ -231,18 +231,18 @@ def test_scene_survives_the_way_to_the_page(result):
     part = scene(result)
     data = scene_data(part, Bearing.read("skf-240-600-bc"))
     assert data["count"] == part.sizes["time"] and data["radii"]["pitch"] == pytest.approx(372.7)
-    for name, one, factor in zip(
+    for name, quantity, factor in zip(
         ("slip", "roller_load", "power"), data["quantities"], (1e3, 1e-3, 1.0), strict=True
     ):
-        codes = np.frombuffer(base64.b64decode(one["codes"]), "<u2").reshape(part[name].shape)
-        found = one["low"] + (one["high"] - one["low"]) * codes / 65534.0
+        codes = np.frombuffer(base64.b64decode(quantity["codes"]), "<u2").reshape(part[name].shape)
+        found = quantity["low"] + (quantity["high"] - quantity["low"]) * codes / 65534.0
         expected = factor * part[name].values.astype(float)
-        if one["logarithmic"]:
+        if quantity["logarithmic"]:
             found, expected = 10.0**found, np.maximum(expected, LEAST_POWER)
             np.testing.assert_allclose(found, expected, rtol=2e-4)
         else:
             np.testing.assert_allclose(
-                found, expected, atol=1.01 * (one["high"] - one["low"]) / 65534.0
+                found, expected, atol=1.01 * (quantity["high"] - quantity["low"]) / 65534.0
             )
             if name == "roller_load":
                 np.testing.assert_array_equal(codes == 0, expected == 0.0)

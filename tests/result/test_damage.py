@@ -295,7 +295,7 @@ def test_a_line_a_criterion_and_own_thresholds(result):
         float(own.ratio) == float(own.value) / 2e6
         and own.compared_with.item() == "your threshold: our rig"
     )
-    assert {one.attrs["units"] for one in damage(result).data_vars.values()} and len(
+    assert {variable.attrs["units"] for variable in damage(result).data_vars.values()} and len(
         to_netcdf(damage(result))
     ) > 0
 

@@ -18,7 +18,7 @@ def _swing(bearing, *, event, turns=0.3, duration=20.0):
 
 def test_an_event_is_computed_from_its_first_sample(bearing):
     loads = [_swing(bearing, event=event, turns=2.2) for event in (True, False)]
-    event, other = (simulate(Case(loads=one, rollers=[0])) for one in loads)
+    event, other = (simulate(Case(loads=load, rollers=[0])) for load in loads)
     assert event.attrs["window_start"] == 0.0 and event.sizes["orbit"] == 2
     assert other.attrs["window_start"] == pytest.approx(event.orbit_end[0].item(), abs=1e-9)
     assert other.sizes["orbit"] == 1

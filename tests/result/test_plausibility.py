@@ -155,4 +155,4 @@ def test_films_that_carry_what_the_rings_do_not_know_are_told(load, doubted):
 @pytest.mark.parametrize(("share", "told"), [(0.0, False), (0.005, False), (0.09, True)])
 def test_contacts_that_are_cut_off_at_the_ends_are_told(share, told):
     doubts = doubtful_result(xr.Dataset(attrs={"truncated_share": share}))
-    assert any("is cut off there, with 9 % of its load" in one for one in doubts) == told
+    assert any("is cut off there, with 9 % of its load" in doubt for doubt in doubts) == told

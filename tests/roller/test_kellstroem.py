@@ -35,7 +35,7 @@ class Side(NamedTuple):
 
 def side(name):
     inner = name == "inner"
-    contact = next(one for one in interfaces(BEARING, OIL) if one.name == name)
+    contact = next(interface for interface in interfaces(BEARING, OIL) if interface.name == name)
     k = -1 if inner else 1
     distance = (
         geometry.inner_contact_radius(BEARING) if inner else geometry.outer_contact_radius(BEARING)

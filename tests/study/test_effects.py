@@ -183,7 +183,7 @@ def test_designs_under_other_loads_are_compared_with_a_note():
     notes = compare(other, by="lubricant").attrs["notes"]
     assert "The designs have different loads, so their numbers differ for that reason too." in notes
     assert not any(
-        "different loads" in one for one in compare(of_year(), by="lubricant").attrs["notes"]
+        "different loads" in note for note in compare(of_year(), by="lubricant").attrs["notes"]
     )
 
 

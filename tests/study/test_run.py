@@ -118,7 +118,7 @@ def test_only_what_is_to_be_kept_is_stored(tmp_path, load_files, content):
     run_study(study_of(content, load_files), tmp_path / "all")
     run_study(study_of(content | {"keep": ["energy"]}, load_files), tmp_path / "some")
     whole, some = open_study(tmp_path / "all"), open_study(tmp_path / "some")
-    of_results = {name for name, one in some.data_vars.items() if "roller" in one.dims}
+    of_results = {name for name, variable in some.data_vars.items() if "roller" in variable.dims}
     assert of_results == {"energy", *ALWAYS_KEPT} and "orbit_energy" in whole
     np.testing.assert_array_equal(some.energy, whole.energy)
     np.testing.assert_array_equal(some.peak_power_mean, whole.peak_power_mean)

@@ -69,10 +69,10 @@ def test_processes_find_what_this_process_finds_and_listen_to_nobody(tmp_path, l
     def look(progress):
         family = [psutil.Process(), *psutil.Process().children(recursive=True)]
         seen.update(
-            one.laddr
+            connection.laddr
             for member in family
-            for one in member.net_connections("inet")
-            if one.status == "LISTEN"
+            for connection in member.net_connections("inet")
+            if connection.status == "LISTEN"
         )
         count.append(len(workers_of(psutil.Process())))
 

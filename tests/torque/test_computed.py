@@ -58,7 +58,7 @@ def test_parts_add_up_and_have_units(result):
     assert (torque.contact_torque >= 0.0).all()
     assert (torque.rolling_torque >= 0.0).all()
     assert bool((torque.rolling_torque > 0.0).any()) == (result.attrs["model"] == "physical")
-    assert {name: one.attrs["units"] for name, one in torque.data_vars.items()} == {
+    assert {name: variable.attrs["units"] for name, variable in torque.data_vars.items()} == {
         "shaft_speed": "rad/s",
         "torque": "N m",
         "contact_torque": "N m",

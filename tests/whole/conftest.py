@@ -159,7 +159,7 @@ def losses_of_closed_books(result) -> dict[str, float]:
         if str(name).startswith("book_") and str(name).endswith("impulse")
     ]
     assert abs(result.momentum_residual).max() < 1e-6 * max(
-        float(abs(one).max()) for one in impulses
+        float(abs(impulse).max()) for impulse in impulses
     )
     edges = [result.attrs["window_start"], result.attrs["window_end"]]
     lost = {

@@ -233,9 +233,11 @@ def test_its_lives_follow_from_the_loads_of_its_rollers():
     basic = 1e6 * (ratings.dynamic / force) ** (10.0 / 3.0) / turns_an_hour
     assert float(rating.basic_life) == pytest.approx(basic, rel=1e-9)
 
-    stiffness = sum(one.hertz.stiffness ** (-2.0 / 3.0) for one in interfaces(BEARING, OIL)[:2])
+    stiffness = sum(
+        interface.hertz.stiffness ** (-2.0 / 3.0) for interface in interfaces(BEARING, OIL)[:2]
+    )
     stiffness **= -1.5
-    semi_axes = [one.hertz.semi_axis_across for one in interfaces(BEARING, OIL)[:2]]
+    semi_axes = [interface.hertz.semi_axis_across for interface in interfaces(BEARING, OIL)[:2]]
     gamma = 32.0 / 225.0
     ratio = 1.038 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)
     share = ratings.dynamic / 18.0
