@@ -96,8 +96,8 @@ def sample_places() -> NDArray[np.float64]:
 def sample_points() -> list[dict[str, Any]]:
     """Settings of every point of the sample, as a study has them; the first has none, and is the base case.
 
-    Both osculations are the same, and pitch radius and
-    row offset follow roller diameter and contact angle: (R − r) cos α and (R − r) sin α, R the outer raceway's radius.
+    Both osculations are the same, and pitch radius and row offset follow roller diameter and
+    contact angle: (R − r) cos α and (R − r) sin α, R the outer raceway's radius.
 
     Examples
     --------

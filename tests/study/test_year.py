@@ -9,6 +9,7 @@ from scipy.stats import weibull_min
 
 from macroslip import InputError, open_study, run_study
 from macroslip.constants import YEAR
+from macroslip.scada.bins import bin_centres
 from macroslip.study.aggregation import Aggregation, aggregation_in_use
 from macroslip.study.lifetime import lifetime_energy
 from macroslip.study.loads_list import Load
@@ -19,7 +20,6 @@ from macroslip.study.weights import (
     Rate,
     Weibull,
     Year,
-    bin_centres,
     binned,
     stored_weighting,
 )

@@ -51,8 +51,8 @@ class Bearing(Record):
     The rows of a spherical roller bearing are identical and mirrored. A cylindrical roller bearing
     has no osculations: its rollers touch straight raceways, crowned ones with a
     `roller_crown_radius` in an ellipse, straight ones and those with a logarithmic profile, by
-    `roller_profile`, along a line.
-    Contact angle and row offset are 0, and `outer_raceway_radius` is the radius of a cylinder.
+    `roller_profile`, along a line. Contact angle and row offset are 0, and `outer_raceway_radius`
+    is the radius of a cylinder.
 
     Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths
     and angles have no sign, except the clearance, which is negative for a preloaded bearing. Raises

@@ -275,8 +275,7 @@ def initial_angles(row: str, rollers_per_row: int) -> FloatArray:
     They rise in even steps from the bottom.
 
     -pi/2 + 2 pi j/Z downwind and in a single row, -pi/2 + 2 pi (j + 1/2)/Z upwind: rows are
-    staggered by half a pitch. Raises InputError for
-    another row.
+    staggered by half a pitch. Raises InputError for another row.
 
     Examples
     --------

@@ -21,8 +21,7 @@ def pass_work(load_per_length, slip, speed):
     """∫ p |v| dt over one pass [J/m²], w |v|/u, with slip the same all along the chord that passes.
 
     Of the chord's load per length w [N/m], slip v, any sign, and the speed u > 0 with which the
-    contact passes over the
-    surface [m/s].
+    contact passes over the surface [m/s].
 
     Examples
     --------
@@ -65,8 +64,8 @@ class ThrustTest:
         """Stations along the roller [m], outwards, and e_a of a washer there [W/m²].
 
         The load is even along the roller (`uniform`), or that of ISO/TS 16281's `logarithmic`
-        profile, 0.00035 D ln
-        1/(1 − (2ζ/L)²), with its slices of 35 948 N/mm per mm^(10/9) made linear at the mean load.
+        profile, 0.00035 D ln 1/(1 − (2ζ/L)²), with its slices of 35 948 N/mm per mm^(10/9) made
+        linear at the mean load.
 
         Examples
         --------

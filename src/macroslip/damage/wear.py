@@ -25,10 +25,9 @@ def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float)
     """Volume k E/µ_b [m³] that wears where asperities dissipate E; with E per area the depth [m].
 
     Asperities dissipate µ_b p |v| of the area that they carry, so E/µ_b is their pressure times
-    slip over time and area. Where
-    slip is too slow for them to slide, they dissipate and wear less. k [m²/N] is the dimensionless
-    coefficient over
-    hardness, µ_b > 0 the boundary friction [-], and E in J or J/m².
+    slip over time and area. Where slip is too slow for them to slide, they dissipate and wear less.
+    k [m²/N] is the dimensionless coefficient over hardness, µ_b > 0 the boundary friction [-], and
+    E in J or J/m².
 
     Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448. Each of the two surfaces wears by
     k.

@@ -146,15 +146,15 @@ def _openfast_channels(table: Table, where: str) -> Channels | None:
 
 
 def _texts(table: Table, indices: Sequence[int], values: NDArray) -> dict[int, str]:
-    """First cell that is no number in each column, by the place of the column in `indices`."""
+    """First cell that is no number in each column, by the position of the column in `indices`."""
     texts = {}
-    for place, index in enumerate(indices):
-        empty = np.flatnonzero(np.isnan(values[:, place]))
+    for position, index in enumerate(indices):
+        empty = np.flatnonzero(np.isnan(values[:, position]))
         cells = table.texts(index) if empty.size else []
         words = ((row, cells[row]) for row in empty)
         for row, word in words:
             if word and word.lower() != "nan":
-                texts[place] = f"{shown(word)} (row {row + 1} of the data)"
+                texts[position] = f"{shown(word)} (row {row + 1} of the data)"
                 break
     return texts
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,15 +18,25 @@ MISSING = 65535
 _TOP = 65534
 #: Power below which the scale does not distinguish values [W].
 LEAST_POWER = 1e-5
-#: Name in a scene, heading, unit shown, factor from SI, whether the scale is logarithmic.
+
+
+class Quantity(NamedTuple):
+    """A quantity that colours the rollers."""
+
+    name: str  #: In a scene
+    heading: str
+    unit: str
+    factor: float  #: From SI to the unit
+    logarithmic: bool = False  #: True if its scale is
+    signed: bool = False  #: True if it may be negative
+
+
 QUANTITIES = (
-    ("slip", "Slip", "mm/s", 1e3, False),
-    ("roller_load", "Load", "kN", 1e-3, False),
-    ("power", "Frictional power", "W", 1.0, True),
-    ("cage_force", "Force of the spars", "N", 1.0, False),
+    Quantity("slip", "Slip", "mm/s", 1e3, signed=True),
+    Quantity("roller_load", "Load", "kN", 1e-3),
+    Quantity("power", "Frictional power", "W", 1.0, logarithmic=True),
+    Quantity("cage_force", "Force of the spars", "N", 1.0, signed=True),
 )
-#: Quantities of either sign.
-_SIGNED = ("slip", "cage_force")
 #: Way of the rollers in their pockets in the drawing over the true one, at most.
 _ENLARGED = 25.0
 #: Colours of a scale from least to most, whose lightness rises evenly.
@@ -58,33 +68,13 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     from matplotlib import colormaps
 
     time = scene.time.values
-    quantities = []
     powers = scene.power.transpose("row", "roller", "time").values
     power = np.nan_to_num(powers, nan=-1.0).max(axis=(0, 1))
-    for name, heading, unit, factor, logarithmic in QUANTITIES:
-        if name not in scene:
-            continue
-        values = factor * scene[name].transpose("row", "roller", "time").values.astype(float)
-        finite = values[np.isfinite(values)]
-        if logarithmic:
-            low = np.log10(LEAST_POWER)
-            high = np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0)))
-            with np.errstate(divide="ignore"):
-                values = np.log10(np.where(values <= 0.0, LEAST_POWER, values))
-        elif name in _SIGNED:
-            high = max(1e-6, np.abs(finite).max(initial=0.0))
-            low = -high
-        else:
-            low = 0.0
-            high = max(1e-6, finite.max(initial=0.0))
-        about = {
-            "heading": heading,
-            "unit": unit,
-            "logarithmic": logarithmic,
-            "low": float(low),
-            "high": float(high),
-        }
-        quantities.append(about | {"codes": _text(quantise(values, low, high))})
+    quantities = [
+        _quantity(scene[quantity.name], quantity)
+        for quantity in QUANTITIES
+        if quantity.name in scene
+    ]
     ramp = colormaps["cividis"](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
     return {
         "rows": scene.row.values.tolist(),
@@ -108,6 +98,31 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     }
 
 
+def _quantity(values: xr.DataArray, quantity: Quantity) -> dict[str, Any]:
+    """Heading, unit, range and codes of a quantity."""
+    shown = quantity.factor * values.transpose("row", "roller", "time").values.astype(float)
+    finite = shown[np.isfinite(shown)]
+    if quantity.logarithmic:
+        low = np.log10(LEAST_POWER)
+        high = np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0)))
+        with np.errstate(divide="ignore"):
+            shown = np.log10(np.where(shown <= 0.0, LEAST_POWER, shown))
+    elif quantity.signed:
+        high = max(1e-6, np.abs(finite).max(initial=0.0))
+        low = -high
+    else:
+        low = 0.0
+        high = max(1e-6, finite.max(initial=0.0))
+    return {
+        "heading": quantity.heading,
+        "unit": quantity.unit,
+        "logarithmic": quantity.logarithmic,
+        "low": float(low),
+        "high": float(high),
+        "codes": _text(quantise(shown, low, high)),
+    }
+
+
 def _text(content: bytes) -> str:
     return base64.b64encode(content).decode("ascii")
 
@@ -124,5 +139,7 @@ def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         "enlarged": float(min(_ENLARGED, 0.35 * free / reach)),
         "codes": _text(quantise(offsets, -reach, reach)),
         "lead": _text(scene.cage_lead.values.astype("<f4").tobytes()),
-        "force": [name for name, *_ in QUANTITIES if name in scene].index("cage_force"),
+        "force": [quantity.name for quantity in QUANTITIES if quantity.name in scene].index(
+            "cage_force"
+        ),
     }

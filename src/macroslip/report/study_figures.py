@@ -133,17 +133,17 @@ def plot_by_result(
     label : str
         Quantity and [unit].
     """
-    places = np.arange(len(names))
+    middles = np.arange(len(names))
     for k, row in enumerate(rows):
         style = {**ROW.get(row, {}), "linestyle": "none"}
         axes.plot(
-            places + 0.16 * (k - 0.5), values[:, k], markersize=5, label=f"{row} row", **style
+            middles + 0.16 * (k - 0.5), values[:, k], markersize=5, label=f"{row} row", **style
         )
     shown = [
         name if len(name) <= _NAME_LENGTH else f"…{name[1 - _NAME_LENGTH :]}" for name in names
     ]
     upright = len(names) > 4 or sum(map(len, shown)) > 32
-    axes.set_xticks(places, shown, rotation=90 if upright else 0)
+    axes.set_xticks(middles, shown, rotation=90 if upright else 0)
     axes.set_xlim(-0.5, len(names) - 0.5)
     axes.set_ylim(0.0, 1.08 * max(float(np.nanmax(values, initial=0.0)), 1e-12))
     return finish(axes, "", textwrap.fill(label, _LABEL_LENGTH))

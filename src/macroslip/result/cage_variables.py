@@ -87,8 +87,7 @@ def open_books(books: Books) -> str:
     """A sentence where momentum or energy is missing, or friction drives; empty otherwise.
 
     More than `LARGEST_RESIDUAL` is told. Energy is compared with what was dissipated by the end,
-    momentum with the impulse of one kind
-    that was largest.
+    momentum with the impulse of one kind that was largest.
     """
     flows = {name: np.abs(books.flows[:, k]) for k, name in enumerate(FLOWS)}
     losses = ("raceway_loss", "friction_loss", "guide_loss")

@@ -1,14 +1,11 @@
 """The result of a case as a labelled dataset.
 
 Dimensions: `row` (downwind, upwind), `roller`, `interface` (inner, outer, cage), `orbit` (complete
-orbits in the window)
-and, with traces, `time`. Contacts with microslip or asperities add `raceway` (inner, outer),
-`mechanism`,
-`station`; their maps of the raceways add `angle`, `slip_sign` and `film_regime`. The whole bearing
-adds `cage` (both, or
-downwind and upwind), `side` of the pocket (front, rear), `position` on the orbit, and `book_time`,
-at which the books of
-momentum and energy are closed.
+orbits in the window) and, with traces, `time`. Contacts with microslip or asperities add `raceway`
+(inner, outer), `mechanism`, `station`; their maps of the raceways add `angle`, `slip_sign` and
+`film_regime`. The whole bearing adds `cage` (both, or downwind and upwind), `side` of the pocket
+(front, rear), `position` on the orbit, and `book_time`, at which the books of momentum and energy
+are closed.
 """
 
 from __future__ import annotations

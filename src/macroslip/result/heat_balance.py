@@ -177,11 +177,11 @@ def bearing_friction_power(result: xr.Dataset) -> float:
 def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, bool]:
     """Temperature [K] to compute next, and whether the balance is settled.
 
-    `known` holds friction powers [W] by temperature [K].
-    First comes the temperature of the surroundings, then 30 K above, then the balance of what is
-    known; it is settled within 0.2 K of one that was computed. Where warm rings preload the
-    rollers, a trial adds at most 50 um to the preload of the warmest before it: friction rises so
-    steeply there that no trial beyond could be trusted.
+    `known` holds friction powers [W] by temperature [K]. First comes the temperature of the
+    surroundings, then 30 K above, then the balance of what is known; it is settled within 0.2 K of
+    one that was computed. Where warm rings preload the rollers, a trial adds at most 50 um to the
+    preload of the warmest before it: friction rises so steeply there that no trial beyond could be
+    trusted.
 
     Raises InputError if there is no balance, or twelve temperatures have not settled it.
 

@@ -1,8 +1,8 @@
 """Load, slip and energy of rollers by their position on the orbit, from a run's traces.
 
 Angles count from the bottom along the orbit of a shaft that turns forward; 180 degrees is the top.
-All functions need
-traces from the first sample of the loads on, and raise InputError as `position` does.
+All functions need traces from the first sample of the loads on, and raise InputError as `position`
+does.
 """
 
 from __future__ import annotations
@@ -30,8 +30,7 @@ def position(result: xr.Dataset) -> xr.DataArray:
     """Angle of every roller [degrees, 0 to 360] over (row, roller, time).
 
     Raises InputError if there are no traces, they begin after the loads, where the rollers' places
-    are not known, or no
-    roller completed.
+    are not known, or no roller completed.
     """
     if "time" not in result.dims or not result.sizes["time"]:
         raise InputError(
@@ -71,6 +70,11 @@ def in_window(result: xr.Dataset) -> xr.Dataset:
     )
 
 
+def _thinned(size: int, most: int) -> slice:
+    """Every first, second, third ... of `size` samples, so that `most` are left at most."""
+    return slice(None, None, max(1, math.ceil(size / most)))
+
+
 def _middles(sectors: int) -> tuple[str, np.ndarray, dict[str, str]]:
     return "angle", 360.0 / sectors * (np.arange(sectors) + 0.5), _ANGLE
 
@@ -83,13 +87,10 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
     """Frictional energy per orbit and degree [J/degree], mean over the rollers that completed.
 
     Over (row, interface, angle), the angle being the middle of the sector. The sum over the sectors
-    times their width
-    is the energy per orbit, within what the traces' samples resolve; sectors that are passed more
-    often than others,
-    because orbits are no whole number, count as if all were passed equally often. The attribute
-    `energy_ratio` holds
-    energy from the traces over the integrator's own, both rows and all interfaces, `orbits` how
-    many were made.
+    times their width is the energy per orbit, within what the traces' samples resolve; sectors that
+    are passed more often than others, because orbits are no whole number, count as if all were
+    passed equally often. The attribute `energy_ratio` holds energy from the traces over the
+    integrator's own, both rows and all interfaces, `orbits` how many were made.
     """
     angle = position(result)
     window = in_window(result)
@@ -104,21 +105,23 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
     way = np.abs(np.gradient(angles))
     for weights in (seconds, way):
         weights[[0, -1]] *= 0.5  # trapezoids
-    good = (result.status == 0).values
+    completed = (result.status == 0).values
     sector = _sectors(angle.sel(time=window.time), sectors)
     values = np.full((result.sizes["row"], result.sizes["interface"], sectors), np.nan)
-    for r in np.flatnonzero(good.any(axis=1) & (orbits > 0.0)):
-        rollers = int(good[r].sum())
-        here = sector[r, good[r]].ravel()
-        passed = np.bincount(here, np.tile(way, rollers), sectors)
-        for i in range(result.sizes["interface"]):
-            energy = power[r, good[r], :, i] * seconds
-            total = np.bincount(here, energy.ravel(), sectors)
-            per_way = np.divide(total, passed, out=np.zeros(sectors), where=passed > 0.0)
+    for row in np.flatnonzero(completed.any(axis=1) & (orbits > 0.0)):
+        chosen = completed[row]
+        rollers = int(chosen.sum())
+        sector_of_sample = sector[row, chosen].ravel()
+        passed = np.bincount(sector_of_sample, np.tile(way, rollers), sectors)
+        degrees = rollers * orbits * 360.0 / sectors
+        for interface in range(result.sizes["interface"]):
+            energy = power[row, chosen, :, interface] * seconds
+            in_sector = np.bincount(sector_of_sample, energy.ravel(), sectors)
+            per_way = np.divide(in_sector, passed, out=np.zeros(sectors), where=passed > 0.0)
             shape = per_way / max(per_way.sum(), np.finfo(float).tiny)
-            values[r, i] = shape * total.sum() / (rollers * orbits * 360.0 / sectors)
-    traced = (power[good] * seconds[:, None]).sum()
-    integrated = result.energy.values[good].sum()
+            values[row, interface] = shape * in_sector.sum() / degrees
+    traced = (power[completed] * seconds[:, None]).sum()
+    integrated = result.energy.values[completed].sum()
     about = {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit"}
     about |= {
         "energy_ratio": float(traced / integrated) if integrated else math.nan,
@@ -135,7 +138,7 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
     at most.
     """
     angles = position(result)
-    every = slice(None, None, max(1, math.ceil(angles.sizes["time"] / samples)))
+    every = _thinned(angles.sizes["time"], samples)
     angle = angles.isel(time=every)
     load = result.roller_load.isel(time=every).values
     dims = _middles(sectors)
@@ -178,11 +181,11 @@ def over_orbit(
         order = np.argsort(sector, kind="stable")
         ends = np.searchsorted(sector[order], np.arange(sectors + 1))
         for i, k in np.ndindex(quantile_values.shape[1], sectors):
-            in_sector = order[ends[k] : ends[k + 1]]
-            here = values.values[r, ..., i].ravel()[in_sector]
-            here = here[np.isfinite(here)]
-            if here.size:
-                quantile_values[r, i, :, k] = np.quantile(here, quantiles)
+            samples = order[ends[k] : ends[k + 1]]
+            in_sector = values.values[r, ..., i].ravel()[samples]
+            known = in_sector[np.isfinite(in_sector)]
+            if known.size:
+                quantile_values[r, i, :, k] = np.quantile(known, quantiles)
     labels = {
         "row": values.row,
         "interface": values.interface,
@@ -202,16 +205,12 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
     """Averages over traces that a report shows of one result.
 
     "result" is the result without its traces; "orbit" has `energy_over_orbit`, and quantiles of
-    film_thickness [m] and
-    film_parameter [1] over (row, interface, quantile, angle), and of slip over the speed of the
-    raceways [1]; the
-    others are "load_zone", "scene" and "still".
+    film_thickness [m] and film_parameter [1] over (row, interface, quantile, angle), and of slip
+    over the speed of the raceways [1]; the others are "load_zone", "scene" and "still".
     """
     orbit = energy_over_orbit(result).to_dataset()
     window = in_window(result)
-    traced = window.isel(
-        time=slice(None, None, max(1, math.ceil(window.sizes["time"] / _QUANTILE_SAMPLES)))
-    )
+    traced = window.isel(time=_thinned(window.sizes["time"], _QUANTILE_SAMPLES))
     angle = position(result).sel(time=traced.time)
     thickness = over_orbit(traced.film_thickness.transpose(*_ORDER, "interface"), angle)
     orbit["film_thickness"] = thickness
@@ -219,9 +218,8 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
         slip = (1.0 - traced.spin / traced.spin_pure).expand_dims(interface=["raceways"], axis=-1)
     orbit["slip"] = over_orbit(slip, angle).isel(interface=0, drop=True)
     about = {"units": "1", "long_name": "film thickness over composite roughness, Λ"}
-    orbit["film_parameter"] = (
-        thickness / run_input(result).bearing.composite_roughness
-    ).assign_attrs(about)
+    roughness = run_input(result).bearing.composite_roughness
+    orbit["film_parameter"] = (thickness / roughness).assign_attrs(about)
     return {
         "result": result.drop_dims("time"),
         "orbit": orbit,
@@ -235,8 +233,7 @@ def still(result: xr.Dataset) -> xr.Dataset:
     """The bearing at the moment of the largest frictional power in the traces.
 
     Over (row, roller): angle [degrees], slip [1] over the speed of the raceways, 1 for a roller
-    that does not spin, and
-    roller_load [N].
+    that does not spin, and roller_load [N].
     """
     angle = position(result)
     power = in_window(result).power.sum("interface").max(("row", "roller"))
@@ -251,13 +248,10 @@ def scene(
     """A part of the traces to be played, around the largest power.
 
     At most `samples`, at least `step` [s] apart, over (row, roller, time), as 32-bit numbers: slip
-    [m/s], roller_load [N] and power [W], summed
-    over the interfaces,
-    at the instant; and angle [degrees] of the rollers at the first kept time over (row, roller),
-    and travelled
-    [degrees] since then over (time). Where pockets were computed also cage_force [N], pocket_offset
-    [m], and cage_lead
-    [degrees], by which a cage is ahead of pure rolling, over (row, time).
+    [m/s], roller_load [N] and power [W], summed over the interfaces, at the instant; and angle
+    [degrees] of the rollers at the first kept time over (row, roller), and travelled [degrees]
+    since then over (time). Where pockets were computed also cage_force [N], pocket_offset [m], and
+    cage_lead [degrees], by which a cage is ahead of pure rolling, over (row, time).
     """
     angle = position(result)
     turned = np.degrees(travelled(result))
@@ -282,15 +276,12 @@ def scene(
         "long_name": "frictional power, all interfaces, at the instant",
     }
     if "pocket_offset" in thin:
-        lead = np.degrees(
-            thin.cage_lag.transpose("cage", "time").values / run_input(result).bearing.pitch_radius
-        )
-        leads = np.broadcast_to(lead.astype(np.float32), (result.sizes["row"], lead.shape[1]))
-        played["cage_lead"] = (
-            ("row", "time"),
-            leads,
-            {"units": "degree", "long_name": "cage ahead of pure rolling"},
-        )
+        pitch_radius = run_input(result).bearing.pitch_radius
+        lead = np.degrees(thin.cage_lag.transpose("cage", "time").values / pitch_radius)
+        lead = lead.astype(np.float32)
+        of_rows = np.broadcast_to(lead, (result.sizes["row"], lead.shape[1]))
+        about = {"units": "degree", "long_name": "cage ahead of pure rolling"}
+        played["cage_lead"] = (("row", "time"), of_rows, about)
     played["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
     moved = turned[every][part]
     about = {"units": "degree", "long_name": "angle travelled since the start"}

@@ -101,8 +101,7 @@ def prepare(case: Case) -> Prepared:
     """Make a case ready.
 
     Raises InputError if a roller's load truncates its contact ellipse, or a law does not exist or
-    breaks what laws have
-    to fulfil.
+    breaks what laws have to fulfil.
     """
     loads = case.ring_loads
     options = {

@@ -25,8 +25,7 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     """Elastic load of every roller at every fifth sample of the ring balance between two times [s].
 
     Returns m times [s] and loads [N] of shape (m, 2, rollers), by time, row and roller. Raises
-    InputError as
-    `macroslip.rating.roller_load_history`.
+    InputError as `macroslip.rating.roller_load_history`.
     """
     loads, roller_load, _ = _load_history(case)
     here = np.flatnonzero((loads.time >= start) & (loads.time <= end))[::_EVERY]
@@ -37,8 +36,7 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     """Rate the main bearing of a case over all of its loads.
 
     As `macroslip.rating.rate` with the contamination factor e_C [-]; the case's laws and window do
-    not matter, since a
-    rating depends only on loads, speed and viscosity.
+    not matter, since a rating depends only on loads, speed and viscosity.
 
     Examples
     --------
@@ -69,8 +67,7 @@ def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:
     """The result with the variables of `macroslip.rating.rate`; as it is with `rating: false`.
 
     The attributes `rating_contamination` and `rating_film_law` are added. A bearing that lacks what
-    a rating needs has
-    the reason in the attribute `rating_problem` instead.
+    a rating needs has the reason in the attribute `rating_problem` instead.
     """
     if not case.rating:
         return result

@@ -250,10 +250,10 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
         for k, row in enumerate(names)
     }
     chosen = [(row, number) for row in names for number in case.roller_numbers]
-    places = [names.index(row) * count + number for row, number in chosen]
+    indices = [names.index(row) * count + number for row, number in chosen]
     measures = [
         RollerMeasures(rows[row], float(bearing.positions["angle"][index]))
-        for (row, _), index in zip(chosen, places, strict=True)
+        for (row, _), index in zip(chosen, indices, strict=True)
     ]
     start = float(motion.time[0])
     times = ready.trace_time
@@ -269,7 +269,7 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
         if stop.is_set():
             raise _InterruptedError
         cages.add(part)
-        for index, measure in zip(places, measures, strict=True):
+        for index, measure in zip(indices, measures, strict=True):
             measure.add(part.steps, index)
         memory = part.memory
         outcome = Outcome(

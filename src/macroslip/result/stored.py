@@ -45,8 +45,7 @@ def check_result(result: xr.Dataset, where: str) -> None:
     """Refuse a dataset that is no result, is incomplete, or holds impossible values.
 
     Raises InputError naming the variable or attribute. The result is as read from the file `where`:
-    of a run, or of a
-    study, which has everything over `case` too.
+    of a run, or of a study, which has everything over `case` too.
     """
     problem = next(
         filter(None, (look(result) for look in (_names, _kinds, _labels, _values, _input))), None

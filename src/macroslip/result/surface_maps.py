@@ -1,13 +1,10 @@
 """Maps of the raceways: energy dissipated over angle and station along the roller.
 
 The maps belong to the bearing, not to a roller: what all simulated rollers of a row leave at a
-place of the raceway. The
-outer raceway is at rest, so its angle is φ; the inner one turns, and its angle is counted on the
-ring, from where +X0
-was at the first sample. Energies are stored, in J, so that sums over a map are the energies of
-`simulate`; over
-`cell_area` they are energies per area. How often each sector was passed is stored beside them
-(`surface_passes`).
+place of the raceway. The outer raceway is at rest, so its angle is φ; the inner one turns, and its
+angle is counted on the ring, from where +X0 was at the first sample. Energies are stored, in J, so
+that sums over a map are the energies of `simulate`; over `cell_area` they are energies per area.
+How often each sector was passed is stored beside them (`surface_passes`).
 """
 
 from __future__ import annotations
@@ -103,10 +100,8 @@ def even_energy(result: xr.Dataset) -> xr.DataArray:
     """Frictional energy of the maps as if all sectors had been passed equally often [J].
 
     A few rollers, or a window of no whole number of orbits, pass some sectors of a raceway more
-    often than others. The
-    energy per pass of a sector keeps its place; the sum over each raceway keeps its value. A sector
-    without passes has
-    none.
+    often than others. The energy per pass of a sector keeps its place; the sum over each raceway
+    keeps its value. A sector without passes has none.
 
     Parameters
     ----------
@@ -124,9 +119,9 @@ def even_energy(result: xr.Dataset) -> xr.DataArray:
         return energy
     passes = result.surface_passes
     per_pass = xr.where(passes > 0.0, energy / passes, 0.0 * energy)
-    places = ("angle", "station", "slip_sign", "film_regime")
-    total = per_pass.sum(places, skipna=False)
-    scale = energy.sum(places, skipna=False) / total.where(total != 0.0, 1.0)
+    over_raceway = ("angle", "station", "slip_sign", "film_regime")
+    total = per_pass.sum(over_raceway, skipna=False)
+    scale = energy.sum(over_raceway, skipna=False) / total.where(total != 0.0, 1.0)
     return (per_pass * scale).transpose(*energy.dims)
 
 
@@ -134,8 +129,7 @@ def energy_density(result: xr.Dataset) -> xr.DataArray:
     """Frictional energy per area, e = ∫|τ v| dt [J/m²], over row, raceway, angle and station.
 
     Of a result with maps, InputError without, or from `macroslip.study.lifetime.weighted_maps`; all
-    sectors count as
-    passed equally often (`even_energy`).
+    sectors count as passed equally often (`even_energy`).
     """
     _require_maps(result)
     energy = even_energy(result).sum(("slip_sign", "film_regime"), skipna=False)
@@ -161,10 +155,8 @@ def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> 
     """Share of a raceway's area, over row and raceway, on which a map exceeds a threshold.
 
     Of `surface_power_density` or `energy_density`, over angle and station, with `cell_area` and a
-    threshold in the unit
-    of the map [W/m² or J/m²]. None is built in: no threshold of damage by frictional power or
-    energy per area could be
-    traced to a primary source.
+    threshold in the unit of the map [W/m² or J/m²]. None is built in: no threshold of damage by
+    frictional power or energy per area could be traced to a primary source.
     """
     weight = (area + 0.0 * density).where(density.notnull())
     return (

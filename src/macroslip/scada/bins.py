@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.errors import InputError
@@ -134,6 +135,19 @@ def load_speeds(scada: Scada) -> np.ndarray:
     return np.where(share < 1.0, below, np.maximum(measured, rated.wind_speed))
 
 
+def bin_centres(values: ArrayLike, width: float) -> np.ndarray:
+    """Middle of the bin of each value, a multiple k of the width.
+
+    The bin reaches from (k − ½) to (k + ½) widths, its lower edge included.
+
+    Examples
+    --------
+    >>> bin_centres([10.9, 11.0, 12.9, 13.0], 2.0).tolist()
+    [10.0, 12.0, 12.0, 14.0]
+    """
+    return np.floor(np.asarray(values, dtype=float) / width + 0.5) * width
+
+
 def nearest_bins(values: np.ndarray, centres: np.ndarray, width: float) -> np.ndarray:
     """Number of the bin of each value; outside all bins the nearest one.
 
@@ -153,7 +167,7 @@ def nearest_bins(values: np.ndarray, centres: np.ndarray, width: float) -> np.nd
     >>> nearest_bins(np.array([1.0, 5.0, 40.0]), np.array([4.0, 6.0, 24.0]), 2.0).tolist()
     [0, 1, 2]
     """
-    middle = np.floor(values / width + 0.5) * width
+    middle = bin_centres(values, width)
     above = np.clip(np.searchsorted(centres, middle), 1, max(centres.size - 1, 1))
     if centres.size == 1:
         return np.zeros(values.size, dtype=int)
@@ -178,14 +192,12 @@ def histogram(scada: Scada, width: float = 2.0) -> pd.DataFrame:
         add up to 1; and `hours [h]` of the record.
     """
     used = scada.used_rows
-    speeds = np.floor(load_speeds(scada) / width + 0.5) * width
     celsius = used["bearing_temperature"].to_numpy() - ZERO_CELSIUS
     table = pd.DataFrame(
         {
             "state": np.where(scada.turning[scada.kept], "turning", "idle"),
-            "wind_speed [m/s]": speeds,
-            "bearing_temperature [degC]": np.floor(celsius / TEMPERATURE_WIDTH + 0.5)
-            * TEMPERATURE_WIDTH,
+            "wind_speed [m/s]": bin_centres(load_speeds(scada), width),
+            "bearing_temperature [degC]": bin_centres(celsius, TEMPERATURE_WIDTH),
         }
     )
     counts = table.value_counts(sort=False).sort_index().rename("share").reset_index()

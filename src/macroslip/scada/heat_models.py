@@ -119,8 +119,8 @@ def _handbooks(
             torque = formula(friction.bearing, lubricant, radial, axial, speeds[None])
             tables[name][number] = torque.total
     held = np.clip(wind, winds[0], winds[-1])
-    places = np.stack([oil, held, np.maximum(speed, speeds[0])], axis=1)
+    points = np.stack([oil, held, np.maximum(speed, speeds[0])], axis=1)
     return {
-        name: RegularGridInterpolator((kelvin, winds, speeds), table)(places)
+        name: RegularGridInterpolator((kelvin, winds, speeds), table)(points)
         for name, table in tables.items()
     }

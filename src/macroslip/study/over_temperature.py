@@ -22,9 +22,10 @@ from scipy.optimize import brentq
 from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.result.criteria import YEARLY
+from macroslip.scada.bins import bin_centres
 from macroslip.study.labels import events_of_runs, labels_over, stored_study
 from macroslip.study.temperature_shares import TemperatureShares
-from macroslip.study.weights import LossOfHeat, Weighting, bin_centres, binned, stored_weighting
+from macroslip.study.weights import LossOfHeat, Weighting, binned, stored_weighting
 from macroslip.study.year import LIVES
 
 #: Attribute of a study whose cases are means over temperatures of the oil, and what it then lacks.

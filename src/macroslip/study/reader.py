@@ -238,11 +238,11 @@ class _Stacked(BackendArray):
         ).variables
         if self._name in variables:
             values = variables[self._name].transpose(*self._dims).values
-            places = [
+            indices = [
                 np.searchsorted(shared.rollers, rollers) if dim == "roller" else np.arange(size)
                 for dim, size in zip(self._dims, values.shape, strict=True)
             ]
-            whole[np.ix_(*places)] = values
+            whole[np.ix_(*indices)] = values
         return whole
 
 

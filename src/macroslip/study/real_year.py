@@ -13,7 +13,7 @@ import xarray as xr
 from macroslip.constants import HOURS_A_YEAR, YEAR, ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.result.criteria import CRITERIA, YEARLY
-from macroslip.scada.bins import JointShares
+from macroslip.scada.bins import JointShares, bin_centres
 from macroslip.scada.reader import Scada
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.labels import events_of_runs
@@ -26,7 +26,6 @@ from macroslip.study.weights import (
     Weibull,
     Weighting,
     Year,
-    bin_centres,
     stored_weighting,
 )
 from macroslip.study.year import DESIGN_COLUMNS, design_names, designs, year
@@ -140,14 +139,12 @@ def real_year(
     notes += designs(years["real"])[1]
     bins = aggregation.bins(collapsed["real"])
     of_bins = bins.probabilities(aggregation.weights)[np.isfinite(bins.centres)]
-    given_wind = np.array(
-        [measured.of_wind(speed, bins.width)[:-1] for speed in joint.wind.tolist()]
-    )
+    share_at_wind = [measured.of_wind(speed, bins.width)[:-1] for speed in joint.wind.tolist()]
     rates = _rates(runs, joint.oil_temperatures, bins, years["real"])
     names = design_names(years["real"])
     return RealYear(
         table=_table(years, _seeds(collapsed["real"], aggregation)),
-        bins=_bins(rates, joint, of_bins[:, None] * given_wind, names),
+        bins=_bins(rates, joint, of_bins[:, None] * np.array(share_at_wind), names),
         notes=tuple(notes),
         source=joint.source,
         mean_production=mean - ZERO_CELSIUS,

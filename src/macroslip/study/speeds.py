@@ -9,11 +9,11 @@ import pandas as pd
 import xarray as xr
 
 from macroslip.constants import RPM
-from macroslip.scada.bins import load_speeds
+from macroslip.scada.bins import bin_centres, load_speeds
 from macroslip.scada.reader import Scada
 from macroslip.study.labels import events_of_runs
 from macroslip.study.reader import open_study
-from macroslip.study.weights import Weighting, bin_centres, stored_weighting
+from macroslip.study.weights import Weighting, stored_weighting
 
 #: Difference from which on a note says so.
 _MOST = 0.1

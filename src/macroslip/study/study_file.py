@@ -633,7 +633,7 @@ def _parameters(
     axes: dict[str, Any] = dict(
         variations.grid or {}
     )  # lists of settings, which the reader has made of the axes
-    places: dict[str, dict[str, str]] = {
+    units_by_section: dict[str, dict[str, str]] = {
         "grid": {key: settings[0].unit for key, settings in axes.items()},
         "list": {
             setting.key: setting.unit for setting in itertools.chain(*(variations.list or []))
@@ -646,7 +646,7 @@ def _parameters(
         "models": {setting.key: setting.unit for setting in itertools.chain(*models.values())},
     }
     units_by_key: dict[str, str] = {}
-    for name, units in places.items():
+    for name, units in units_by_section.items():
         for key, unit in units.items():
             if key in units_by_key:
                 raise InputError(

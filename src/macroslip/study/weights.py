@@ -20,7 +20,7 @@ from macroslip.input.fields import IN_FILE, Context, Form, Positive, Quantity, T
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import CONDUCTANCE, NUMBER, TEMPERATURE
 from macroslip.result.variables import described
-from macroslip.scada.bins import JointShares
+from macroslip.scada.bins import JointShares, bin_centres
 from macroslip.scada.reader import Scada
 from macroslip.study.labels import (
     CHOICES,
@@ -383,19 +383,6 @@ def stored_weighting(study: xr.Dataset) -> Weighting | None:
     """The weighting in the study file of `open_study`'s dataset; None where there is none."""
     content = stored_study(study).get("weights")
     return None if content is None else form_from(Weighting).read(content, IN_FILE)
-
-
-def bin_centres(values: ArrayLike, width: float) -> np.ndarray:
-    """Middle of the bin of each value, a multiple k of the width.
-
-    The bin reaches from (k − ½) to (k + ½) widths, its lower edge included.
-
-    Examples
-    --------
-    >>> bin_centres([10.9, 11.0, 12.9, 13.0], 2.0).tolist()
-    [10.0, 12.0, 12.0, 14.0]
-    """
-    return np.floor(np.asarray(values, dtype=float) / width + 0.5) * width
 
 
 @dataclass(frozen=True)

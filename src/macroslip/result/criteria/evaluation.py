@@ -85,10 +85,8 @@ class Evaluation:
         """Power per area [W/m²] of a map over row, surface and station.
 
         The inner ring turns, so that of its sectors the mean counts. Of the outer ring it is the
-        sector with the largest
-        value per pass, times the mean number of passes of all sectors: a few rollers, or orbits
-        that are no whole number,
-        pass some sectors more often than others.
+        sector with the largest value per pass, times the mean number of passes of all sectors: a
+        few rollers, or orbits that are no whole number, pass some sectors more often than others.
         """
         density = self.powers(name) / self._cell_area[:, :, None]
         profile = np.empty((density.shape[0], len(SURFACES), STATIONS))
