@@ -127,7 +127,16 @@ def entry(value: float, samples: NDArray, unit: str, digits: int, tag: str, note
 
 
 def stated(value: float, unit: str, tag: str, note: str) -> dict[str, Any]:
-    """An entry of a bearing file for a value that is not sampled."""
+    """An entry of a bearing file for a value that is not sampled.
+
+    Parameters
+    ----------
+    value : float
+        In the unit.
+    unit : str
+    tag, note : str
+        Where the value comes from.
+    """
     return {"value": value, "unit": unit, "tag": tag, "note": note}
 
 

@@ -94,12 +94,12 @@ def _print(rings: xr.Dataset) -> None:
     headings = ("F_X0", "F_Y0", "F_Z0", "k_XX", "k_YY", "k_ZZ", "k_XY", "k_XZ", "k_YZ")
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
     rows = []
-    for point in range(rings.sizes["point"]):
-        here = rings.isel(point=point)
-        forces = [number(float(value) / 1e3) for value in here.force.values]
-        entries = [number(float(here.stiffness.values[pair]) / 1e6) for pair in pairs]
-        held = "" if here.held else "not held"
-        rows.append([here.case.item(), here.kind.item(), *forces, *entries, held])
+    for k in range(rings.sizes["point"]):
+        point = rings.isel(point=k)
+        forces = [number(float(value) / 1e3) for value in point.force.values]
+        entries = [number(float(point.stiffness.values[pair]) / 1e6) for pair in pairs]
+        held = "" if point.held else "not held"
+        rows.append([point.case.item(), point.kind.item(), *forces, *entries, held])
     print_table(
         "loads [kN] and stiffness of displacements [MN/m]; tilts: 0, the bearing aligns itself",
         ["case", "about", *headings, ""],

@@ -198,8 +198,12 @@ def _section(output: _Output, at_hub: bool) -> _Section:
             section.components[component[1].capitalize()] = channel
     known = list(sections.values())
     for kind, letter in (("force", "F"), ("moment", "M")):
-        at_nodes = f" at {_listed([each.text for each in known])}" if known else ""
-        known = [each for each in known if all(letter + axis in each.components for axis in "xyz")]
+        at_nodes = f" at {_listed([candidate.text for candidate in known])}" if known else ""
+        known = [
+            candidate
+            for candidate in known
+            if all(letter + axis in candidate.components for axis in "xyz")
+        ]
         if not known:
             raise InputError(
                 f"there is no {kind} of the main body shaft in its own axes{at_nodes} "
@@ -209,7 +213,7 @@ def _section(output: _Output, at_hub: bool) -> _Section:
                 "in the description",
                 remedy=_REMEDY,
             )
-    hubs = [each for each in known if re.search(_THE_HUB, each.label, re.IGNORECASE)]
+    hubs = [candidate for candidate in known if re.search(_THE_HUB, candidate.label, re.IGNORECASE)]
     if hubs and not at_hub:
         raise InputError(
             f"the file has loads at the hub, {hubs[0].text}, and a distance from hub to output is "
@@ -217,12 +221,12 @@ def _section(output: _Output, at_hub: bool) -> _Section:
             where=output.where,
             remedy="Remove loads.hub_to_output.",
         )
-    section = max(hubs or known, key=lambda each: each.node)
+    section = max(hubs or known, key=lambda candidate: candidate.node)
     elsewhere = re.search(_NOT_THE_HUB, section.label, re.IGNORECASE) or section.node == 1
     if at_hub and elsewhere and not hubs:
         raise InputError(
             f"the loads of the main body shaft are those at {section.text}, which is not the hub; "
-            f"the file has them at {_listed([each.text for each in known])}",
+            f"the file has them at {_listed([candidate.text for candidate in known])}",
             where=output.where,
             allowed="the shaft's last node, at the hub, without a label or with one that says hub",
             remedy=f"{_REMEDY} Or give the distance from the hub to that node, downwind: "
@@ -269,7 +273,9 @@ def _recognised(
     """The only candidate with the first pattern that any has; None if none moves with the shaft."""
     candidates = [channel for channel in candidates if not channel.says(_NOT_THE_SHAFT)]
     for pattern in patterns:
-        matching = {each.text: each for each in reversed(candidates) if each.says(pattern)}
+        matching = {
+            channel.text: channel for channel in reversed(candidates) if channel.says(pattern)
+        }
         if len(matching) > 1:
             raise InputError(
                 f"{len(matching)} channels may be the {quantity}: "
@@ -301,7 +307,7 @@ def _to_fixed(
     sizes = {
         direction: np.hypot(*vector[:, 1:].mean(axis=0)) for direction, vector in directions.items()
     }
-    direction = max(sizes, key=lambda each: sizes[each])
+    direction = max(sizes, key=sizes.__getitem__)
     size = sizes[direction]
     mean_z = directions[direction][:, 2].mean()
     if not np.isfinite(size) or size == 0.0 or abs(mean_z) < _DOWN * size:

@@ -28,8 +28,8 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     InputError as `macroslip.rating.roller_load_history`.
     """
     loads, roller_load, _ = _load_history(case)
-    here = np.flatnonzero((loads.time >= start) & (loads.time <= end))[::_EVERY]
-    return loads.time[here], np.moveaxis(roller_load[..., here], -1, 0)
+    chosen = np.flatnonzero((loads.time >= start) & (loads.time <= end))[::_EVERY]
+    return loads.time[chosen], np.moveaxis(roller_load[..., chosen], -1, 0)
 
 
 def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset:
