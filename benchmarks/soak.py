@@ -116,6 +116,33 @@ def _end(process: subprocess.Popen) -> None:
     process.wait()
 
 
+class Cluster(NamedTuple):
+    """Processes of a study that Dask workers of this machine compute."""
+
+    scheduler: subprocess.Popen
+    nannies: subprocess.Popen  #: Which start the workers, and start another for one that died
+    study: subprocess.Popen
+
+
+@contextmanager
+def cluster(folder: Path, study: dict[str, Any]) -> Iterator[Cluster]:
+    """Run a study on a scheduler and workers as a user starts them; results go to `out` there."""
+    (folder / "study.yaml").write_text(json.dumps(study), encoding="utf-8")
+    dask, common = "distributed.cli.dask_", ("--host", "127.0.0.1", "--no-dashboard")
+    address_file = folder / "scheduler.json"
+    options = ("--port", "0", "--scheduler-file", str(address_file), *common)
+    with started(folder, "scheduler", "-m", f"{dask}scheduler", *options) as scheduler:
+        address = json.loads(waited_for(address_file, "}"))["address"]
+        workers = (address, "--nworkers", str(WORKERS), "--nthreads", "1", *common)
+        program = ("-c", "from macroslip.cli import main; main()")
+        command = ("study", "study.yaml", "-o", "out", "--scheduler", address)
+        with (
+            started(folder, "workers", "-m", f"{dask}worker", *workers) as nannies,
+            started(folder, "study", *program, *command) as process,
+        ):
+            yield Cluster(scheduler, nannies, process)
+
+
 def soak(folder: Path, seconds: float, every: float, check: int) -> Found:
     """Run the study for a time, kill its workers, and look at what is left.
 
@@ -130,50 +157,16 @@ def soak(folder: Path, seconds: float, every: float, check: int) -> Found:
     check : int
         Number of cases that are computed again.
     """
-    (folder / "study.yaml").write_text(json.dumps(content()), encoding="utf-8")
-    dask, common = "distributed.cli.dask_", ("--host", "127.0.0.1", "--no-dashboard")
-    scheduler_file, out = folder / "scheduler.json", folder / "out"
-    with started(
-        folder,
-        "scheduler",
-        "-m",
-        f"{dask}scheduler",
-        "--port",
-        "0",
-        "--scheduler-file",
-        str(scheduler_file),
-        *common,
-    ) as scheduler:
-        address = json.loads(waited_for(scheduler_file, "}"))["address"]
-        workers = (
-            "-m",
-            f"{dask}worker",
-            address,
-            "--nworkers",
-            str(WORKERS),
-            "--nthreads",
-            "1",
-            *common,
-        )
-        command = (
-            "-c",
-            "from macroslip.cli import main; main()",
-            "study",
-            str(folder / "study.yaml"),
-        )
-        with (
-            started(folder, "workers", *workers) as nannies,
-            started(folder, "study", *command, "-o", str(out), "--scheduler", address) as study,
-        ):
-            samples, kills, problems = _watched(out, scheduler, nannies, study, seconds, every)
-            study.send_signal(signal.SIGINT)
-            try:
-                if study.wait(_END) != 130:
-                    problems.append(
-                        f"the interrupted study ended with exit code {study.returncode}"
-                    )
-            except subprocess.TimeoutExpired:
-                problems.append(f"the interrupted study had not ended after {_END:g} s")
+    out = folder / "out"
+    with cluster(folder, content()) as running:
+        samples, kills, problems = _watched(out, running, seconds, every)
+        running.study.send_signal(signal.SIGINT)
+        try:
+            if running.study.wait(_END) != 130:
+                code = running.study.returncode
+                problems.append(f"the interrupted study ended with exit code {code}")
+        except subprocess.TimeoutExpired:
+            problems.append(f"the interrupted study had not ended after {_END:g} s")
     recorded, wrong = looked_through(folder, out, samples[-1].runs if samples else 0, check)
     return Found(samples, kills, recorded, problems + wrong)
 
@@ -189,9 +182,8 @@ def waited_for(path: Path, end: str) -> str:
 
 
 def _watched(
-    out: Path, scheduler: subprocess.Popen, nannies: subprocess.Popen, study: subprocess.Popen, seconds: float,
-    every: float,
-) -> tuple[list[Sample], int, list[str]]:  # fmt: skip
+    out: Path, running: Cluster, seconds: float, every: float
+) -> tuple[list[Sample], int, list[str]]:
     """Look at the memory from the first result on, and kill a worker once a period."""
     import psutil
 
@@ -200,7 +192,7 @@ def _watched(
     begun, killed = None, 0.0
     limit = time.monotonic() + seconds + _ANSWER
     while begun is None or time.monotonic() < begun + seconds:
-        if study.poll() is not None or scheduler.poll() is not None or nannies.poll() is not None:
+        if any(process.poll() is not None for process in running):
             return (
                 samples,
                 kills,
@@ -211,10 +203,13 @@ def _watched(
         lines = len(_recorded(out))
         if begun is None and lines:
             begun = killed = time.monotonic()
-        workers = workers_of(nannies)
+        workers = workers_of(running.nannies)
         if begun is not None:
             largest = max((resident(worker) for worker in workers), default=0)
-            memory = [resident(psutil.Process(process.pid)) for process in (scheduler, study)]
+            memory = [
+                resident(psutil.Process(process.pid))
+                for process in (running.scheduler, running.study)
+            ]
             samples.append(
                 Sample(time.monotonic() - begun, memory[0], memory[1], largest, lines, kills)
             )

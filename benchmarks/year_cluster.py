@@ -10,7 +10,6 @@ checksum, once, and none may have failed. Times and memory are printed.
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
 import tempfile
@@ -20,7 +19,7 @@ from typing import Any
 
 import psutil
 
-from benchmarks.soak import WORKERS, looked_through, resident, started, waited_for, workers_of
+from benchmarks.soak import WORKERS, cluster, looked_through, resident, workers_of
 from macroslip import open_study
 from macroslip.storage.files import DATABASE
 
@@ -60,84 +59,38 @@ def main() -> None:
     kills, most = 0, dict.fromkeys(("scheduler", "study", "worker"), 0)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        text = json.dumps(
-            content(options.seconds, options.rollers, options.designs, options.samples)
-        )
-        (folder / "study.yaml").write_text(text, encoding="utf-8")
-        dask, common = "distributed.cli.dask_", ("--host", "127.0.0.1", "--no-dashboard")
-        address_file = folder / "scheduler.json"
-        with started(
-            folder,
-            "scheduler",
-            "-m",
-            f"{dask}scheduler",
-            "--port",
-            "0",
-            "--scheduler-file",
-            str(address_file),
-            *common,
-        ) as scheduler:
-            address = json.loads(waited_for(address_file, "}"))["address"]
-            nanny = (
-                "-m",
-                f"{dask}worker",
-                address,
-                "--nworkers",
-                str(WORKERS),
-                "--nthreads",
-                "1",
-                *common,
-            )
-            command = (
-                "-c",
-                "from macroslip.cli import main; main()",
-                "study",
-                "study.yaml",
-                "-o",
-                "out",
-            )
+        study = content(options.seconds, options.rollers, options.designs, options.samples)
+        with cluster(folder, study) as running:
             begun = killed = time.monotonic()
-            with (
-                started(folder, "workers", *nanny) as nannies,
-                started(folder, "study", *command, "--scheduler", address) as study,
-            ):
-                while study.poll() is None:
-                    time.sleep(1.0)
-                    workers = workers_of(nannies)
-                    sizes = [
-                        resident(psutil.Process(started_process.pid))
-                        for started_process in (scheduler, study)
-                    ]
-                    for who, size in zip(
-                        most, (*sizes, max(map(resident, workers), default=0)), strict=True
-                    ):
-                        most[who] = max(most[who], size)
-                    if time.monotonic() - killed >= options.every and len(workers) == WORKERS:
-                        workers[kills % WORKERS].kill()
-                        killed, kills = time.monotonic(), kills + 1
+            while running.study.poll() is None:
+                time.sleep(1.0)
+                workers = workers_of(running.nannies)
+                sizes = {
+                    "scheduler": resident(psutil.Process(running.scheduler.pid)),
+                    "study": resident(psutil.Process(running.study.pid)),
+                    "worker": max(map(resident, workers), default=0),
+                }
+                most = {who: max(most[who], size) for who, size in sizes.items()}
+                if time.monotonic() - killed >= options.every and len(workers) == WORKERS:
+                    workers[kills % WORKERS].kill()
+                    killed, kills = time.monotonic(), kills + 1
             wall = time.monotonic() - begun
         log = (folder / "study.log").read_text(encoding="utf-8")
         if not (folder / "out" / DATABASE).exists():
             sys.exit(log)
         recorded, problems = looked_through(folder, folder / "out", 0, 0)
         opened = open_study(folder / "out")
-        if recorded != opened.sizes["case"] or study.returncode:
+        if recorded != opened.sizes["case"] or running.study.returncode:
             problems.append(
-                f"{recorded} of {opened.sizes['case']} runs are recorded, exit code {study.returncode}"
+                f"{recorded} of {opened.sizes['case']} runs are recorded, exit code {running.study.returncode}"
             )
-        parts = {
-            name_of_time: float(opened[name_of_time].sum())
-            for name_of_time in ("simulate_seconds", "other_seconds")
-        }
+        parts = {key: float(opened[key].sum()) for key in ("simulate_seconds", "other_seconds")}
         disk = sum(path.stat().st_size for path in (folder / "out").rglob("*") if path.is_file())
     print(
         f"{recorded} runs in {wall:.0f} s, {kills} workers killed, {disk / recorded / 1e3:.0f} kB a run"
     )
     print(
-        *(
-            f"{name_of_time} {1e3 * value / recorded:.0f} ms a run"
-            for name_of_time, value in parts.items()
-        ),
+        *(f"{key} {1e3 * value / recorded:.0f} ms a run" for key, value in parts.items()),
         sep=", ",
     )
     print(*(f"{who} {size / 1e6:.0f} MB" for who, size in most.items()), sep=", ")
