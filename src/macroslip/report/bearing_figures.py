@@ -25,6 +25,7 @@ from macroslip.report.style import (
     ORANGE,
     ROW,
     SMALL,
+    colour_scale,
     decade_ticks,
     finish,
     log_ticks,
@@ -34,7 +35,6 @@ from macroslip.report.style import (
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
     from matplotlib.projections.polar import PolarAxes
 
     from macroslip.bearing import Bearing
@@ -199,7 +199,7 @@ def plot_bearing(
         aspect="equal",
     )
     axes.axis("off")
-    _colour_scale(axes, shown, "slip / speed [%]", orientation="horizontal", shrink=0.7, aspect=30)
+    colour_scale(axes, shown, "slip / speed [%]", orientation="horizontal", shrink=0.7, aspect=30)
     axes.set_title(
         f"{float(still.time):.2f} s; spokes: load, to {1e-3 * most:.3g} kN",
         fontsize=LABEL,
@@ -250,7 +250,7 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
     return finish(axes, "interface", "share of loaded time [%]")
 
 
-def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") -> Axes:
+def plot_energy_by_interface(axes: Axes, energy: xr.DataArray) -> Axes:
     """Energy of a mean roller of each row by interface, on a logarithmic axis.
 
     Takes `energy` [J] of a result, over (row, roller, interface).
@@ -267,7 +267,7 @@ def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") 
         axes.margins(y=0.12)
     axes.set_xticks(np.arange(energy.sizes["interface"]), energy.interface.values.tolist())
     axes.set_xlim(-0.6, energy.sizes["interface"] - 0.4)
-    return finish(axes, "interface", "energy of a roller [J]", title)
+    return finish(axes, "interface", "energy of a roller [J]")
 
 
 def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
@@ -655,14 +655,7 @@ def _heat_map(
         interpolation="nearest",
         rasterized=True,
     )
-    _colour_scale(axes, image, label)
-
-
-def _colour_scale(axes: Axes, shown: ScalarMappable, label: str, **options: Any) -> None:
-    """Scale of the colours of an image or of patches, beside the axes or below."""
-    scale = axes.figure.colorbar(shown, ax=axes, pad=0.02, **options)
-    scale.set_label(label, fontsize=LABEL)
-    scale.ax.tick_params(labelsize=SMALL)
+    colour_scale(axes, image, label)
 
 
 def plot_skew_over_orbit(axes: Axes, result: xr.Dataset) -> Axes:

@@ -128,7 +128,7 @@ def _plot_index_column(
     axes: Axes, heat: BearingHeat, period: str, column: str, **style: Any
 ) -> pd.DataFrame:
     """Plot a column of the index over time, a line a model; returns the rows of the period."""
-    rows = heat.index.loc[heat.index["period"] == period]
+    rows = heat.index_by(period)
     for model, of_model in rows.groupby("model", sort=False):
         of_line = {**MODEL[str(model)], **style}
         axes.plot(of_model["start"], of_model[column], label=str(model), **of_line)

@@ -12,7 +12,7 @@ from macroslip.report.page import Opening, Table, number, render, sections, word
 from macroslip.report.style import OPENING, Picture, compared, picture
 from macroslip.result.heat_balance import SPECIFIC_HEAT
 from macroslip.scada.description import ScadaDescription
-from macroslip.scada.heat import BearingHeat
+from macroslip.scada.heat import BearingHeat, fit_of
 from macroslip.scada.heat_balance import PARAMETERS, HeatFit
 from macroslip.scada.heat_index import FLAGGED, first_flag
 from macroslip.scada.heat_models import FRICTION, FRICTION_ALONE, MEAN_TEMPERATURE
@@ -103,8 +103,8 @@ def _worth(heat: BearingHeat) -> str:
         verdict = f"The computed friction explains the heat hardly better than a rival: {beside}."
     else:
         verdict = f"The computed friction explains the heat better than its rivals: {beside}."
-    alone = _same_supply(heat, FRICTION_ALONE)
-    steady = _same_supply(heat, MEAN_TEMPERATURE)
+    alone = fit_of(heat.fits, FRICTION_ALONE, own.model.supply)
+    steady = fit_of(heat.fits, MEAN_TEMPERATURE, own.model.supply)
     return (
         f"{verdict} Without seals it leaves {alone.residual:.3f} K/h, and {steady.residual:.3f} "
         "with the friction at the mean temperature in place of that measured."
@@ -128,11 +128,6 @@ def block_scatter(heat: BearingHeat, rival: HeatFit) -> float:
     more = (rival.residuals**2 - heat.chosen.residuals**2)[inside]
     blocks = pd.Series(more).groupby(heat.windows["block"].to_numpy()[inside]).sum().to_numpy()
     return float(blocks.mean() / (blocks.std(ddof=1) / np.sqrt(blocks.size)))
-
-
-def _same_supply(heat: BearingHeat, model: str) -> HeatFit:
-    supply = heat.chosen.model.supply
-    return next(f for f in heat.fits if (f.model.name, f.model.supply) == (model, supply))
 
 
 def _constants(fit: HeatFit) -> str:
@@ -185,9 +180,8 @@ def _supplies(heat: BearingHeat) -> str:
 
 def _flags(heat: BearingHeat) -> str:
     """When the index is flagged, which is no alarm."""
-    chosen = heat.index["model"] == heat.chosen.model.name
-    days = heat.index[chosen & (heat.index["period"] == "day")]
-    months = heat.index[chosen & (heat.index["period"] == "month")]["r"]
+    days = _index_of_chosen(heat, "day")
+    months = _index_of_chosen(heat, "month")["r"]
     flag = first_flag(days)
     crossing = (
         f"its cumulative sum passes {FLAGGED:g} on {flag:%Y-%m-%d}"
@@ -202,6 +196,12 @@ def _flags(heat: BearingHeat) -> str:
             f"does on {flag:%Y-%m-%d}." if flag is not None else "does not."
         )
     return f"Index of the heat, 1 in the reference{spread}; {crossing}.{over}"
+
+
+def _index_of_chosen(heat: BearingHeat, period: str) -> pd.DataFrame:
+    """Index of the chosen model by `day`, `week` or `month`."""
+    rows = heat.index_by(period)
+    return rows.loc[rows["model"] == heat.chosen.model.name]
 
 
 def fit_table(heat: BearingHeat) -> Table:
@@ -219,7 +219,7 @@ def fit_table(heat: BearingHeat) -> Table:
 
 def _months(heat: BearingHeat) -> Table:
     """Index of every model by month."""
-    months = heat.index[heat.index["period"] == "month"]
+    months = heat.index_by("month")
     table = months.pivot_table("r", "start", "model", sort=False)
     rows = [
         (f"{pd.Timestamp(start):%Y-%m}", *(number(value, 3) for value in line))

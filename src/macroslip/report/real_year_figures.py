@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.style import BLUE, GREY, LABEL, ORANGE, SMALL, finish, log_ticks
+from macroslip.report.style import BLUE, GREY, ORANGE, colour_scale, finish, log_ticks
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,9 +44,7 @@ def plot_over_wind_and_temperature(axes: Axes, bins: pd.DataFrame, column: str, 
         vmin=0.0,
         rasterized=True,
     )
-    scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
-    scale.set_label("% of production", fontsize=LABEL)
-    scale.ax.tick_params(labelsize=SMALL)
+    colour_scale(axes, image, "% of production")
     return finish(axes, "wind speed [m/s]", "oil [°C]", title)
 
 

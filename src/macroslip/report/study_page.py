@@ -93,7 +93,6 @@ def study_page(
     *,
     title: str,
     weights: Weibull | BinProbabilities | None = None,
-    years: float = 20.0,
 ) -> str:
     """A page on a study: HTML in one piece, every name and text in it escaped.
 
@@ -108,8 +107,6 @@ def study_page(
         Heading of the page.
     weights : Weibull or BinProbabilities, optional
         How likely each wind speed is; that of the study file if not given.
-    years : float, optional
-        The lifetime [years].
 
     Returns
     -------
@@ -118,7 +115,7 @@ def study_page(
     """
     study = weighted_study(study)
     text = words(_TEMPLATE)
-    weighted = _weighted(study, weights, years)
+    weighted = _weighted(study, weights)
     table, unknown = designs(weighted.year)
     notes = [weighted.note, *unknown]
     names = design_names(weighted.year)
@@ -181,11 +178,9 @@ class _Weighted:
         return wind if wind is None or isinstance(wind, Weibull) else False
 
 
-def _weighted(
-    study: xr.Dataset, weights: Weibull | BinProbabilities | None, years: float
-) -> _Weighted:
+def _weighted(study: xr.Dataset, weights: Weibull | BinProbabilities | None) -> _Weighted:
     pooled = study.drop_vars(sampled_parameters(study))
-    aggregation = aggregation_in_use(study, weights, years)
+    aggregation = aggregation_in_use(study, weights)
     try:
         of_year = year(pooled, aggregation)
     except InputError as problem:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
+    from matplotlib.cm import ScalarMappable
     from matplotlib.figure import Figure
 
 #: From Okabe and Ito's palette.
@@ -160,6 +161,23 @@ def finish(axes: Axes, x_label: str, y_label: str, title: str = "") -> Axes:
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=SMALL)
     return axes
+
+
+def colour_scale(axes: Axes, shown: ScalarMappable, label: str, **options: Any) -> None:
+    """Scale of the colours of an image or of patches.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    shown : matplotlib.cm.ScalarMappable
+    label : str
+        Quantity and [unit].
+    **options
+        As `matplotlib.figure.Figure.colorbar` takes them.
+    """
+    scale = axes.figure.colorbar(shown, ax=axes, pad=0.02, **options)
+    scale.set_label(label, fontsize=LABEL)
+    scale.ax.tick_params(labelsize=SMALL)
 
 
 def legend_above(figure: Figure, axes: Axes, **options: object) -> None:

@@ -74,6 +74,10 @@ class BearingHeat:
     marks: tuple[str, ...]  #: What is doubtful, a sentence each
     notes: tuple[str, ...]  #: What a reader has to know, a sentence each
 
+    def index_by(self, period: str) -> pd.DataFrame:
+        """The index by `day`, `week` or `month`, of every model."""
+        return self.index.loc[self.index["period"] == period]
+
 
 def bearing_heat(
     scada: Scada, friction: FrictionTable, sibling: Scada | None = None
@@ -105,7 +109,7 @@ def bearing_heat(
     index = _index_table(list(_indexed(analysed, chosen)))
     if sibling is not None:
         other = _analysed(sibling, _record(sibling), friction)
-        same = _fit_of(other.fits, FRICTION, chosen.model.supply)
+        same = fit_of(other.fits, FRICTION, chosen.model.supply)
         index = _over_sibling(index, _index_table(list(_indexed(other, same))))
     table = _fit_table(fits, analysed)
     marks = (*_marks(chosen, analysed), *_change_of_halves(chosen, analysed))
@@ -206,7 +210,8 @@ def _check_windows(reference: BoolArray, idle: BoolArray, kelvin: FloatArray) ->
         )
 
 
-def _fit_of(fits: Sequence[HeatFit], model: str, supply: str = "") -> HeatFit:
+def fit_of(fits: Sequence[HeatFit], model: str, supply: str) -> HeatFit:
+    """The fit of a model with a supply of oil."""
     return next(fit for fit in fits if (fit.model.name, fit.model.supply) == (model, supply))
 
 
