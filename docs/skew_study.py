@@ -51,7 +51,7 @@ def main(names: list[str]) -> None:
     for name in names:
         loads = HubLoads.bundled(name)
         base = Case(
-            loads=loads, rollers=ROLLERS, window=Window(end=float(loads.time[0]) + END), contact_details=False,
+            loads=loads, rollers=ROLLERS, window=Window(end=loads.start + END), contact_details=False,
             traces=Traces(step=0.1),
         )  # fmt: skip
         for variant, changes in VARIANTS.items():
@@ -179,7 +179,7 @@ def coupled(names: list[str]) -> None:
     """Rollers above 1 kN on imposed orbits and in the whole bearing, what holds them, and what both make of energies."""
     for name in names:
         loads = HubLoads.bundled(name)
-        start = float(loads.time[0]) + 20.0
+        start = loads.start + 20.0
         base = Case(
             loads=loads, laws=SKEWED, window=Window(start=start, end=start + 40.0), contact_details=False,
             traces=Traces(step=0.05, start=start),

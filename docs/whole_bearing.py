@@ -344,7 +344,7 @@ def speed(laws: Laws) -> None:
         simulate(replace(case, loads=loads.window(BEGIN, BEGIN + 8.0)))
         result, spent = timed(case)
         steps = int((result.steps + result.rejections).max())
-        span = float(loads.time[-1] - loads.time[0])
+        span = loads.duration
         print(
             cells(name, span, spent, span / spent, steps, int(result.force_evaluations.max())),
             flush=True,

@@ -11,7 +11,7 @@ from macroslip.report.answer import answer
 # The time axis is the file's own: this sample begins at 60 s.
 file = Path(__file__).parents[1] / "tests" / "data" / "sample14B.outb"
 hub = HubLoads.read(file, end=75.0)
-print(f"hub loads from {hub.time[0]:g} s to {hub.time[-1]:g} s:", ", ".join(hub.reading[:3]), "...")
+print(f"hub loads from {hub.start:g} s to {hub.end:g} s:", ", ".join(hub.reading[:3]), "...")
 
 # Distances and tilt of your own drivetrain belong here; these are the defaults.
 drivetrain = Drivetrain(hub_to_bearing=1.26, bearing_to_gearbox=2.2)

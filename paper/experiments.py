@@ -444,8 +444,8 @@ def step_size(
         ("step", "s", "fixed step"),
         {
             "tolerance": _TIGHT,
-            "start_s": float(loads.time[0]),
-            "end_s": float(loads.time[-1]),
+            "start_s": loads.start,
+            "end_s": loads.end,
             "load": loads.source,
         },
     )

@@ -34,7 +34,7 @@ def states(case: str) -> tuple[np.ndarray, np.ndarray]:
     hub = HubLoads.bundled(case)
     whole = Case(loads=hub, laws=Laws.physical())
     loads = main_bearing_load(hub, whole.drivetrain)
-    time, load = roller_load_series(whole, float(loads.time[0]), float(loads.time[-1]))
+    time, load = roller_load_series(whole, loads.start, loads.end)
     inner, outer = geometry.inner_contact_radius(BEARING), geometry.outer_contact_radius(BEARING)
     speed = np.abs(np.interp(time, loads.time, loads.shaft_speed)) * inner * outer / (inner + outer)
     loaded = load > 0.0

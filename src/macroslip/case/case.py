@@ -343,12 +343,12 @@ class Case:
         late = "at the first sample" if loads.event else "after the first orbit"
         opens = late if start is None else f"at {start:g} s"
         return [
-            ("loads", f"{loads.source}, {loads.time[0]:g} s to {loads.time[-1]:g} s"),
+            ("loads", f"{loads.source}, {loads.start:g} s to {loads.end:g} s"),
             ("bearing", self.bearing.name),
             ("lubricant", self.lubricant.name),
             ("laws", f"model {self.laws.name}"),
             ("integrator", type(self.integrator).__name__),
-            ("window", f"window {opens} to {loads.time[-1] if end is None else end:g} s"),
+            ("window", f"window {opens} to {loads.end if end is None else end:g} s"),
             ("rollers", count),
             ("dynamics", self.dynamics),
             (
@@ -382,8 +382,8 @@ def _about_loads(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]
         "kind": type(loads).__name__,
         "source": without_folders(loads.source),
         "samples": int(loads.time.size),
-        "start": float(loads.time[0]),
-        "end": float(loads.time[-1]),
+        "start": loads.start,
+        "end": loads.end,
         "sha256": digest.hexdigest(),
     }
     return about | ({"event": True} if loads.event else {})
@@ -463,8 +463,8 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
     if len(set(numbers)) < len(numbers) or min(numbers) < 0 or max(numbers) >= count:
         allowed = f"all, or a list of different numbers from 0 to {count - 1}"
         yield InputError(f"rollers is {shown(list(numbers))}", where="rollers", allowed=allowed)
-    first = float(case.loads.time[0])
-    last = float(case.loads.time[-1])
+    first = case.loads.start
+    last = case.loads.end
     rounding = TIME_ROUNDING * max(abs(first), abs(last))
     # A record of 600 s often ends one sample before 600 s.
     latest = last + (1.0 + 1e-6) * (last - first) / (case.loads.time.size - 1)

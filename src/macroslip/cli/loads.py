@@ -297,5 +297,5 @@ def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -
         {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws} if base else {}
     )
     case = Case(loads=bearing, drivetrain=drivetrain, **parts)
-    time, rollers = roller_load_series(case, float(bearing.time[0]), float(bearing.time[-1]))
+    time, rollers = roller_load_series(case, bearing.start, bearing.end)
     return load_figure(bearing, time, rollers[:, ROWS.index("upwind")].sum(axis=-1))

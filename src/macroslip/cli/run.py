@@ -133,9 +133,8 @@ def with_motion(case: Case) -> Case:
     """The case with traces of its first minute, from which its page shows the bearing in motion."""
     from macroslip.case.parts import Traces
 
-    first = float(case.loads.time[0])
-    last = float(case.loads.time[-1])
-    return replace(case, traces=Traces(step=_TRACE_STEP, end=min(first + _TRACE_LENGTH, last)))
+    end = min(case.loads.start + _TRACE_LENGTH, case.loads.end)
+    return replace(case, traces=Traces(step=_TRACE_STEP, end=end))
 
 
 @contextmanager

@@ -116,9 +116,19 @@ class History:
             object.__setattr__(self, field, array)
 
     @property
+    def start(self) -> float:
+        """Time of the first sample [s]."""
+        return float(self.time[0])
+
+    @property
+    def end(self) -> float:
+        """Time of the last sample [s]."""
+        return float(self.time[-1])
+
+    @property
     def duration(self) -> float:
         """Time from the first to the last sample [s]."""
-        return float(self.time[-1] - self.time[0])
+        return self.end - self.start
 
     def window(self, start: float | None, end: float | None) -> Self:
         """The samples with ``start <= time <= end`` [s]; None keeps that end of the record.
@@ -158,7 +168,7 @@ class History:
 
     def _span(self) -> str:
         """Number of samples and their time."""
-        return f"{self.time.size} samples, {self.time[0]:g} s to {self.time[-1]:g} s"
+        return f"{self.time.size} samples, {self.start:g} s to {self.end:g} s"
 
     def _forces(self) -> dict[str, FloatArray]:
         """Forces (n,) [N] by their names."""

@@ -88,10 +88,9 @@ def _mean(values: list[float]) -> float:
 
 def _estimate_run(case: Case) -> _RunEstimate:
     """Time and size of a whole run, from the first parts of it."""
-    first = float(case.loads.time[0])
-    last = float(case.loads.time[-1])
-    end = last if case.window.end is None else min(case.window.end, last)
-    length = end - first
+    loads = case.loads
+    end = loads.end if case.window.end is None else min(case.window.end, loads.end)
+    length = end - loads.start
     stretch = min(_STRETCH, length)
     half_seconds, half_bytes = _measured(case, 0.5 * stretch)
     seconds, size = _measured(case, stretch)
@@ -108,11 +107,10 @@ def _measured(case: Case, length: float) -> tuple[float, int]:
     from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
 
-    first = float(case.loads.time[0])
-    last = float(case.loads.time[-1])
-    end = min(max(first + length, float(case.loads.time[1])), last)  # at least two samples
+    loads = case.loads
+    end = min(max(loads.start + length, float(loads.time[1])), loads.end)  # at least two samples
     traces = Traces(step=case.traces.step) if case.traces else None
-    part = replace(case, loads=case.loads.window(None, end), window=Window(), traces=traces)
+    part = replace(case, loads=loads.window(None, end), window=Window(), traces=traces)
     started = time.perf_counter()
     result = with_rating(simulate(part, threads=1), part)
     return time.perf_counter() - started, len(to_bytes(result))

@@ -571,10 +571,8 @@ def _event_lengths(
             continue
         with contextlib.suppress(InputError):
             record = read_loads(loads.source, load_path(loads, load, folder), cut)
-            first = float(record.time[0])
-            last = float(record.time[-1])
-            start = first if base.window.start is None else base.window.start
-            end = last if base.window.end is None else min(base.window.end, last)
+            start = record.start if base.window.start is None else base.window.start
+            end = record.end if base.window.end is None else min(base.window.end, record.end)
             lengths.setdefault(load.event, []).append(end - start)
     return {event: sum(known) / len(known) for event, known in lengths.items()}
 

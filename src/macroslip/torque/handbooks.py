@@ -504,12 +504,9 @@ def torque_histories(
         f"model {name}": TorqueHistory(history.time.values, history.torque.values)
         for name, history in computed.items()
     }
-    start = max(
-        (float(history.time[0]) for history in computed.values()), default=float(loads.time[0])
-    )
-    end = min(
-        (float(history.time[-1]) for history in computed.values()), default=float(loads.time[-1])
-    )
+    times = [history.time.values for history in computed.values()]
+    start = max((time[0] for time in times), default=loads.start)
+    end = min((time[-1] for time in times), default=loads.end)
     common = (loads.time >= start) & (loads.time <= end)
     operation = (
         bearing,
