@@ -66,17 +66,12 @@ def _rivals(summary: dict[str, Any]) -> None:
         rows.append(
             [method["title"], f"{median:.3g} x", between, time, target, verdict, ", ".join(notes)]
         )
-    headings = [
-        ("rival", False),
-        ("ahead by, median", True),
-        ("least to most", True),
-        ("mean time [ms]", True),
-    ]
-    headings += [("target", True), ("reached", False), ("", False)]
+    headings = ["rival", "ahead by, median", "least to most", "mean time [ms]", "target"]
+    headings += ["reached", ""]
     own = [entry["seconds"] for entry in methods[OWN]["histories"].values()]
     title = f"CPU time at the same accuracy, {summary['asked_accuracy']:g} in total energy and mid-coast spin, over "
     title += f"{len(own)} histories; macroslip takes {1e3 * sum(own) / len(own):.3g} ms on average"
-    print_table(title, headings, rows)
+    print_table(title, headings, rows, "lrrrrll")
     agreement = summary["reference"]
     worst = max([*agreement["energy_error"].values(), *agreement["spin_error"].values()])
     typer.echo(f"the reference and a converged {agreement['method']} differ by {worst:.1e} at most")
@@ -153,8 +148,8 @@ def _limits(summary: dict[str, Any]) -> None:
         )
     for kind, growth in summary["linearity"].items():
         rows.append([f"growth with {kind}, exponent", number(growth["exponent"]), "1", "", ""])
-    headings = [("", False), ("measured", True), ("target", True), ("reached", False), ("", False)]
-    print_table("against the limit", headings, rows)
+    headings = ["", "measured", "target", "reached", ""]
+    print_table("against the limit", headings, rows, "lrrll")
 
 
 def _mechanisms(summary: dict[str, Any]) -> None:
@@ -172,13 +167,9 @@ def _mechanisms(summary: dict[str, Any]) -> None:
                 number(unloaded["real_time_factor"]),
             ]
         )
-    headings = [
-        ("model", False),
-        ("downwind roller, simulated over CPU time", True),
-        ("force evaluations", True),
-    ]
-    headings += [("time of one [us]", True), ("upwind roller", True)]
-    print_table("cost of mechanisms", headings, rows)
+    headings = ["model", "downwind roller, simulated over CPU time", "force evaluations"]
+    headings += ["time of one [us]", "upwind roller"]
+    print_table("cost of mechanisms", headings, rows, "lrrrr")
 
 
 def _line(name: str, value: float, target: float, note: str, *, least: bool = True) -> list[str]:
