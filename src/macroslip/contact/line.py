@@ -13,7 +13,6 @@ from __future__ import annotations
 import numpy as np
 
 from macroslip.bearing.profile import profile_depth
-from macroslip.compiled import jit_inline
 
 #: Approach of Palmgren's law [m] at 1 N on a contact of 1 m in the units of his formula: δ = 3.84e-5
 #: mm · Q^0.9/l^0.8, Q in N and l in mm.
@@ -57,7 +56,6 @@ def palmgren_coefficient(contact_length: float) -> float:
     return millimetre * in_millimetres * (millimetre * contact_length) ** (-1.0 / 9.0)
 
 
-@jit_inline
 def half_width(load_per_length, rolling_curvature, modulus):
     """Half-width b of a Hertzian line contact along rolling [m], √(8 q/(π E' κ)).
 
@@ -82,7 +80,6 @@ def half_width(load_per_length, rolling_curvature, modulus):
     return np.sqrt(8.0 * load_per_length / (np.pi * modulus * rolling_curvature))
 
 
-@jit_inline
 def line_pressure(load_per_length, rolling_curvature, modulus):
     """Largest pressure of a Hertzian line contact [Pa], √(q κ E'/(2π)).
 

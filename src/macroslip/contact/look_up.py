@@ -137,6 +137,33 @@ def contact_load(load):
     return ContactLoad(load, log_load, exponential(log_load * (1.0 / 3.0)))
 
 
+class _PlaneCell(NamedTuple):
+    """Cell of a plane, and the place in it."""
+
+    start: int  #: Number of its first coefficient
+    stride: int  #: From one node to the next along the load
+    t: float  #: Place along the load [-], 0 to 1
+    u: float  #: Place along the speed [-], 0 to 1
+    load_slope: float  #: Of t by ln Q
+    speed_slope: float  #: Of u by ln |u|
+
+
+@jit_evaluation
+def _plane_cell(plane, log_load, log_speed):
+    """Cell of a plane at logarithms of load and speed."""
+    i, t, load_slope = cell_of(plane.load, log_load)
+    j, u, speed_slope = cell_of(plane.speed, log_speed)
+    stride = CHANNELS * (plane.speed.cells + 3)
+    start = plane.start + i * stride + CHANNELS * j
+    return _PlaneCell(start, stride, t, u, load_slope, speed_slope)
+
+
+@jit_evaluation
+def _times(four, factor):
+    """Four numbers times a factor."""
+    return four[0] * factor, four[1] * factor, four[2] * factor, four[3] * factor
+
+
 @jit_evaluation
 def in_plane(plane, tables, log_load, log_speed):
     """Four quantities of a plane over load and speed, and their derivatives.
@@ -158,22 +185,9 @@ def in_plane(plane, tables, log_load, log_speed):
         The quantities, and their derivatives by ln Q and by ln |u|. Beyond the ends of an axis the
         values at its end serve, and the derivative is 0.
     """
-    i, t, by_first = cell_of(plane.load, log_load)
-    j, u, by_second = cell_of(plane.speed, log_speed)
-    stride = CHANNELS * (plane.speed.cells + 3)
-    value, first, second = splines_in_square(
-        tables, plane.start + i * stride + CHANNELS * j, stride, t, u
-    )  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
-    return (
-        value,
-        (first[0] * by_first, first[1] * by_first, first[2] * by_first, first[3] * by_first),
-        (
-            second[0] * by_second,
-            second[1] * by_second,
-            second[2] * by_second,
-            second[3] * by_second,
-        ),
-    )
+    cell = _plane_cell(plane, log_load, log_speed)
+    value, first, second = splines_in_square(tables, cell.start, cell.stride, cell.t, cell.u)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    return value, _times(first, cell.load_slope), _times(second, cell.speed_slope)
 
 
 @jit_evaluation
@@ -196,13 +210,9 @@ def along_load(plane, tables, log_load, log_speed):
     value, by_load : tuple of four floats
         As those of `in_plane`.
     """
-    i, t, slope = cell_of(plane.load, log_load)
-    j, u, _ = cell_of(plane.speed, log_speed)
-    stride = CHANNELS * (plane.speed.cells + 3)
-    value, first = splines_along_first(
-        tables, plane.start + i * stride + CHANNELS * j, stride, t, u
-    )  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
-    return value, (first[0] * slope, first[1] * slope, first[2] * slope, first[3] * slope)
+    cell = _plane_cell(plane, log_load, log_speed)
+    value, first = splines_along_first(tables, cell.start, cell.stride, cell.t, cell.u)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    return value, _times(first, cell.load_slope)
 
 
 class ContactSpeeds(NamedTuple):
@@ -305,7 +315,7 @@ NO_PLANE = ((0.0, 0.0, 0.0, 0.0),) * 3
 
 
 @jit_evaluation
-def traction_cell(table, load, at):
+def traction_cell(table, load, speeds):
     """Cell of a contact in its table of traction.
 
     Contacts look up side by side what their cells are computed for first.
@@ -315,17 +325,17 @@ def traction_cell(table, load, at):
     table : record of `TRACTION`
     load : ContactLoad
         Q > 0.
-    at : ContactSpeeds
+    speeds : ContactSpeeds
         With the coordinates of tables.
 
     Returns
     -------
     TractionCell
     """
-    z = (at.ratio - table.middle) / table.scale
+    z = (speeds.ratio - table.middle) / table.scale
     size = math.sqrt(z * z + 1.0)
     i, t, load_slope = cell_of(table.load, load.logarithm + table.stretch * load.root)
-    k, s, speed_slope = cell_of(table.speed, at.root_speed)
+    k, s, speed_slope = cell_of(table.speed, speeds.root_speed)
     j, u, ratio_slope = cell_of(table.ratio, arsinh(z, size))
     inner = CHANNELS * (table.ratio.cells + 3)
     outer = inner * (table.speed.cells + 3)
@@ -335,7 +345,7 @@ def traction_cell(table, load, at):
 
 
 @jit_evaluation
-def traction(table, tables, load, at, cell):
+def traction(table, tables, load, speeds, cell):
     """Traction of a raceway contact from its table.
 
     Parameters
@@ -345,7 +355,7 @@ def traction(table, tables, load, at, cell):
         The flat array of tables, or its address.
     load : ContactLoad
         Q > 0.
-    at : ContactSpeeds
+    speeds : ContactSpeeds
         With the coordinates of tables.
     cell : TractionCell
 
@@ -353,15 +363,15 @@ def traction(table, tables, load, at, cell):
     -------
     Traction
     """
-    sign = math.copysign(1.0, at.ring)
+    sign = math.copysign(1.0, speeds.ring)
     root = load.root
     value, first, second, third = splines_in_cube(tables, cell.start, cell.strides, cell.place)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
-    if at.ring == 0.0 and at.slip == 0.0:
+    if speeds.ring == 0.0 and speeds.slip == 0.0:
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)
     # Derivatives of the coordinates by Q, by w and by y.
     load_slope = cell.load_slope * (1.0 + table.stretch * root * (1.0 / 3.0))
-    speed_slope = cell.speed_slope * 0.25 * at.root_speed / at.speed
+    speed_slope = cell.speed_slope * 0.25 * speeds.root_speed / speeds.speed
     ratio_slope = cell.ratio_slope
     heavy = load.load * root * root
     pull_by_w = load.load * second[0] * speed_slope
@@ -373,12 +383,12 @@ def traction(table, tables, load, at, cell):
         sign * heavy * value[1],
         sign * table.side * load.load * root * value[2],
         # Where asperities have nearly nothing, splines pass a little below zero.
-        heavy * at.speed * max(value[3], 0.0),
+        heavy * speeds.speed * max(value[3], 0.0),
         # Derivatives by v and by u2 take the sign twice.
-        pull_by_w * at.speed_by_slip + pull_by_y * at.ratio_by_slip,
-        lag_by_w * at.speed_by_slip + lag_by_y * at.ratio_by_slip,
-        pull_by_w * at.speed_by_ring + pull_by_y * at.ratio_by_ring,
-        lag_by_w * at.speed_by_ring + lag_by_y * at.ratio_by_ring,
+        pull_by_w * speeds.speed_by_slip + pull_by_y * speeds.ratio_by_slip,
+        lag_by_w * speeds.speed_by_slip + lag_by_y * speeds.ratio_by_slip,
+        pull_by_w * speeds.speed_by_ring + pull_by_y * speeds.ratio_by_ring,
+        lag_by_w * speeds.speed_by_ring + lag_by_y * speeds.ratio_by_ring,
         sign * (value[0] + first[0] * load_slope),
         sign * root * root * ((5.0 / 3.0) * value[1] + first[1] * load_slope),
     )

@@ -27,6 +27,8 @@ _INDEX = ir.IntType(32)
 _SIZE = ir.IntType(64)
 _EMPTY = ir.Constant(_VECTOR, ir.Undefined)
 _FOUR = types.UniTuple(types.float64, CHANNELS)
+#: First coefficient, stride and place of a look-up in a plane.
+_IN_PLANE = (types.intp, types.intp, types.float64, types.float64)
 #: The four weights as a polynomial of the position in the cell, constant term first, and their
 #: derivatives.
 _CUBIC = [
@@ -125,6 +127,13 @@ class _Vectors:
         return [
             self.builder.extract_element(vector, ir.Constant(_INDEX, n)) for n in range(CHANNELS)
         ]
+
+    def fours(self, context: Any, signature: Any, vectors: list[Any]) -> Any:
+        """A tuple of tuples of the four numbers of each vector."""
+        numbers = [
+            context.make_tuple(self.builder, _FOUR, self.lanes(vector)) for vector in vectors
+        ]
+        return context.make_tuple(self.builder, signature.return_type, numbers)
 
     def add_product(self, factor: Any, other: Any, added: Any) -> Any:
         """A product and a sum, in one operation where the processor has it."""
@@ -292,16 +301,9 @@ def splines_in_square(typingctx, table, start, stride, t, u):
         sums = [write.sum(w, values) for values in nodes]
         slopes = [write.sum(dw, values) for values in nodes]
         derivatives = [write.sum(z, sums), write.sum(z, slopes), write.sum(dz, sums)]
-        fours = [
-            context.make_tuple(builder, _FOUR, write.lanes(derivative))
-            for derivative in derivatives
-        ]
-        return context.make_tuple(builder, signature.return_type, fours)
+        return write.fours(context, signature, derivatives)
 
-    arguments_taken = (types.intp, types.intp, types.float64, types.float64)
-    return (
-        (types.UniTuple(_FOUR, 3)(table, *arguments_taken), _generate) if _is_flat(table) else None
-    )
+    return (types.UniTuple(_FOUR, 3)(table, *_IN_PLANE), _generate) if _is_flat(table) else None
 
 
 @intrinsic
@@ -335,18 +337,12 @@ def splines_along_first(typingctx, table, start, stride, t, u):
         step = builder.mul(arguments[2], ir.Constant(_SIZE, 8))
         z = write.weights(_CUBIC, arguments[4])
         sums = [write.sum(z, nodes) for nodes in write.lines(address, step)]
-        fours = [
-            context.make_tuple(
-                builder, _FOUR, write.lanes(write.sum(write.weights(terms, arguments[3]), sums))
-            )
-            for terms in (_CUBIC, _QUADRATIC)
-        ]
-        return context.make_tuple(builder, signature.return_type, fours)
+        value, by_t = (
+            write.sum(write.weights(terms, arguments[3]), sums) for terms in (_CUBIC, _QUADRATIC)
+        )
+        return write.fours(context, signature, [value, by_t])
 
-    arguments_taken = (types.intp, types.intp, types.float64, types.float64)
-    return (
-        (types.UniTuple(_FOUR, 2)(table, *arguments_taken), _generate) if _is_flat(table) else None
-    )
+    return (types.UniTuple(_FOUR, 2)(table, *_IN_PLANE), _generate) if _is_flat(table) else None
 
 
 @intrinsic
@@ -407,11 +403,7 @@ def splines_in_cube(typingctx, table, start, strides, places):
             write.sum(dz, values),
             write.sum(z, by_third),
         ]
-        fours = [
-            context.make_tuple(builder, _FOUR, write.lanes(derivative))
-            for derivative in derivatives
-        ]
-        return context.make_tuple(builder, signature.return_type, fours)
+        return write.fours(context, signature, derivatives)
 
     arguments_taken = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
     return (

@@ -81,7 +81,9 @@ def _log_excess(films, play):
 @jit_inline
 def _reach(body, outward):
     """Play [m] from which on films carry nothing: that of the next smaller body force known."""
-    part = min(abs(outward) * body.per_body_force, 1.0)
+    part = abs(outward) * body.per_body_force
+    # A force that is no number must not lead beyond the nodes.
+    part = part if part < 1.0 else 1.0
     node = int(math.sqrt(part) * (REACH_NODES - 1))
     return body.film_reach[1 if outward < 0.0 else 0, node]
 

@@ -83,6 +83,12 @@ def _sectors(angle: xr.DataArray, sectors: int) -> np.ndarray:
     return np.minimum((angle.values * (sectors / 360.0)).astype(int), sectors - 1)
 
 
+def _evenly_passed(energy: np.ndarray, passed: np.ndarray) -> np.ndarray:
+    """The same energy over the sectors as if all were passed equally often."""
+    per_way = np.divide(energy, passed, out=np.zeros(energy.size), where=passed > 0.0)
+    return per_way / max(per_way.sum(), np.finfo(float).tiny) * energy.sum()
+
+
 def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArray:
     """Frictional energy per orbit and degree [J/degree], mean over the rollers that completed.
 
@@ -117,9 +123,7 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
         for interface in range(result.sizes["interface"]):
             energy = power[row, chosen, :, interface] * seconds
             in_sector = np.bincount(sector_of_sample, energy.ravel(), sectors)
-            per_way = np.divide(in_sector, passed, out=np.zeros(sectors), where=passed > 0.0)
-            shape = per_way / max(per_way.sum(), np.finfo(float).tiny)
-            values[row, interface] = shape * in_sector.sum() / degrees
+            values[row, interface] = _evenly_passed(in_sector, passed) / degrees
     traced = (power[completed] * seconds[:, None]).sum()
     integrated = result.energy.values[completed].sum()
     about = {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit"}

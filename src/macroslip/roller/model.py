@@ -311,8 +311,8 @@ def with_tables(
         _write_numbers(body[0], row_model, box)
         rollers[row] = Roller(body, flat)
     if body[0]["oily"]:
-        load = _faded_load(rollers, model, box)
         most = _largest_body_force(model, box)
+        load = _faded_load(rollers, most, box)
         reach = _film_reach(rollers, most, box)
         for roller in rollers.values():
             roller.body[0]["faded_load"] = load
@@ -395,13 +395,13 @@ def _largest_body_force(model: RollerModel, box: Box) -> float:
     return body_force(model, box.fastest / (model.orbit_ratio * model.outer_radius))
 
 
-def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
+def _faded_load(rollers: dict[str, Roller], most: float, box: Box) -> float:
     """Elastic load [N] from which on the film load is negligible, for all states of the box.
 
-    Films grow with speed, and carry more the less the body force presses on one of them.
+    Films grow with speed, and carry more the less the body force, up to `most` [N], presses on one
+    of them.
     """
     roller = next(iter(rollers.values()))
-    most = _largest_body_force(model, box)
     load = 1.0
     while not all(
         film_load_is_negligible(
@@ -416,7 +416,8 @@ def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> flo
 def _film_reach(rollers: dict[str, Roller], most: float, box: Box) -> np.ndarray:
     """Plays from which on films carry no load, as `film_reach` of `BODY` has them [m].
 
-    Films grow with speed, and shrink with the body force that presses on one of them.
+    Films grow with speed, and shrink with the body force, up to `most` [N], that presses on one of
+    them.
     """
     roller = next(iter(rollers.values()))
     body = roller.body[0]

@@ -16,11 +16,8 @@ from macroslip.constants import YEAR
 from macroslip.damage import wear
 from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest_of
 from macroslip.result.criteria.evaluation import Evaluation
-from macroslip.result.criteria.wear import DESIGN_LIFE, MIDDLE_COEFFICIENT
+from macroslip.result.criteria.wear import COMPARED_DEPTH, DESIGN_LIFE, MIDDLE_COEFFICIENT
 from macroslip.result.variables import described
-
-#: Depth of wear whose time is told [m].
-_DEPTH = 1e-5
 
 
 def _of_result(name: str) -> Callable[[Evaluation], Variables]:
@@ -41,7 +38,7 @@ def _wear_time(evaluation: Evaluation) -> Variables:
         return {}
     work = evaluation.result.rib_asperity_work.max("rib_surface").values
     with np.errstate(divide="ignore"):
-        times = _DEPTH / (np.array(evaluation.wear_coefficients) * work[:, None])
+        times = COMPARED_DEPTH / (np.array(evaluation.wear_coefficients) * work[:, None])
     meaning = "time like this window until the rib or the rollers' ends have worn by 10 um"
     return {"rib_wear_time": (("row", "wear_coefficient"), times, described("s", meaning))}
 

@@ -30,8 +30,9 @@ _TRIED = 401
 #: Slices of a station while wear grows: at lines of pure rolling nothing wears, and what is left of
 #: them carries the load.
 _SLICES = 4
-#: Number of the depth of 10 µm, and of the middle coefficient k of a run.
-_TEN_MICROMETRES = wear.DEPTHS.index(1e-5)
+#: Depth whose time is compared [m], its number, and the middle coefficient k of a run.
+COMPARED_DEPTH = 1e-5
+_COMPARED = wear.DEPTHS.index(COMPARED_DEPTH)
 MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
 _NO_WEAR = (
     "Wear was not computed, since without asperities nothing touches: choose their law, laws: "
@@ -210,7 +211,7 @@ def _growth(law: PreparedContact, along: np.ndarray) -> np.ndarray:
 def _years(variables: Mapping[str, np.ndarray]) -> float:
     if "wear_time" not in variables:
         return math.nan
-    times = variables["wear_time"][:, :, _TEN_MICROMETRES]
+    times = variables["wear_time"][:, :, _COMPARED]
     return float(np.nanmin(times[..., times.shape[-1] // 2], initial=math.inf)) / YEAR
 
 
