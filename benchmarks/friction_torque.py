@@ -284,10 +284,10 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("what", choices=("curves", "wind", "inlets", "supplies"))
+    parser.add_argument("part", choices=("curves", "wind", "inlets", "supplies"))
     parser.add_argument("-o", "--output", help="picture of the curves")
     options = parser.parse_args()
-    if options.what == "curves":
+    if options.part == "curves":
         curves(options.output)
     else:
-        {"wind": wind, "inlets": compare_inlets, "supplies": supplies}[options.what]()
+        {"wind": wind, "inlets": compare_inlets, "supplies": supplies}[options.part]()

@@ -30,7 +30,7 @@ class LineContact(NamedTuple):
 
     Attributes
     ----------
-    place, pressure, gap : Array
+    position, pressure, gap : Array
         X, P and H at the nodes.
     film : float
         Film of the volume flow, (h*/R) (2U)^(−½).
@@ -42,7 +42,7 @@ class LineContact(NamedTuple):
         ∫dx/h (2U)^¼ over the film with pressure.
     """
 
-    place: Array
+    position: Array
     pressure: Array
     gap: Array
     film: float
@@ -147,10 +147,10 @@ def solve_line(
         p = shape * (0.5 * math.pi / (weight @ shape))
         offset = rigid**2 if load < 1.0 else 0.5
     else:
-        p = np.interp(x, start.place, start.pressure)
+        p = np.interp(x, start.position, start.pressure)
         p *= 0.5 * math.pi / (weight @ p)
         offset = float(
-            np.min(start.gap + deformation(start.place) @ start.pressure - start.place**2)
+            np.min(start.gap + deformation(start.position) @ start.pressure - start.position**2)
         )
 
     def evaluate(p, offset):
@@ -261,7 +261,7 @@ def inlet_share(solution: LineContact, load: float) -> float:
     """N_F of the inlet, ½ ∫ (h − h*) dp up to X = −0.9 in Moes' groups."""
     scale = 0.5 * math.sqrt(8.0 * load / math.pi) * load / math.pi
     middle = 0.5 * (solution.gap[1:] + solution.gap[:-1])
-    position = 0.5 * (solution.place[1:] + solution.place[:-1])
+    position = 0.5 * (solution.position[1:] + solution.position[:-1])
     work = (middle - solution.film * math.pi / (4.0 * load)) * np.diff(solution.pressure)
     return scale * float(work[position < -0.9].sum())
 

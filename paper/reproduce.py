@@ -197,7 +197,7 @@ def headline(
     ]
     for subject, first in next(iter(judged.values())).items():
         by_model = "; ".join(
-            f"{model}: {statements[subject].verdict} ({statements[subject].found})"
+            f"{model}: {statements[subject].verdict} ({statements[subject].summary})"
             for model, statements in judged.items()
         )
         lines.append(f"Paper: {first.paper}. {by_model}.")

@@ -110,7 +110,7 @@ class Statement:
         return {row.key: row.value for row in self.rows}
 
     @property
-    def found(self) -> str:
+    def summary(self) -> str:
         """The judged numbers in one line."""
         return "; ".join(row.told for row in self.judged) or NOT_COMPUTED
 

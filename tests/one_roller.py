@@ -48,41 +48,41 @@ def rollers(
 
 def station_of(roller: Roller, angle: float, now: Instant) -> np.void:
     """A place on the orbit [rad] and an instant."""
-    found = np.zeros(1, CONDITIONS)
-    write_conditions(roller.body[0], roller.tables, angle, now, found[0])
-    return found[0]
+    conditions = np.zeros(1, CONDITIONS)
+    write_conditions(roller.body[0], roller.tables, angle, now, conditions[0])
+    return conditions[0]
 
 
 def a_station(
     load: float, extra_outer: float = 0.0, tangential: float = -25.0, ring_speed: float = RING_SPEED
 ):
     """Conditions made up [N], [m/s]."""
-    found = np.zeros(1, CONDITIONS)
-    found["ring_speed"] = ring_speed
-    found["approach"] = 1e-5
-    found["elastic_load"] = load
-    found["inner_load"] = load
-    found["outer_load"] = load + extra_outer
-    found["tangential"] = tangential
+    conditions = np.zeros(1, CONDITIONS)
+    conditions["ring_speed"] = ring_speed
+    conditions["approach"] = 1e-5
+    conditions["elastic_load"] = load
+    conditions["inner_load"] = load
+    conditions["outer_load"] = load + extra_outer
+    conditions["tangential"] = tangential
     for name in ("inner", "outer"):
-        pressed = max(found[f"{name}_load"][0], 1e-12)
-        found[f"log_{name}_load"] = math.log(pressed)
-        found[f"root_{name}_load"] = pressed ** (1.0 / 3.0)
-    return found[0]
+        pressed = max(conditions[f"{name}_load"][0], 1e-12)
+        conditions[f"log_{name}_load"] = math.log(pressed)
+        conditions[f"root_{name}_load"] = pressed ** (1.0 / 3.0)
+    return conditions[0]
 
 
 def forces_of(roller: Roller, at: np.void, slip: float) -> np.void:
     """Forces under conditions and a slip [m/s]."""
-    found = np.zeros(1, FORCES)
-    slip_forces(roller.body[0], roller.tables, at, float(slip), found[0])
-    return found[0]
+    forces = np.zeros(1, FORCES)
+    slip_forces(roller.body[0], roller.tables, at, float(slip), forces[0])
+    return forces[0]
 
 
 def powers_of(roller: Roller, at: np.void, forces: np.void, slip: float) -> np.ndarray:
     """Frictional powers of inner, outer and cage interface [W]."""
-    found = np.zeros(3)
-    powers(roller.body[0], at, forces, float(slip), found)
-    return found
+    power = np.zeros(3)
+    powers(roller.body[0], at, forces, float(slip), power)
+    return power
 
 
 def net(forces: np.void) -> float:
@@ -134,7 +134,7 @@ def walk(
     """All steps of the roller from a slip [m/s] on, in buffers of so many rows, and its status and record of work."""
     path = path_of(roller, motion, angle, limits[0])
     work = np.zeros(1, WORK if limits.dtype == LIMITS else FIXED_WORK)
-    classes, found = np.zeros(motion.time.size - 1, np.int8), []
+    classes, buffers = np.zeros(motion.time.size - 1, np.int8), []
     work["now"]["slip"], buffer, status = slip, np.zeros(rows, STEP), UNDER_WAY
     if limits.dtype == LIMITS:
         classify(roller.body[0], motion, float(angle), limits["firm"][0], classes)
@@ -143,8 +143,8 @@ def walk(
             status, count = integrate(path, np.asarray(stops, float), classes, work[0], buffer)
         else:
             status, count = integrate_fixed_step(path, work[0], buffer)
-        found.append(buffer[:count].copy())
-    steps = np.concatenate(found)
+        buffers.append(buffer[:count].copy())
+    steps = np.concatenate(buffers)
     # Beyond its stages a row holds what was there before.
     unused = np.arange(STAGES) >= steps["stages"][:, None]
     for name in STEP.names:

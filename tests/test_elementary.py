@@ -43,7 +43,7 @@ def of(function, x, *shape):
 def exact(function, x):
     """Values by 40 digits, rounded once."""
     with mpmath.workdps(40):
-        return np.array([float(function(mpmath.mpf(float(one)))) for one in x])
+        return np.array([float(function(mpmath.mpf(float(argument)))) for argument in x])
 
 
 def test_exponential_is_good_to_two_units_in_the_last_place():

@@ -16,13 +16,13 @@ OBJECTS = {
 
 @pytest.mark.parametrize("name", OBJECTS)
 def test_one_line_and_one_table(name):
-    one = OBJECTS[name]
+    subject = OBJECTS[name]
     assert (
-        repr(one).startswith(f"<{type(one).__name__}")
-        and "\n" not in repr(one)
-        and len(repr(one)) < 300
+        repr(subject).startswith(f"<{type(subject).__name__}")
+        and "\n" not in repr(subject)
+        and len(repr(subject)) < 300
     )
-    html = one._repr_html_()
+    html = subject._repr_html_()
     assert html.count("<table>") == html.count("</table>") == 1 and len(html) < 8000
 
 

@@ -128,7 +128,7 @@ def test_a_law_changed_within_a_second_is_read_anew_and_leaves_no_other_file(tmp
 
 def test_a_law_has_one_source_wherever_its_file_lies_and_another_when_it_changes(tmp_path):
     """Tables of a law, and results of a study, are found again by it."""
-    found = []
+    sources = []
     for folder, text in (("one", FILM), ("two", FILM), ("three", FILM.replace("2.65", "2.66"))):
         path = tmp_path / folder / "my_laws.py"
         path.parent.mkdir()
@@ -136,6 +136,6 @@ def test_a_law_has_one_source_wherever_its_file_lies_and_another_when_it_changes
         plugins._loaded.clear()
         assert load_laws(path).film == ("dowson-higginson",)
         assert own_laws() == [FILM_LAWS.named("dowson-higginson").source] != [""]
-        found += own_laws()
+        sources += own_laws()
         FILM_LAWS.remove("dowson-higginson")
-    assert found[0] == found[1] != found[2] and own_laws() == []
+    assert sources[0] == sources[1] != sources[2] and own_laws() == []

@@ -40,19 +40,19 @@ def rating(function, bearing):
 @pytest.fixture(scope="module")
 def estimates():
     """Estimate of every bearing of the catalogue, by family."""
-    found = {}
+    by_family = {}
     for row in CATALOGUE:
         name = row["designation"].replace("/", "-")
         family = row["designation"][:3] + row["variant"][:2]
-        found.setdefault(family, []).append(
+        by_family.setdefault(family, []).append(
             (page_of(row), estimate_bearing(page_of(row), name).bearing, row)
         )
-    return found
+    return by_family
 
 
 def test_every_bearing_of_the_catalogue_can_be_estimated(estimates):
     assert sum(map(len, estimates.values())) == 108
-    for page, bearing, _ in (one for family in estimates.values() for one in family):
+    for page, bearing, _ in (estimate for family in estimates.values() for estimate in family):
         # The medians have the static rating of the page, within the scatter of medians and whole rollers.
         assert rating(static_load_rating, bearing) == pytest.approx(
             page.static_load_rating, rel=0.04
@@ -88,7 +88,9 @@ def test_flanges_of_the_inner_ring_lie_above_its_raceway(estimates):
     # The shoulder diameter of the inner ring is published and not used: the raceway's edge must lie below it, by a
     # twentieth to a quarter of the roller. Bearings with sheet-metal cages (J) have no flanges.
     families = [estimates[name] for name in ("230CA", "231CA", "240BC", "241EC")]
-    flanged = [one for family in families for one in family if "J" not in one[2]["variant"]]
+    flanged = [
+        estimate for family in families for estimate in family if "J" not in estimate[2]["variant"]
+    ]
     assert len(flanged) == 45
     for _, bearing, row in flanged:
         flange = 5e-4 * float(row["d2_mm"]) - geometry.envelope(bearing).inside
@@ -97,19 +99,19 @@ def test_flanges_of_the_inner_ring_lie_above_its_raceway(estimates):
 
 def test_the_base_bearing_lies_within_the_ranges():
     # Its inside was worked out by hand from the same page.
-    base, found = Bearing.read("skf-240-600-bc"), estimate_bearing(PAGE, "again").bearing
+    base, estimated = Bearing.read("skf-240-600-bc"), estimate_bearing(PAGE, "again").bearing
     for key in ("rollers_per_row", "roller_diameter", "roller_length", "outer_raceway_radius", "pitch_radius", "row_offset",
                 "contact_angle", "diametral_clearance"):  # fmt: skip
         low, high = (
-            found.written(key, limit * found_scale(found, key))
-            for limit in found.provenance[key].range
+            estimated.written(key, limit * found_scale(estimated, key))
+            for limit in estimated.provenance[key].range
         )
         assert (
             float(low.split()[0])
-            <= float(found.written(key, getattr(base, key)).split()[0]) * 1.0015
+            <= float(estimated.written(key, getattr(base, key)).split()[0]) * 1.0015
         )
         assert (
-            float(found.written(key, getattr(base, key)).split()[0])
+            float(estimated.written(key, getattr(base, key)).split()[0])
             <= float(high.split()[0]) * 1.0015
         )
 

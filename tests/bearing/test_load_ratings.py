@@ -63,12 +63,12 @@ def test_the_fatigue_load_limit_is_what_a_maker_publishes():
     ratios = {}
     for row in CATALOGUE:
         pitch = 5e-4 * (float(row["d_mm"]) + float(row["D_mm"]))
-        found = float(row["Pu_kN"]) * 1e3 / fatigue_load_limit(float(row["C0_kN"]) * 1e3, pitch)
-        ratios.setdefault(row["designation"][:3] + row["variant"][:2], []).append(found)
+        ratio = float(row["Pu_kN"]) * 1e3 / fatigue_load_limit(float(row["C0_kN"]) * 1e3, pitch)
+        ratios.setdefault(row["designation"][:3] + row["variant"][:2], []).append(ratio)
     assert len(CATALOGUE) == 108 and all(
-        0.85 < one < 1.15 for family in ratios.values() for one in family
+        0.85 < ratio < 1.15 for family in ratios.values() for ratio in family
     )
-    assert all(0.99 < one < 1.03 for one in ratios["240BC"])
+    assert all(0.99 < ratio < 1.03 for ratio in ratios["240BC"])
     assert (
         fatigue_load_limit(8.2e5, 0.05)
         == fatigue_load_limit(8.2e5, 0.1)

@@ -24,7 +24,7 @@ def valid(value, schema):
         value == item and type(value) is type(item) for item in schema["enum"]
     ):
         return False
-    if "anyOf" in schema and not any(valid(value, one) for one in schema["anyOf"]):
+    if "anyOf" in schema and not any(valid(value, branch) for branch in schema["anyOf"]):
         return False
     number = isinstance(value, int | float) and not isinstance(value, bool)
     match schema.get("type"):

@@ -22,7 +22,9 @@ def short(monkeypatch):
         for rival in rivals.RIVALS
         if rival.key in names
     ]
-    few = [one._replace(load=lambda: None) if one.key == "lsoda" else one for one in few]
+    few = [
+        solver._replace(load=lambda: None) if solver.key == "lsoda" else solver for solver in few
+    ]
     monkeypatch.setattr("benchmarks.comparison.RIVALS", tuple(few))
     monkeypatch.setattr(room, "QUICK", (("24A",), 100.0, 2.0))
     monkeypatch.setattr(
@@ -87,8 +89,8 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
             )
     own = methods["own"]["histories"].values()
     assert all(
-        one["reached"] and max(one["energy_error"], one["spin_error"]) <= printed["asked_accuracy"]
-        for one in own
+        row["reached"] and max(row["energy_error"], row["spin_error"]) <= printed["asked_accuracy"]
+        for row in own
     )
     assert printed["quadrature"]["largest_difference"] < 1e-8
     assert (

@@ -68,52 +68,54 @@ def test_sudden_cases_have_every_kind_of_speed_and_force():
 @examples(5)
 @given(number=st.integers(0, 2**20))
 def test_any_case_of_sudden_speeds_agrees_with_itself_made_tight_or_says_that_it_failed(number):
-    one = compare(number, tight=2e-5, physical=0.0, sudden=1.0)
-    assert not one.verdict.startswith("off"), one
+    comparison = compare(number, tight=2e-5, physical=0.0, sudden=1.0)
+    assert not comparison.verdict.startswith("off"), comparison
 
 
 @pytest.mark.slow
 @examples(5)
 @given(number=st.integers(0, 2**20))
 def test_any_legal_case_agrees_with_itself_made_tight_or_says_that_it_failed(number):
-    one = compare(number, tight=2e-5, physical=0.0, wide=1.0)
-    assert not one.verdict.startswith("off"), one
+    comparison = compare(number, tight=2e-5, physical=0.0, wide=1.0)
+    assert not comparison.verdict.startswith("off"), comparison
 
 
 @pytest.mark.parametrize("number", [10372, 10791, 11134])
 def test_the_end_of_a_step_may_be_its_peak(number):
     """A starting roller slips by next to nothing while the cage pushes it: no sample between the stages says so."""
-    one = compare(number, tight=2e-5, physical=0.1, wide=0.5)
-    assert one.verdict == "agrees" and one.peak_error < 1e-3, one
+    comparison = compare(number, tight=2e-5, physical=0.1, wide=0.5)
+    assert comparison.verdict == "agrees" and comparison.peak_error < 1e-3, comparison
 
 
 @pytest.mark.parametrize("number", [10001, 10018])
 def test_a_grip_finer_than_a_table_can_tell_is_no_reason_for_tiny_steps(number):
     """Cold oil that does not heat up holds rollers at a slip of 1e-14 m/s and less, by which a table's places are rounded."""
-    one = compare(number, tight=2e-5, physical=0.1, wide=0.5)
-    assert one.verdict == "agrees" and one.energy_error < 2e-4, one
+    comparison = compare(number, tight=2e-5, physical=0.1, wide=0.5)
+    assert comparison.verdict == "agrees" and comparison.energy_error < 2e-4, comparison
 
 
 @pytest.mark.parametrize("number", [30669, 30968])
 def test_power_has_its_peak_where_the_film_ends(number):
     """While rings turn round, entrainment of a sliding roller passes zero, between two steps."""
-    one = compare(number, tight=2e-5, physical=0.1, wide=0.5)
-    assert one.verdict == "agrees" and one.peak_error < 5e-3, one
+    comparison = compare(number, tight=2e-5, physical=0.1, wide=0.5)
+    assert comparison.verdict == "agrees" and comparison.peak_error < 5e-3, comparison
 
 
 def test_a_grip_at_the_middle_of_a_table_is_as_fine_as_its_laws():
     """Cold oil that does not heat up, at 1.7 GPa, moves by 1e-19 m/s a newton."""
-    one = compare(30965, tight=5e-5, physical=0.1, wide=0.5)
-    assert one.verdict == "agrees" and one.energy_error < 3e-4, one
+    comparison = compare(30965, tight=5e-5, physical=0.1, wide=0.5)
+    assert comparison.verdict == "agrees" and comparison.energy_error < 3e-4, comparison
 
 
 @pytest.mark.deep
 @examples(1)
 @given(number=st.integers(0, 2**20), whole=st.sampled_from([0.0, 1.0]))
 def test_any_legal_case_of_both_models_and_dynamics(number, whole):
-    one = compare(number, tight=2e-5, physical=1.0 - whole, whole=whole, wide=1.0)
+    comparison = compare(number, tight=2e-5, physical=1.0 - whole, whole=whole, wide=1.0)
     # Of a whole bearing's rollers single touches are chaotic: rows are compared, to 5e-3.
-    assert not one.verdict.startswith("off") or (whole and one.energy_error < 5e-3), one
+    assert not comparison.verdict.startswith("off") or (whole and comparison.energy_error < 5e-3), (
+        comparison
+    )
 
 
 @pytest.mark.deep

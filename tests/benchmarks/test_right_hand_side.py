@@ -17,23 +17,23 @@ def states(history, count=40):
 
 
 def rate_at(time, slip, data):
-    found = np.empty(4)
-    rates(time, np.array([slip, 0.0, 0.0, 0.0]), found, data)
-    return found
+    rate = np.empty(4)
+    rates(time, np.array([slip, 0.0, 0.0, 0.0]), rate, data)
+    return rate
 
 
 def met(history, time):
     """Station of the roller at a time [s] within the interval of its sample."""
-    motion, found = history.motion, np.zeros(1, CONDITIONS)
+    motion, conditions = history.motion, np.zeros(1, CONDITIONS)
     k = int(np.searchsorted(motion.time, time, side="right")) - 1
     write_conditions(
         history.roller.body[0],
         history.roller.tables,
         history.start_angle,
         instant(motion, k, time),
-        found[0],
+        conditions[0],
     )
-    return found[0]
+    return conditions[0]
 
 
 def test_rates_are_those_of_the_package(histories):
@@ -62,8 +62,8 @@ def test_jacobian_is_the_difference_quotient(histories):
     for history in histories:
         data = pack(history, energy_unit=2.0)
         for time, slip in states(history):
-            found = np.zeros((4, 4))
-            jacobian(time, np.array([slip, 0.0, 0.0, 0.0]), found, data)
+            matrix = np.zeros((4, 4))
+            jacobian(time, np.array([slip, 0.0, 0.0, 0.0]), matrix, data)
             change = 1e-5 * abs(slip)
             quotient = (rate_at(time, slip + change, data) - rate_at(time, slip - change, data)) / (
                 2.0 * change
@@ -71,9 +71,9 @@ def test_jacobian_is_the_difference_quotient(histories):
             # Round-off of the rates themselves limits the quotient.
             noise = 1e-13 * np.abs(rate_at(time, slip, data)) / change
             assert np.all(
-                np.abs(found[:, 0] - quotient) <= 1e-5 * np.abs(quotient) + 10.0 * noise + 1e-9
+                np.abs(matrix[:, 0] - quotient) <= 1e-5 * np.abs(quotient) + 10.0 * noise + 1e-9
             )
-            assert not found[:, 1:].any()
+            assert not matrix[:, 1:].any()
 
 
 def test_evaluations_are_counted(histories):

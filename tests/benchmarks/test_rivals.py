@@ -39,9 +39,9 @@ def test_a_rival_converges_to_the_same_answer(name, histories):
     for history in histories:
         reference = own.reference(history)
         with silence():
-            found = room.solve(history, reference, **TIGHT[name])
-        assert max(errors(found, reference)) < allowed
-        assert found.evaluations > 0
+            solution = room.solve(history, reference, **TIGHT[name])
+        assert max(errors(solution, reference)) < allowed
+        assert solution.evaluations > 0
 
 
 def test_load_edges_are_where_load_begins_and_ends(histories):
@@ -50,12 +50,12 @@ def test_load_edges_are_where_load_begins_and_ends(histories):
     assert edges.size > 0
 
     def load(time):
-        interval, found = int((history.motion.time <= time).sum()) - 1, np.zeros(1, CONDITIONS)
+        interval, conditions = int((history.motion.time <= time).sum()) - 1, np.zeros(1, CONDITIONS)
         now = instant(history.motion, interval, time)
         write_conditions(
-            history.roller.body[0], history.roller.tables, history.start_angle, now, found[0]
+            history.roller.body[0], history.roller.tables, history.start_angle, now, conditions[0]
         )
-        return float(found["elastic_load"][0])
+        return float(conditions["elastic_load"][0])
 
     for edge in edges:
         assert (load(edge - 1e-7) > 0.0) != (load(edge + 1e-7) > 0.0)

@@ -139,7 +139,7 @@ def test_a_whole_bearing_whose_rollers_skew(write):
 
 
 @pytest.mark.parametrize(
-    ("text", "place"),
+    ("text", "message"),
     [
         ("cage: {gap: 20 mm}\n", r"line 3, cage\.gap: .*pockets would overlap"),
         (
@@ -148,8 +148,8 @@ def test_a_whole_bearing_whose_rollers_skew(write):
         ),
     ],
 )
-def test_a_whole_bearing_that_cannot_be(write, text, place):
-    with pytest.raises(InputError, match=place):
+def test_a_whole_bearing_that_cannot_be(write, text, message):
+    with pytest.raises(InputError, match=message):
         read_case(write(f"{LOADS}dynamics: whole-bearing\n{text}"))
 
 
@@ -254,8 +254,8 @@ def accepts(schema, value):
         "enum" not in schema or value in schema["enum"],
         "const" not in schema or value == schema["const"],
         "pattern" not in schema or bool(re.search(schema["pattern"], value)),
-        "oneOf" not in schema or sum(accepts(one, value) for one in schema["oneOf"]) == 1,
-        "anyOf" not in schema or any(accepts(one, value) for one in schema["anyOf"]),
+        "oneOf" not in schema or sum(accepts(branch, value) for branch in schema["oneOf"]) == 1,
+        "anyOf" not in schema or any(accepts(branch, value) for branch in schema["anyOf"]),
     ]
     if isinstance(value, dict):
         properties = schema.get("properties", {})

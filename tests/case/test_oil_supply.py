@@ -20,13 +20,13 @@ def case(laws=PHYSICAL, **other):
 
 
 def test_skfs_factor_counts_where_a_law_asks_for_oil_and_no_supply_is_given():
-    one, named = case(), case(oil_supply="skf")
-    assert one.inlet_supply == one.as_dict()["oil_supply"] == "skf"
-    assert one.oil.oil_gap == named.oil.oil_gap < 1e-3
+    unnamed, named = case(), case(oil_supply="skf")
+    assert unnamed.inlet_supply == unnamed.as_dict()["oil_supply"] == "skf"
+    assert unnamed.oil.oil_gap == named.oil.oil_gap < 1e-3
     assert (
-        supply_note(one)
+        supply_note(unnamed)
         == supply_note(named)
-        == f"oil_supply skf: inlets are full from a gap of {1e6 * one.oil.oil_gap:.3g} um on"
+        == f"oil_supply skf: inlets are full from a gap of {1e6 * unnamed.oil.oil_gap:.3g} um on"
     )
     assert supply_note(case(oil_supply="flooded")) == "oil_supply flooded: flooded inlets"
     for changed in (PAPER.but(starvation=True), PAPER.but(rolling="whole-film")):
@@ -34,14 +34,14 @@ def test_skfs_factor_counts_where_a_law_asks_for_oil_and_no_supply_is_given():
 
 
 def test_other_laws_are_flooded():
-    one = case(PAPER)
+    flooded = case(PAPER)
     assert (
-        one.inlet_supply == "flooded"
-        and "oil_supply" not in one.as_dict()
-        and supply_note(one) == ""
+        flooded.inlet_supply == "flooded"
+        and "oil_supply" not in flooded.as_dict()
+        and supply_note(flooded) == ""
     )
-    assert math.isinf(one.oil.oil_gap)
-    inner = prepare(PAPER, one.bearing, one.oil, 1).inner
+    assert math.isinf(flooded.oil.oil_gap)
+    inner = prepare(PAPER, flooded.bearing, flooded.oil, 1).inner
     assert inner.film_thickness(2e4, 0.4) == FILM_LAWS.named(PAPER.film)(inner.interface, 2e4, 0.4)
     assert (
         case(PAPER, oil_supply="flooded").oil.oil_gap
@@ -65,9 +65,9 @@ def test_rest_does_not_change_the_oil():
     bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
     steady = BearingLoads.constant([0.0, -4e5, 2e5], 1.4, 10.0)
     for supply in ("skf", 0.7):
-        found = [oil_gap(supply, bearing, oil, loads, PHYSICAL) for loads in (stop, rested, steady)]
-        assert found[1] == pytest.approx(found[0], rel=1e-12)
-        assert found[2] == pytest.approx(found[0], rel=1e-4)
+        gaps = [oil_gap(supply, bearing, oil, loads, PHYSICAL) for loads in (stop, rested, steady)]
+        assert gaps[1] == pytest.approx(gaps[0], rel=1e-12)
+        assert gaps[2] == pytest.approx(gaps[0], rel=1e-4)
     still = BearingLoads.constant([0.0, -4e5, 2e5], 0.0, 10.0)
     assert oil_gap("skf", bearing, oil, still, PHYSICAL) == FLOODED_GAP
 

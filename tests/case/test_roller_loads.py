@@ -44,12 +44,12 @@ def test_loads_of_a_balance_from_a_file_give_the_results_of_the_balance(tmp_path
     assert isinstance(case.loads, RollerLoads)
     middle = case.bearing_loads.force[:-20]
     assert middle == pytest.approx(np.tile(FORCE, (len(middle), 1)), abs=1.0)
-    known, found = simulate(balanced), simulate(case)
-    assert (found.status == 0).all()
-    window = found.attrs["window_end"] - found.attrs["window_start"]
+    known, result = simulate(balanced), simulate(case)
+    assert (result.status == 0).all()
+    window = result.attrs["window_end"] - result.attrs["window_start"]
     share = window / (known.attrs["window_end"] - known.attrs["window_start"])
     # The upwind row has no load, and how far its rollers are from the rings is not in the file.
-    loaded = (one.energy.sel(row="downwind").sum() for one in (found, known))
+    loaded = (dataset.energy.sel(row="downwind").sum() for dataset in (result, known))
     assert float(next(loaded)) == pytest.approx(float(next(loaded)) * share, rel=2e-3)
 
 

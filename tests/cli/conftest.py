@@ -27,7 +27,7 @@ def quick(folder):
         rollers="[0, 14]",
     ):
         defaults = ("laws: {model: paper}\n", "traces: none\n")
-        further += "".join(one for one in defaults if one.split(":")[0] not in further)
+        further += "".join(default for default in defaults if default.split(":")[0] not in further)
         (folder / "case.yaml").write_text(
             f"loads: {loads}\nrollers: {rollers}\n{further}", encoding="utf-8"
         )

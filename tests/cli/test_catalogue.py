@@ -50,7 +50,7 @@ def test_show_tells_what_is_assumed_of_a_turbine(macroslip):
     assert "four-point, moment-carrying front, front locating, rear simulated" in out
     assert "its parts, and what is assumed of them" in out
     printed = json.loads(macroslip("turbine", "show", "nrel5", "--json").out)
-    parts = {one["quantity"]: one for one in printed["its parts, and what is assumed of them"]}
+    parts = {part["quantity"]: part for part in printed["its parts, and what is assumed of them"]}
     assert parts["bearing"]["value"] == "skf-240-950-bc"
     assert parts["bearing"]["meaning"].startswith("Assumed:")
 

@@ -15,7 +15,7 @@ def test_versions_kernels_and_commands(macroslip):
         and printed["machine"]["python"] == platform.python_version()
     )
     assert printed["machine"]["cores"] >= 1
-    numba = next(one for one in printed["packages"] if one["package"] == "numba")
+    numba = next(package for package in printed["packages"] if package["package"] == "numba")
     assert numba["installed"] and numba["wanted"].startswith(">=")
     assert all(command["missing"] == [] for command in printed["commands"])
 

@@ -59,7 +59,7 @@ def test_other_faults_of_finalizers_are_reported_as_before(monkeypatch):
     monkeypatch.setattr("sys.unraisablehook", seen.append)
     with interrupts_kept():
         Faulty()
-    assert [one.exc_type for one in seen] == [ValueError]
+    assert [warning.exc_type for warning in seen] == [ValueError]
 
 
 def test_an_interrupt_while_the_arguments_are_read_is_told():

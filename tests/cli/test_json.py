@@ -50,12 +50,12 @@ def test_bearing_estimate(macroslip, folder):
     assert (done.code, done.err) == (0, "")
     printed = json.loads(done.out)
     written = Bearing.read(folder / "mine.yaml")
-    for key, one in printed["values"].items():
-        low, high = one["10 to 90 %"]
-        assert low <= one["median"] <= high
+    for key, estimate in printed["values"].items():
+        low, high = estimate["10 to 90 %"]
+        assert low <= estimate["median"] <= high
         assert (
-            written.provenance[key].value == one["median"]
-            and written.provenance[key].unit == one["unit"]
+            written.provenance[key].value == estimate["median"]
+            and written.provenance[key].unit == estimate["unit"]
         )
     assert {"roller_diameter", "contact_angle"} <= set(printed["values"])
     shown = macroslip("bearing", "estimate", *page, "-o", "mine.yaml", "--force").out
@@ -105,6 +105,6 @@ def test_study(folder, macroslip):
 def test_an_error_is_one_line_with_quiet(folder, macroslip):
     (folder / "case.yaml").write_text("bearing: [1\nloads: 3\nrollers: some\n")
     several = macroslip("run", "case.yaml", "-o", "case.nc")
-    one = macroslip("run", "case.yaml", "-o", "case.nc", "--quiet")
-    assert several.code == one.code == 2
-    assert one.err.count("\n") == 1 and one.err.split() == several.err.split()
+    single = macroslip("run", "case.yaml", "-o", "case.nc", "--quiet")
+    assert several.code == single.code == 2
+    assert single.err.count("\n") == 1 and single.err.split() == several.err.split()

@@ -13,12 +13,12 @@ DATA = Path(__file__).parents[1] / "data"
 
 def rows(text):
     """The numbers of every line of the tables, by the name in front."""
-    found = {}
+    by_channel = {}
     for line in text.splitlines():
         name, bracket, numbers = line.partition("]")
         if bracket and len(numbers.split()) == 4:
-            found[f"{name.strip()}]"] = [float(number) for number in numbers.split()]
-    return found
+            by_channel[f"{name.strip()}]"] = [float(number) for number in numbers.split()]
+    return by_channel
 
 
 def test_an_openfast_file(macroslip):
@@ -165,8 +165,8 @@ def test_a_four_point_mount_from_a_case_file(folder, macroslip):
         mount="four-point", hub_to_bearing=1.3, front_to_rear=1.8, locating="rear", bearing="front"
     )
     expected = main_bearing_load(HubLoads.read(path), own).force.mean(axis=0) / 1e3
-    found = inspected(macroslip, path, "--case", "case.yaml")["main bearing"]
-    means = [found[f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")]
+    statistics = inspected(macroslip, path, "--case", "case.yaml")["main bearing"]
+    means = [statistics[f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")]
     assert means == pytest.approx(expected, rel=1e-12)
     assert (
         "1.8 m from front to rear bearing, rear locating"

@@ -11,13 +11,13 @@ from macroslip.errors import MacroslipError
 @pytest.fixture
 def without(monkeypatch):
     """Make packages look as if they were not installed."""
-    found = importlib.util.find_spec
+    find_spec = importlib.util.find_spec
 
     def hide(*names):
         monkeypatch.setattr(
             importlib.util,
             "find_spec",
-            lambda name, *rest: None if name in names else found(name, *rest),
+            lambda name, *rest: None if name in names else find_spec(name, *rest),
         )
 
     return hide

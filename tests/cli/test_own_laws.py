@@ -51,8 +51,8 @@ def test_film_and_traction_laws_of_ones_own(run, folder):
     assert done.returncode == 0 and done.stderr.startswith(
         "doubtful: the film's formula is outside its range"
     )
-    with xr.open_dataset("own.nc", engine="h5netcdf") as found:
-        result = found.sel(row="downwind").isel(roller=0).load()
+    with xr.open_dataset("own.nc", engine="h5netcdf") as written:
+        result = written.sel(row="downwind").isel(roller=0).load()
     assert (result.status == 0).all()
     assert result.attrs["model"] == "paper, but film dowson-higginson, traction isothermal-barus"
     assert (

@@ -74,7 +74,7 @@ def test_weights_belong_to_studies(ran, macroslip):
 
 
 @pytest.mark.parametrize(
-    ("place", "message"),
+    ("path", "message"),
     [
         ("nothing", "nothing: there is no such file or folder"),
         ("empty", "empty: the folder holds no netCDF file"),
@@ -82,13 +82,13 @@ def test_weights_belong_to_studies(ran, macroslip):
         ("other.nc", "other.nc: the dataset has no energy"),
     ],
 )
-def test_what_is_no_result_gives_one_paragraph(folder, macroslip, place, message):
+def test_what_is_no_result_gives_one_paragraph(folder, macroslip, path, message):
     import xarray as xr
 
     (folder / "empty").mkdir()
     (folder / "broken.nc").write_text("no netCDF")
     xr.Dataset({"x": 1.0}).to_netcdf(folder / "other.nc", engine="h5netcdf")
-    done = macroslip("report", place)
+    done = macroslip("report", path)
     assert done.code == 2 and message in done.err
     assert not list(folder.rglob("*.html"))
 

@@ -120,10 +120,10 @@ def test_rollers_that_fail_are_told_and_written(quick, folder, macroslip):
     assert done.code == 3
     with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as written:
         assert (written.status == Status.TOO_MANY_STEPS).all() and np.isnan(written.energy).all()
-        one = written.sel(row="upwind", roller=14)
+        roller = written.sel(row="upwind", roller=14)
         expected = (
-            f"failed: roller 14 of the upwind row at t = {float(one.end_time):.6g} s with a slip of "
-            f"{float(one.end_slip):.4g} m/s: the step limit was reached; loosen the tolerance or raise "
+            f"failed: roller 14 of the upwind row at t = {float(roller.end_time):.6g} s with a slip of "
+            f"{float(roller.end_slip):.4g} m/s: the step limit was reached; loosen the tolerance or raise "
             "integrator.max_steps."
         )
     assert len(done.err.splitlines()) == 4 and expected in done.err.splitlines()

@@ -41,7 +41,7 @@ def base():
 def contacts(base):
     """Interface, shape of the gap and roller radius of the base bearing's contacts, by name."""
     bearing = Bearing.read("skf-240-600-bc")
-    found = {}
+    by_name = {}
     for interface, curvature in zip(
         base,
         (
@@ -52,5 +52,5 @@ def contacts(base):
         strict=True,
     ):
         shape = GapShape(1.0 / curvature.rolling, 1.0 / curvature.lateral, bearing.roller_length)
-        found[interface.name] = interface, shape, geometry.roller_radius(bearing)
-    return found
+        by_name[interface.name] = interface, shape, geometry.roller_radius(bearing)
+    return by_name

@@ -89,10 +89,10 @@ def test_outside_the_range_of_w_no_more_than_the_film_ratio_gives(
 ):
     states = 10.0**log_load, 10.0**log_speed, 10.0**log_film
     for interface in base[:2]:
-        by_film, found = (
+        by_film, share = (
             asperity_share(law, interface, *states) for law in ("film-ratio", "masjedi-khonsari")
         )
-        assert load_is_in_range(interface, states[0]) or found <= by_film
+        assert load_is_in_range(interface, states[0]) or share <= by_film
 
 
 def test_the_share_has_no_step_at_the_ends_of_its_range(base):

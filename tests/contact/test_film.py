@@ -68,8 +68,8 @@ def exact(law, interface, load, speed):
         return light
     pressure = d(interface.hertz.pressure) * mpmath.cbrt(load) / d("1e9")
     light /= 1 + d("0.6") * pressure / (1 + d("1.7") * pressure)
-    place = min(max(mpmath.log10(w / d("2e-6")), d(0)), d(1))
-    weight = place**3 * (10 - 15 * place + 6 * place**2)
+    fraction = min(max(mpmath.log10(w / d("2e-6")), d(0)), d(1))
+    weight = fraction**3 * (10 - 15 * fraction + 6 * fraction**2)
     level_w, level_u = mpmath.sqrt(w**2 + d("2e-6") ** 2), mpmath.sqrt(u**2 + d("1e-13") ** 2)
     gap = radius * d("2.691") * d("0.2") * sigma ** d("1.222") * v ** d("0.223")
     gap *= level_w ** d("-0.364") * level_u ** d("-0.043") * g ** d("-0.286")
@@ -159,10 +159,10 @@ def test_extreme_groups_stay_finite_and_slopes_have_their_signs():
 
 def test_range_of_moes_is_where_numerical_solutions_were_compared(base):
     # M = 32 at 100 kN, L = 16.9 at 1 m/s.
-    found = film.moes_in_range(
+    in_range = film.moes_in_range(
         base[0], np.array([1e-3, 3e4, 1e5, 1e3]), np.array([0.4, 0.4, 0.4, 1.0])
     )
-    assert found.tolist() == [True, True, False, False]
+    assert in_range.tolist() == [True, True, False, False]
 
 
 @NUMBERS
@@ -186,13 +186,13 @@ def test_film_rises_with_speed_and_a_stopped_roller_keeps_the_gap_of_its_asperit
 
 
 def test_range_is_that_of_the_formula_that_counts(base):
-    found = film.masjedi_khonsari_moes_in_range(
+    in_range = film.masjedi_khonsari_moes_in_range(
         base[0],
         np.array([1e-2, 30.0, 1e3, 2e4, 2e5, 4e5, 2e4, 30.0]),
         np.array([*[RATED_SURFACE_SPEED] * 6, 1e-3, 1.0]),
     )
     # W; U; L.
-    assert found.tolist() == [True] * 5 + [False] * 3
+    assert in_range.tolist() == [True] * 5 + [False] * 3
     assert film.masjedi_khonsari_moes_in_range(base[2], 32.0, RATED_SURFACE_SPEED / 2)
 
 
@@ -204,7 +204,8 @@ def test_softer_steel_is_inside_the_range(base):
     lubricant = Lubricant.read("vg460-pao")
     notes = film_range_notes("masjedi-khonsari-moes", base)
     assert notes == [
-        f"{one.name}: the hardness group 0.03033 is outside 0.005 to 0.03" for one in base
+        f"{interface.name}: the hardness group 0.03033 is outside 0.005 to 0.03"
+        for interface in base
     ]
     softer = interfaces(Bearing.read("skf-240-600-bc").replace(hardness=6.5e9), lubricant)
     assert film_range_notes("masjedi-khonsari", softer) == film_range_notes("moes", base) == []

@@ -23,25 +23,25 @@ def speed_at(peclet):
     return 2 * CONDUCTIVITY * peclet / (HALF_WIDTH * DENSITY * HEAT)
 
 
-def jaeger(place, peclet):
-    """Rise at x = place·b under the semi-elliptical band, in P'/k, by quadrature of the full integral."""
+def jaeger(position, peclet):
+    """Rise at x = position·b under the semi-elliptical band, in P'/k, by quadrature of the full integral."""
 
     def source(distance):
         kernel = k0e(peclet * abs(distance)) * (
             1.0 if distance > 0 else math.exp(2 * peclet * distance)
         )
-        return math.sqrt(max(0.0, 1 - (place - distance) ** 2)) * kernel
+        return math.sqrt(max(0.0, 1 - (position - distance) ** 2)) * kernel
 
     # Distances from the source as squares: K0 is singular where the source is.
     accuracy = {"epsrel": 1e-10, "epsabs": 0.0, "limit": 400}
-    behind = quad(lambda w: 2 * w * source(w * w), 0, math.sqrt(place + 1), **accuracy)[0]
-    ahead = quad(lambda w: 2 * w * source(-w * w), 0, math.sqrt(1 - place), **accuracy)[0]
+    behind = quad(lambda w: 2 * w * source(w * w), 0, math.sqrt(position + 1), **accuracy)[0]
+    ahead = quad(lambda w: 2 * w * source(-w * w), 0, math.sqrt(1 - position), **accuracy)[0]
     return 2 / math.pi**2 * (behind + ahead)
 
 
 def hottest(peclet):
     minimum = minimize_scalar(
-        lambda place: -jaeger(place, peclet),
+        lambda position: -jaeger(position, peclet),
         bounds=(0, 0.95),
         method="bounded",
         options={"xatol": 1e-7},
@@ -57,9 +57,9 @@ def overstated(peclet):
 
 
 def test_constant_is_the_limit_of_high_peclet_number():
-    place, rise = hottest(1e4)
+    position, rise = hottest(1e4)
     assert math.sqrt(4e4) * rise == pytest.approx(PEAK, rel=2e-9, abs=0.0)
-    assert place == pytest.approx(0.652, abs=5e-4)
+    assert position == pytest.approx(0.652, abs=5e-4)
 
 
 @pytest.mark.parametrize(
@@ -140,13 +140,13 @@ def test_a_transient_against_quadrature_in_the_moving_frame():
     """Power that rises linearly from nothing: Duhamel's integral by SciPy at the middle of the band."""
     steel, half, speed, end = 12888.2, 0.5e-3, 0.4, 1e-3
     time = np.linspace(0.0, end, 200)
-    one = np.ones_like(time)
+    ones = np.ones_like(time)
 
-    def rise(place):
-        start = max(0.0, end - (place + half) / speed)
+    def rise(position):
+        start = max(0.0, end - (position + half) / speed)
 
         def flux(then):
-            inside = 1.0 - ((place - speed * (end - then)) / half) ** 2
+            inside = 1.0 - ((position - speed * (end - then)) / half) ** 2
             return 100.0 * then / end * 2.0 / (np.pi * half) * np.sqrt(max(0.0, inside))
 
         return (
@@ -155,8 +155,8 @@ def test_a_transient_against_quadrature_in_the_moving_frame():
             / (np.sqrt(np.pi) * steel)
         )
 
-    best = max(rise(place) for place in np.linspace(-0.5, 0.99, 60) * half)
-    found = transient_flash(
-        time, 100.0 * time / end, half * one, speed * one, speed * one, steel, steel
+    best = max(rise(position) for position in np.linspace(-0.5, 0.99, 60) * half)
+    flash = transient_flash(
+        time, 100.0 * time / end, half * ones, speed * ones, speed * ones, steel, steel
     )
-    assert found == pytest.approx(best, rel=0.01)
+    assert flash == pytest.approx(best, rel=0.01)

@@ -56,13 +56,13 @@ def test_force_moments_and_power_over_the_ellipse_are_integrals(ring, slip, full
         ]
         return sum(parts)
 
-    found = saturating_patch(patch, 0.05, full_slip, load, SPEED, slip)
+    resultant = saturating_patch(patch, 0.05, full_slip, load, SPEED, slip)
     size = 0.05 * load
-    assert found.pull == pytest.approx(integral(lambda zeta: 1.0), abs=1e-7 * size)
-    assert found.skew == pytest.approx(integral(lambda zeta: zeta), abs=1e-7 * size * half)
-    assert found.power == pytest.approx(integral(local), abs=1e-7 * size * 0.02)
+    assert resultant.pull == pytest.approx(integral(lambda zeta: 1.0), abs=1e-7 * size)
+    assert resultant.skew == pytest.approx(integral(lambda zeta: zeta), abs=1e-7 * size * half)
+    assert resultant.power == pytest.approx(integral(local), abs=1e-7 * size * 0.02)
     lag = integral(lambda zeta: zeta**2 / (2.0 * patch.contour_radius)) / patch.roller_radius
-    assert found.lag == pytest.approx(lag, abs=1e-7 * size)
+    assert resultant.lag == pytest.approx(lag, abs=1e-7 * size)
 
 
 @sides

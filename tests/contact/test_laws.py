@@ -29,11 +29,11 @@ BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 def own():
     """A test's own laws end with it."""
     lists = FILM_LAWS._laws, TRACTION_LAWS._laws
-    before = [dict(one) for one in lists]
+    before = [dict(registered) for registered in lists]
     yield
-    for one, old in zip(lists, before, strict=True):
-        one.clear()
-        one.update(old)
+    for registered, old in zip(lists, before, strict=True):
+        registered.clear()
+        registered.update(old)
 
 
 def tried(*, kind="film", **options):
@@ -155,9 +155,9 @@ def test_a_law_that_does_not_return_is_given_up(monkeypatch):
 )
 def test_a_sound_law_is_not_refused(function):
     register_film("mine", function, reference="none")
-    found = tried().inner.film_thickness(np.array([[1.0], [1e4]]), np.array([0.1, 0.4, 0.9]))
-    assert found.shape == (2, 3) and found.dtype == float
-    assert found == pytest.approx(
+    film = tried().inner.film_thickness(np.array([[1.0], [1e4]]), np.array([0.1, 0.4, 0.9]))
+    assert film.shape == (2, 3) and film.dtype == float
+    assert film == pytest.approx(
         np.broadcast_to(function(None, np.ones(3), np.array([0.1, 0.4, 0.9])), (2, 3))
     )
 
@@ -238,34 +238,35 @@ def test_package_laws_are_not_tried(monkeypatch):
 def test_film_has_its_corrections_and_a_floor_of_speed(laws):
     gap = 2e-6
     short = OIL.supplied(gap)
-    found = prepare(laws.but(starvation=True, inlet_heating=True), BEARING, short, 1).outer
+    contact = prepare(laws.but(starvation=True, inlet_heating=True), BEARING, short, 1).outer
     plain = prepare(laws.but(starvation=False, inlet_heating=False), BEARING, short, 1).outer
     load, speed = np.geomspace(1.0, 1e5, 7), np.geomspace(1e-3, 2.0, 7)[:, None]
     heated = plain.film_thickness(load, speed) / (
         1.0 + 0.1 * (0.54 * 0.056 / 0.125 * speed**2) ** 0.64
     )
-    film = found.film_thickness(load, speed)
+    film = contact.film_thickness(load, speed)
     assert (film < gap).all()
     # The inlet begins to be full at the gap.
     assert film == pytest.approx(film_factor(gap / film) * heated, rel=1e-6)
-    at_rest = found.film_thickness(1e4, np.array([0.0, 1e-9, LOWEST_ENTRAINMENT_SPEED]))
+    at_rest = contact.film_thickness(1e4, np.array([0.0, 1e-9, LOWEST_ENTRAINMENT_SPEED]))
     assert at_rest[0] == at_rest[1] == at_rest[2] > 0.0
 
 
 def test_contacts_of_the_papers_model():
     inner, outer, cage, _ = prepare(Laws.paper(), BEARING, OIL, 1)
     assert (inner.name, outer.name, cage.name) == ("inner", "outer", "cage")
-    for one in (inner, outer, cage):
+    for contact in (inner, outer, cage):
         assert (
-            not one.curved
-            and one.rolling is None
-            and one.boundary_friction == 0.0
-            and one.fluid is None
+            not contact.curved
+            and contact.rolling is None
+            and contact.boundary_friction == 0.0
+            and contact.fluid is None
         )
-        assert one.asperity_share(1e4, 0.4, 1e-6) == 0.0 and not one.shape.microslip
-    assert any("10.1098/rsta.1961.0014" in one for one in references(Laws.paper()))
+        assert contact.asperity_share(1e4, 0.4, 1e-6) == 0.0 and not contact.shape.microslip
+    assert any("10.1098/rsta.1961.0014" in reference for reference in references(Laws.paper()))
     assert not any(
-        "10.1098/rsta.1961.0014" in one for one in references(Laws.paper().but(heating=False))
+        "10.1098/rsta.1961.0014" in reference
+        for reference in references(Laws.paper().but(heating=False))
     )
 
 
@@ -283,10 +284,10 @@ def test_contacts_with_all_mechanisms(contacts):
     without = prepare(laws.but(rolling="none"), BEARING, OIL, 1)
     assert without.cage.asperity_share(1e4, 1e-3, 1e-7) > 0.0 and without.cage.rolling is None
     # The spar of a pocket ends where its gap is at most seven times the least; raceways are flooded.
-    for one, inlet in ((down.cage, 7.0), (down.inner, math.inf)):
-        full = film_at_gap(prepare_gap(contacts[one.name][1]), math.log(2e-5))
+    for contact, inlet in ((down.cage, 7.0), (down.inner, math.inf)):
+        full = film_at_gap(prepare_gap(contacts[contact.name][1]), math.log(2e-5))
         assert np.exp(
-            np.subtract(film_at_gap(one.rolling.gap, math.log(2e-5)), full)
+            np.subtract(film_at_gap(contact.rolling.gap, math.log(2e-5)), full)
         ) == pytest.approx(starved_martin(inlet), rel=1e-12)
     conductance = down.inner.uniform_traction(1e4, 1e-6, np.array([LEAST_SLIP, -1e-8])) / [
         LEAST_SLIP,

@@ -29,13 +29,13 @@ def test_the_surface_of_a_half_space_fits_the_roller_under_this_pressure():
     load, curvature = 1e6, 33.0
     width = half_width(load, curvature, MODULUS)
     largest = line_pressure(load, curvature, MODULUS)
-    place = 0.4 * width
+    position = 0.4 * width
     # PV of √(1 − s²)/(x − s) by subtracting its value at x, whose own integral is a logarithm.
     at = np.sqrt(1.0 - 0.4**2)
     smooth, _ = quad(lambda s: (np.sqrt(1.0 - s * s) - at) / (0.4 - s), -1.0, 1.0, points=[0.4])
     principal = smooth + at * np.log((1.0 + 0.4) / (1.0 - 0.4))
     slope = 2.0 / (np.pi * MODULUS / 2.0) * largest * principal
-    assert slope == pytest.approx(curvature * place, rel=1e-6)
+    assert slope == pytest.approx(curvature * position, rel=1e-6)
 
 
 def test_palmgren_has_his_formula_in_newtons_and_millimetres():

@@ -56,20 +56,20 @@ def test_goksem_and_hargreaves_flooded_is_thirteen_newton_a_contact():
 @pytest.mark.parametrize(("ratio", "load"), [(0.001, 33e3), (0.01, 16.5e3), (0.05, 9.2e3)])
 def test_the_load_of_grip_is_that_of_an_independent_program(ratio, load):
     """Eyring, film times 0.7, and Goksem and Hargreaves' rolling; the law of the film differs."""
-    found = grip_load(
+    computed = grip_load(
         MAIN, OIL, SPEED, slide_roll_ratio=ratio, film_factor=0.7, rolling="goksem-hargreaves"
     )
-    assert found == pytest.approx(load, rel=0.1)
+    assert computed == pytest.approx(load, rel=0.1)
 
 
 def test_at_the_load_of_grip_traction_drives_the_roller():
-    found = grip_load(MAIN, OIL, SPEED)
+    grip = grip_load(MAIN, OIL, SPEED)
     row = tapered_geometry(MAIN)
     speed = row.surface_speed(SPEED)
     mass = roller_mass(MAIN.density, row.roller_radius, MAIN.roller_length)
-    needed = rolling_resistance(INNER, found, speed) + 0.5 * mass * GRAVITY
-    film = line_film(INNER, found, speed)
-    assert line_traction(INNER, found, film, 0.01 * speed) == pytest.approx(float(needed), rel=1e-4)
+    needed = rolling_resistance(INNER, grip, speed) + 0.5 * mass * GRAVITY
+    film = line_film(INNER, grip, speed)
+    assert line_traction(INNER, grip, film, 0.01 * speed) == pytest.approx(float(needed), rel=1e-4)
 
 
 def test_curvatures_are_those_of_cones():

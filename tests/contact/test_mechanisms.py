@@ -30,9 +30,9 @@ def test_named_sets_and_what_differs():
 def test_every_mechanism_of_the_physical_model_changes_the_choice():
     paper, physical = Laws.paper(), Laws.physical()
     for field in fields(Laws):
-        one = paper.but(**{field.name: getattr(physical, field.name)})
+        choice = paper.but(**{field.name: getattr(physical, field.name)})
         alike = ("heating", "traction", "skew", *KELLSTROEM_NUMBERS)
-        assert (one == paper) == (field.name in alike)
+        assert (choice == paper) == (field.name in alike)
 
 
 def test_the_closed_form_serves_the_papers_traction_alone():

@@ -46,7 +46,7 @@ def contact(laws, ring="inner", sign=1):
 
 def summed(patch, chords, load, film, share, ring_speed, slip):
     """Pull, lag, skew and power of asperities at one state."""
-    states = (np.array([float(one)]) for one in (load, film, share, ring_speed, slip))
+    states = (np.array([float(number)]) for number in (load, film, share, ring_speed, slip))
     return patch_tractions(patch, chords, *states)[0]
 
 
@@ -60,10 +60,12 @@ def slip_along(patch, station, ring_speed, slip):
     )
 
 
-def power(patch, found, ring_speed, slip):
+def power(patch, traction, ring_speed, slip):
     """Δu (F − lag) + κ0 r lag − s skew with κ0 the curvature rate in pure rolling."""
-    rolling = patch.curvature_ratio * patch.roller_radius * found[1] - patch.spin_ratio * found[2]
-    return slip * (found[0] - found[1]) + ring_speed * rolling
+    rolling = (
+        patch.curvature_ratio * patch.roller_radius * traction[1] - patch.spin_ratio * traction[2]
+    )
+    return slip * (traction[0] - traction[1]) + ring_speed * rolling
 
 
 # --- Slip ------------------------------------------------------------------------------------------------------------
@@ -114,8 +116,8 @@ def test_rolling_lines_are_where_slip_changes_sign(slip, bend, spin):
     for left, right in ((-end, first), (first, second), (second, end)):
         if right - left > 1e-6:
             inside = np.linspace(left + 1e-9, right - 1e-9, 50)
-            found = slip + bend * inside**2 - spin * inside
-            assert found.min() >= -1e-9 * scale or found.max() <= 1e-9 * scale
+            local_slip = slip + bend * inside**2 - spin * inside
+            assert local_slip.min() >= -1e-9 * scale or local_slip.max() <= 1e-9 * scale
 
 
 # --- Film ------------------------------------------------------------------------------------------------------------
@@ -153,13 +155,13 @@ def graded(breaks, panels=8, nodes=6):
     t, w = np.polynomial.legendre.leggauss(nodes)
     ladder = 0.5 * np.concatenate([[0.0], 6.0 ** np.arange(1.0 - panels, 1.0)])
     ladder = np.concatenate([ladder, 1.0 - ladder[-2::-1]])
-    found, weights = [], []
+    abscissae, weights = [], []
     for left, right in itertools.pairwise(breaks):
         edges = left + (right - left) * ladder
         half = 0.5 * np.diff(edges)
-        found.append((0.5 * (edges[1:] + edges[:-1])[:, None] + half[:, None] * t).ravel())
+        abscissae.append((0.5 * (edges[1:] + edges[:-1])[:, None] + half[:, None] * t).ravel())
         weights.append((half[:, None] * w).ravel())
-    return np.concatenate(found), np.concatenate(weights)
+    return np.concatenate(abscissae), np.concatenate(weights)
 
 
 def whole_area(laws, patch, load, film, ring_speed, slip):
@@ -195,7 +197,9 @@ def test_whole_contact_against_integration_over_its_area(name, ring):
     laws, law = CHOICES[name], contact(CHOICES[name], ring)
     patch, chords = patch_of(law), chord_table(law.fluid)
     heavy, promised = (2e5, 2e-3) if name != "barus" else (5e3, 4e-3)
-    for load, slip in itertools.product((one for one in LOADS if one <= heavy), SLIPS):
+    for load, slip in itertools.product(
+        (candidate for candidate in LOADS if candidate <= heavy), SLIPS
+    ):
         force, lag, skew, spent = whole_area(laws, patch, load, 6e-7, -0.396, slip)
         sums = summed(patch, chords, load, 6e-7, 0.0, -0.396, slip)
         across = patch.across * load ** (1 / 3)
@@ -333,11 +337,11 @@ def test_friction_of_asperities_along_the_roller_against_dense_integration(
 
 def test_film_and_asperities_share_the_load():
     law = contact(FULL.but(asperities="film-ratio"))
-    load, speed, slip = (np.full(1, one) for one in (2e4, 0.02, 3e-3))
+    load, speed, slip = (np.full(1, number) for number in (2e4, 0.02, 3e-3))
     film = law.film_thickness(load, speed - 0.5 * slip)
     share = float(law.asperity_share(load, speed - 0.5 * slip, film)[0])
     assert 0.01 < share < 1.0
     patch, chords = patch_of(law), chord_table(law.fluid)
-    both = [summed(patch, chords, 2e4, film[0], one, 0.02, 3e-3) for one in (0.0, 1.0)]
-    found = np.array([traction[0] for traction in tractions(law, load, speed, slip)])
-    np.testing.assert_allclose(found, (1.0 - share) * both[0] + share * both[1], rtol=1e-9)
+    both = [summed(patch, chords, 2e4, film[0], part, 0.02, 3e-3) for part in (0.0, 1.0)]
+    computed = np.array([traction[0] for traction in tractions(law, load, speed, slip)])
+    np.testing.assert_allclose(computed, (1.0 - share) * both[0] + share * both[1], rtol=1e-9)

@@ -41,16 +41,16 @@ def profiled(profile, **values):
     return CROWNED.replace(roller_crown_radius=None, roller_profile=profile, **values)
 
 
-def drop(place, profile):
+def drop(station, profile):
     """P of ISO/TS 16281, in millimetres as printed there: 0.00035 Dw ln 1/(1 − (2x/Lwe)²)."""
     if profile == "straight":
         return 0.0
-    return 1e-3 * 0.00035 * 32.0 * math.log(1.0 / (1.0 - (2.0 * 1e3 * place / 50.0) ** 2))
+    return 1e-3 * 0.00035 * 32.0 * math.log(1.0 / (1.0 - (2.0 * 1e3 * station / 50.0) ** 2))
 
 
-def per_length(each, place, profile):
+def per_length(each, station, profile):
     """Load per length [N/m] at an approach of one contact, by Palmgren's δ = 3.84e-5 Q^0.9/l^0.8 in N and mm."""
-    pressed = 1e3 * max(each - drop(place, profile), 0.0)
+    pressed = 1e3 * max(each - drop(station, profile), 0.0)
     whole = (pressed * 50.0**0.8 / 3.84e-5) ** (1.0 / 0.9)
     return whole / 50e-3
 
@@ -63,7 +63,7 @@ def load_of(approach, profile):
     end = 0.5 * LENGTH
     if profile == "logarithmic":
         end *= math.sqrt(-math.expm1(-each / (0.00035 * DIAMETER)))
-    half, _ = quad(lambda place: per_length(each, place, profile), 0.0, end, epsrel=1e-12)
+    half, _ = quad(lambda station: per_length(each, station, profile), 0.0, end, epsrel=1e-12)
     return 2.0 * half
 
 
@@ -92,18 +92,18 @@ def test_a_straight_roller_has_palmgrens_law_at_each_raceway():
 def test_work_slope_and_inverse_belong_to_the_load(profile):
     own = numbers(profile)
     approach = 2.6e-5
-    work, _ = quad(lambda one: load_of(one, profile), 0.0, approach, epsrel=1e-10)
-    found = line_load(*own, approach)
-    assert found.work == pytest.approx(work, rel=1e-7)
+    work, _ = quad(lambda reached: load_of(reached, profile), 0.0, approach, epsrel=1e-10)
+    line = line_load(*own, approach)
+    assert line.work == pytest.approx(work, rel=1e-7)
     step = 1e-4 * approach
     slope = (load_of(approach + step, profile) - load_of(approach - step, profile)) / (2.0 * step)
-    assert found.slope == pytest.approx(slope, rel=1e-6)
-    back = line_approach(*own, math.log(found.load))
+    assert line.slope == pytest.approx(slope, rel=1e-6)
+    back = line_approach(*own, math.log(line.load))
     assert back.approach == pytest.approx(approach, rel=1e-7)
-    assert back.growth == pytest.approx(found.load / (approach * slope), rel=1e-5)
+    assert back.growth == pytest.approx(line.load / (approach * slope), rel=1e-5)
     loads = line_loads(*own, np.array([-1e-6, 0.0, approach]))
-    assert loads[0].tolist() == [0.0, 0.0, found.load]
-    approaches = line_approaches(*own, np.array([-1.0, 0.0, found.load]))
+    assert loads[0].tolist() == [0.0, 0.0, line.load]
+    approaches = line_approaches(*own, np.array([-1.0, 0.0, line.load]))
     assert approaches.tolist() == [0.0, 0.0, back.approach]
 
 
@@ -114,7 +114,7 @@ def test_strips_converge_to_the_line():
     errors = []
     for count in (10, 40, 160, 640):
         places = LENGTH * ((np.arange(count) + 0.5) / count - 0.5)
-        total = sum(per_length(0.5 * approach, place, "logarithmic") for place in places)
+        total = sum(per_length(0.5 * approach, station, "logarithmic") for station in places)
         errors.append(abs(total * LENGTH / count / exact - 1.0))
     assert np.all(np.diff(errors) < 0.0)
     assert errors[0] < 0.03 and errors[-1] < 2e-4
@@ -125,16 +125,18 @@ def test_strips_converge_to_the_line():
 def test_load_shares_of_a_row_are_those_of_a_root_search(profile, force):
     bearing = profiled(profile)
     ring = ring_geometry(bearing, roller_model(bearing, OIL, 1, tilt=0.0))
-    place, left = balance(ring, np.zeros(1), np.array([[0.0, -force, 0.0]]), np.zeros((1, 3)))
+    displacement, left = balance(
+        ring, np.zeros(1), np.array([[0.0, -force, 0.0]]), np.zeros((1, 3))
+    )
     assert left[0] < 1e-8 * force
-    found = roller_loads(ring, np.zeros(1), place)[0]
+    shared = roller_loads(ring, np.zeros(1), displacement)[0]
     below = -np.sin(-0.5 * np.pi + 2.0 * np.pi * np.arange(COUNT) / COUNT)
 
     def loads(dropped):
-        return np.array([load_of(dropped * one - 5e-5, profile) for one in below])
+        return np.array([load_of(dropped * direction - 5e-5, profile) for direction in below])
 
-    dropped = brentq(lambda one: loads(one) @ below - force, 5e-5, 2e-3, xtol=1e-16)
-    assert found == pytest.approx(loads(dropped), rel=1e-6, abs=1e-3)
+    dropped = brentq(lambda depth: loads(depth) @ below - force, 5e-5, 2e-3, xtol=1e-16)
+    assert shared == pytest.approx(loads(dropped), rel=1e-6, abs=1e-3)
 
 
 def test_line_contacts_share_a_load_among_other_rollers_than_crowned_ones():
@@ -145,8 +147,10 @@ def test_line_contacts_share_a_load_among_other_rollers_than_crowned_ones():
     ):
         known = bearing.replace(diametral_clearance=0.0)
         ring = ring_geometry(known, roller_model(known, OIL, 1, tilt=0.0))
-        place, _ = balance(ring, np.zeros(1), np.array([[0.0, -60e3, 0.0]]), np.zeros((1, 3)))
-        largest = roller_loads(ring, np.zeros(1), place).max()
+        displacement, _ = balance(
+            ring, np.zeros(1), np.array([[0.0, -60e3, 0.0]]), np.zeros((1, 3))
+        )
+        largest = roller_loads(ring, np.zeros(1), displacement).max()
         assert largest == pytest.approx(factor * 60e3 / COUNT, rel=2e-3)
 
 
@@ -210,15 +214,17 @@ def test_a_straight_roller_has_film_and_traction_of_an_even_line(name):
 def test_traction_of_a_profile_by_quadrature(load, slip):
     law = prepare(FILM, profiled("logarithmic"), OIL, 1).outer
     strips = law.strips
-    approach = brentq(lambda one: load_of(2.0 * one, "logarithmic") - load, 1e-9, 1e-3, xtol=1e-18)
+    approach = brentq(
+        lambda local: load_of(2.0 * local, "logarithmic") - load, 1e-9, 1e-3, xtol=1e-18
+    )
     end = 0.5 * LENGTH * math.sqrt(-math.expm1(-approach / (0.00035 * DIAMETER)))
     line = _contact(strips)
     curvature = 1.0 / 16e-3 - 1.0 / 128.5e-3
 
-    def force(place):
-        own = per_length(approach, place, "logarithmic") + 1e-12
-        local = slip * (1.0 - drop(place, "logarithmic") / 32e-3)
-        local += 0.5 * SPEED * curvature * drop(place, "logarithmic")
+    def force(station):
+        own = per_length(approach, station, "logarithmic") + 1e-12
+        local = slip * (1.0 - drop(station, "logarithmic") / 32e-3)
+        local += 0.5 * SPEED * curvature * drop(station, "logarithmic")
         film = float(line_film(line, own * LENGTH, SPEED - 0.5 * slip))
         pressure = math.sqrt(own * curvature * strips.modulus / (2.0 * math.pi))
         width = math.sqrt(8.0 * own / (math.pi * strips.modulus * curvature))
@@ -237,8 +243,8 @@ def test_traction_of_a_profile_by_quadrature(load, slip):
 def _pure_rolling(slip, curvature, end):
     """Place at which the profile's slip takes away that of the middle; the end where it does not."""
 
-    def local(place):
-        fallen = drop(place, "logarithmic")
+    def local(station):
+        fallen = drop(station, "logarithmic")
         return slip * (1.0 - fallen / 32e-3) + 0.5 * SPEED * curvature * fallen
 
     if local(0.0) * local(end) >= 0.0:
@@ -257,11 +263,15 @@ def test_crowned_and_barrel_rollers_have_the_laws_they_had_to_the_last_bit():
             assert elastic_load(body, approach) == model.stiffness * approach * math.sqrt(approach)
         assert approach_under_load(body, 7e3) == body["compliance"] * 7e3 ** (2.0 / 3.0)
         ring = ring_geometry(bearing, model)
-        place = np.array([[1e-5, -2e-4, 0.0]])
-        radial = place[0, 0] * ring.cosine + place[0, 1] * ring.sine - ring.radial_play
+        displacement = np.array([[1e-5, -2e-4, 0.0]])
+        radial = (
+            displacement[0, 0] * ring.cosine + displacement[0, 1] * ring.sine - ring.radial_play
+        )
         approach = np.maximum(radial * ring.cos_contact_angle, 0.0)
         expected = model.stiffness * approach * np.sqrt(approach)
-        assert roller_loads(ring, np.zeros(1), place)[0] == pytest.approx(expected, rel=1e-12)
+        assert roller_loads(ring, np.zeros(1), displacement)[0] == pytest.approx(
+            expected, rel=1e-12
+        )
 
 
 @pytest.mark.parametrize(

@@ -139,13 +139,17 @@ def solutions(line_contact):
     return {(m, material): line_contact.climb(m, [material], 350)[0] for m, material in GRID}
 
 
-@pytest.mark.parametrize("place", GRID)
-def test_whole_film_is_within_four_percent(solutions, place):
+@pytest.mark.parametrize("moes_numbers", GRID)
+def test_whole_film_is_within_four_percent(solutions, moes_numbers):
     # 3 % of the fit and 1 % of this grid.
-    assert line_rolling("whole-film", *place) == pytest.approx(solutions[place].rolling, rel=0.04)
+    assert line_rolling("whole-film", *moes_numbers) == pytest.approx(
+        solutions[moes_numbers].rolling, rel=0.04
+    )
     # −½ ∫ p x/R dx = ½ ∫ h dp/dx dx: elastic deformation is symmetric. It is the energy balance 2 F_R u as well.
-    assert solutions[place].rolling == pytest.approx(solutions[place].rolling_by_shear, rel=3e-3)
-    assert solutions[place].film == pytest.approx(line_film(*place), rel=0.06)
+    assert solutions[moes_numbers].rolling == pytest.approx(
+        solutions[moes_numbers].rolling_by_shear, rel=3e-3
+    )
+    assert solutions[moes_numbers].film == pytest.approx(line_film(*moes_numbers), rel=0.06)
 
 
 def test_rigid_limit_is_martins(line_contact):
@@ -164,9 +168,9 @@ def test_exit_resists_beside_the_inlet(solutions):
     solution = solutions[11.0, 13.4]
     scale = math.sqrt(8.0 * 11.0 / math.pi) * 11.0 / math.pi
     middle = 0.5 * (solution.gap[1:] + solution.gap[:-1])
-    place = 0.5 * (solution.place[1:] + solution.place[:-1])
+    position = 0.5 * (solution.position[1:] + solution.position[:-1])
     work = 0.5 * scale * (middle - solution.film * math.pi / 44.0) * np.diff(solution.pressure)
-    inlet, outlet = work[place < -0.9].sum(), work[place > 0.6].sum()
+    inlet, outlet = work[position < -0.9].sum(), work[position > 0.6].sum()
     assert inlet == pytest.approx(line_rolling("inlet", 11.0, 13.4), rel=0.03)
     assert 0.3 < outlet / inlet < 0.5
     assert inlet + outlet == pytest.approx(solution.rolling, rel=0.02)
@@ -287,10 +291,10 @@ def test_without_side_flow_slices_are_martins():
 @pytest.mark.parametrize("name", ["inner", "cage"])
 def test_both_splines_are_one_film(contacts, name):
     gap = prepare_gap(contacts[name][1])
-    place = np.log(np.geomspace(1e-6, 1e-3, 13))
-    load, rolling, shear = film_at_gap(gap, place)
+    log_gap = np.log(np.geomspace(1e-6, 1e-3, 13))
+    load, rolling, shear = film_at_gap(gap, log_gap)
     assert np.array(film_at_load(gap, load)) == pytest.approx(
-        np.array([place, rolling, shear]), abs=2e-4
+        np.array([log_gap, rolling, shear]), abs=2e-4
     )
 
 
@@ -306,14 +310,14 @@ def test_a_gap_lacks_oil_where_its_film_is_thick_and_a_surface_that_ends_lets_no
     contacts, where
 ):
     shape, filled = contacts[where][1], 2e-4
-    full, short, spar = (prepare_gap(shape, *one) for one in ((), (filled,), (math.inf, 7.0)))
+    full, short, spar = (prepare_gap(shape, *inlets) for inlets in ((), (filled,), (math.inf, 7.0)))
     for inlet in (2.0, 10.0, 100.0):
-        place = math.log(filled / (inlet * martin.FLOW))
-        flooded = np.array(film_at_gap(full, place))
-        assert np.exp(film_at_gap(short, place) - flooded) == pytest.approx(
+        log_gap = math.log(filled / (inlet * martin.FLOW))
+        flooded = np.array(film_at_gap(full, log_gap))
+        assert np.exp(film_at_gap(short, log_gap) - flooded) == pytest.approx(
             starved(inlet), rel=2e-3
         )
-        assert np.exp(film_at_gap(spar, place) - flooded) == pytest.approx(starved(7.0), rel=2e-3)
+        assert np.exp(film_at_gap(spar, log_gap) - flooded) == pytest.approx(starved(7.0), rel=2e-3)
 
 
 # --- Contacts
@@ -324,13 +328,13 @@ def test_a_gap_lacks_oil_where_its_film_is_thick_and_a_surface_that_ends_lets_no
 def test_light_contact_is_the_rigid_gap(laws, name, where):
     numbers = laws[name, where]
     _, rolling, shear = film_at_load(numbers.gap, math.log(0.5 / (numbers.viscosity * SPEED)))
-    conductance, found, film = light_contact(numbers, 0.5, SPEED)
-    assert found == pytest.approx(numbers.viscosity * SPEED * math.exp(rolling), rel=1e-3)
+    conductance, resistance, film = light_contact(numbers, 0.5, SPEED)
+    assert resistance == pytest.approx(numbers.viscosity * SPEED * math.exp(rolling), rel=1e-3)
     # The ellipse's own share of the shear is small.
     assert conductance == pytest.approx(numbers.viscosity * math.exp(shear), rel=0.03)
     load, _, per_speed = contact_at_gap(numbers, film / martin.FLOW)
     assert load * SPEED == pytest.approx(0.5, rel=0.02)
-    assert per_speed * SPEED == pytest.approx(found, rel=0.01)
+    assert per_speed * SPEED == pytest.approx(resistance, rel=0.01)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -447,10 +451,10 @@ def test_free_roller_turns_at_an_eighth_to_a_fifth(laws, where, gap):
 
 def test_a_short_inlet_lets_the_free_roller_turn_faster(contacts):
     gaps = [inlet * martin.FLOW * 2e-5 for inlet in (math.inf, 30, 10, 2)]
-    found = [
+    ratios = [
         free_ratio(prepare_rolling("inlet", *contacts["inner"], oil_gap=gap), 2e-5) for gap in gaps
     ]
-    assert found == pytest.approx((0.140, 0.26, 0.375, 0.81), abs=0.02)
+    assert ratios == pytest.approx((0.140, 0.26, 0.375, 0.81), abs=0.02)
 
 
 def test_a_roller_in_its_pocket_floats_without_load_and_is_the_rigid_contact_under_load(laws):

@@ -31,14 +31,14 @@ def contact(ring, sign=1, shear=None, laws=LAWS):
 )
 @pytest.mark.parametrize("slip", [-2e-3, 1e-3])
 def test_a_straight_roller_has_the_tractions_without_skew(ring, laws, slip):
-    one = contact(ring, laws=laws)
-    forces = resultants(one, LOADS, SPEED, slip, 0.0, 0.0, 0.0)
-    pull, lag, skew, _ = tractions(one.laws, LOADS, np.full(3, SPEED), np.full(3, slip))
+    skewed = contact(ring, laws=laws)
+    forces = resultants(skewed, LOADS, SPEED, slip, 0.0, 0.0, 0.0)
+    pull, lag, skew, _ = tractions(skewed.laws, LOADS, np.full(3, SPEED), np.full(3, slip))
     # Net forces and moments are differences of what films of .04 Q pull either way. Their stress is tabulated to 1e-3 in places,
     # and spin within the contact's width is new here.
-    friction, reach = 0.04 * LOADS, one.laws.interface.hertz.semi_axis_across * np.cbrt(LOADS)
+    friction, reach = 0.04 * LOADS, skewed.laws.interface.hertz.semi_axis_across * np.cbrt(LOADS)
     assert (np.abs(forces.turning - (pull - lag)) < 5e-4 * friction).all()
-    assert (np.abs(-one.side * forces.moment - skew) < 5e-4 * friction * reach).all()
+    assert (np.abs(-skewed.side * forces.moment - skew) < 5e-4 * friction * reach).all()
     assert forces.axial == pytest.approx(0.0, abs=1e-9)
     assert forces.pressure_moment == pytest.approx(0.0, abs=1e-9)
 
@@ -46,11 +46,11 @@ def test_a_straight_roller_has_the_tractions_without_skew(ring, laws, slip):
 @sides
 def test_forces_and_moments_are_those_of_an_integral_of_their_own(ring):
     """Vectors of traction, arms and speeds in the roller's frame, for a straight wall of stress in proportion to pressure."""
-    one, load, slip, skew = contact(ring, shear=constant_friction(0.05)), 5e4, 1e-3, 4e-3
-    hertz, root = one.laws.interface.hertz, 5e4 ** (1 / 3)
+    skewed, load, slip, skew = contact(ring, shear=constant_friction(0.05)), 5e4, 1e-3, 4e-3
+    hertz, root = skewed.laws.interface.hertz, 5e4 ** (1 / 3)
     a, b, p0 = (x * root for x in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure))
-    k, r = one.side, one.roller_radius
-    ring_rate, spin = k * SPEED / one.raceway_radius, (SPEED - slip) / r
+    k, r = skewed.side, skewed.roller_radius
+    ring_rate, spin = k * SPEED / skewed.raceway_radius, (SPEED - slip) / r
     axis = np.array(
         [
             math.sin(BEARING.contact_angle) * 0.0,
@@ -58,19 +58,19 @@ def test_forces_and_moments_are_those_of_an_integral_of_their_own(ring):
             math.cos(BEARING.contact_angle),
         ]
     )
-    contour = 0.5 * (1.0 / one.roller_contour + one.along)
+    contour = 0.5 * (1.0 / skewed.roller_contour + skewed.along)
     centre = (
         np.array([0.0, math.cos(BEARING.contact_angle), -math.sin(BEARING.contact_angle)])
         * BEARING.pitch_radius
     )
-    turn = skew * (1.0 + one.turn)
+    turn = skew * (1.0 + skewed.turn)
 
-    def place(zeta, x):
+    def point(zeta, x):
         """Point from the roller's centre; x is counted from the turned long axis."""
         return np.array([x + turn * zeta, k * (r - 0.5 * contour * zeta * zeta), zeta])
 
     def traction(zeta, x):
-        at = place(zeta, x)
+        at = point(zeta, x)
         relative = ring_rate * np.cross(axis, centre + at) - spin * np.cross([skew, 0.0, 1.0], at)
         tangent = np.array([relative[0], 0.0, relative[2]])
         pressure = p0 * math.sqrt(max(1.0 - (zeta / a) ** 2 - (x / b) ** 2, 0.0))
@@ -83,7 +83,7 @@ def test_forces_and_moments_are_those_of_an_integral_of_their_own(ring):
             -a, a, -math.pi / 2, math.pi / 2, epsabs=0.02, epsrel=1e-3,
         )[0]  # fmt: skip
 
-    forces = resultants(one, load, SPEED, slip, skew, 0.0, 0.0)
+    forces = resultants(skewed, load, SPEED, slip, skew, 0.0, 0.0)
     assert forces.axial == pytest.approx(integral(lambda z, x: traction(z, x)[0][2]), rel=3e-3)
 
     def moment(z, x):
@@ -101,12 +101,15 @@ def test_forces_and_moments_are_those_of_an_integral_of_their_own(ring):
 
 @sides
 def test_power_is_the_sum_of_torques_times_speeds(ring):
-    one = contact(ring)
+    skewed = contact(ring)
     slip, tilt = 8e-4, 3e-5
-    forces = resultants(one, LOADS, SPEED, slip, 5e-3, one.side * 4e-4, tilt)
-    ring_rate, spin = one.side * SPEED / one.raceway_radius, (SPEED - slip) / one.roller_radius
+    forces = resultants(skewed, LOADS, SPEED, slip, 5e-3, skewed.side * 4e-4, tilt)
+    ring_rate, spin = (
+        skewed.side * SPEED / skewed.raceway_radius,
+        (SPEED - slip) / skewed.roller_radius,
+    )
     # The ring feels the opposite of the roller.
-    delivered = -(forces.ring_torque * ring_rate + forces.turning * one.roller_radius * spin)
+    delivered = -(forces.ring_torque * ring_rate + forces.turning * skewed.roller_radius * spin)
     assert forces.power == pytest.approx(delivered, rel=1e-10)
 
 
@@ -123,15 +126,15 @@ def test_constant_friction_far_askew_is_all_axial(ring):
 @sides
 def test_moment_of_the_pressure_is_the_slope_of_the_hertz_energy(ring):
     """−∂U/∂ψ at a fixed approach, U = (2/5) K δ^2.5 with the principal curvatures of the turned gap."""
-    one, load = contact(ring), 5e4
-    forces = resultants(one, load, SPEED, 0.0, 1e-3, 0.0, 0.0)
+    skewed, load = contact(ring), 5e4
+    forces = resultants(skewed, load, SPEED, 0.0, 1e-3, 0.0, 0.0)
 
     def stiffness(skew):
-        own = np.diag([1.0 / one.roller_radius, 1.0 / one.roller_contour])
+        own = np.diag([1.0 / skewed.roller_radius, 1.0 / skewed.roller_contour])
         c, s = math.cos(skew), math.sin(skew)
         turned = np.array([[c, s], [-s, c]]) @ own @ np.array([[c, -s], [s, c]])
-        lateral, rolling = np.linalg.eigvalsh(turned - np.diag([one.across, one.along]))
-        approach = elliptical_contact(rolling, lateral, one.laws.interface.modulus).approach
+        lateral, rolling = np.linalg.eigvalsh(turned - np.diag([skewed.across, skewed.along]))
+        approach = elliptical_contact(rolling, lateral, skewed.laws.interface.modulus).approach
         return approach**-1.5
 
     # Where curvatures are nearly those at rest a large step loses no digits.

@@ -49,18 +49,18 @@ def plane_at(plane, tables, load, speed):
     return in_plane(plane, tables, log_load(load), log_speed(speed))
 
 
-def split(place, count):
+def split(position, count):
     """Cell and place in it."""
-    cell = min(int(place), count - 4)
-    return cell, place - cell
+    cell = min(int(position), count - 4)
+    return cell, position - cell
 
 
 @given(first=st.floats(-10.0, 10.0), length=st.floats(0.1, 30.0), spacing=st.floats(0.05, 1.0))
 def test_an_axis_reaches_from_end_to_end(first, length, spacing):
-    one = axis(first, first + length, spacing)
-    assert one.nodes[0] == first and one.nodes[-1] == pytest.approx(first + length, abs=1e-12)
-    assert one.cells >= 4 and 1.0 / one.per_spacing <= spacing * (1.0 + 1e-9)
-    np.testing.assert_allclose(one.middles, 0.5 * (one.nodes[1:] + one.nodes[:-1]), atol=1e-12)
+    grid = axis(first, first + length, spacing)
+    assert grid.nodes[0] == first and grid.nodes[-1] == pytest.approx(first + length, abs=1e-12)
+    assert grid.cells >= 4 and 1.0 / grid.per_spacing <= spacing * (1.0 + 1e-9)
+    np.testing.assert_allclose(grid.middles, 0.5 * (grid.nodes[1:] + grid.nodes[:-1]), atol=1e-12)
 
 
 def test_coefficients_are_those_of_the_spline_without_knots_next_to_the_ends():
@@ -80,26 +80,26 @@ def test_cubics_are_exact_in_every_direction():
     coefficients = spline_coefficients(cubic(*np.meshgrid(*axes, indexing="ij")), 3)
     assert coefficients.shape == (8, 7, 9) and coefficients.flags.c_contiguous
     flat, random = coefficients.ravel(), np.random.default_rng(1)
-    for place in random.uniform(0.0, 1.0, (50, 3)) * [5.0, 4.0, 6.0]:
+    for position in random.uniform(0.0, 1.0, (50, 3)) * [5.0, 4.0, 6.0]:
         (i, t), (k, s), (j, u) = (
-            split(one, count) for one, count in zip(place, (8, 7, 9), strict=True)
+            split(coordinate, count) for coordinate, count in zip(position, (8, 7, 9), strict=True)
         )
         value = one_in_cube(flat, (i * 7 + k) * 9 + j, (63, 9), (t, s, u))
-        assert value == pytest.approx(cubic(*place), rel=1e-11, abs=1e-10)
+        assert value == pytest.approx(cubic(*position), rel=1e-11, abs=1e-10)
 
 
 @given(x=places[0], y=places[1], z=places[2])
 def test_splines_in_a_cube_and_their_derivatives(x, y, z):
     spline = NdBSpline(KNOTS, COEFFICIENTS, 3)
     (i, t), (k, s), (j, u) = (
-        split(place, count) for place, count in zip((x, y, z), SHAPE, strict=True)
+        split(coordinate, count) for coordinate, count in zip((x, y, z), SHAPE, strict=True)
     )
     start = (i * SHAPE[1] + k) * SHAPE[2] + j
     value = one_in_cube(COEFFICIENTS.ravel(), start, (SHAPE[1] * SHAPE[2], SHAPE[2]), (t, s, u))
     assert value == pytest.approx(float(spline((x, y, z))), abs=1e-12)
     strides = CHANNELS * SHAPE[1] * SHAPE[2], CHANNELS * SHAPE[2]
-    found = four_in_cube(FOUR.ravel(), CHANNELS * start, strides, (t, s, u))
-    for order, values in zip(((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)), found, strict=True):
+    channels = four_in_cube(FOUR.ravel(), CHANNELS * start, strides, (t, s, u))
+    for order, values in zip(((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)), channels, strict=True):
         constant = np.arange(4.0) if order == (0, 0, 0) else 0.0
         expected = float(spline((x, y, z), nu=order)) * np.arange(1.0, 5.0) + constant
         np.testing.assert_allclose(values, expected, atol=1e-12)
@@ -108,10 +108,12 @@ def test_splines_in_a_cube_and_their_derivatives(x, y, z):
 @given(x=places[0], y=places[1])
 def test_splines_in_a_square_and_their_derivatives(x, y):
     spline = NdBSpline(KNOTS[:2], COEFFICIENTS[..., 0], 3)
-    (i, t), (j, u) = (split(place, count) for place, count in zip((x, y), SHAPE[:2], strict=True))
+    (i, t), (j, u) = (
+        split(coordinate, count) for coordinate, count in zip((x, y), SHAPE[:2], strict=True)
+    )
     table, stride = FOUR[:, :, 0].ravel(), CHANNELS * SHAPE[1]
-    found = four_in_square(table, i * stride + CHANNELS * j, stride, t, u)
-    for order, values in zip(((0, 0), (1, 0), (0, 1)), found, strict=True):
+    channels = four_in_square(table, i * stride + CHANNELS * j, stride, t, u)
+    for order, values in zip(((0, 0), (1, 0), (0, 1)), channels, strict=True):
         constant = np.arange(4.0) if order == (0, 0) else 0.0
         expected = float(spline((x, y), nu=order)) * np.arange(1.0, 5.0) + constant
         np.testing.assert_allclose(values, expected, atol=1e-12)

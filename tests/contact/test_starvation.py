@@ -61,21 +61,22 @@ def case(supply, **other):
 
 
 def contacts(supply, **other):
-    one = case(supply, **other)
-    return prepare(one.laws, one.bearing, one.oil, 1)
+    supplied = case(supply, **other)
+    return prepare(supplied.laws, supplied.bearing, supplied.oil, 1)
 
 
 def test_flooded_is_a_lubricant_without_a_limit_and_nearly_one_with_a_wide_gap():
     oil, bearing = Lubricant.read("vg460-pao"), Bearing.read("skf-240-600-bc")
     known, wide = (
-        prepare(Laws.physical(), bearing, one, 1).inner for one in (oil, oil.supplied(0.999))
+        prepare(Laws.physical(), bearing, lubricant, 1).inner
+        for lubricant in (oil, oil.supplied(0.999))
     )
     laws = contacts("flooded")
-    for one, tolerance in ((known, 0.0), (wide, 0.02)):
+    for contact, tolerance in ((known, 0.0), (wide, 0.02)):
         assert laws.inner.film_thickness(LOAD, SPEED) == pytest.approx(
-            one.film_thickness(LOAD, SPEED), rel=tolerance
+            contact.film_thickness(LOAD, SPEED), rel=tolerance
         )
-        expected = np.array(light_contact(one.rolling, LOAD, SPEED))
+        expected = np.array(light_contact(contact.rolling, LOAD, SPEED))
         assert np.array(light_contact(laws.inner.rolling, LOAD, SPEED)) == pytest.approx(
             expected, rel=tolerance
         )
@@ -84,8 +85,8 @@ def test_flooded_is_a_lubricant_without_a_limit_and_nearly_one_with_a_wide_gap()
 
 @pytest.mark.parametrize("supply", [0.3, 0.5, 0.7, 0.9])
 def test_number_is_film_over_flooded_film_under_the_mean_load(supply):
-    one = case(supply)
-    gap, full = one.oil.oil_gap, contacts("flooded").inner
+    supplied = case(supply)
+    gap, full = supplied.oil.oil_gap, contacts("flooded").inner
     inlet = inlet_for_film(supply)
     flooded = gap / (inlet * supply)
     # The film law at a load between that of one roller and ten times it: somewhere there is the mean load.
@@ -96,36 +97,39 @@ def test_number_is_film_over_flooded_film_under_the_mean_load(supply):
 
 
 def test_less_oil_makes_thinner_films_less_resistance_and_idle_films_below_the_gap():
-    found = [contacts(supply) for supply in ("flooded", 0.9, 0.7, 0.5)]
-    films = [float(one.inner.film_thickness(LOAD, SPEED)) for one in found]
-    rolling = [float(light_contact(one.inner.rolling, LOAD, SPEED)[1]) for one in found]
-    idle = [[float(value) for value in light_contact(one.inner.rolling, 5.0, 0.2)] for one in found]
-    for series in (films, rolling, [one[1] for one in idle], [one[2] for one in idle]):
+    by_supply = [contacts(supply) for supply in ("flooded", 0.9, 0.7, 0.5)]
+    films = [float(laws.inner.film_thickness(LOAD, SPEED)) for laws in by_supply]
+    rolling = [float(light_contact(laws.inner.rolling, LOAD, SPEED)[1]) for laws in by_supply]
+    idle = [
+        [float(value) for value in light_contact(laws.inner.rolling, 5.0, 0.2)]
+        for laws in by_supply
+    ]
+    for series in (films, rolling, [state[1] for state in idle], [state[2] for state in idle]):
         assert series == sorted(series, reverse=True)
-    for one, law in zip(idle[1:], found[1:], strict=True):
-        assert one[2] < law.inner.oil_gap
+    for state, law in zip(idle[1:], by_supply[1:], strict=True):
+        assert state[2] < law.inner.oil_gap
 
 
 def test_rolling_without_starved_films_has_full_films_and_less_resistance():
     laws = Laws.physical().but(starvation=False)
     full, short = (
-        prepare(laws, one.bearing, one.oil, 1).inner
-        for one in (replace(case(supply), laws=laws) for supply in ("flooded", 0.5))
+        prepare(laws, changed.bearing, changed.oil, 1).inner
+        for changed in (replace(case(supply), laws=laws) for supply in ("flooded", 0.5))
     )
     assert short.film_thickness(LOAD, SPEED) == full.film_thickness(LOAD, SPEED)
-    rolling = [float(light_contact(one.rolling, LOAD, SPEED)[1]) for one in (short, full)]
+    rolling = [float(light_contact(contact.rolling, LOAD, SPEED)[1]) for contact in (short, full)]
     assert rolling[0] < 0.6 * rolling[1]
 
 
 def test_skf_gives_the_rolling_resistance_its_replenishment_factor():
-    one = case("skf")
-    oil, full = one.oil, contacts("flooded").inner
+    supplied = case("skf")
+    oil, full = supplied.oil, contacts("flooded").inner
     filled = float(
         replenishment(
             oil.viscosity / oil.density,
             2.14,
-            one.bearing.bore_diameter,
-            one.bearing.outside_diameter,
+            supplied.bearing.bore_diameter,
+            supplied.bearing.outside_diameter,
         )
     )
     ratio = (
@@ -157,7 +161,7 @@ def test_other_supplies_are_refused(value):
 def test_yield_stress_of_a_grease_holds_rollers_back():
     plain = Lubricant.read("vg460-pao")
     stiff = plain.replace(grease_yield_stress=300.0)
-    here, there = (contacts("flooded", lubricant=one) for one in (plain, stiff))
+    here, there = (contacts("flooded", lubricant=grease) for grease in (plain, stiff))
     speed = 0.05
     added = [
         pocket_contact(law.cage.rolling, 1.0, speed, 2.5e-4)[0] * 2.0 * speed
@@ -178,7 +182,7 @@ def test_two_gaps_of_the_grid_give_the_film_of_those_between(film):
         shared = shared_gaps(gap, film, 1.0)
         assert sum(weight for _, weight in shared) == pytest.approx(1.0, abs=1e-12)
         assert shared[0][0] <= gap <= shared[1][0]
-        inverse = sum(weight / film_factor(inlet_at_gap(one, film)) for one, weight in shared)
+        inverse = sum(weight / film_factor(inlet_at_gap(node, film)) for node, weight in shared)
         exact = 1.0 / film_factor(inlet_at_gap(gap, film))
         assert inverse == pytest.approx(exact, rel=5e-5 if gap < 20.0 * film else 2e-5)
 

@@ -85,9 +85,9 @@ def test_traction_of_a_tapered_line_by_quadrature(load, slip):
     nodes, weights = np.polynomial.legendre.leggauss(60)
     for low, high in itertools.pairwise(edges):
         t = 0.5 * (nodes + 1.0)
-        place = low + (high - low) * t * t * (3.0 - 2.0 * t)
+        stations = low + (high - low) * t * t * (3.0 - 2.0 * t)
         part = 0.5 * weights * (high - low) * 6.0 * t * (1.0 - t)
-        for z, w in zip(place, part, strict=True):
+        for z, w in zip(stations, part, strict=True):
             force, growth, local, drop = parts(z)
             sums += w * force * np.array([growth, 0.5 * drop / strips.radius, local])
     tractions = law.tractions(np.array([load]), np.array([SPEED]), np.array([slip]))

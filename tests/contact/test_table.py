@@ -64,24 +64,24 @@ class Table:
 
     def __call__(self, load, ring_speed, slip) -> Traction:
         load, ring_speed, slip = (
-            np.ascontiguousarray(one) for one in np.broadcast_arrays(load, ring_speed, slip)
+            np.ascontiguousarray(states) for states in np.broadcast_arrays(load, ring_speed, slip)
         )
-        found = np.zeros((load.size, len(Traction._fields)))
-        look_up(self.record, self.flat, load.ravel(), ring_speed.ravel(), slip.ravel(), found)
-        return Traction(*(column.reshape(load.shape) for column in found.T))
+        looked_up = np.zeros((load.size, len(Traction._fields)))
+        look_up(self.record, self.flat, load.ravel(), ring_speed.ravel(), slip.ravel(), looked_up)
+        return Traction(*(column.reshape(load.shape) for column in looked_up.T))
 
     def rising(self, load, speed) -> float:
         return rising_at(self.record, self.flat, load, speed)
 
 
 @jit
-def look_up(table, tables, load, ring_speed, slip, found):
+def look_up(table, tables, load, ring_speed, slip, values):
     for n in range(load.size):
         speeds = contact_speeds(ring_speed[n], slip[n], 0)
         pressed = contact_load(load[n])
-        one = traction(table, tables, pressed, speeds, traction_cell(table, pressed, speeds))
-        for k in range(len(one)):
-            found[n, k] = one[k]
+        at_state = traction(table, tables, pressed, speeds, traction_cell(table, pressed, speeds))
+        for k in range(len(at_state)):
+            values[n, k] = at_state[k]
 
 
 @jit
@@ -90,9 +90,9 @@ def rising_at(table, tables, load, speed):
 
 
 @jit
-def plane_at(plane, tables, load, speed, found):
+def plane_at(plane, tables, load, speed, values):
     for n in range(load.size):
-        found[n] = in_plane(plane, tables, log_load(load[n]), log_speed(speed[n]))[0]
+        values[n] = in_plane(plane, tables, log_load(load[n]), log_speed(speed[n]))[0]
 
 
 @pytest.fixture(scope="module", params=CHOICES)
@@ -118,9 +118,9 @@ def states(loads, speeds, ratios, count=400, slips=10):
 
 def errors(table, *reached):
     """Of pull, relative to it or to a twentieth of the largest at the same load and speed."""
-    found, expected = table(*reached).pull, tractions(table.law, *reached)[0]
+    computed, expected = table(*reached).pull, tractions(table.law, *reached)[0]
     largest = np.abs(expected).max(axis=1, keepdims=True)
-    return np.abs(found - expected) / np.maximum(np.abs(expected), 0.05 * largest)
+    return np.abs(computed - expected) / np.maximum(np.abs(expected), 0.05 * largest)
 
 
 @pytest.mark.parametrize(
@@ -163,9 +163,9 @@ def test_slow_rollers(turning, speeds, median, most):
 
 def test_lag_skew_and_power_of_asperities(running):
     reached = states((5.0, 1.2e5), (0.37, 0.44), (-0.006, 0.006))
-    found, expected = running(*reached), tractions(running.law, *reached)
+    looked_up, expected = running(*reached), tractions(running.law, *reached)
     for value, exact in zip(
-        (found.lag, found.skew, found.asperity_power), expected[1:], strict=True
+        (looked_up.lag, looked_up.skew, looked_up.asperity_power), expected[1:], strict=True
     ):
         assert np.abs(value - exact).max() <= 1e-3 * np.abs(exact).max() + 1e-12
 
@@ -179,7 +179,10 @@ def test_derivatives_are_those_of_the_values(running):
     for name, step in steps.items():
         more, less = (
             running(
-                *(one + sign * part for one, part in zip((load, ring, slip), step, strict=True))
+                *(
+                    coordinate + sign * part
+                    for coordinate, part in zip((load, ring, slip), step, strict=True)
+                )
             )
             for sign in (1.0, -1.0)
         )
@@ -215,10 +218,10 @@ def test_without_microslip_no_slip_is_no_traction():
 
 
 def test_the_other_row_has_the_other_sign_of_the_skew_moment_and_shares_the_table():
-    one, other = (Table(FULL, RUNNING, "outer", sign) for sign in (1, -1))
-    found, mirrored = (table(4e4, 0.4, -1e-3) for table in (one, other))
-    assert mirrored._replace(skew=-mirrored.skew) == found and abs(found.skew.item()) > 1.0
-    assert one.record["side"] == 1.0 == -other.record["side"]
+    plus, other = (Table(FULL, RUNNING, "outer", sign) for sign in (1, -1))
+    direct, mirrored = (table(4e4, 0.4, -1e-3) for table in (plus, other))
+    assert mirrored._replace(skew=-mirrored.skew) == direct and abs(direct.skew.item()) > 1.0
+    assert plus.record["side"] == 1.0 == -other.record["side"]
 
 
 # --- Boxes -----------------------------------------------------------------------------------------------------------
@@ -291,9 +294,9 @@ def test_planes_are_their_laws(name):
     random = np.random.default_rng(3)
     load = np.exp(random.uniform(math.log(1e-3), math.log(1e5), 500))
     speed = np.exp(random.uniform(math.log(1e-3), math.log(0.45), 500))
-    found = np.zeros((500, 4))
-    plane_at(record[0], tables.flat(), load, speed, found)
-    for value, exact in zip(found.T, values(load, speed), strict=False):
+    interpolated = np.zeros((500, 4))
+    plane_at(record[0], tables.flat(), load, speed, interpolated)
+    for value, exact in zip(interpolated.T, values(load, speed), strict=False):
         off = np.abs(value - exact) / np.maximum(np.abs(exact), 1e-3 * np.abs(exact).max() + 1e-300)
         assert np.median(off) < 1e-6 and np.quantile(off, 0.99) < 3e-4
     if name == "oil":

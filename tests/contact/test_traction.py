@@ -294,7 +294,7 @@ def adaptive(oil, pressure, film, slip):
         math.acos(min(1.0, p / pressure))
         for p in (1e-4 * pressure, 1e-2 * pressure, 0.1 * pressure, 0.5 * pressure)
     ]
-    found, error = quad(
+    force, error = quad(
         lambda t: local_stress(oil, pressure * math.cos(t), film, slip) * math.cos(t),
         0.0,
         0.5 * math.pi,
@@ -303,8 +303,8 @@ def adaptive(oil, pressure, film, slip):
         epsabs=0.0,
         epsrel=1e-9,
     )
-    assert error < 1e-7 * found
-    return found
+    assert error < 1e-7 * force
+    return force
 
 
 @choices
@@ -361,8 +361,8 @@ def test_cool_newtonian_chord_in_closed_form():
     oil = Fluid(NEWTONIAN, 0.54, 2.1, 1.0, 1e8, 1.0, 0.0)
     for exponent in (0.01, 1.0, 8.0, 21.0):
         exact = float(mpmath.pi / 2 * (mpmath.besseli(1, exponent) + mpmath.struvel(-1, exponent)))
-        found = chord_stress(oil, exponent / 21.0 * 1e9, 1e-6, 1e-3) / (0.54 * 1e-3 / 1e-6)
-        assert found == pytest.approx(exact, rel=1e-9 if exponent < 10 else 1e-4)
+        mean_stress = chord_stress(oil, exponent / 21.0 * 1e9, 1e-6, 1e-3) / (0.54 * 1e-3 / 1e-6)
+        assert mean_stress == pytest.approx(exact, rel=1e-9 if exponent < 10 else 1e-4)
 
 
 @choices
@@ -406,16 +406,16 @@ _WEIGHTS = 0.25 * np.pi * _WEIGHTS * 6.0 * _t * (1.0 - _t) * _COSINES
 
 @jit
 def looked_up(chords, pressures, films, slips):
-    found = np.empty(pressures.size)
-    for n in range(found.size):
-        found[n] = chord_stress_at(chords, film_node(chords, films[n]), pressures[n], slips[n])
-    return found
+    stresses = np.empty(pressures.size)
+    for n in range(stresses.size):
+        stresses[n] = chord_stress_at(chords, film_node(chords, films[n]), pressures[n], slips[n])
+    return stresses
 
 
 def interpolated_stress(table, *states):
     """The compiled look-up at arrays of pressure, film and slip."""
     return looked_up(
-        table, *(one.copy() for one in np.broadcast_arrays(*map(np.atleast_1d, states)))
+        table, *(state.copy() for state in np.broadcast_arrays(*map(np.atleast_1d, states)))
     )
 
 
@@ -565,11 +565,11 @@ def test_force_is_bounded_by_limiting_shear_and_vanishes_with_slip():
 def test_light_load_is_isoviscous():
     """F → η0 Δu/h times the area of the ellipse."""
     for name in ("physical", "newtonian", "barus"):
-        one = contact(name, 0)
-        hertz = one.interface.hertz
+        law = contact(name, 0)
+        hertz = law.interface.hertz
         for load in (1e-9, 1e-6):
             area = math.pi * hertz.semi_axis_across * hertz.semi_axis_along * load ** (2 / 3)
-            assert one.uniform_traction(load, 1e-4, 1e-3) == pytest.approx(
+            assert law.uniform_traction(load, 1e-4, 1e-3) == pytest.approx(
                 0.54 * area * 1e-3 / 1e-4, rel=0.02
             )
 
@@ -627,12 +627,12 @@ def quadrature(p, log_q0):
 def check(p, log_q0, rel=2e-13, slope_rel=1e-12):
     p, log_q0 = np.broadcast_arrays(p, log_q0)
     value, by_slip, by_exponent = quadrature(p, log_q0)
-    found = np.transpose(
+    interpolated = np.transpose(
         [patch_integral(*state) for state in zip(p.ravel(), np.exp(log_q0).ravel(), strict=True)]
     )
-    assert found[0] == pytest.approx(value.ravel(), rel=rel, abs=0.0)
-    assert np.all(abs(found[1] - by_slip.ravel()) <= slope_rel * value.ravel())
-    assert np.all(abs(found[2] - by_exponent.ravel()) <= slope_rel * value.ravel())
+    assert interpolated[0] == pytest.approx(value.ravel(), rel=rel, abs=0.0)
+    assert np.all(abs(interpolated[1] - by_slip.ravel()) <= slope_rel * value.ravel())
+    assert np.all(abs(interpolated[2] - by_exponent.ravel()) <= slope_rel * value.ravel())
 
 
 def test_value_and_slopes_over_the_whole_range():

@@ -13,15 +13,15 @@ from macroslip.damage.friction_energy import ThrustTest, friction_power, pass_wo
 
 def test_even_load_is_geometry_alone():
     test = ThrustTest()
-    place, power = test.power()
+    distance, power = test.power()
     # w Z |v|/(2π r), whatever the number of rollers and their length.
     expected = (
         test.force
         / test.roller_length
         * 0.5
         * test.speed
-        * np.abs(place)
-        / (2.0 * math.pi * (test.pitch_radius + place))
+        * np.abs(distance)
+        / (2.0 * math.pi * (test.pitch_radius + distance))
     )
     np.testing.assert_allclose(power, expected, rtol=1e-12)
     np.testing.assert_allclose(replace(test, rollers=19).power()[1], power, rtol=1e-12)
@@ -47,12 +47,12 @@ def test_the_logarithmic_profile_hardly_depends_on_the_roller(change):
 
 def test_load_is_conserved_by_the_profile():
     test = ThrustTest()
-    place, power = test.power("logarithmic", slices=400)
+    distance, power = test.power("logarithmic", slices=400)
     load = (
         power
         / (test.rollers * 0.25 * test.speed / math.pi)
-        * (test.pitch_radius + place)
-        / np.abs(place)
+        * (test.pitch_radius + distance)
+        / np.abs(distance)
     )
     assert (load * test.roller_length / 400).sum() * test.rollers == pytest.approx(
         test.force, rel=1e-9

@@ -69,14 +69,14 @@ def test_work_for_wear_is_what_asperities_press_and_slide_over_both_surfaces():
 def test_less_oil_wears_and_heats_the_ribs():
     supplies = (1.0, 0.3, 0.1, 0.03)
     force = np.full((1, 1, 3), 10e3)
-    found = [
+    results = [
         rib_values(MAIN.replace(rib_oil_supply=supply), OIL, force, np.array([SPEED]))
         for supply in supplies
     ]
     for name in ("rib_asperity_share", "rib_friction", "rib_flash_temperature", "rib_power"):
-        values = [float(result[name].max()) for result in found]
+        values = [float(result[name].max()) for result in results]
         assert values == sorted(values), name
-    assert found[0]["rib_pass_energy"] == pytest.approx(found[-1]["rib_pass_energy"])
+    assert results[0]["rib_pass_energy"] == pytest.approx(results[-1]["rib_pass_energy"])
 
 
 @pytest.mark.parametrize(

@@ -50,8 +50,10 @@ def test_unworn_slices_carry_what_hertz_has():
 def test_a_worn_profile_spreads_pressure_with_the_load_conserved():
     worn = grow((pressed(), pressed()), WIDTH, deepest=1e-5)
     loads = [
-        slice_loads(CONTOUR + one[0] + one[2], LOAD, hertz_slices(LOAD, HALF, CURVATURE), WIDTH)
-        for one in worn.depth
+        slice_loads(
+            CONTOUR + depths[0] + depths[2], LOAD, hertz_slices(LOAD, HALF, CURVATURE), WIDTH
+        )
+        for depths in worn.depth
     ]
     assert all(load.sum() * WIDTH == pytest.approx(LOAD, rel=1e-12) for load in loads)
     deepest = np.argmax(worn.depth[-1, 0])
@@ -80,12 +82,12 @@ def test_the_first_step_is_archards_law():
 
 def test_a_finer_grid_gives_the_same_time():
     def at(count):
-        place = (np.arange(count) + 0.5) * (2.2 * HALF / count) - 1.1 * HALF
-        one = Pressed(
-            LOAD, 0.5 * CURVATURE * place**2, hertz_slices(LOAD, HALF, CURVATURE),
-            np.abs((place + 0.004) * (place - 0.018)), 5.0, 2.0,
+        position = (np.arange(count) + 0.5) * (2.2 * HALF / count) - 1.1 * HALF
+        pressed = Pressed(
+            LOAD, 0.5 * CURVATURE * position**2, hertz_slices(LOAD, HALF, CURVATURE),
+            np.abs((position + 0.004) * (position - 0.018)), 5.0, 2.0,
         )  # fmt: skip
-        return grow((one, one), place[1] - place[0], deepest=1e-5).work_at(1e-5)
+        return grow((pressed, pressed), position[1] - position[0], deepest=1e-5).work_at(1e-5)
 
     np.testing.assert_allclose(at(96), at(384), rtol=0.03)
 

@@ -96,14 +96,14 @@ def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
     }
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
-    found = tables(opened, Aggregation(Weibull(9.0, 2.0)))
+    sheets = tables(opened, Aggregation(Weibull(9.0, 2.0)))
     files = [
         f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()
     ]
     labels = [name for name, coordinate in opened.coords.items() if coordinate.dims == ("case",)]
     names = [
         *files,
-        *found,
+        *sheets,
         *ROW_VARIABLES,
         *CASE_VARIABLES,
         *labels,
@@ -186,10 +186,10 @@ def test_results_page_gives_the_units_of_every_variable(dataset):
     rows = re.findall(r"^\|(.*)\|$", RESULTS, re.MULTILINE)
     cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)] for row in rows]
     for name, variable in dataset.data_vars.items():
-        found = [row for row in cells if f"`{name}`" in row[0]]
-        assert any(variable.units in re.split(", ", cell) for row in found for cell in row[1:]), (
-            name
-        )
+        matching = [row for row in cells if f"`{name}`" in row[0]]
+        assert any(
+            variable.units in re.split(", ", cell) for row in matching for cell in row[1:]
+        ), name
 
 
 def test_results_page_has_the_sentence_of_every_status():

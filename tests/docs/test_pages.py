@@ -71,7 +71,7 @@ def pages(python, tmp_path_factory):
             return (folder / "printed.txt").read_text(encoding="utf-8"), None
         failure = folder / "failure.txt"
         return "", failure.read_text(encoding="utf-8") if failure.exists() else [
-            one.stderr for one in ended
+            process.stderr for process in ended
         ]
 
     return {page: read(folder) for page, folder in folders.items()}
@@ -97,7 +97,9 @@ def quoted_by(name):
 def test_energies_that_the_page_on_mechanisms_quotes(pages):
     printed, _ = pages[ROOT / "docs" / "physical.md"]
     every = re.findall(r"inner ([\d.]+) J, outer ([\d.]+) J, cage ([\d.]+) J", printed)
-    default, starved, limited, rolling_only = ([float(one) for one in three] for three in every)
+    default, starved, limited, rolling_only = (
+        [float(number) for number in three] for three in every
+    )
     page = quoted_by("physical.md")
     assert (
         "Inner and outer raceway dissipate {:.1f} and {:.1f} J, the cage {:.1f} J.".format(*default)
@@ -111,7 +113,7 @@ def test_energies_that_the_page_on_mechanisms_quotes(pages):
 def test_ratios_that_the_page_on_the_study_quotes(pages):
     printed, _ = pages[ROOT / "docs" / "published-study.md"]
     none, fifth, whole = np.reshape(
-        [float(one) for one in re.findall(r"over upwind ([\d.]+)", printed)], (3, 2)
+        [float(number) for number in re.findall(r"over upwind ([\d.]+)", printed)], (3, 2)
     )
     assert none == pytest.approx([1.0, 1.0], abs=5e-3)
     words = f"with a fifth of it {fifth[0]:.1f} under `paper` and {fifth[1]:.1f} under `physical`"

@@ -60,7 +60,9 @@ def test_what_is_not_there_cannot_be_asked(rules):
 
 
 def test_friction_and_the_share_of_the_cage(rules):
-    parts = {("downwind", f"energy {one}"): [1.0] * 11 for one in ("inner", "outer", "cage")}
+    parts = {
+        ("downwind", f"energy {interface}"): [1.0] * 11 for interface in ("inner", "outer", "cage")
+    }
     seat = _seat(rules, parts)
     assert seat.friction("downwind") == pytest.approx([3.0] * 11)
     assert seat.cage_share("downwind") == pytest.approx([1.0 / 3.0] * 11)

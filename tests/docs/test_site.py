@@ -65,7 +65,9 @@ def test_notebook_runs_and_shows_what_is_stored(path):
             for cell in (old, new)
         )
         for left, right in zip(before, after, strict=True):
-            numbers = [[float(one) for one in re.findall(NUMBER, text)] for text in (left, right)]
+            numbers = [
+                [float(number) for number in re.findall(NUMBER, text)] for text in (left, right)
+            ]
             assert numbers[1] == pytest.approx(numbers[0], rel=5e-3, abs=2e-3), left
 
 

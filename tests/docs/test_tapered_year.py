@@ -22,7 +22,7 @@ def year():
 
 def test_every_case_is_there_with_every_number(year):
     assert list(year.cases(set(cases_of(year)))) == []
-    assert not year.results().loc[[one.name for one in year.RIBS]].isna().any(axis=None)
+    assert not year.results().loc[[rib.name for rib in year.RIBS]].isna().any(axis=None)
     for variant in year.VARIANTS:
         known = year.results().loc[variant.name]
         assert {"raceway power", "entry_rate", "reference life", "film below 3"} <= set(known.index)

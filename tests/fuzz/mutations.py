@@ -42,11 +42,11 @@ def _place(draw, content):
 
 
 def _flip(draw, content):
-    place = min(_place(draw, content), len(content) - 1)
+    position = min(_place(draw, content), len(content) - 1)
     return (
-        content[:place]
-        + bytes([content[place] ^ (1 << draw(st.integers(0, 7)))])
-        + content[place + 1 :]
+        content[:position]
+        + bytes([content[position] ^ (1 << draw(st.integers(0, 7)))])
+        + content[position + 1 :]
     )
 
 
@@ -55,13 +55,13 @@ def _cut(draw, content):
 
 
 def _insert(draw, content):
-    place = _place(draw, content)
-    return content[:place] + draw(st.sampled_from(_PIECES)) + content[place:]
+    position = _place(draw, content)
+    return content[:position] + draw(st.sampled_from(_PIECES)) + content[position:]
 
 
 def _remove(draw, content):
-    place = _place(draw, content)
-    return content[:place] + content[place + draw(st.sampled_from([1, 2, 7, 80, 1000])) :]
+    position = _place(draw, content)
+    return content[:position] + content[position + draw(st.sampled_from([1, 2, 7, 80, 1000])) :]
 
 
 def _repeat(draw, content):
@@ -71,13 +71,13 @@ def _repeat(draw, content):
 
 
 def _overwrite(draw, content):
-    place, new = _place(draw, content), draw(st.sampled_from(_PACKED))
-    return content[:place] + new + content[place + len(new) :]
+    position, new = _place(draw, content), draw(st.sampled_from(_PACKED))
+    return content[:position] + new + content[position + len(new) :]
 
 
 def _chosen(draw, pattern, content):
-    found = [match.span() for match in pattern.finditer(content[:200_000])]
-    return draw(st.sampled_from(found)) if found else (0, 0)
+    spans = [match.span() for match in pattern.finditer(content[:200_000])]
+    return draw(st.sampled_from(spans)) if spans else (0, 0)
 
 
 def _number(draw, content):

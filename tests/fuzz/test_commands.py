@@ -35,14 +35,14 @@ def lines(draw):
     """A command with some of its arguments and options, most of them odd."""
     names = draw(st.sampled_from(sorted(COMMANDS)))
     line = list(names)
-    for one in COMMANDS[names].params:
-        if (not one.required and draw(st.integers(0, 3))) or set(one.opts) & LONG:
+    for parameter in COMMANDS[names].params:
+        if (not parameter.required and draw(st.integers(0, 3))) or set(parameter.opts) & LONG:
             continue
-        values = [] if getattr(one, "is_flag", False) else [draw(st.sampled_from(ODD))]
+        values = [] if getattr(parameter, "is_flag", False) else [draw(st.sampled_from(ODD))]
         line += (
             values
-            if isinstance(one, click.Argument)
-            else [draw(st.sampled_from(one.opts)), *values]
+            if isinstance(parameter, click.Argument)
+            else [draw(st.sampled_from(parameter.opts)), *values]
         )
     return line
 

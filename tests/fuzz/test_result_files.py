@@ -64,17 +64,20 @@ def places(content, result):
     """Where in the file the numbers of some variables lie."""
     names = ("energy", "orbit_energy", "spin", "slip", "roller_load", "power", "film_thickness")
     values = {name: result[name].values.tobytes() for name in names}
-    assert all(content.count(one) == 1 for one in values.values())
-    return [range(content.index(one), content.index(one) + len(one)) for one in values.values()]
+    assert all(content.count(packed) == 1 for packed in values.values())
+    return [
+        range(content.index(packed), content.index(packed) + len(packed))
+        for packed in values.values()
+    ]
 
 
 @pytest.mark.slow
 @examples(10)
 @given(data=st.data())
 def test_a_flipped_bit_in_a_number_is_no_other_number(folder, content, places, data):
-    place = data.draw(st.sampled_from(data.draw(st.sampled_from(places))))
-    flipped = bytes([content[place] ^ (1 << data.draw(st.integers(0, 7)))])
-    assert "cannot be read" in _read(folder, content[:place] + flipped + content[place + 1 :])
+    position = data.draw(st.sampled_from(data.draw(st.sampled_from(places))))
+    flipped = bytes([content[position] ^ (1 << data.draw(st.integers(0, 7)))])
+    assert "cannot be read" in _read(folder, content[:position] + flipped + content[position + 1 :])
 
 
 def _odd_values(draw, dataset, name):
@@ -94,7 +97,7 @@ def _attribute(draw, dataset, name):
     key = draw(st.sampled_from(sorted(dataset.attrs)))
     value = draw(st.sampled_from([None, *_TEXTS]))
     changed = dataset.copy()
-    changed.attrs = {one: text for one, text in dataset.attrs.items() if one != key} | (
+    changed.attrs = {name: text for name, text in dataset.attrs.items() if name != key} | (
         {} if value is None else {key: value}
     )
     return changed
@@ -191,35 +194,50 @@ def test_what_is_missing_is_named(folder, result, name):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda one: one.assign(energy=-one.energy), "energy is negative"),
-        (lambda one: one.assign(energy=one.energy * np.nan), "energy is negative or not finite"),
+        (lambda dataset: dataset.assign(energy=-dataset.energy), "energy is negative"),
         (
-            lambda one: one.assign_coords(start_angle=-1e300 + one.start_angle),
+            lambda dataset: dataset.assign(energy=dataset.energy * np.nan),
+            "energy is negative or not finite",
+        ),
+        (
+            lambda dataset: dataset.assign_coords(start_angle=-1e300 + dataset.start_angle),
             "start_angle holds no angles",
         ),
         (
-            lambda one: one.assign_coords(start_angle=np.nan * one.start_angle),
+            lambda dataset: dataset.assign_coords(start_angle=np.nan * dataset.start_angle),
             "start_angle holds no angles",
         ),
         (
-            lambda one: one.assign(roller_load=one.roller_load + np.inf),
+            lambda dataset: dataset.assign(roller_load=dataset.roller_load + np.inf),
             "roller_load holds numbers beyond 1e+30",
         ),
-        (lambda one: one.assign(power=one.power + 1e308), "power holds numbers beyond 1e+30"),
         (
-            lambda one: one.assign_coords(time=one.time * np.inf),
+            lambda dataset: dataset.assign(power=dataset.power + 1e308),
+            "power holds numbers beyond 1e+30",
+        ),
+        (
+            lambda dataset: dataset.assign_coords(time=dataset.time * np.inf),
             "the coordinate time does not rise",
         ),
-        (lambda one: one.assign(status=one.status + 99), "status holds numbers without a meaning"),
-        (lambda one: one.assign(slip=one.slip.transpose("time", "roller", "row")), "slip is over"),
-        (lambda one: one.assign(power=one.power.astype(str)), "power holds no numbers"),
-        (lambda one: one.assign_attrs(input="{"), "the attribute input holds no case"),
-        (lambda one: one.assign_attrs(window_end="late"), "the attribute window_end is no time"),
         (
-            lambda one: one.assign_coords(time=one.time[::-1].values),
+            lambda dataset: dataset.assign(status=dataset.status + 99),
+            "status holds numbers without a meaning",
+        ),
+        (
+            lambda dataset: dataset.assign(slip=dataset.slip.transpose("time", "roller", "row")),
+            "slip is over",
+        ),
+        (lambda dataset: dataset.assign(power=dataset.power.astype(str)), "power holds no numbers"),
+        (lambda dataset: dataset.assign_attrs(input="{"), "the attribute input holds no case"),
+        (
+            lambda dataset: dataset.assign_attrs(window_end="late"),
+            "the attribute window_end is no time",
+        ),
+        (
+            lambda dataset: dataset.assign_coords(time=dataset.time[::-1].values),
             "the coordinate time does not rise",
         ),
-        (lambda one: one.assign_coords(row=["front", "rear"]), "row is front, rear"),
+        (lambda dataset: dataset.assign_coords(row=["front", "rear"]), "row is front, rear"),
     ],
 )
 def test_what_no_result_holds_is_refused(folder, result, change, words):

@@ -11,7 +11,10 @@ LONG = ("short-physical-reversal", "short-physical-standstill")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "case",
-    [pytest.param(one, marks=[pytest.mark.deep] if one in LONG else []) for one in golden.cases()],
+    [
+        pytest.param(name, marks=[pytest.mark.deep] if name in LONG else [])
+        for name in golden.cases()
+    ],
 )
 def test_numbers_are_what_they_were(case):
     ratio, name = golden.check(case)[case]

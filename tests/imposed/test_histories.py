@@ -74,12 +74,12 @@ FLOOR = {"paper": 1e-6, "physical": 1.5e-6}
 @pytest.mark.parametrize("tolerance", [1e-2, 2e-4, 1e-7])
 def test_every_tolerance_gives_the_answer_it_promises(turbulent, exact, laws, tolerance):
     traces = Traces(step=0.5)
-    found, reference = (
+    result, reference = (
         run(turbulent, tolerance, traces=traces, laws=laws, oil_supply=supply(laws)),
         exact(laws),
     )
-    assert (found.status == Status.COMPLETED).all()
-    energy, best = found.energy.sum("interface"), reference.energy.sum("interface")
+    assert (result.status == Status.COMPLETED).all()
+    energy, best = result.energy.sum("interface"), reference.energy.sum("interface")
     assert float(abs(energy / best - 1).max()) < max(
         (0.3 if laws.name == "paper" else 2.0) * tolerance, FLOOR[laws.name]
     )
@@ -87,20 +87,20 @@ def test_every_tolerance_gives_the_answer_it_promises(turbulent, exact, laws, to
     assert int(coasting.sum()) > 20
     # A coast remembers; the errors of its steps add up. Between films a roller all but stands still.
     least = 0.0 if laws.name == "paper" else abs(reference.spin_pure)
-    off = abs(found.spin - reference.spin) / np.maximum(abs(reference.spin), least)
+    off = abs(result.spin - reference.spin) / np.maximum(abs(reference.spin), least)
     assert float(off.where(coasting).max()) < max(tolerance, 1e-6)
     if tolerance <= 2e-4:
-        peak, highest = found.peak_power.max("interface"), reference.peak_power.max("interface")
+        peak, highest = result.peak_power.max("interface"), reference.peak_power.max("interface")
         assert float(abs(peak / highest - 1).max()) < 1e-2
 
 
 @both
 def test_threads_change_no_bit(turbulent, laws):
-    one, many = (
+    single, many = (
         simulate(Case(loads=turbulent, laws=laws, rollers=[0, 9, 20]), threads=n) for n in (1, 3)
     )
-    for name in one.data_vars:
-        assert np.array_equal(one[name], many[name], equal_nan=True), name
+    for name in single.data_vars:
+        assert np.array_equal(single[name], many[name], equal_nan=True), name
 
 
 @both
@@ -111,7 +111,7 @@ def test_results_do_not_depend_on_the_size_of_buffers(laws):
         RATED * (1.0 + 0.01 * np.sin(np.arange(121.0))),
         (0.0, -2.2e-4, 0.0),
     )
-    found = [
+    walks = [
         walk(roller, motion, limits, [1.7, 6.0], -0.55, rows=rows)
         for limits in (
             limits_of(roller, motion, 2e-4),
@@ -119,7 +119,7 @@ def test_results_do_not_depend_on_the_size_of_buffers(laws):
         )
         for rows in (7, 64, 5000)
     ]
-    for group in (found[:3], found[3:]):
+    for group in (walks[:3], walks[3:]):
         for steps, status, work in group[1:]:
             assert status == Status.COMPLETED and steps.size > 100
             np.testing.assert_array_equal(steps, group[0][0])
@@ -213,13 +213,13 @@ SPEEDS = {
 @pytest.mark.parametrize("name", SPEEDS)
 def test_energy_at_the_default_tolerance_where_the_shaft_stops_or_turns_back(name):
     shape, start = SPEEDS[name]
-    found, exact = (
+    energy, exact = (
         run(history(shape), tolerance, [0, 5, 11, 16, 22], window=Window(start=start)).energy.sum(
             "interface"
         )
         for tolerance in (Radau().tolerance, 1e-8)
     )
-    assert float(exact.min()) > 0.0 and float(abs(found / exact - 1.0).max()) < 3e-4
+    assert float(exact.min()) > 0.0 and float(abs(energy / exact - 1.0).max()) < 3e-4
 
 
 @pytest.mark.parametrize("period", [6.0, 13.0])
@@ -228,7 +228,7 @@ def test_shaft_reversal_with_microslip(period, thrust):
     """A gripped roller's slip passes zero with the shaft's speed; there is no ratio of the two there."""
     loads = history(lambda t: 2.0 * np.sin(2.0 * np.pi * t / period), (0.0, -300e3, thrust))
     default, tight = (
-        run(loads, one, [7], laws=Laws.physical(), window=START) for one in (2e-4, 5e-5)
+        run(loads, tolerance, [7], laws=Laws.physical(), window=START) for tolerance in (2e-4, 5e-5)
     )
     assert (default.status == Status.COMPLETED).all() and (tight.status == Status.COMPLETED).all()
     energy, exact = default.energy.sum("interface"), tight.energy.sum("interface")
@@ -268,12 +268,14 @@ def test_energy_of_rollers_without_weight_and_drag():
     # Only tractions load the cage then, and they jump with the shaft's acceleration. The downwind row is held all round.
     random = np.random.default_rng(3)
     loads = history(lambda t: 2.0 + np.cumsum(random.normal(0.0, 0.004, t.size)), seconds=28.0)
-    found, exact = (
-        run(loads, one, [0, 9], gravity=False, drag=False).sel(row="downwind", interface="cage")
-        for one in (2e-4, 1e-8)
+    result, exact = (
+        run(loads, tolerance, [0, 9], gravity=False, drag=False).sel(
+            row="downwind", interface="cage"
+        )
+        for tolerance in (2e-4, 1e-8)
     )
     for name in ("energy", "peak_power"):
-        assert float(abs(found[name] / exact[name] - 1.0).max()) < 1e-5
+        assert float(abs(result[name] / exact[name] - 1.0).max()) < 1e-5
 
 
 @given(
@@ -325,10 +327,10 @@ def test_explicit_euler_is_unstable_in_the_load_zone_and_backward_euler_is_not()
     loads = BearingLoads.constant([0.0, -343e3, 0.0], 2.143, 9.0)
     # Roller 14 starts at the top, unloaded, and meets the load zone after two to three seconds.
     explicit, backward, exact = (
-        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[14], integrator=one))
+        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[14], integrator=scheme))
         .isel(roller=0)
         .sel(row="downwind")
-        for one in (ExplicitEuler(step=1e-3), BackwardEuler(step=1e-3), Radau(tolerance=1e-8))
+        for scheme in (ExplicitEuler(step=1e-3), BackwardEuler(step=1e-3), Radau(tolerance=1e-8))
     )
     assert backward.status == Status.COMPLETED
     assert float(backward.energy.sum()) == pytest.approx(float(exact.energy.sum()), rel=2e-2)
@@ -340,15 +342,15 @@ def test_explicit_euler_is_unstable_in_the_load_zone_and_backward_euler_is_not()
 def test_stopping_the_iteration_early_leaves_spurious_force_and_energy():
     loads = main_bearing_load(HubLoads.bundled("14B").window(0.0, 20.0), Drivetrain())
     exact, fine, loose = (
-        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[3], integrator=one))
+        simulate(Case(loads=loads, laws=Laws.paper(), rollers=[3], integrator=scheme))
         .isel(roller=0)
         .sel(row="downwind")
-        for one in (
+        for scheme in (
             Radau(tolerance=1e-8),
             BackwardEuler(step=5e-3, tolerance=1e-15),
             BackwardEuler(step=5e-3, tolerance=1e-5),
         )
     )
-    cage = [float(one.energy.sel(interface="cage")) for one in (exact, fine, loose)]
+    cage = [float(result.energy.sel(interface="cage")) for result in (exact, fine, loose)]
     assert cage[1] == pytest.approx(cage[0], rel=1e-2) and cage[2] > 1.05 * cage[1]
     assert float(fine.unbalanced_force) < 0.1 and float(loose.unbalanced_force) > 1.0

@@ -92,15 +92,15 @@ def test_stiff_limit_forgets_the_start_and_follows_the_balance():
 @pytest.mark.parametrize("z", [-0.1, -1.0, -10.0, -1e3])
 def test_stability_functions(z):
     """Of three stages (Hairer and Wanner, table IV.5.6), and of a held step."""
-    found = 1.0 + step(lambda t, v: -z * v, lambda t, v: -z, 1.0, 0.0, 1.0)[2]
+    amplification = 1.0 + step(lambda t, v: -z * v, lambda t, v: -z, 1.0, 0.0, 1.0)[2]
     exact = (1 + 2 * z / 5 + z * z / 20) / (1 - 3 * z / 5 + 3 * z * z / 20 - z**3 / 60)
-    assert found == pytest.approx(exact, rel=1e-10, abs=1e-13)
+    assert amplification == pytest.approx(exact, rel=1e-10, abs=1e-13)
     held = 1.0 + held_update(1.0, -z, -z, -z, -z)[1]
     assert held == pytest.approx((1.0 + z / 4.0) / (1.0 - 0.75 * z + 0.25 * z * z), rel=1e-11)
 
 
 def test_a_held_step_forgets_its_start_and_solves_its_equations():
-    assert max(abs(1.0 + one) for one in held_update(1.0, 1e9, 1e9, 1e9, 1e9)) < 1e-8
+    assert max(abs(1.0 + update) for update in held_update(1.0, 1e9, 1e9, 1e9, 1e9)) < 1e-8
     scale, d2, d3 = 3.0, 7.0, 11.0
     matrix = np.array([[d2, scale], [-4.0 * scale, 3.0 * scale + d3]])
     for rest in ([1.0, -2.0], [0.3, 5.0]):
@@ -187,13 +187,15 @@ def test_what_is_missed_of_the_way_is_what_quadrature_of_the_speed_misses(roller
     motion = motion_of([0.0, 1.0, 1.5, 2.0, 3.0], [0.0, 2.0, 2.0, -1.0, 0.5], (0.0, 0.0, 0.0))
     work, path = a_step(motion, roller, start, end)
     ratio = -float(roller.body[0]["orbit_ratio"] * roller.body[0]["outer_radius"])
-    kinks = [one for one in motion.time if start < one < end]
+    kinks = [instant for instant in motion.time if start < instant < end]
     exact = (
         ratio
         * quad(np.interp, start, end, (motion.time, motion.shaft_speed), points=kinks or None)[0]
     )
-    found = (end - start) * float(np.dot(WEIGHTS, work["attempt"]["at"]["ring_speed"]))
-    assert missed_way(path, work["now"], work["attempt"]) == pytest.approx(found - exact, abs=1e-9)
+    travelled = (end - start) * float(np.dot(WEIGHTS, work["attempt"]["at"]["ring_speed"]))
+    assert missed_way(path, work["now"], work["attempt"]) == pytest.approx(
+        travelled - exact, abs=1e-9
+    )
     linear = motion_of([0.0, 1.0, 3.0], [1.0, 1.3, 1.9], (0.0, 0.0, 0.0))
     work, path = a_step(linear, roller, 0.1, 2.9)
     assert missed_way(path, work["now"], work["attempt"]) == pytest.approx(0.0, abs=1e-14)
@@ -247,11 +249,14 @@ def test_traction_rises_up_to_the_bound(laws, load):
     bound = surely_rising(made.body[0], made.tables, load, load, 0.4)
     assert 0.0 < bound < math.inf
     pulls = np.array(
-        [forces_of(made, a_station(load), one)["inner"] for one in np.linspace(0.0, bound, 60)]
+        [forces_of(made, a_station(load), slip)["inner"] for slip in np.linspace(0.0, bound, 60)]
     )
     assert (np.maximum.accumulate(pulls) - pulls).max() < 5e-3 * pulls.max()
     both = surely_rising(made.body[0], made.tables, 1e3, 1e5, 0.4)
-    alone = [surely_rising(made.body[0], made.tables, one, one, 0.4) for one in (1e3, 1e5)]
+    alone = [
+        surely_rising(made.body[0], made.tables, bound_load, bound_load, 0.4)
+        for bound_load in (1e3, 1e5)
+    ]
     assert min(alone) <= both <= max(alone)
     if laws.name == "paper":
         assert (

@@ -67,11 +67,11 @@ samples = st.tuples(st.floats(1e-3, 0.3), st.floats(-3.0, 3.0), lengths, lengths
 def test_no_interval_is_free_or_firm_that_is_not(paper, made, row, history, start_angle, firm):
     time = np.cumsum([sample[0] for sample in history])
     motion = motion_of(time, [sample[1] for sample in history], [sample[2:] for sample in history])
-    for k, found in enumerate(classes_of(made[row], motion, start_angle, firm)):
+    for k, zone in enumerate(classes_of(made[row], motion, start_angle, firm)):
         dense = direct(paper[row], motion, start_angle, np.linspace(time[k], time[k + 1], 201))
-        assert found in (FREE, EDGE, FIRM)
-        assert found != FREE or dense.max() <= 1e-15
-        assert found != FIRM or dense.min() >= firm - 1e-15
+        assert zone in (FREE, EDGE, FIRM)
+        assert zone != FREE or dense.max() <= 1e-15
+        assert zone != FIRM or dense.min() >= firm - 1e-15
 
 
 speeds, rises = st.floats(-3.0, 3.0), st.floats(-1e-5, 1e-5)
@@ -174,5 +174,5 @@ def test_a_firm_roller_relaxes_at_the_firm_rate(laws, rate):
     assert min(at(load, speed) for speed in np.geomspace(0.05, RATED_SURFACE_SPEED, 20)) >= rate * (
         1 - 1e-3
     )
-    rates = [at(one) for one in np.geomspace(1e-3, 1e5, 40)]
+    rates = [at(slip) for slip in np.geomspace(1e-3, 1e5, 40)]
     assert np.all(np.isfinite(rates)) and np.all(np.diff(rates) > 0.0)

@@ -120,8 +120,8 @@ def test_a_case_and_a_study_may_give_the_speed(tmp_path, truth):
     assert "given" in read.reading[-1]
     study = tmp_path / "study.yaml"
     study.write_text(f"case: {{loads: {{shaft_speed: 20 rpm}}}}\nloads: {{files: {header.name}}}\n")
-    found = read_study(study)
-    _, cut = template(found.case, [], {})
+    study_file = read_study(study)
+    _, cut = template(study_file.case, [], {})
     assert cut == {"shaft_speed": pytest.approx(20.0 * np.pi / 30.0)}
     assert read_loads("file", str(header), cut).shaft_speed == pytest.approx(20.0 * np.pi / 30.0)
 

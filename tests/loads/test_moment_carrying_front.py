@@ -172,11 +172,11 @@ def test_rear_bearing_of_the_5_mw_turbine_in_turbulent_wind(wind):
     supports = support_loads(HubLoads.bundled(f"nrel5-{wind}B"), Drivetrain(**REAR))
     rear, front = supports["rear"] / 1e3, supports["front"] / 1e3
     radial = np.hypot(rear[:, 0], rear[:, 1])
-    found = (
+    reactions = (
         *rear[:, :2].mean(axis=0), radial.mean(), radial.std(), radial.max(), 100 * (radial < 186).mean(),
         np.hypot(front[:, 0], front[:, 1]).mean(), front[:, 2].mean(),
     )  # fmt: skip
-    assert found == pytest.approx(SEATS[wind], rel=4e-3, abs=1.0)
+    assert reactions == pytest.approx(SEATS[wind], rel=4e-3, abs=1.0)
     assert not rear[:, 2].any()
 
 
@@ -185,13 +185,13 @@ def test_one_bearing_of_the_5_mw_turbine_in_turbulent_wind(wind):
     supports = support_loads(HubLoads.bundled(f"nrel5-{wind}B"), THREE_POINT)
     load, gearbox = supports["bearing"] / 1e3, supports["gearbox"] / 1e3
     radial = np.hypot(load[:, 0], load[:, 1])
-    found = (
+    reactions = (
         *load[:, :2].mean(axis=0), radial.mean(), radial.std(), radial.min(), radial.max(),
         load[:, 2].mean(), load[:, 2].std(), np.hypot(gearbox[:, 0], gearbox[:, 1]).mean(),
     )  # fmt: skip
     # The smallest load is a single sample beside zero, which 20 Hz meets less often than 50 Hz.
-    assert found == pytest.approx(ONE_BEARING[wind], rel=4e-3, abs=12.0)
-    assert found[2:4] == pytest.approx(ONE_BEARING[wind][2:4], rel=4e-3, abs=1.0)
+    assert reactions == pytest.approx(ONE_BEARING[wind], rel=4e-3, abs=12.0)
+    assert reactions[2:4] == pytest.approx(ONE_BEARING[wind][2:4], rel=4e-3, abs=1.0)
 
 
 def test_one_bearing_of_the_5_mw_turbine_at_rated_wind():

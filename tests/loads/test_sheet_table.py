@@ -33,9 +33,9 @@ def as_csv(path, rows):
     return path
 
 
-def same(one, other):
+def same(loads, other):
     for name in ("time", "shaft_speed", "force"):
-        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+        np.testing.assert_array_equal(getattr(loads, name), getattr(other, name))
 
 
 def test_hub_loads_of_a_named_sheet(tmp_path):

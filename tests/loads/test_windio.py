@@ -58,8 +58,12 @@ def test_own_values_come_first(turbine):
         turbine(), bearing="front", locating="front", hub_to_bearing=2.0, tilt=0.1
     )
     assert (shaft.hub_to_bearing, shaft.tilt, shaft.locating) == (2.0, 0.1, "front")
-    one = Drivetrain.from_windio(turbine(), mount="three-point", bearing_to_gearbox=1.9)
-    assert (one.mount, one.front_to_rear, one.bearing_to_gearbox) == ("three-point", None, 1.9)
+    drivetrain = Drivetrain.from_windio(turbine(), mount="three-point", bearing_to_gearbox=1.9)
+    assert (drivetrain.mount, drivetrain.front_to_rear, drivetrain.bearing_to_gearbox) == (
+        "three-point",
+        None,
+        1.9,
+    )
 
 
 @pytest.mark.parametrize(

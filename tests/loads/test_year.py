@@ -56,17 +56,17 @@ RECORDED = {
 def test_thinned_events_have_the_statistics_of_their_records(name, recorded):
     loads = HubLoads.bundled(name)
     speed = loads.shaft_speed / RPM
-    found = speed.mean(), speed.max(), loads.force[:, 0].mean() / 1e3
+    statistics = speed.mean(), speed.max(), loads.force[:, 0].mean() / 1e3
     # Samples at the ends weigh more at 20 Hz, and a stop has other loads at one end than at the other.
-    assert found == pytest.approx(recorded, rel=3e-3, abs=0.02)
+    assert statistics == pytest.approx(recorded, rel=3e-3, abs=0.02)
 
 
 @pytest.mark.parametrize("name", [name for name in NEW if name.endswith("-2") and "B" in name])
 def test_second_seeds_are_other_winds_of_the_same_kind(name):
-    one, two = HubLoads.bundled(name.removesuffix("-2")), HubLoads.bundled(name)
-    assert two.force[:, 2].mean() == pytest.approx(one.force[:, 2].mean(), rel=0.01)
+    first, two = HubLoads.bundled(name.removesuffix("-2")), HubLoads.bundled(name)
+    assert two.force[:, 2].mean() == pytest.approx(first.force[:, 2].mean(), rel=0.01)
     # Thrust follows slow gusts, of which ten minutes hold few; the tilting moment is renewed in every turn.
-    assert abs(np.corrcoef(one.moment[:, 1], two.moment[:, 1])[0, 1]) < 0.15
+    assert abs(np.corrcoef(first.moment[:, 1], two.moment[:, 1])[0, 1]) < 0.15
 
 
 def test_an_event_says_that_its_supervisor_is_assumed_wherever_it_goes():
@@ -87,10 +87,12 @@ def test_an_event_says_that_its_supervisor_is_assumed_wherever_it_goes():
 
 
 def test_labels_in_a_study():
-    found = {load.name: load.fields for load in load_list(None, kind="hub", bundled=["year"]).loads}
-    assert list(found) == bundled_cases("year")
-    assert found["8B-2"] == {"wind_speed": 8.0, "turbulence": "B", "seed": 2, "event": ""}
-    assert found["eog-14"] == {"wind_speed": 14.0, "turbulence": "-", "seed": 1, "event": "eog-14"}
+    labels = {
+        load.name: load.fields for load in load_list(None, kind="hub", bundled=["year"]).loads
+    }
+    assert list(labels) == bundled_cases("year")
+    assert labels["8B-2"] == {"wind_speed": 8.0, "turbulence": "B", "seed": 2, "event": ""}
+    assert labels["eog-14"] == {"wind_speed": 14.0, "turbulence": "-", "seed": 1, "event": "eog-14"}
     assert load_list(None, kind="hub", bundled=["14B"]).loads[0].fields == {
         "wind_speed": 14.0,
         "turbulence": "B",

@@ -157,10 +157,10 @@ def test_ranges_hold_their_means():
 def test_eyring_stress_rises_with_temperature_as_published():
     # Arana, Larranaga and Ulacia (2019): PAO at 1 GPa, 6.9, 7.8 and 8.7 MPa at 40, 60 and 80 degC. VG 460 stands for it.
     oil = Lubricant.read("vg460-pao")
-    found = []
+    stresses = []
     for celsius in (40.0, 60.0, 80.0):
         warm = oil.at(273.15 + celsius)
         mean = mean_pressure_viscosity(warm.viscosity, warm.pressure_viscosity, 1e9)
-        found.append(eyring_stress(0.035, mean))
-    assert found == pytest.approx([6.9e6, 7.8e6, 8.7e6], rel=0.12)
-    assert found[2] / found[0] == pytest.approx(8.7 / 6.9, rel=0.02)
+        stresses.append(eyring_stress(0.035, mean))
+    assert stresses == pytest.approx([6.9e6, 7.8e6, 8.7e6], rel=0.12)
+    assert stresses[2] / stresses[0] == pytest.approx(8.7 / 6.9, rel=0.02)

@@ -36,12 +36,12 @@ def profile(raceway, load, skew, sign=1):
     laws = prepare(SKEWED, BEARING, OIL, sign)
     pair = raceways(laws, BEARING, sign)
     at = equilibrium(pair, laws, load, SPEED, skew)
-    one, middle = pair[raceway], pair[raceway].middle(at.tilt, at.shift)
-    lines = slip_lines(one, SPEED, at.slip, skew, middle, at.tilt)
+    contact, middle = pair[raceway], pair[raceway].middle(at.tilt, at.shift)
+    lines = slip_lines(contact, SPEED, at.slip, skew, middle, at.tilt)
     sample, maps = np.zeros(1, SAMPLE)[0], new_details(np.array([0.0, 1.0])).maps
     entrainment = abs(SPEED - 0.5 * at.slip)
-    sample["film"][raceway] = film = one.laws.film_thickness(load, entrainment)
-    sample["share"][raceway] = one.laws.asperity_share(load, entrainment, film)
+    sample["film"][raceway] = film = contact.laws.film_thickness(load, entrainment)
+    sample["share"][raceway] = contact.laws.asperity_share(load, entrainment, film)
     sample["lines"][raceway], sample["time"], sample["at"]["elastic_load"] = (
         [middle, *lines[:6]],
         1.0,
@@ -51,15 +51,17 @@ def profile(raceway, load, skew, sign=1):
     power_along(
         maps[0], raceway, contacts_of(laws)[raceway], (load, SPEED, at.slip), sample, 1.0, along
     )
-    return along, one, lines, at, maps
+    return along, contact, lines, at, maps
 
 
 @RACEWAYS
 @STATES
 def test_stations_add_up_to_what_the_contact_gives(raceway, load, skew):
-    along, one, lines, at, maps = profile(raceway, load, skew)
+    along, contact, lines, at, maps = profile(raceway, load, skew)
     width = BEARING.roller_length / STATIONS
-    exact = resultants(one, load, SPEED, at.slip, skew, one.middle(at.tilt, at.shift), at.tilt)
+    exact = resultants(
+        contact, load, SPEED, at.slip, skew, contact.middle(at.tilt, at.shift), at.tilt
+    )
     # Stations of 4.4 mm, and the spin within a chord left out.
     assert along["total"] * width == pytest.approx(exact.power, rel=0.02)
     assert along["rough_total"] * width == pytest.approx(exact.asperity_power, rel=0.02)
@@ -79,30 +81,32 @@ def test_stations_add_up_to_what_the_contact_gives(raceway, load, skew):
 @STATES
 def test_work_is_the_integral_of_pressure_times_slip(raceway, load, skew):
     """Both components of slip all over the ellipse, on a grid; by the formulas of `contact/skewed.py`'s heading."""
-    along, one, _, at, _ = profile(raceway, load, skew)
-    k, r, hertz = one.side, roller_radius(BEARING), one.laws.interface.hertz
+    along, contact, _, at, _ = profile(raceway, load, skew)
+    k, r, hertz = contact.side, roller_radius(BEARING), contact.laws.interface.hertz
     a, b, p0 = (
         x * load ** (1 / 3) for x in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure)
     )
-    place = at.shift + k * r * at.tilt
-    middle = (-k * at.tilt + one.along * place) / one.lateral
+    centre = at.shift + k * r * at.tilt
+    middle = (-k * at.tilt + contact.along * centre) / contact.lateral
     x, y = np.meshgrid(
         (np.arange(1000) + 0.5) / 500 - 1.0, (np.arange(100) + 0.5) / 50 - 1.0, indexing="ij"
     )
     height = np.sqrt(np.maximum(1.0 - x * x - y * y, 0.0))
     station = middle + a * x
     height[np.abs(station) > 0.5 * BEARING.roller_length] = 0.0
-    turn = skew * (1.0 - (one.along - one.across) / (1.0 / r - one.across - one.lateral))
-    drop = 0.25 * station**2 * (1.0 / one.roller_contour + one.along) + one.lateral * middle * (
-        station / 2 - middle / 4
+    turn = skew * (
+        1.0 - (contact.along - contact.across) / (1.0 / r - contact.across - contact.lateral)
     )
-    rate, spin = k * SPEED / one.raceway_radius, (SPEED - at.slip) / r
+    drop = 0.25 * station**2 * (
+        1.0 / contact.roller_contour + contact.along
+    ) + contact.lateral * middle * (station / 2 - middle / 4)
+    rate, spin = k * SPEED / contact.raceway_radius, (SPEED - at.slip) / r
     sine, cosine = math.sin(BEARING.contact_angle), math.cos(BEARING.contact_angle)
     v = (
         at.slip
         + spin * drop
         - rate * cosine * (drop + k * at.tilt * station)
-        - k * rate * sine * (station + place)
+        - k * rate * sine * (station + centre)
     )
     w = -k * spin * skew * (r - drop) - (sine * rate + spin * at.tilt) * (b * y + turn * station)
     work = (p0 * height * np.hypot(v, w)).sum() * a * b / (500 * 50)
@@ -193,18 +197,18 @@ def test_sums_over_maps_and_classes_are_the_whole(stopped, straight):
 def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
     """Work a second is that of the contacts under a coefficient of friction of 1; wear rises most where nothing slid."""
     seconds = stopped.attrs["window_end"] - stopped.attrs["window_start"]
-    one, laws = stopped.sel(row="downwind"), prepare(SKEWED, BEARING, OIL, 1)
+    result, laws = stopped.sel(row="downwind"), prepare(SKEWED, BEARING, OIL, 1)
     bare = prepare(SKEWED.but(asperities="none"), BEARING, OIL, 1)
-    speed = float(one.spin_pure[0, -1]) * roller_radius(BEARING)
+    speed = float(result.spin_pure[0, -1]) * roller_radius(BEARING)
     angle = pocket(BEARING, "conforming-pocket", 0.5e-3).largest
     at = equilibrium(raceways(laws, BEARING, 1), laws, 9e3, speed, angle)
     for i, contact in enumerate(raceways(bare, BEARING, 1, constant_friction(1.0))):
         power = resultants(
             contact, 9e3, speed, at.slip, angle, contact.middle(at.tilt, at.shift), at.tilt
         ).power
-        assert float(one.surface_work[i].sum()) / seconds == pytest.approx(power, rel=0.02)
+        assert float(result.surface_work[i].sum()) / seconds == pytest.approx(power, rel=0.02)
     assert (
-        working_skew(one) == pytest.approx(angle, rel=1e-9)
+        working_skew(result) == pytest.approx(angle, rel=1e-9)
         and working_skew(straight.sel(row="downwind")) == 0.0
     )
     skewed, held = damage(stopped), damage(straight)
@@ -214,6 +218,6 @@ def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
     # The window has no complete orbit, so that no time of wear is given: the place that wears most decides it.
     assert "wear_time" not in skewed and "wear_time" not in held
     assert float(skewed.asperity_work_rate.max()) > float(held.asperity_work_rate.max())
-    place = np.linspace(-0.03, 0.03, 4 * STATIONS)
-    slip = slip_profile(laws.inner, place, np.ones_like(place), np.ones(STATIONS), angle)
+    stations = np.linspace(-0.03, 0.03, 4 * STATIONS)
+    slip = slip_profile(laws.inner, stations, np.ones_like(stations), np.ones(STATIONS), angle)
     assert slip.min() >= angle

@@ -106,10 +106,10 @@ def test_totals_are_sums_over_the_steps(walked):
 
 def test_nothing_depends_on_where_buffers_end(walked):
     steps = walked[3]
-    one = booked(steps)
+    whole = booked(steps)
     for cuts in ([5], [1, 2, 3, 100], range(1, steps.size)):
         for name, other in booked(steps, cuts)._asdict().items():
-            np.testing.assert_array_equal(other, getattr(one, name), err_msg=name)
+            np.testing.assert_array_equal(other, getattr(whole, name), err_msg=name)
 
 
 def test_spin_ratio_is_taken_where_rings_run(walked):
@@ -128,7 +128,7 @@ def test_time_with_load_and_out_of_range(walked):
         inside["outer_load"][:, 2] > 0.0,
         inside["cage_load"][:, 2] != 0.0,
     ]
-    np.testing.assert_allclose(times[0], [span[one].sum() for one in loaded], rtol=1e-10)
+    np.testing.assert_allclose(times[0], [span[carrying].sum() for carrying in loaded], rtol=1e-10)
     assert ((times[1:] >= 0.0) & (times[1:] <= times[0] * (1 + 1e-12))).all()
     loads = inside["inner_load"][:, 2]
     light = (loads > 0.0) & ~model.laws.inner.asperity_share_in_range(np.maximum(loads, 1e-9))

@@ -26,7 +26,7 @@ def test_it_holds_all_with_checksums_and_is_the_same_again(results, tmp_path):
     archive(results, second)
     assert first.read_bytes() == second.read_bytes()
     with tarfile.open(first) as tar:
-        held = {one.name: tar.extractfile(one).read() for one in tar}
+        held = {member.name: tar.extractfile(member).read() for member in tar}
     lines = [line.split("  ") for line in held.pop(SUMS).decode().splitlines()]
     assert {name: hashlib.sha256(data).hexdigest() for name, data in held.items()} == {
         name: total for total, name in lines

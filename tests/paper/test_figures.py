@@ -160,8 +160,8 @@ def test_classes_differ_in_more_than_colour(axes, numbers):
     np.testing.assert_allclose(line(axes, "A")[1], [31.0, 35.0])
     drawn = [container.lines[0] for container in axes.containers]
     assert (
-        len({one.get_marker() for one in drawn})
-        == len({one.get_linestyle() for one in drawn})
+        len({line.get_marker() for line in drawn})
+        == len({line.get_linestyle() for line in drawn})
         == len(drawn)
         == 2
     )
@@ -204,7 +204,7 @@ def test_stability(stability):
     }
     for name, label in labels.items():
         np.testing.assert_allclose(line(left, label)[1], stability[f"spin_ratio_{name}"])
-    assert any(np.allclose(one.get_xdata(), 312.0) for one in left.lines)
+    assert any(np.allclose(line.get_xdata(), 312.0) for line in left.lines)
     np.testing.assert_allclose(right.lines[1].get_ydata(), stability.deviation_backward)
 
 
@@ -253,7 +253,7 @@ def test_ranges_correlations_and_indices(axes, summary):
     other = draw.plot_squares(new_figure(4.0, 3.0)[1][0], summary, "rank_correlation")
     assert [text.get_text() for text in other.texts] == ["+", "−"]
     indices = draw.plot_squares(new_figure(4.0, 3.0)[1][0], summary, "total_order")
-    sizes = [float(one.get_sizes()[0]) for one in indices.collections]
+    sizes = [float(collection.get_sizes()[0]) for collection in indices.collections]
     assert sizes == pytest.approx([330.0 * part for part in (0.9, 0.8, 0.5, 0.5)])
     assert [text.get_text() for text in indices.texts] == ["0.93", "0.50"]
 
@@ -265,7 +265,7 @@ def test_torque_over_a_part_of_the_history():
     np.testing.assert_allclose(
         figure.axes[0].lines[0].get_data(), ([2.0, 3.0, 4.0], [3.0, 4.0, 5.0])
     )
-    labels = [one.get_text() for one in figure.legends[0].get_texts()]
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels == ["model (mean 5.5 N m)", "SKF (mean 9.5 N m)"]
 
 
@@ -281,5 +281,5 @@ def test_figures_are_written_as_png_and_svg_with_units(tmp_path, numbers, turn, 
         for name in save(figure, tmp_path, f"figure_{k}"):
             assert (tmp_path / name).stat().st_size > 1000
         assert all(
-            one.get_xlabel() or not one.get_subplotspec().is_last_row() for one in figure.axes
+            axes.get_xlabel() or not axes.get_subplotspec().is_last_row() for axes in figure.axes
         )

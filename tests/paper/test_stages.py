@@ -55,9 +55,9 @@ def test_figures_of_the_paper_and_experiments_do_not_wait_for_the_other_model(
     monkeypatch.setattr(Lane, "model", model)
     monkeypatch.setattr(Lane, "experiments", experiments)
     given, calls = lane
-    runs, found = computed(given, tmp_path)
+    runs, counts = computed(given, tmp_path)
     assert [runs[name].name for name in MODELS] == list(MODELS) == list(runs)
-    assert found == {"A1": 1} and drawn == [f"of {PAPER}", "of experiments"]
+    assert counts == {"A1": 1} and drawn == [f"of {PAPER}", "of experiments"]
     stages = list(dict.fromkeys(stage for stage, _, _ in calls))
     assert stages == list(given.stages.seconds)
     assert min(given.stages.seconds.values()) >= 0.0

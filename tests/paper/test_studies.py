@@ -22,7 +22,7 @@ pytestmark = pytest.mark.slow
 def test_the_detailed_case_is_one_of_the_study():
     (load,) = study_of(content("detail", "paper")).loads.loads
     assert load.name == DETAILED_CASE
-    assert load.name in [one.name for one in study_of(content("study", "paper")).loads.loads]
+    assert load.name in [load.name for load in study_of(content("study", "paper")).loads.loads]
 
 
 def test_a_second_run_computes_nothing(small, tmp_path):
@@ -53,12 +53,12 @@ def test_study_holds_what_the_simulation_gives(study):
             window=Window(end=30.0),
         )
     )
-    one = study.sel(case="14A")
-    np.testing.assert_array_equal(one.energy, result.energy)
+    case = study.sel(case="14A")
+    np.testing.assert_array_equal(case.energy, result.energy)
     samples = result.peak_power.max("interface").values.reshape(2, -1)
-    np.testing.assert_allclose(one.peak_power_mean, samples.mean(axis=1), rtol=1e-14)
-    np.testing.assert_allclose(one.peak_power_std, samples.std(axis=1), rtol=1e-12)
-    assert int(one.orbits) == result.sizes["orbit"]
+    np.testing.assert_allclose(case.peak_power_mean, samples.mean(axis=1), rtol=1e-14)
+    np.testing.assert_allclose(case.peak_power_std, samples.std(axis=1), rtol=1e-12)
+    assert int(case.orbits) == result.sizes["orbit"]
     assert study.wind_speed.values.tolist() == [12.0, 14.0, 14.0]
     assert all(variable.attrs["units"] for variable in study.data_vars.values())
 
@@ -92,7 +92,9 @@ def test_parts_and_stations_add_up_to_the_energy_per_orbit(physical_study):
         along, per_orbit.sel(interface=["inner", "outer"], row="downwind"), rtol=1e-3
     )
     down = parts.part_energy.sel(row="downwind")
-    micro = down.sel(part=[one for one in PARTS if "," in one and "sliding" not in one]).sum("part")
+    micro = down.sel(part=[part for part in PARTS if "," in part and "sliding" not in part]).sum(
+        "part"
+    )
     assert (micro > 0.85 * (down.sum("part") - down.sel(part="cage"))).all()
     # Rolling resistance presses the rollers against the cage: 25 to 36 % of the row's energy, as the study page says.
     share = down.sel(part="cage") / down.sum("part")
@@ -107,8 +109,8 @@ def test_the_exponent_is_that_of_a_power_law(physical_study):
     scaled = study.assign(roller_load=load)
     weight = (load.sel(row="downwind") ** 1.5).drop_vars("row")
     for name in ("energy", "mechanism_energy"):
-        one = study[name].isel(case=[0, 0, 0]).assign_coords(case=study.case)
-        scaled[name] = one * weight * study.orbits
-    found = dissipation(scaled).load_exponent
-    assert float(found.sel(row="downwind")) == pytest.approx(1.5)
-    assert np.isnan(found.sel(row="upwind"))
+        energy = study[name].isel(case=[0, 0, 0]).assign_coords(case=study.case)
+        scaled[name] = energy * weight * study.orbits
+    exponent = dissipation(scaled).load_exponent
+    assert float(exponent.sel(row="downwind")) == pytest.approx(1.5)
+    assert np.isnan(exponent.sel(row="upwind"))

@@ -106,9 +106,9 @@ def test_a_failed_roller_takes_its_sample_out_and_is_counted(made, tmp_path):
 
 def synthetic(sample, count=64):
     """A sample in which energy downwind follows the first value, and both ratios fall over wind speed."""
-    place = np.concatenate([[0.5], sample_places()[:count, 0]])
+    position = np.concatenate([[0.5], sample_places()[:count, 0]])
     energy = np.ones((count + 1, 2, 2, 3))
-    energy[:, 0, 0] *= 9.0 + place[:, None]
+    energy[:, 0, 0] *= 9.0 + position[:, None]
     peak = np.broadcast_to(np.array([[4.0, 1.0], [3.0, 1.0]]), (count + 1, 2, 2))
     window = np.broadcast_to(np.array([2.0, 1.0]), (count + 1, 2))
     of_case = ("sample", "case")
@@ -116,19 +116,19 @@ def synthetic(sample, count=64):
         "orbit_energy": ((*of_case, "row", "interface"), energy),
         "peak_power": ((*of_case, "row"), peak),
         "window_energy": (of_case, window),
-        "torque": (of_case, window + place[:, None]),
+        "torque": (of_case, window + position[:, None]),
         "friction_power": (of_case, window),
         "outcome": ("sample", np.zeros(count + 1, dtype=np.int8)),
     }
     kept = sample.drop_dims("sample").drop_vars("sample", errors="ignore")
-    return kept.assign(new).assign_coords(sample=np.arange(count + 1)), place
+    return kept.assign(new).assign_coords(sample=np.arange(count + 1)), position
 
 
 def test_ranges_drivers_and_trends_follow_the_numbers(sample):
-    made, place = synthetic(sample)
+    made, position = synthetic(sample)
     numbers = quantities(made)
     name = "energy, downwind / upwind, 12B"
-    np.testing.assert_allclose(numbers.result.sel(quantity=name), 9.0 + place)
+    np.testing.assert_allclose(numbers.result.sel(quantity=name), 9.0 + position)
     # A quantity that does not change has no rank; that is no driver, and it has no number.
     summary = uncertainty_summary(made)
     assert drivers(summary, "energy in 12B / 24B") == []

@@ -14,7 +14,7 @@ from paper.values import POINTS, SEED, VALUES
 
 pytestmark = pytest.mark.slow
 
-CONTINUOUS = [one for one in VALUES if one.kind in ("even", "log")]
+CONTINUOUS = [value for value in VALUES if value.kind in ("even", "log")]
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ def points(study):
 
 def in_si_units(settings):
     """Values of settings by key, in SI units."""
-    units = {one.key: one.unit for one in VALUES if not one.choices}
+    units = {value.key: value.unit for value in VALUES if not value.choices}
     return {
         setting.key: in_si(setting.value, units[setting.key])
         if setting.key in units
@@ -77,37 +77,39 @@ def parts_of(key):
 
 
 def test_ends_of_a_range_are_its_first_and_last_place():
-    for one in CONTINUOUS:
-        assert [one.at(0.0), one.at(1.0)] == pytest.approx([one.low, one.high], rel=1e-12), one.name
+    for value in CONTINUOUS:
+        assert [value.at(0.0), value.at(1.0)] == pytest.approx(
+            [value.low, value.high], rel=1e-12
+        ), value.name
 
 
 def test_the_base_values_are_in_the_ranges(base):
     assert isinstance(base, Case)
-    for one in VALUES:
-        if one.choices:
-            assert own(base, one.key) in one.choices
+    for value in VALUES:
+        if value.choices:
+            assert own(base, value.key) in value.choices
             continue
         # Stress and Roelands' slope at the lubricant's own temperature, as the study's base case has it.
         assert (
-            in_si(one.low, one.unit)
-            <= own(base, one.key)
-            <= in_si(one.high, one.unit) * (1 + 1e-12)
-        ), one.name
+            in_si(value.low, value.unit)
+            <= own(base, value.key)
+            <= in_si(value.high, value.unit) * (1 + 1e-12)
+        ), value.name
 
 
 def test_tags_are_those_of_the_catalogue(base):
-    for one in VALUES:
-        if one.tag == "C" or "." not in one.key:
+    for value in VALUES:
+        if value.tag == "C" or "." not in value.key:
             continue
-        part, name = parts_of(one.key)
+        part, name = parts_of(value.key)
         if part != "drivetrain" and name in getattr(base, part).provenance:
-            assert getattr(base, part).provenance[name].tag == one.tag, one.name
+            assert getattr(base, part).provenance[name].tag == value.tag, value.name
 
 
 def test_ranges_of_the_oil_are_those_of_its_file(base):
     for key in ("limiting_shear", "eyring_stress", "pressure_viscosity", "boundary_friction"):
-        one = next(one for one in VALUES if one.key == f"lubricant.{key}")
-        assert (one.low, one.high) == pytest.approx(base.lubricant.provenance[key].range), key
+        listed = next(listed for listed in VALUES if listed.key == f"lubricant.{key}")
+        assert (listed.low, listed.high) == pytest.approx(base.lubricant.provenance[key].range), key
 
 
 def test_the_points_are_a_scrambled_sobol_sequence_with_the_seed(points):
@@ -115,20 +117,25 @@ def test_the_points_are_a_scrambled_sobol_sequence_with_the_seed(points):
 
     unit = qmc.Sobol(len(VALUES), rng=np.random.default_rng(SEED)).random(POINTS)
     assert points[0] == {}
-    for k, one in enumerate(VALUES):
-        found = [point[one.key] for point in points[1:]]
-        if one.choices:
-            assert found == [one.choices[int(place * len(one.choices))] for place in unit[:, k]]
-        elif one.kind == "count":
-            counts = range(int(one.low), int(one.high) + 1)
-            assert found == [counts[int(place * len(counts))] for place in unit[:, k]]
+    for k, listed in enumerate(VALUES):
+        drawn_values = [point[listed.key] for point in points[1:]]
+        if listed.choices:
+            assert drawn_values == [
+                listed.choices[int(fraction * len(listed.choices))] for fraction in unit[:, k]
+            ]
+        elif listed.kind == "count":
+            counts = range(int(listed.low), int(listed.high) + 1)
+            assert drawn_values == [counts[int(fraction * len(counts))] for fraction in unit[:, k]]
         else:
-            ends = [math.log(end) if one.kind == "log" else end for end in (one.low, one.high)]
+            ends = [
+                math.log(end) if listed.kind == "log" else end for end in (listed.low, listed.high)
+            ]
             drawn = ends[0] + unit[:, k] * (ends[1] - ends[0])
             expected = [
-                in_si(value, one.unit) for value in (np.exp(drawn) if one.kind == "log" else drawn)
+                in_si(value, listed.unit)
+                for value in (np.exp(drawn) if listed.kind == "log" else drawn)
             ]
-            np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-15)
+            np.testing.assert_allclose(drawn_values, expected, rtol=1e-11, atol=1e-15)
 
 
 def test_values_that_follow_from_others_are_right(base, points):

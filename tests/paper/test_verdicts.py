@@ -74,8 +74,8 @@ def test_energy_is_highest_at_the_two_lowest_wind_speeds_or_not():
         assert verdict(energy_over_wind_speed(numbers, orbits)) == expected
     numbers.both_rows_normalised[3] = np.nan
     assert verdict(energy_over_wind_speed(numbers, orbits)) == UNKNOWN
-    found = {row.key: row.value for row in energy_over_wind_speed(numbers, orbits)}
-    assert (found["orbits"], found["per_orbit_upwind"]) == (1.0, 0.0)
+    values = {row.key: row.value for row in energy_over_wind_speed(numbers, orbits)}
+    assert (values["orbits"], values["per_orbit_upwind"]) == (1.0, 0.0)
 
 
 def test_energy_between_rows_is_about_ten():

@@ -76,13 +76,13 @@ def test_power_and_where_it_lies_along_the_roller_are_those_of_the_friction(resu
     half = 0.5 * case.bearing.roller_length
     places = np.linspace(-half, half, straight.station.size + 1)
     # It starts in pure rolling, and slips as it does in the long run soon after.
-    one = straight.sel(row="downwind", roller=0).isel(time=slice(1, None))
+    result = straight.sel(row="downwind", roller=0).isel(time=slice(1, None))
     for contact, name in zip(contacts[:2], ("inner", "outer"), strict=True):
-        total, parts = power_along(contact, LOAD, speed, float(one.slip.mean()), places)
+        total, parts = power_along(contact, LOAD, speed, float(result.slip.mean()), places)
         # Weight adds up to 31 N to the load of 9 kN.
-        found = one.power.sel(interface=name)
-        assert found.values == pytest.approx(np.full(found.size, total), rel=0.01)
-        shares = one.station_energy.sel(raceway=name) / one.energy.sel(interface=name)
+        power = result.power.sel(interface=name)
+        assert power.values == pytest.approx(np.full(power.size, total), rel=0.01)
+        shares = result.station_energy.sel(raceway=name) / result.energy.sel(interface=name)
         # A station counts with the power of its middle, at the mean load of the orbit.
         assert shares.values == pytest.approx(parts / parts.sum(), abs=0.002)
 

@@ -89,9 +89,11 @@ class Film:
 
     def __call__(self, slip):
         """Pull and lag [N], and skew moment [N m]."""
-        found = np.empty(4)
-        patch_traction(self._patch, self._chords, *self._state, 0.0, self._ring_speed, slip, found)
-        return found[:3]
+        traction = np.empty(4)
+        patch_traction(
+            self._patch, self._chords, *self._state, 0.0, self._ring_speed, slip, traction
+        )
+        return traction[:3]
 
     def power(self, slip):
         return patch_power(self._patch, self._chords, *self._state, self._ring_speed, slip)
@@ -215,7 +217,9 @@ def test_net_skew_moment_of_a_held_roller_is_the_small_difference_of_its_raceway
     along_x = 0.0
     for contact, sign in ((model.laws.inner, 1.0), (model.laws.outer, -1.0)):
         # Body forces of some tens of newtons beside the load are left out.
-        _, _, skew, _ = tractions(contact, *(np.array([one]) for one in (load, ring_speed, slip)))
+        _, _, skew, _ = tractions(
+            contact, *(np.array([number]) for number in (load, ring_speed, slip))
+        )
         # A patch has its axis tilted to the positive side.
         along_x += sign * math.copysign(1.0, contact.shape.spin_ratio) * float(skew[0])
     inner, outer = at.skew_moment.values
@@ -303,8 +307,8 @@ def energies(steady):
     return of
 
 
-def total(found, interface=None):
-    energy = found.energy if interface is None else found.energy.sel(interface=interface)
+def total(result, interface=None):
+    energy = result.energy if interface is None else result.energy.sel(interface=interface)
     return float(energy.sum())
 
 
@@ -346,8 +350,8 @@ def test_asperities_alone_add_friction(energies):
 
 
 def test_contact_angle_and_curvature_share_the_friction(energies):
-    found = energies(FULL).mechanism_energy.sum("roller").sel(interface="inner")
-    sliding, curvature, angle = found.values
+    energy = energies(FULL).mechanism_energy.sum("roller").sel(interface="inner")
+    sliding, curvature, angle = energy.values
     assert curvature > 0.0 and angle > 0.0 and abs(sliding) < 0.05 * (curvature + angle)
 
 

@@ -29,17 +29,17 @@ def case(laws=SKEWED, **cage):
     )
 
 
-def assert_nothing_but_ends_adds(found, straight):
+def assert_nothing_but_ends_adds(skewed, straight):
     """A pocket without play holds rollers straight, and friction of its ends alone is added, at the cage."""
-    assert np.array_equal(found.slip, straight.slip) and np.array_equal(
-        found.cage_force, straight.cage_force
+    assert np.array_equal(skewed.slip, straight.slip) and np.array_equal(
+        skewed.cage_force, straight.cage_force
     )
     for name in ("energy", "orbit_energy", "peak_power", "power"):
-        assert np.array_equal(found[name].sel(RACEWAYS), straight[name].sel(RACEWAYS)), name
-    assert (found.skew_energy == 0.0).all()
-    added = (found.energy - straight.energy).sel(interface="cage")
+        assert np.array_equal(skewed[name].sel(RACEWAYS), straight[name].sel(RACEWAYS)), name
+    assert (skewed.skew_energy == 0.0).all()
+    added = (skewed.energy - straight.energy).sel(interface="cage")
     assert (added.sel(row="downwind") > 0.0).all()
-    assert added.values == pytest.approx(found.stop_energy.values, rel=1e-9, abs=1e-12)
+    assert added.values == pytest.approx(skewed.stop_energy.values, rel=1e-9, abs=1e-12)
 
 
 @pytest.fixture(scope="module")
@@ -62,25 +62,25 @@ def test_energy_is_that_of_a_straight_roller_and_of_skew():
     loads = RollerLoads(
         np.array([0.0, 10.0]), np.full(2, 2.143), places, np.full(places.shape, 9e3), "even"
     )
-    straight, found = (
+    straight, skewed = (
         simulate(replace(case(laws, **cage), loads=loads), threads=1)
         for laws, cage in ((Laws.physical(), {}), (SKEWED, {"alignment": "none"}))
     )
-    added = found.energy - straight.energy
-    assert added.sel(RACEWAYS).values == pytest.approx(found.skew_energy.values, rel=1e-9)
-    assert added.sel(interface="cage").values == pytest.approx(found.stop_energy.values, rel=1e-9)
-    assert (found.skew_energy > 0.0).all() and (found.stop_energy > 0.0).all()
+    added = skewed.energy - straight.energy
+    assert added.sel(RACEWAYS).values == pytest.approx(skewed.skew_energy.values, rel=1e-9)
+    assert added.sel(interface="cage").values == pytest.approx(skewed.stop_energy.values, rel=1e-9)
+    assert (skewed.skew_energy > 0.0).all() and (skewed.stop_energy > 0.0).all()
     # The shaft turns forward: rollers turn the unfavourable way, and push the ring as the thrust that their row carries does.
     stop = pocket(Case(loads=loads).bearing, "conforming-pocket", 0.5e-3)
     for row, sign in (("downwind", 1.0), ("upwind", -1.0)):
-        one = found.sel(row=row, roller=0)
-        assert one.skew_angle.values == pytest.approx(
-            np.full(one.time.size, sign * stop.largest), rel=1e-9
+        roller = skewed.sel(row=row, roller=0)
+        assert roller.skew_angle.values == pytest.approx(
+            np.full(roller.time.size, sign * stop.largest), rel=1e-9
         )
-        assert (sign * one.axial_force > 0.0).all()
-        assert sign * one.frictional_thrust > 0.0
-        assert one.stop_force.values == pytest.approx(
-            np.abs(one.skew_moment.sum("raceway")).values / stop.arm, rel=1e-9
+        assert (sign * roller.axial_force > 0.0).all()
+        assert sign * roller.frictional_thrust > 0.0
+        assert roller.stop_force.values == pytest.approx(
+            np.abs(roller.skew_moment.sum("raceway")).values / stop.arm, rel=1e-9
         )
 
 
@@ -88,16 +88,16 @@ def test_energy_is_that_of_a_straight_roller_and_of_skew():
 def test_the_ring_feels_the_force_that_a_result_shows():
     """By the ring's balance, which takes rollers as gripped, and by the rollers' own integration."""
     every = replace(case(), rollers="all", traces=None)
-    found, ready = simulate(every), prepare(every)
+    result, ready = simulate(every), prepare(every)
     model = ready.model
     on_ring = thrust_on_ring(
         every, model, ring_geometry(every.bearing, model), ready.motion, ready.box
     )
-    inside = ready.motion.time >= found.window_start
+    inside = ready.motion.time >= result.window_start
     mean = np.trapezoid(on_ring[inside, 2], ready.motion.time[inside]) / (
-        found.window_end - found.window_start
+        result.window_end - result.window_start
     )
-    assert float(found.frictional_thrust.sum()) == pytest.approx(mean, rel=0.02)
+    assert float(result.frictional_thrust.sum()) == pytest.approx(mean, rel=0.02)
     # Rollers carry the load and this force.
     loads = elastic_loads(every.ring_loads, ring_geometry(every.bearing, model), ready.motion)
     carried = (loads * ring_geometry(every.bearing, model).axial).sum(axis=1)

@@ -62,27 +62,27 @@ def test_without_weight_and_load_spin_hardly_follows_the_shaft():
 
 def test_traction_balances_inertia_and_cage_friction(gusty):
     """F_i + F_o = I_z' ω̇/r − F_c; a gripped roller's ω̇ is that of pure rolling."""
-    loads, found = gusty
-    gripped = (found.roller_load > 20e3) & (abs(found.slip) < 1e-7)
+    loads, result = gusty
+    gripped = (result.roller_load > 20e3) & (abs(result.slip) < 1e-7)
     assert int(gripped.sum()) > 1000
-    total = found.traction.sel(interface="inner") + found.traction.sel(interface="outer")
+    total = result.traction.sel(interface="inner") + result.traction.sel(interface="outer")
     mass = geometry.roller_mass(7850.0, 0.035, 0.106)
     sample = np.clip(
-        np.searchsorted(loads.time, found.time.values, side="left") - 1, 0, loads.time.size - 2
+        np.searchsorted(loads.time, result.time.values, side="left") - 1, 0, loads.time.size - 2
     )
     acceleration = np.diff(loads.shaft_speed)[sample] / np.diff(loads.time)[sample]
     spin_rate = -ORBIT_RATIO * acceleration * 0.4070334304372217 / 0.035
-    needed = 0.5 * mass * 0.035 * spin_rate - found.traction.sel(interface="cage")
+    needed = 0.5 * mass * 0.035 * spin_rate - result.traction.sel(interface="cage")
     assert float(abs(total - needed).where(gripped).max()) < 1e-6
 
 
 def test_gripped_rollers_carry_only_weight_and_drag_at_the_cage(gusty):
-    _, found = gusty
-    gripped = (found.roller_load > 5e3) & (abs(found.slip) < 1e-4)
-    total = found.traction.sel(interface="inner") + found.traction.sel(interface="outer")
-    difference = found.traction.sel(interface="inner") - found.traction.sel(interface="outer")
+    _, result = gusty
+    gripped = (result.roller_load > 5e3) & (abs(result.slip) < 1e-4)
+    total = result.traction.sel(interface="inner") + result.traction.sel(interface="outer")
+    difference = result.traction.sel(interface="inner") - result.traction.sel(interface="outer")
     assert (abs(difference) <= abs(total) + 1e-9).where(gripped, True).all()
-    assert float(abs(found.cage_force).where(gripped).max()) < 32.2
+    assert float(abs(result.cage_force).where(gripped).max()) < 32.2
 
 
 def test_rollers_of_a_row_take_turns_under_a_steady_load():

@@ -121,8 +121,8 @@ def lamina_loads(load, semi_axis, length):
     count = LAMINAE // 2
     edges = np.linspace(0.0, 0.5 * length, count + 1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        place = np.minimum(edges / np.where(load > 0.0, semi_axis, np.inf)[..., None], 1.0)
-    reached = 1.5 * place - 0.5 * place**3
+        relative = np.minimum(edges / np.where(load > 0.0, semi_axis, np.inf)[..., None], 1.0)
+    reached = 1.5 * relative - 0.5 * relative**3
     share, total = np.diff(reached, axis=-1), reached[..., -1:]
     return (
         load[..., None]
@@ -188,7 +188,7 @@ def test_ring_ratings_give_back_the_geometry_factor():
 
 def test_laminae_carry_the_load_of_a_hertz_ellipse():
     length, axis, load = 0.1, 0.03, 5e4
-    found = lamina_loads(np.array([load]), np.array([axis]), length)[0]
+    loads = lamina_loads(np.array([load]), np.array([axis]), length)[0]
     edges = np.linspace(0, length / 2, LAMINAE // 2 + 1)
     for k, (start, end) in enumerate(itertools.pairwise(edges)):
 
@@ -196,7 +196,7 @@ def test_laminae_carry_the_load_of_a_hertz_ellipse():
             return 0.75 * load / axis * max(0.0, 1 - (x / axis) ** 2)
 
         carried = quad(per_length, start, end, points=[axis] if start < axis < end else None)[0]
-        assert found[k] == pytest.approx(carried / (end - start) * length, rel=1e-9, abs=1e-6)
+        assert loads[k] == pytest.approx(carried / (end - start) * length, rel=1e-9, abs=1e-6)
     # Cut off at the ends, what is left carries all; no load, no lamina load.
     for semi_axis in (0.03, 0.06, 10.0):
         assert lamina_loads(

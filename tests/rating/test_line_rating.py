@@ -58,10 +58,12 @@ def test_lives_and_pressures_are_those_of_laminae_by_hand(profile):
         below = np.cos(2.0 * np.pi * (np.arange(18) + turn) / 18.0)
 
         def strips_at(depth, below=below):
-            return np.array([laminae_of(depth * one - 0.05, profile) for one in below])
+            return np.array([laminae_of(depth * direction - 0.05, profile) for direction in below])
 
         depth = brentq(
-            lambda one, below=below: strips_at(one).sum(axis=1) @ below - FORCE, 0.05, 1.0
+            lambda displacement, below=below: strips_at(displacement).sum(axis=1) @ below - FORCE,
+            0.05,
+            1.0,
         )
         strips = strips_at(depth)
         heaviest = max(heaviest, strips.max() * LAMINAE / 50e-3)
@@ -70,8 +72,8 @@ def test_lives_and_pressures_are_those_of_laminae_by_hand(profile):
         ) + np.mean(np.mean((0.83 * LAMINAE * strips / outer) ** 4.5, axis=0))
         lives.append(1e6 * damage ** (-8.0 / 9.0))
     hours = 1.0 / np.mean(1.0 / np.array(lives)) / (SPEED / (2.0 * np.pi) * 3600.0)
-    found = float(rating.reference_life.sel(load_along_roller="hertz"))
-    assert found == pytest.approx(hours, rel=1e-2)
+    life = float(rating.reference_life.sel(load_along_roller="hertz"))
+    assert life == pytest.approx(hours, rel=1e-2)
     steel = 210e9 / (1.0 - 0.3**2)
     curvatures = np.array([1.0 / 16e-3 + 1.0 / 96.5e-3, 1.0 / 16e-3 - 1.0 / 128.5e-3])
     expected = np.sqrt(heaviest * curvatures * steel / (2.0 * np.pi))
@@ -116,6 +118,6 @@ def test_strips_add_up_to_the_roller_and_converge(profile):
         ((count * loads_of_strips(strips, load[1], count)) ** 4.5).mean(axis=-1)
         for count in (10, 30, 90, 2430)
     ]
-    errors = [np.abs(one / damage[-1] - 1.0).max() for one in damage[:-1]]
+    errors = [np.abs(coarse / damage[-1] - 1.0).max() for coarse in damage[:-1]]
     assert errors[1] < 0.02
     assert max(errors) < 1e-9 if profile == "straight" else errors[0] > errors[1] > errors[2]

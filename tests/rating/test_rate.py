@@ -28,25 +28,25 @@ def rated(bearing, force, speed=SPEED, **options):
 
 def test_a_constant_load_by_hand(bearing):
     rating = rated(bearing, [0.0, -400e3, 60e3])
-    found = {name: variable.item() for name, variable in rating.items() if not variable.dims}
+    values = {name: variable.item() for name, variable in rating.items() if not variable.dims}
     p = 400e3 + 2.3 * 60e3
     hours = 2 * math.pi / SPEED / 3600
-    assert found["equivalent_load"] == pytest.approx(p, rel=1e-12)
-    assert found["static_safety"] == pytest.approx(16300e3 / (400e3 + 2.2 * 60e3), rel=1e-12)
-    assert found["basic_life"] == pytest.approx(1e6 * (8502e3 / p) ** (10 / 3) * hours, rel=1e-12)
+    assert values["equivalent_load"] == pytest.approx(p, rel=1e-12)
+    assert values["static_safety"] == pytest.approx(16300e3 / (400e3 + 2.2 * 60e3), rel=1e-12)
+    assert values["basic_life"] == pytest.approx(1e6 * (8502e3 / p) ** (10 / 3) * hours, rel=1e-12)
     kappa = 0.54 / 900 / reference_viscosity(SPEED, 0.7454)
-    assert found["viscosity_ratio"] == pytest.approx(kappa, rel=1e-12)
+    assert values["viscosity_ratio"] == pytest.approx(kappa, rel=1e-12)
     bracket = 1 - (1.5859 - 1.2348 / 4**0.071739) * (0.5 * 1100e3 / p) ** 0.4
-    assert kappa > 4 and found["life_modification"] == pytest.approx(
+    assert kappa > 4 and values["life_modification"] == pytest.approx(
         min(50.0, 0.1 * bracket**-9.185), rel=1e-9
     )
-    assert found["modified_life"] == pytest.approx(
-        found["basic_life"] * found["life_modification"], rel=1e-12
+    assert values["modified_life"] == pytest.approx(
+        values["basic_life"] * values["life_modification"], rel=1e-12
     )
     assert (
-        found["minimum_load"],
-        found["share_below_minimum_load"],
-        found["share_below_fatigue_load_limit"],
+        values["minimum_load"],
+        values["share_below_minimum_load"],
+        values["share_below_fatigue_load_limit"],
     ) == (
         163e3,
         0.0,

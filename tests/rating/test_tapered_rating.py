@@ -60,9 +60,9 @@ def test_half_the_zone_loaded_has_nearly_the_life_of_iso_281():
     """
     ratings = tapered_ratings(MAIN)
     radial = 1500e3
-    found = life(MAIN.replace(preload=0.0), (0.0, -radial, 0.0), (0.0, 0.0))
+    computed = life(MAIN.replace(preload=0.0), (0.0, -radial, 0.0), (0.0, 0.0))
     expected = 1e6 * (ratings.dynamic / radial) ** (10.0 / 3.0)
-    assert 0.75 < found / expected * 0.83**4 < 1.3
+    assert 0.75 < computed / expected * 0.83**4 < 1.3
 
 
 def test_moments_and_preload_shorten_the_life():

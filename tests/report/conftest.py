@@ -37,6 +37,6 @@ def browser():
         pytest.skip("there is no browser: apt-get install chromium")
     options = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
     with playwright.sync_playwright() as driver:
-        found = driver.chromium.launch(executable_path=path, args=options)
-        yield found
-        found.close()
+        chromium = driver.chromium.launch(executable_path=path, args=options)
+        yield chromium
+        chromium.close()

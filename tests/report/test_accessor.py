@@ -34,9 +34,9 @@ def closed():
 def test_spin_is_the_traced_one(result):
     axes = result.macroslip.plot.spin("upwind", 14)
     lines = {line.get_label(): line.get_xydata() for line in axes.lines}
-    one = result.sel(row="upwind", roller=14)
-    assert np.array_equal(lines["roller"], np.column_stack([one.time, abs(one.spin)]))
-    assert np.array_equal(lines["pure rolling"][:, 1], abs(one.spin_pure.values))
+    roller = result.sel(row="upwind", roller=14)
+    assert np.array_equal(lines["roller"], np.column_stack([roller.time, abs(roller.spin)]))
+    assert np.array_equal(lines["pure rolling"][:, 1], abs(roller.spin_pure.values))
 
 
 def test_energy_bars_are_the_means_over_the_rollers(result):

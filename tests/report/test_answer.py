@@ -36,16 +36,16 @@ def traced(spin, load, *, failed=0):
 
 def test_a_row_with_a_load_zone():
     # Half of the time under load at .99 and 1.01 of rolling, else at .4 and .2; the shaft that hardly turns does not count.
-    one = traced([0.99, 1.01, 0.4, 0.2, 0.0], [1.0, 1.0, 0.0, 0.0, 1.0])
-    assert answer(one) == [
+    result = traced([0.99, 1.01, 0.4, 0.2, 0.0], [1.0, 1.0, 0.0, 0.0, 1.0])
+    assert answer(result) == [
         "Upwind row: loaded 60 % of the time; loaded rollers turn at rolling speed (0 % below it in the "
         "mean), between load zones they slow down to 20 % of it."
     ]
 
 
 def test_a_row_that_is_always_loaded_and_slips():
-    one = traced([0.9, 0.9, 0.94, 0.9, 1.0], np.ones(5))
-    assert answer(one) == [
+    result = traced([0.9, 0.9, 0.94, 0.9, 1.0], np.ones(5))
+    assert answer(result) == [
         "Upwind row: loaded all the time; its rollers turn 9 % below rolling speed in the mean."
     ]
 
@@ -64,27 +64,27 @@ def test_a_row_without_load_skids_or_does_not():
 
 
 def test_rollers_that_turn_backwards():
-    one = traced([1.0, 1.0, -0.1, 0.2, 1.0], [1.0, 1.0, 0.0, 0.0, 0.0])
-    assert "between load zones they even turn backwards, at up to 10 % of it" in answer(one)[0]
-    bare = one.drop_dims("time")
+    result = traced([1.0, 1.0, -0.1, 0.2, 1.0], [1.0, 1.0, 0.0, 0.0, 0.0])
+    assert "between load zones they even turn backwards, at up to 10 % of it" in answer(result)[0]
+    bare = result.drop_dims("time")
     assert answer(bare) == [
         "Upwind row: its slowest roller turns backwards, at up to 10 % of rolling speed."
     ]
 
 
 def test_a_roller_that_is_slowest_under_load_does_not_slow_down_between_load_zones():
-    one = traced([0.5, 1.5, 0.9, 0.8, 1.0], [1.0, 1.0, 0.0, 0.0, 0.0])
-    assert "between load zones they slow down to 80 % of it" in answer(one)[0]
+    result = traced([0.5, 1.5, 0.9, 0.8, 1.0], [1.0, 1.0, 0.0, 0.0, 0.0])
+    assert "between load zones they slow down to 80 % of it" in answer(result)[0]
 
 
 def test_traces_of_a_part_say_so():
-    one = traced(np.ones(5), np.ones(5)).assign_attrs(window_end=600.0)
-    assert answer(one)[0].endswith(" (speeds in the 4 s that are traced).")
+    result = traced(np.ones(5), np.ones(5)).assign_attrs(window_end=600.0)
+    assert answer(result)[0].endswith(" (speeds in the 4 s that are traced).")
 
 
 def test_failed_rollers_come_first():
-    one = traced(np.ones((2, 5)), np.ones((2, 5)), failed=1)
-    assert answer(one)[0] == "1 of 2 rollers FAILED; every mean they enter is missing."
+    result = traced(np.ones((2, 5)), np.ones((2, 5)), failed=1)
+    assert answer(result)[0] == "1 of 2 rollers FAILED; every mean they enter is missing."
 
 
 def test_a_share_just_below_all_of_the_time_is_not_rounded_to_it():
@@ -92,26 +92,26 @@ def test_a_share_just_below_all_of_the_time_is_not_rounded_to_it():
     assert "loaded 0.068 % of" in row_sentence(RowSlip("downwind", 0.000685, 0.9, None, None))
 
 
-def with_films(one, share_mixed, least):
+def with_films(result, share_mixed, least):
     time = np.zeros((1, 2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1))
     time[..., -1, 3] = 10.0
     time[0, 1, -1, 3] = 10.0 * (1.0 - share_mixed)
     time[0, 1, 0, 3] = 10.0 * share_mixed
     names = ["inner", "outer"]
-    return one.assign(
+    return result.assign(
         film_slip_time=(("row", "raceway", "film_class", "slip_class"), time),
         min_film_ratio=(("row", "roller", "orbit", "interface"), [[[[least, least, 0.1]]]]),
     ).assign_coords(raceway=names, interface=[*names, "cage"])
 
 
 def test_films_full_and_mixed():
-    one = traced(np.ones(5), np.ones(5))
-    full = answer(with_films(one, 0.0, 3.7))
+    result = traced(np.ones(5), np.ones(5))
+    full = answer(with_films(result, 0.0, 3.7))
     assert (
         full[-1]
         == "Loaded contacts run on a full film (Λ above 3, 3.7 at least in complete orbits)."
     )
-    mixed = answer(with_films(one, 0.25, 0.3))
+    mixed = answer(with_films(result, 0.25, 0.3))
     assert mixed[-1] == (
         "At the outer raceway films are mixed (Λ below 3) for 25 % of the loaded time, and at least 0.3 in "
         "complete orbits."
@@ -126,23 +126,23 @@ def criterion(title, value, reference, factor, *, is_time=False, in_answer=True)
 
 
 def test_the_criterion_furthest_beyond_its_reference_and_all_others_beyond_theirs():
-    one = traced(np.ones(5), np.ones(5))
+    result = traced(np.ones(5), np.ones(5))
     slip = criterion("smearing: slip", 1.0, 0.05, 3.0)
     year = criterion("friction energy: a year", 2.0, 1.0, 1.3)
     wear = criterion("wear: time", 100.0, 20.0, 10.0, is_time=True)
     unknown = criterion("smearing: power", 1.0, np.nan, 3.0)
-    assert answer(one, [unknown, wear, year, slip])[-1] == (
+    assert answer(result, [unknown, wear, year, slip])[-1] == (
         "Furthest beyond its reference is smearing, slip: 20 times the reference (a rig), known to a factor of 3, "
         "so beyond it in any case; also beyond: friction energy, a year (2 times the reference)."
     )
-    assert answer(one, [wear])[-1] == (
+    assert answer(result, [wear])[-1] == (
         "Nearest to its reference is wear, time: the reference is 0.2 of it (a rig), known to a factor of 10, "
         "so not distinguishable from it."
     )
-    assert answer(one, [unknown]) == answer(one)
+    assert answer(result, [unknown]) == answer(result)
     # A sum over a year beside a test of hours is left to the table.
     other = criterion("friction energy: a year", 90.0, 1.0, 1.3, in_answer=False)
-    assert answer(one, [wear, other]) == answer(one, [wear])
+    assert answer(result, [wear, other]) == answer(result, [wear])
 
 
 def numbers_in(sentence):
@@ -156,11 +156,11 @@ def check(result):
     assert 1 <= len(sentences) <= 5
     window = in_window(result)
     for row, sentence in zip(result.row.values, sentences, strict=False):
-        one = window.sel(row=row)
-        load, rolling = one.roller_load.values, abs(one.spin_pure.values)
+        of_row = window.sel(row=row)
+        load, rolling = of_row.roller_load.values, abs(of_row.spin_pure.values)
         known = np.isfinite(load)
         turns = (rolling > 0.0) & (rolling >= 0.1 * rolling.max())
-        ratio = one.spin.values[turns & known] / one.spin_pure.values[turns & known]
+        ratio = of_row.spin.values[turns & known] / of_row.spin_pure.values[turns & known]
         pressed = load[turns & known] > 0.0
         told = numbers_in(sentence)
         loaded = float(result.loaded_share.sel(row=row))

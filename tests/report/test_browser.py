@@ -130,7 +130,7 @@ def test_the_slider_moves_the_rollers_to_their_places(opened, result):
         page.keyboard.press("ArrowRight")
     assert slider.input_value() == "7"
     moved = places(page)
-    assert all(one != other for one, other in zip(before, moved, strict=True))
+    assert all(old != other for old, other in zip(before, moved, strict=True))
     part = scene(result)
     assert page.locator("output").inner_text() == f"{float(part.time[7]):.2f} s"
     radius = 1e3 * Bearing.read("skf-240-600-bc").pitch_radius
@@ -212,13 +212,13 @@ def test_a_chosen_roller_has_its_traces_and_a_trace_moves_time(opened, result):
 def test_colour_follows_the_choice(opened):
     page = opened()
     colours = "all => all.map(one => one.getAttribute('fill'))"
-    found = []
+    drawn_fills = []
     for choice in ("Slip", "Load", "Frictional power"):
         page.get_by_label("Rollers coloured by").select_option(label=choice)
         fills = page.eval_on_selector_all("circle.roller", colours)
-        assert all(re.fullmatch(r"rgb\(\d+,\d+,\d+\)", one) for one in fills)
-        found.append(tuple(fills))
-    assert len(set(found)) == 3
+        assert all(re.fullmatch(r"rgb\(\d+,\d+,\d+\)", fill) for fill in fills)
+        drawn_fills.append(tuple(fills))
+    assert len(set(drawn_fills)) == 3
 
 
 def test_everything_can_be_done_from_the_keyboard(opened):

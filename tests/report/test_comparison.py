@@ -48,8 +48,8 @@ def result(power=1.0, noise=0.0, *, osculation=0.97, sha="x", model="paper", see
     )  # fmt: skip
 
 
-def energies(found):
-    return found[found.quantity == ENERGY].reset_index(drop=True)
+def energies(comparison):
+    return comparison[comparison.quantity == ENERGY].reset_index(drop=True)
 
 
 def test_values_and_differences_are_those_by_hand():
@@ -74,7 +74,7 @@ def test_the_range_holds_the_true_difference_in_95_of_100_cases():
     held = 0
     for seed in range(100):
         rng = np.random.default_rng(seed)
-        one, other = result(1.0), result(1.0, osculation=0.98)
+        base, other = result(1.0), result(1.0, osculation=0.98)
         true = 0.02
         orbits = (
             other.orbit_energy * (1.0 + true)
@@ -83,7 +83,7 @@ def test_the_range_holds_the_true_difference_in_95_of_100_cases():
         other = other.assign(
             orbit_energy=orbits, energy=orbits.sum("orbit").transpose("row", "roller", "interface")
         )
-        energy = energies(compare(one, other))
+        energy = energies(compare(base, other))
         held += energy["low [%]"][1] <= 100.0 * true <= energy["high [%]"][1]
     assert 88 <= held <= 100
 
@@ -172,27 +172,27 @@ def study(better=0.8):
 
 def test_designs_of_a_study_are_compared_over_a_year():
     comparison = compare(study(), by="bearing")
-    one = energies(comparison)
-    assert one.design.tolist() == ["A", "B"] and one["difference [%]"][1] == pytest.approx(
+    rows = energies(comparison)
+    assert rows.design.tolist() == ["A", "B"] and rows["difference [%]"][1] == pytest.approx(
         -20.0, rel=1e-9
     )
     # All designs saw the same winds: of their scatter only that of the difference is left, a fifth of it.
-    assert one["high [%]"][1] - one["low [%]"][1] > 0.0
+    assert rows["high [%]"][1] - rows["low [%]"][1] > 0.0
     assert comparison.attrs["ranking"].startswith("B dissipates least")
     assert comparison.attrs["notes"][0].startswith(
         "The study has no weights: all its cases count alike"
     )
     # Without weights a year is the mean of the cases: 4.4/3 W of either row.
-    assert one.value[0] == pytest.approx(2.0 * 4.4 / 3.0 * YEAR, rel=1e-12)
+    assert rows.value[0] == pytest.approx(2.0 * 4.4 / 3.0 * YEAR, rel=1e-12)
 
 
 def test_a_key_of_a_case_without_a_dot_distinguishes_designs():
     labels = {"oil_supply": ("case", np.repeat(np.array(["0.5", "flooded"], dtype=object), 3))}
-    one = study().assign_coords(labels).assign_coords(bearing=("case", ["A"] * 6))
-    one.attrs["study"] = json.dumps(
+    labelled = study().assign_coords(labels).assign_coords(bearing=("case", ["A"] * 6))
+    labelled.attrs["study"] = json.dumps(
         {"variations": {"list": [{"oil_supply": 0.5}, {"oil_supply": "flooded"}]}}
     )
-    assert energies(compare(one)).design.tolist() == ["oil supply 0.5", "oil supply flooded"]
+    assert energies(compare(labelled)).design.tolist() == ["oil supply 0.5", "oil supply flooded"]
 
 
 @pytest.mark.parametrize(
@@ -211,7 +211,7 @@ def test_what_cannot_be_compared(call, message):
         call()
 
 
-def with_maps(one, places):
+def with_maps(dataset, places):
     """The result with maps of 1 J a cell of 1 mm² but for the first; 2 rollers leave it in 360 s, so 5 J/mm² an hour each."""
     energy = np.ones((2, 2, 4, 3, 1, 1))
     energy[0, 0, 0, 0] = places
@@ -223,7 +223,7 @@ def with_maps(one, places):
         "raceway": ["inner", "outer"],
         "cell_area": area,
     }
-    return one.assign(surface_energy=(over, energy)).assign_coords(around)
+    return dataset.assign(surface_energy=(over, energy)).assign_coords(around)
 
 
 def test_maps_have_one_scale_and_their_difference_another(monkeypatch):
@@ -233,12 +233,12 @@ def test_maps_have_one_scale_and_their_difference_another(monkeypatch):
     )
     results = {"a": with_maps(result(), 2.0), "b": with_maps(result(1.1, osculation=0.98), 8.0)}
     page = comparison_page(compare_results(results), results)
-    images = {one.get_title(loc="left"): one.images[0] for one in drawn}
+    images = {axes.get_title(loc="left"): axes.images[0] for axes in drawn}
     assert len(images) == 12 and page.count("<img") == 14
     assert {image.get_clim() for name, image in images.items() if "−" not in name} == {(0.0, 40.0)}
     less = {name: image for name, image in images.items() if name.endswith("\nb − a")}
-    assert {one.get_clim() for one in less.values()} == {(-30.0, 30.0)}
-    whole = {name: np.abs(one.get_array()).sum() for name, one in less.items()}
+    assert {image.get_clim() for image in less.values()} == {(-30.0, 30.0)}
+    whole = {name: np.abs(image.get_array()).sum() for name, image in less.items()}
     assert whole.pop("downwind row, inner raceway\nb − a") == pytest.approx(30.0) and not any(
         whole.values()
     )

@@ -49,7 +49,8 @@ def opening(page):
 def sentences(page):
     """The paragraphs of the opening, their white space as a browser shows it."""
     return [
-        " ".join(one.split()) for one in re.findall(r"<p[^>]*>(.*?)</p>", opening(page), re.DOTALL)
+        " ".join(paragraph.split())
+        for paragraph in re.findall(r"<p[^>]*>(.*?)</p>", opening(page), re.DOTALL)
     ]
 
 
@@ -72,18 +73,18 @@ def test_energies_and_powers_stand_further_down(page, result):
     for row in ("downwind", "upwind"):
         of_row = float(energy.sel(row=row))
         assert f"{of_row:.3g} J {row} ({of_row / seconds:.3g} W in the mean, " in told
-    place = result.peak_power.where(result.peak_power == result.peak_power.max(), drop=True)
-    where = "cage" if (interface := place.interface.item()) == "cage" else f"{interface} raceway"
+    highest = result.peak_power.where(result.peak_power == result.peak_power.max(), drop=True)
+    where = "cage" if (interface := highest.interface.item()) == "cage" else f"{interface} raceway"
     assert (
-        f"{float(place.max()):.3g} W, at the {where} of a roller of the {place.row.item()} row"
+        f"{float(highest.max()):.3g} W, at the {where} of a roller of the {highest.row.item()} row"
         in told
     )
     given = json.loads(result.attrs["input"])
     tags = [
-        one["tag"]
+        value["tag"]
         for part in ("bearing", "lubricant")
-        for one in given[part].values()
-        if isinstance(one, dict)
+        for value in given[part].values()
+        if isinstance(value, dict)
     ]
     assert (
         f"{tags.count('E')} of {len(tags)} values of bearing and lubricant are engineering estimates"
@@ -235,14 +236,14 @@ def test_scene_survives_the_way_to_the_page(result):
         ("slip", "roller_load", "power"), data["quantities"], (1e3, 1e-3, 1.0), strict=True
     ):
         codes = np.frombuffer(base64.b64decode(quantity["codes"]), "<u2").reshape(part[name].shape)
-        found = quantity["low"] + (quantity["high"] - quantity["low"]) * codes / 65534.0
+        decoded = quantity["low"] + (quantity["high"] - quantity["low"]) * codes / 65534.0
         expected = factor * part[name].values.astype(float)
         if quantity["logarithmic"]:
-            found, expected = 10.0**found, np.maximum(expected, LEAST_POWER)
-            np.testing.assert_allclose(found, expected, rtol=2e-4)
+            decoded, expected = 10.0**decoded, np.maximum(expected, LEAST_POWER)
+            np.testing.assert_allclose(decoded, expected, rtol=2e-4)
         else:
             np.testing.assert_allclose(
-                found, expected, atol=1.01 * (quantity["high"] - quantity["low"]) / 65534.0
+                decoded, expected, atol=1.01 * (quantity["high"] - quantity["low"]) / 65534.0
             )
             if name == "roller_load":
                 np.testing.assert_array_equal(codes == 0, expected == 0.0)
@@ -292,8 +293,8 @@ def test_the_first_screen_has_slip_before_a_line_for_every_criterion():
         "energy by mechanism and row" in whole
         and "Energy per area along the rollers of the downwind row" in whole
     )
-    page, (found, _) = opening(whole), lines(result)
-    assert sentences(whole) == [escape(one) for one in answer(result, found)]
+    page, (criteria, _) = opening(whole), lines(result)
+    assert sentences(whole) == [escape(sentence) for sentence in answer(result, criteria)]
     first = page.index("All rows of rollers, coloured by slip")
     assert (
         page.index("<p>")
@@ -304,17 +305,17 @@ def test_the_first_screen_has_slip_before_a_line_for_every_criterion():
         < page.index("<table")
     )
     table = page[page.index("<table") : page.index("</table>")]
-    assert table.count("<tr>") == 1 + len(found)
+    assert table.count("<tr>") == 1 + len(criteria)
     # Also where it is read as a card: every cell knows its heading.
-    assert table.count('data-heading="known to a factor of"') == len(found)
+    assert table.count('data-heading="known to a factor of"') == len(criteria)
     # What makes several criteria unsure is said once.
-    assert all(page.count(str(escape(one["how sure"]))) == 1 for one in found)
+    assert all(page.count(str(escape(line["how sure"]))) == 1 for line in criteria)
     with_bearing = still(result)
     power = in_window(result).power.sum("interface").max(("row", "roller"))
     assert float(with_bearing.time) == float(power.time[int(power.argmax("time"))])
-    one = result.sel(time=with_bearing.time, row="downwind", roller=14)
+    roller = result.sel(time=with_bearing.time, row="downwind", roller=14)
     assert float(with_bearing.slip.sel(row="downwind", roller=14)) == float(
-        1.0 - one.spin / one.spin_pure
+        1.0 - roller.spin / roller.spin_pure
     )
 
 
@@ -327,4 +328,4 @@ def test_panels_that_are_compared_share_their_scales():
     compared(
         lambda axes, most: drawn.append(axes.imshow([[0.0, most]]).axes), {"a": (1.0,), "b": (5.0,)}
     )
-    assert [one.images[0].get_clim() for one in drawn[2:]] == [(0.0, 5.0)] * 2
+    assert [axes.images[0].get_clim() for axes in drawn[2:]] == [(0.0, 5.0)] * 2

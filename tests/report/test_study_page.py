@@ -50,7 +50,10 @@ def section(page, name):
 
 def paragraphs(html):
     """Texts with white space as a browser shows it."""
-    return [" ".join(one.split()) for one in re.findall(r"<p[^>]*>(.*?)</p>", html, re.DOTALL)]
+    return [
+        " ".join(paragraph.split())
+        for paragraph in re.findall(r"<p[^>]*>(.*?)</p>", html, re.DOTALL)
+    ]
 
 
 def test_the_answer_counts_what_failed(page):

@@ -53,8 +53,10 @@ def test_numbers_stand_on_the_page(page, results):
     assert "Orbit and spin together" in page
     assert "Angular momentum closes to" in page
     for row in ("downwind", "upwind"):
-        place = {"row": row, "interface": "cage"}
-        energies = [float(one.energy.sel(place).mean("roller")) for one in (imposed, coupled)]
+        selection = {"row": row, "interface": "cage"}
+        energies = [
+            float(result.energy.sel(selection).mean("roller")) for result in (imposed, coupled)
+        ]
         assert f'class="number">{energies[1]:.4g}</td>' in page
         assert f'class="number">{energies[1] / energies[0]:.4g}</td>' in page
     assert f'class="number">{float(coupled.largest_pocket_force.max()):.4g}</td>' in page
@@ -64,11 +66,11 @@ def test_its_rows_are_told_by_its_own_motion(results):
     coupled = results["coupled"]
     window = in_window(coupled)
     sentences = answer(coupled)
-    assert [one.partition(":")[0] for one in sentences] == ["Downwind row", "Upwind row"]
+    assert [sentence.partition(":")[0] for sentence in sentences] == ["Downwind row", "Upwind row"]
     for row, sentence in zip(("downwind", "upwind"), sentences, strict=True):
-        one = window.sel(row=row)
-        ratio, pressed = (one.spin / one.spin_pure).values, one.roller_load.values > 0.0
-        told = [float(found) for found in re.findall(r"\d+\.?\d*", sentence)]
+        of_row = window.sel(row=row)
+        ratio, pressed = (of_row.spin / of_row.spin_pure).values, of_row.roller_load.values > 0.0
+        told = [float(number) for number in re.findall(r"\d+\.?\d*", sentence)]
         if pressed.any():
             assert told[0] == pytest.approx(100.0 * pressed.mean(), rel=0.05)
             assert told[1] == pytest.approx(abs(100.0 - 100.0 * ratio[pressed].mean()), rel=0.5)
@@ -83,9 +85,9 @@ def test_figures_show_what_the_result_holds(results):
     plot_force_by_position(axes, results["coupled"], "upwind")
     drawn = axes.lines[0].get_ydata()[:-1]
     # Once round and on to where it began, never back across the picture.
-    place = axes.lines[0].get_xdata()
-    assert (np.diff(place) > 0.0).all()
-    assert place[-1] - place[0] == pytest.approx(2.0 * np.pi)
+    angle = axes.lines[0].get_xdata()
+    assert (np.diff(angle) > 0.0).all()
+    assert angle[-1] - angle[0] == pytest.approx(2.0 * np.pi)
     wanted = results["coupled"].largest_force_by_position.sel(row="upwind").values
     assert drawn == pytest.approx(np.maximum(wanted, 0.1))
     axes = Figure().subplots()

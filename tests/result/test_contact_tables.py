@@ -41,11 +41,13 @@ def traced(request):
 
 
 def test_a_result_tells_the_errors_of_its_tables(traced):
-    found = traced.attrs
-    assert found["contact_evaluation"] == "tables" and (traced.status == Status.COMPLETED).all()
+    attributes = traced.attrs
+    assert (
+        attributes["contact_evaluation"] == "tables" and (traced.status == Status.COMPLETED).all()
+    )
     # The largest is that of rollers under a few newtons whose slip exceeds the ring's speed.
-    assert 0.0 < found["table_error_typical"] <= 1e-5 < found["table_error_worst"] < 1.0
-    assert found["table_size"] > 1e5
+    assert 0.0 < attributes["table_error_typical"] <= 1e-5 < attributes["table_error_worst"] < 1.0
+    assert attributes["table_size"] > 1e5
 
 
 def raceway_loads(model, row, angle):
@@ -64,18 +66,18 @@ def test_traction_all_the_way_round_is_that_of_the_laws(traced):
     """At every sample of the traces, by the laws' values and the sum over the patch; without rolling resistance."""
     models, angle = run_input(traced).models, position(traced).values
     for r, row in enumerate(traced.row.values.tolist()):
-        model, one = models[row], traced.isel(row=r)
-        loads, slip = raceway_loads(model, one, angle[r])[0], one.slip.values[0]
-        ring_speed = one.spin_pure.values[0] * model.radius
+        model, of_row = models[row], traced.isel(row=r)
+        loads, slip = raceway_loads(model, of_row, angle[r])[0], of_row.slip.values[0]
+        ring_speed = of_row.spin_pure.values[0] * model.radius
         for i, ring in enumerate(("inner", "outer")):
-            found, load = one.traction.sel(interface=ring).values[0], loads[..., i]
+            traction, load = of_row.traction.sel(interface=ring).values[0], loads[..., i]
             pressed = load > 0.0
             pull, lag, _, _ = tractions(
                 getattr(model.laws, ring), load[pressed], ring_speed[pressed], slip[pressed]
             )
             wanted = pull - lag
-            off = np.abs(np.abs(found[pressed]) - np.abs(wanted))
-            assert (found[~pressed] == 0.0).all()
+            off = np.abs(np.abs(traction[pressed]) - np.abs(wanted))
+            assert (traction[~pressed] == 0.0).all()
             assert np.median(off / np.maximum(np.abs(wanted), 1e-3)) < 1e-4, (row, ring)
             assert (off <= 2e-3 * np.abs(wanted) + 1e-6 * load[pressed] + 1e-3).all(), (row, ring)
 
@@ -111,9 +113,9 @@ def test_a_shaft_that_turns_round(model):
         time, np.array([1.5, -1.5, -1.0]), np.tile([0.0, -2e5, 1e5], (3, 1)), "made"
     )
     case = Case(loads=loads, laws=model, rollers=[0])
-    found, exact = simulate(case), simulate(replace(case, integrator=Radau(tolerance=1e-5)))
-    assert (found.status == Status.COMPLETED).all() and (exact.status == Status.COMPLETED).all()
-    total = found.energy.sum("interface") / exact.energy.sum("interface") - 1.0
+    result, exact = simulate(case), simulate(replace(case, integrator=Radau(tolerance=1e-5)))
+    assert (result.status == Status.COMPLETED).all() and (exact.status == Status.COMPLETED).all()
+    total = result.energy.sum("interface") / exact.energy.sum("interface") - 1.0
     assert float(abs(total).max()) < 1e-3
 
 

@@ -138,7 +138,7 @@ def test_two_rollers_tell_what_all_of_them_do(name, within):
     if name == "12B":
         loads = loads.window(0.0, 120.0)
     case = Case(loads=loads, laws=Laws.physical())
-    every, some = (damage(simulate(replace(case, rollers=one))) for one in ("all", [0, 14]))
+    every, some = (damage(simulate(replace(case, rollers=rollers))) for rollers in ("all", [0, 14]))
     for rate in ("pressure_slip_rate", "asperity_work_rate"):
         ratio = some[rate].max("station") / every[rate].max("station")
         outer = ratio.sel(row="downwind", surface="outer")
@@ -239,7 +239,8 @@ def test_free_orbits_change_the_criteria_little(result):
         loads=HubLoads.bundled("14B").window(0.0, 20.0), laws=Laws.physical(), temperature=323.15
     )
     imposed, free = (
-        damage(simulate(replace(case, dynamics=one))) for one in ("imposed-orbit", "whole-bearing")
+        damage(simulate(replace(case, dynamics=dynamics)))
+        for dynamics in ("imposed-orbit", "whole-bearing")
     )
     value = (free.value / imposed.value).sel(
         criterion=["entry_slide_roll_ratio", "friction_energy_rate"]
@@ -276,18 +277,18 @@ def test_entries_into_the_load_zone(result):
         # A transient is below what the same power gives for ever, and no entry is above the orbit's extreme.
         assert float(values.max()) <= float(interface) * (1 + 1e-9)
     at_least, at_most = (
-        criteria[f"entry_slide_roll_ratio_beyond_{one}"] for one in ("least", "most")
+        criteria[f"entry_slide_roll_ratio_beyond_{end}"] for end in ("least", "most")
     )
     assert (at_least <= at_most).all() and (at_most <= criteria.entry_rate.max()).all()
 
 
 def test_a_line_a_criterion_and_own_thresholds(result):
-    found, missing = lines(result)
+    rows, missing = lines(result)
     assert (
-        all(one["value"] >= 0.0 and one["how sure"].startswith("factor") for one in found)
-        and len(found) >= 7
+        all(row["value"] >= 0.0 and row["how sure"].startswith("factor") for row in rows)
+        and len(rows) >= 7
     )
-    assert not any("zero" in one for one in missing)
+    assert not any("zero" in sentence for sentence in missing)
     own = damage(result, thresholds={"entry_power_density": Threshold(2e6, "our rig")}).sel(
         criterion="entry_power_density"
     )
@@ -301,22 +302,22 @@ def test_a_line_a_criterion_and_own_thresholds(result):
 
 
 def test_what_was_not_kept_is_said_and_no_zero(result):
-    found, (sentence,) = lines(
+    rows, (sentence,) = lines(
         simulate(
             Case(loads=HubLoads.bundled("14B").window(0.0, 10.0), rollers=[0], laws=Laws.paper())
         )
     )
-    assert found == [] and "contact_details: true" in sentence
-    found, missing = lines(
+    assert rows == [] and "contact_details: true" in sentence
+    rows, missing = lines(
         simulate(Case(loads=HubLoads.bundled("parked-12").window(0.0, 20.0), rollers=[0]))
     )
-    assert not any("entry" in one["criterion"] for one in found) and any(
-        "No roller entered" in one for one in missing
+    assert not any("entry" in row["criterion"] for row in rows) and any(
+        "No roller entered" in sentence for sentence in missing
     )
     bare = simulate(thrust(20e3))
-    found, missing = lines(bare)
-    assert not any(one["criterion"].startswith("entry") for one in found) and any(
-        "No roller entered" in one for one in missing
+    rows, missing = lines(bare)
+    assert not any(row["criterion"].startswith("entry") for row in rows) and any(
+        "No roller entered" in sentence for sentence in missing
     )
 
 
@@ -334,9 +335,9 @@ def test_wear_without_asperities_names_the_law_to_choose():
     smooth = simulate(
         Case(loads=thrust(20e3).loads, laws=Laws.physical().but(asperities="none"), rollers=[0])
     )
-    found, missing = lines(smooth)
-    assert not any(one["criterion"] == "wear_time" for one in found) and any(
-        "masjedi-khonsari" in one for one in missing
+    rows, missing = lines(smooth)
+    assert not any(row["criterion"] == "wear_time" for row in rows) and any(
+        "masjedi-khonsari" in sentence for sentence in missing
     )
     with pytest.raises(InputError, match="masjedi-khonsari"):
         damage(smooth, wear_coefficients=[1e-17])

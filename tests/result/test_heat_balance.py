@@ -47,11 +47,11 @@ def test_power_that_falls_exponentially(beta):
 
 
 def test_a_better_cooled_bearing_is_colder_and_no_friction_leaves_it_at_ambient():
-    found = [
+    temperatures = [
         balance_temperature(lambda t: 3e5 / t, conductance, 288.15)
         for conductance in (40.0, 60.0, 80.0)
     ]
-    assert found[0] > found[1] > found[2] > 288.15
+    assert temperatures[0] > temperatures[1] > temperatures[2] > 288.15
     assert balance_temperature(lambda _: 0.0, 60.0, 288.15) == 288.15
 
 
@@ -144,8 +144,8 @@ def test_rings_in_the_steady_state_lose_what_they_get():
 
 
 def test_one_node_is_the_limit_of_rings_that_conduct_well():
-    one = Heat(conductance=60.0, ambient=293.15)
-    assert one.to_oil == 60.0
+    lumped = Heat(conductance=60.0, ambient=293.15)
+    assert lumped.to_oil == 60.0
     close = Heat(
         conductance=60.0, ambient=293.15, inner_mass=1.0, outer_mass=1.0, ring_conductance=1e9
     )

@@ -75,8 +75,8 @@ def test_an_interrupt_does_not_wait_for_the_roller_under_way(integrator, slow, t
             assert process.poll() is None
             before = psutil.Process(process.pid).cpu_times()
             process.send_signal(signal.SIGINT)
-            found, _ = process.communicate(timeout=60.0)
-            word, spent = found.split()
+            printed, _ = process.communicate(timeout=60.0)
+            word, spent = printed.split()
             assert word == "interrupted" and process.returncode == 0
             assert float(spent) - (before.user + before.system) < PROMISED
         finally:

@@ -87,27 +87,27 @@ def test_a_gripped_roller_spends_energy_where_its_weight_presses_on_the_cage():
 
 def test_power_is_force_times_slip(varying):
     radius = geometry.roller_radius(run_input(varying).bearing)
-    one = varying.sel(row="upwind", roller=9).isel(time=3500)
+    sample = varying.sel(row="upwind", roller=9).isel(time=3500)
     power = varying.power.sel(row="upwind", roller=9).isel(time=3500)
     assert float(power.sel(interface="inner")) == abs(
-        float(one.traction.sel(interface="inner")) * float(one.slip)
+        float(sample.traction.sel(interface="inner")) * float(sample.slip)
     )
     assert float(power.sel(interface="cage")) == pytest.approx(
-        abs(float(one.traction.sel(interface="cage")) * float(one.spin)) * radius
+        abs(float(sample.traction.sel(interface="cage")) * float(sample.spin)) * radius
     )
 
 
 def test_films_are_those_of_the_law(constant):
-    one = constant.isel(time=0).sel(row="downwind", roller=0)
+    sample = constant.isel(time=0).sel(row="downwind", roller=0)
     model = run_input(constant).models["downwind"]
     angle = np.radians(float(position(constant).isel(time=0).sel(row="downwind", roller=0)))
-    orbital = float(one.spin_pure) * model.radius / model.outer_radius
+    orbital = float(sample.spin_pure) * model.radius / model.outer_radius
     outward = model.weight_in_plane * np.cos(angle) + model.centrifugal * orbital**2
     outward = outward * model.cos_contact_angle + model.weight_along_axis * model.sin_contact_angle
-    load = float(one.roller_load) + max(outward, 0.0)
-    speed = abs(float(one.spin_pure + one.spin)) / 2 * model.radius
+    load = float(sample.roller_load) + max(outward, 0.0)
+    speed = abs(float(sample.spin_pure + sample.spin)) / 2 * model.radius
     thickness = float(model.laws.outer.film_thickness(load, speed))
-    assert float(one.film_thickness.sel(interface="outer")) == pytest.approx(thickness, rel=1e-9)
+    assert float(sample.film_thickness.sel(interface="outer")) == pytest.approx(thickness, rel=1e-9)
     orbit = orbit_profile(constant)["orbit"]
     ratio = (orbit.film_parameter / orbit.film_thickness).values
     np.testing.assert_allclose(

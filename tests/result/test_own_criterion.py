@@ -105,6 +105,6 @@ def test_a_file_is_all_that_a_criterion_takes(tmp_path):
     command = [sys.executable, str(program), str(folder), str(tmp_path / "study")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     assert done.returncode == 0, done.stderr
-    printed = {one["criterion"]: one for one in json.loads(done.stdout)["criteria"]}
+    printed = {row["criterion"]: row for row in json.loads(done.stdout)["criteria"]}
     assert printed["most_passes"]["reference"] == 7.0
     assert printed["most_passes"]["compared with"] == "your threshold: the test"

@@ -49,8 +49,8 @@ def test_bundled_loads_are_plausible():
     ],
 )
 def test_what_cannot_be_meant_so_is_told(force, speed, words):
-    (found,) = doubtful_loads(HubLoads.constant(force, MOMENT, speed, 1.0), BEARING)
-    assert words in found
+    (doubt,) = doubtful_loads(HubLoads.constant(force, MOMENT, speed, 1.0), BEARING)
+    assert words in doubt
 
 
 def _turned(angle):
@@ -87,8 +87,8 @@ def test_a_rotor_downwind_of_the_tower_is_asked_for():
 
 
 def test_without_a_bearing_a_rotor_is_neither_a_hundredweight_nor_a_ship():
-    (found,) = doubtful_loads(HubLoads.constant((164.0, -2.0, -263.0), MOMENT, 2.14, 1.0))
-    assert found.startswith("the rotor weighs 0.263 kN, and rotors weigh 5 to 10,000 kN")
+    (doubt,) = doubtful_loads(HubLoads.constant((164.0, -2.0, -263.0), MOMENT, 2.14, 1.0))
+    assert doubt.startswith("the rotor weighs 0.263 kN, and rotors weigh 5 to 10,000 kN")
 
 
 def test_a_rating_by_an_estimated_c_is_told():
@@ -121,10 +121,10 @@ def test_loads_in_another_unit_show_in_the_result():
     case = Case(
         loads=BearingLoads.constant([0.0, -300.0, 60.0], 2.1, 0.5), laws=Laws.paper(), rollers=[0]
     )
-    found = " ".join(doubtful_result(with_rating(simulate(case), case)))
+    doubts = " ".join(doubtful_result(with_rating(simulate(case), case)))
     assert (
-        "the static safety is" in found
-        and "below the minimum that the maker requires for 100 % of the time" in found
+        "the static safety is" in doubts
+        and "below the minimum that the maker requires for 100 % of the time" in doubts
     )
     pressed = with_rating(simulate(case), case)
     pressed["largest_pressure"] = pressed.largest_pressure + 5e9
@@ -144,7 +144,7 @@ def test_films_that_carry_what_the_rings_do_not_know_are_told(load, doubted):
         contact_details=False,
     )
     result = simulate(case)
-    assert any("films of oil carry" in one for one in doubtful_result(result)) == doubted
+    assert any("films of oil carry" in sentence for sentence in doubtful_result(result)) == doubted
     assert (result.mean_film_load.values > 0.0).all()
     everything = simulate(replace(case, rollers="all", laws=Laws.paper(), traces=Traces(step=0.02)))
     assert everything.attrs["mean_elastic_load"] == pytest.approx(

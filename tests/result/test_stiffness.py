@@ -34,17 +34,17 @@ def geometry(bearing, lubricant):
 def test_differences_of_the_balance_are_its_inverse(geometry):
     """The compliance, from balances under slightly different loads, inverted."""
     angle = np.array([0.37])
-    found, _ = balance(geometry, angle, FORCE[None], np.zeros((1, 3)))
+    displacement, _ = balance(geometry, angle, FORCE[None], np.zeros((1, 3)))
     step = 50.0
     columns = []
     for axis in np.eye(3):
         ends = [
-            balance(geometry, angle, (FORCE + sign * step * axis)[None], found)[0][0]
+            balance(geometry, angle, (FORCE + sign * step * axis)[None], displacement)[0][0]
             for sign in (1.0, -1.0)
         ]
         columns.append((ends[0] - ends[1]) / (2.0 * step))
     compliance = np.array(columns).T
-    stiffness = tangent_stiffness(geometry, angle, found)[0]
+    stiffness = tangent_stiffness(geometry, angle, displacement)[0]
     assert np.abs(np.linalg.inv(compliance) - stiffness).max() < 1e-5 * stiffness.max()
     np.testing.assert_allclose(stiffness, stiffness.T, rtol=1e-12)
 
@@ -57,7 +57,7 @@ def test_all_five_degrees_of_freedom_of_tilted_rings(geometry, bearing):
     small against the approach there, which makes up for 1 % of the stiffness.
     """
     angle = np.array([0.37])
-    found, _ = balance(geometry, angle, FORCE[None], np.zeros((1, 3)))
+    displacement, _ = balance(geometry, angle, FORCE[None], np.zeros((1, 3)))
     turn = geometry.orbit_ratio * angle[0]
     cosine = geometry.cosine * math.cos(turn) - geometry.sine * math.sin(turn)
     sine = geometry.sine * math.cos(turn) + geometry.cosine * math.sin(turn)
@@ -78,7 +78,7 @@ def test_all_five_degrees_of_freedom_of_tilted_rings(geometry, bearing):
         approach = np.maximum(np.linalg.norm(centres, axis=1) - radius - play, 0.0)
         return 0.4 * geometry.stiffness * (approach**2.5).sum()
 
-    at = np.append(found[0], [0.0, 0.0])
+    at = np.append(displacement[0], [0.0, 0.0])
     steps = np.array([1e-7] * 3 + [1e-6] * 2)
 
     def second(i, k):
@@ -93,7 +93,7 @@ def test_all_five_degrees_of_freedom_of_tilted_rings(geometry, bearing):
 
     differences = np.array([[second(i, k) for k in range(5)] for i in range(5)])
     stiffness = np.zeros((5, 5))
-    stiffness[:3, :3] = tangent_stiffness(geometry, angle, found)[0]
+    stiffness[:3, :3] = tangent_stiffness(geometry, angle, displacement)[0]
     # Contact normals that pass the centre at a tenth of the radius would have entries of a tenth.
     scale = stiffness.max() * np.outer(
         [1.0, 1.0, 1.0, radius, radius], [1.0, 1.0, 1.0, radius, radius]
@@ -125,8 +125,8 @@ def test_table_and_matrices_agree_and_have_units():
 
 def test_stiffness_grows_with_the_load():
     loads = {f"{scale}": case(FORCE * scale) for scale in (0.5, 1.0, 2.0)}
-    found = ring_stiffness(loads).sel(load="F_Y0", motion="d_Y0").stiffness.values[::3]
-    assert (np.diff(found) > 0.0).all()
+    diagonal = ring_stiffness(loads).sel(load="F_Y0", motion="d_Y0").stiffness.values[::3]
+    assert (np.diff(diagonal) > 0.0).all()
 
 
 def test_a_ring_that_is_not_held_is_marked():

@@ -65,9 +65,9 @@ def test_densities_times_areas_are_the_energies(turbulent):
     bearing = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing
     along = roller_energy_density(turbulent, bearing)
     area = math.pi * bearing.roller_diameter * bearing.roller_length / turbulent.sizes["station"]
-    found = (along * area * turbulent.sizes["roller"]).sum(("station", *SPLIT))
+    computed = (along * area * turbulent.sizes["roller"]).sum(("station", *SPLIT))
     expected = turbulent.energy.sel(interface=["inner", "outer"]).sum(("roller", "interface"))
-    np.testing.assert_allclose(found.values, expected.values, rtol=1e-9)
+    np.testing.assert_allclose(computed.values, expected.values, rtol=1e-9)
 
 
 def test_areas_add_up_to_the_raceway_between_its_edges(turbulent):
@@ -95,37 +95,39 @@ def test_the_outer_raceway_suffers_in_the_load_zone(weight):
 
 def test_the_power_over_the_angle_is_that_of_the_traces(weight):
     """Energy by sector from the trapezoid rule over finely sampled traces, placed by the known motion."""
-    one = weight.isel(row=0, roller=0)
-    time = one.time.values
+    weights = weight.isel(row=0, roller=0)
+    time = weights.time.values
     bearing = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing
     inner = bearing.pitch_radius - 0.5 * bearing.roller_diameter * math.cos(bearing.contact_angle)
     ratio = inner / (2.0 * bearing.pitch_radius)
     sectors = weight.sizes["angle"]
     for raceway, turning in (("outer", ratio), ("inner", ratio - 1.0)):
-        angle = float(one.start_angle) + turning * 2.1 * (time - time[0])
-        power = one.power.sel(interface=raceway).values
+        angle = float(weights.start_angle) + turning * 2.1 * (time - time[0])
+        power = weights.power.sel(interface=raceway).values
         inside = time[1:] > weight.attrs["window_start"]
         energy = (0.5 * (power[1:] + power[:-1]) * np.diff(time))[inside]
-        place = (
+        sector = (
             np.floor(0.5 * (angle[1:] + angle[:-1]) / (2 * math.pi) * sectors).astype(int) % sectors
         )[inside]
-        expected = np.bincount(place, weights=energy, minlength=sectors)
-        found = (
+        expected = np.bincount(sector, weights=energy, minlength=sectors)
+        computed = (
             weight.surface_energy.isel(row=0).sel(raceway=raceway).sum(("station", *SPLIT)).values
         )
         # A step is spread evenly by stages, so neighbouring sectors may exchange a little.
-        reached = np.abs(np.cumsum(found) - np.cumsum(expected)).max()
+        reached = np.abs(np.cumsum(computed) - np.cumsum(expected)).max()
         assert reached < 0.02 * expected.sum()
-        assert found.sum() == pytest.approx(expected.sum(), rel=5e-3)
+        assert computed.sum() == pytest.approx(expected.sum(), rel=5e-3)
 
 
 def test_the_sign_of_slip_follows_the_contour(weight):
     """Where a gripped roller touches in an arc, the middle slips one way and the ends the other."""
     by_sign = weight.surface_energy.isel(row=0).sum(("angle", "film_regime"))
     for raceway in ("inner", "outer"):
-        one = by_sign.sel(raceway=raceway)
-        share = one.sel(slip_sign="positive") / one.sum("slip_sign")
-        share = share.where(one.sum("slip_sign") > 1e-3 * one.sum("slip_sign").max(), drop=True)
+        energy = by_sign.sel(raceway=raceway)
+        share = energy.sel(slip_sign="positive") / energy.sum("slip_sign")
+        share = share.where(
+            energy.sum("slip_sign") > 1e-3 * energy.sum("slip_sign").max(), drop=True
+        )
         middle, ends = (
             float(share.sel(station=0.0, method="nearest")),
             share.isel(station=[0, -1]).values,
@@ -148,7 +150,7 @@ def test_film_regimes_follow_the_films(weight):
 def test_the_largest_power_per_area_is_that_of_the_orbits():
     loads = HubLoads.bundled("14B").window(0.0, 16.0)
     result = simulate(Case(loads=loads, laws=Laws.physical(), rollers=[0]))
-    found = (
+    largest = (
         result.surface_power_density.max(("angle", "station")).transpose("row", "raceway").values
     )
     expected = (
@@ -156,7 +158,7 @@ def test_the_largest_power_per_area_is_that_of_the_orbits():
     )
     assert result.sizes["orbit"] >= 1
     # The maps take the time before the first and after the last whole orbit too.
-    assert (found >= expected * (1.0 - 1e-12)).all() and (expected > 0.0).all()
+    assert (largest >= expected * (1.0 - 1e-12)).all() and (expected > 0.0).all()
 
 
 def test_thresholds_are_the_users(turbulent):

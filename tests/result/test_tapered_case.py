@@ -74,35 +74,36 @@ def test_least_preload_for_grip_of_all_rollers(arrangement, load, preload):
 @pytest.mark.slow
 def test_idle_rollers_slip_and_preloaded_ones_do_not():
     """Below grip a roller slows down between its load zones; above it every roller keeps rolling."""
-    found = {preload: simulate(case(preload=preload)) for preload in (0.0, 0.3e-3)}
-    assert all((one.status == 0).all() for one in found.values())
-    slipping = found[0.0].min_spin_ratio.sel(row="upwind").item()
+    by_preload = {preload: simulate(case(preload=preload)) for preload in (0.0, 0.3e-3)}
+    assert all((result.status == 0).all() for result in by_preload.values())
+    slipping = by_preload[0.0].min_spin_ratio.sel(row="upwind").item()
     assert slipping < 0.9
-    assert (found[0.3e-3].min_spin_ratio > 0.99).all()
+    assert (by_preload[0.3e-3].min_spin_ratio > 0.99).all()
     below = {
-        preload: one.rollers_below_grip.sel(row="upwind").item() for preload, one in found.items()
+        preload: result.rollers_below_grip.sel(row="upwind").item()
+        for preload, result in by_preload.items()
     }
     assert below[0.0] == pytest.approx(24.0, abs=1.5)
     assert below[0.3e-3] == 0.0
     # One load zone an orbit in the row that the thrust unloads; entries and maps know it.
     for preload, entries in ((0.0, 1.0), (0.3e-3, 0.0)):
-        result = found[preload]
+        result = by_preload[preload]
         assert result.sizes["orbit"] == 1
         assert (result.entries.sel(row="upwind") == entries).all()
         mapped = result.surface_energy.sum(("angle", "station", "slip_sign", "film_regime"))
         spent = result.energy.sel(interface=["inner", "outer"]).sum("roller")
         assert mapped.values == pytest.approx(spent.values, rel=1e-6)
-    assert float(damage(found[0.0]).sel(criterion="entry_slide_roll_ratio").value) > 0.05
-    assert float(damage(found[0.3e-3]).sel(criterion="wear_time").value) > 20.0
-    (sentence,) = [one for one in answer(found[0.3e-3]) if "preload" in one]
+    assert float(damage(by_preload[0.0]).sel(criterion="entry_slide_roll_ratio").value) > 0.05
+    assert float(damage(by_preload[0.3e-3]).sel(criterion="wear_time").value) > 20.0
+    (sentence,) = [line for line in answer(by_preload[0.3e-3]) if "preload" in line]
     assert "With 0.3 mm of preload, 0 downwind and 0 upwind of 34 rollers are in the" in sentence
     # Preload loads rollers of a light load far more than its equivalent load says.
     for force, is_said in ((L0[0], False), (L2[0], True)):
-        rated = with_rating(found[0.3e-3], case(force=force, preload=0.3e-3))
+        rated = with_rating(by_preload[0.3e-3], case(force=force, preload=0.3e-3))
         said = " ".join(doubtful_result(rated))
         assert ("know neither the preload" in said) == is_said
-    numbers = row_numbers(found[0.3e-3])[0]
-    assert numbers["rib"] == float(found[0.3e-3].rib_energy.sel(row="downwind")[0])
+    numbers = row_numbers(by_preload[0.3e-3])[0]
+    assert numbers["rib"] == float(by_preload[0.3e-3].rib_energy.sel(row="downwind")[0])
 
 
 @pytest.mark.slow
@@ -126,8 +127,8 @@ def test_wear_of_the_rib_is_that_of_its_asperities_energy():
         work = float(of_row.rib_asperity_energy.mean()) / pressed
         half_width = contact.hertz.semi_axis_across * float(of_row.largest_rib_force) ** (1 / 3)
         expected = 34 * 3.0 * work / (math.pi * half_width * 2.0 * math.pi * row.rib_radius)
-        found = float(of_row.rib_asperity_work.sel(rib_surface="rib"))
-        assert found == pytest.approx(expected, rel=0.01)
+        rib_work = float(of_row.rib_asperity_work.sel(rib_surface="rib"))
+        assert rib_work == pytest.approx(expected, rel=0.01)
     criteria = damage(result)
     faster = float(result.rib_asperity_work.max())
     years = float(criteria.sel(criterion="rib_wear_time").value)
@@ -178,26 +179,26 @@ def test_rib_variables_and_preload_of_a_result():
     assert float(warm.preload_change) == pytest.approx(0.151e-3, rel=0.01)
     assert float(warm.preload) == pytest.approx(0.351e-3, rel=0.01)
     share = tapered_geometry(MAIN).rib_share
-    found = tapered_ring_motion(case(temperature_difference=10.0))
-    largest = found.balance.rib_force.reshape(len(found.motion.time), 2, -1).max(axis=(0, 2))
+    history = tapered_ring_motion(case(temperature_difference=10.0))
+    largest = history.balance.rib_force.reshape(len(history.motion.time), 2, -1).max(axis=(0, 2))
     assert warm.largest_rib_force.values == pytest.approx(largest, rel=1e-6)
-    assert found.balance.rib_force == pytest.approx(share * found.balance.outer_load, rel=1e-5)
+    assert history.balance.rib_force == pytest.approx(share * history.balance.outer_load, rel=1e-5)
     assert (warm.rib_energy > 0.0).all()
     assert (warm.rib_peak_power >= 0.0).all()
     power = warm.rib_power.sel(time=slice(0.5 * ORBIT, None)).max("time")
     assert (power <= 1.001 * warm.rib_peak_power.max("orbit")).all()
     # By hand: a load of the balance in the trace of the solver.
-    place = found.balance.outer_load[:, 0]
+    first_roller = history.balance.outer_load[:, 0]
     traced = warm.roller_load.isel(row=0, roller=0)
-    expected = np.interp(traced.time, found.motion.time, place)
+    expected = np.interp(traced.time, history.motion.time, first_roller)
     assert traced.values == pytest.approx(expected, rel=2e-3)
 
 
 def test_a_gearbox_takes_a_part_of_the_moment():
     hub = HubLoads.constant([200e3, 0.0, -300e3], [0.0, 200e3, 50e3], SPEED, 1.0)
     alone, beside = (
-        tapered_ring_motion(case(loads=hub, drivetrain=one, window=Window()))
-        for one in (ALONE, Drivetrain(gearbox_stiffness=1e9, tilt=0.0))
+        tapered_ring_motion(case(loads=hub, drivetrain=drivetrain, window=Window()))
+        for drivetrain in (ALONE, Drivetrain(gearbox_stiffness=1e9, tilt=0.0))
     )
     assert beside.balance.outer_load.max() < alone.balance.outer_load.max()
     tilt = (
@@ -240,8 +241,8 @@ def test_refused_in_a_sentence(values, part):
 def test_a_drivetrain_serves_both_kinds_of_bearing():
     """Beside a bearing without moments the gearbox's support is determinate, whatever its stiffness."""
     forces = [
-        case(bearing=SPHERICAL, loads=HUB, drivetrain=one).ring_loads.force
-        for one in (Drivetrain(), Drivetrain(gearbox_stiffness=1e8))
+        case(bearing=SPHERICAL, loads=HUB, drivetrain=drivetrain).ring_loads.force
+        for drivetrain in (Drivetrain(), Drivetrain(gearbox_stiffness=1e8))
     ]
     np.testing.assert_array_equal(*forces)
     case(loads=HUB, drivetrain=Drivetrain(gearbox_stiffness=1e8))

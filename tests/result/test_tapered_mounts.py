@@ -36,8 +36,8 @@ def test_two_single_rows_carry_and_thrust_against_each_other():
         history = tapered_history(SMALL.replace(row_offset=0.03), OIL, loads, mount)
         if thrust == 0.0:
             assert float(history.outer_load.max()) == pytest.approx(1425.6, rel=0.02)
-        found = history.outer_load.isel(time=0).sum("roller").values * sine
-        assert found == pytest.approx(induced, rel=0.02)
+        carried = history.outer_load.isel(time=0).sum("roller").values * sine
+        assert carried == pytest.approx(induced, rel=0.02)
         assert list(history.row.values) == ["downwind", "upwind"]
 
 

@@ -58,8 +58,8 @@ def test_friction_of_every_kind_falls_with_temperature(by_temperature):
         sliding.append(float(loaded.energy.sum()))
         rolling.append(float(loaded.rolling_energy.sum()))
         power.append(bearing_friction_power(result))
-    for found in (sliding, rolling, power):
-        assert found == sorted(found, reverse=True)
+    for series in (sliding, rolling, power):
+        assert series == sorted(series, reverse=True)
     # Rolling resistance goes about with the viscosity's power 0.6 to 0.75: 1.27, 0.54 and 0.25 Pa
     # s.
     assert 0.5 < np.log(rolling[0] / rolling[2]) / np.log(1.27 / 0.2496) < 0.8
@@ -168,15 +168,15 @@ def growth(oil: float, conductance: float) -> float:
     ],
 )
 def test_rings_take_clearance_from_the_state_for_which_it_is_given(state, given, reference):
-    found = case(
+    warm = case(
         temperature="balance",
         heat=rings(100.0, clearance_temperature=given),
         bearing=bearing_with(2e-4, state),
     )
     for oil in (293.15, 308.15, 330.0):
         left = 2e-4 - growth(oil, 100.0) + growth(reference, 100.0)
-        assert operating_clearance(found, oil) == pytest.approx(left, rel=1e-12)
-        assert at_balance(found, oil).bearing.diametral_clearance == pytest.approx(left, rel=1e-12)
+        assert operating_clearance(warm, oil) == pytest.approx(left, rel=1e-12)
+        assert at_balance(warm, oil).bearing.diametral_clearance == pytest.approx(left, rel=1e-12)
 
 
 def test_rings_of_their_own_temperature_share_the_balance():
@@ -235,7 +235,9 @@ def rolling_power(clearance: float) -> float:
     bearing = bearing_with(clearance, "warm")
     model = prepare(case(bearing=bearing)).model
     contacts = (model.laws.inner, model.laws.outer)
-    stiffness = sum(one.interface.hertz.stiffness ** (-2.0 / 3.0) for one in contacts) ** -1.5
+    stiffness = (
+        sum(contact.interface.hertz.stiffness ** (-2.0 / 3.0) for contact in contacts) ** -1.5
+    )
     force = LOADS.force[0]
     start = np.concatenate([initial_angles(row, 28) for row in ("downwind", "upwind")])
     side = np.repeat([1.0, -1.0], 28) * np.sin(bearing.contact_angle)
@@ -271,7 +273,7 @@ def test_heat_of_a_preload_follows_from_the_loads_of_its_rollers():
     """50 um of preload add a third to the rolling power under these loads, 100 um double it."""
     orbit = 2.0 * np.pi / (2.143 * geometry.orbit_ratio(bearing_with(0.0, "warm")))
     loads = BearingLoads.constant(LOADS.force[0], shaft_speed=2.143, duration=2.000002 * orbit)
-    found, expected = [], []
+    heats, expected = [], []
     for clearance in (2e-4, -5e-5, -1e-4):
         result = simulate(
             Case(
@@ -282,10 +284,10 @@ def test_heat_of_a_preload_follows_from_the_loads_of_its_rollers():
             )
         )
         raceways = result.rolling_energy.sel(interface=["inner", "outer"])
-        found.append(28.0 * float(raceways.sum()) / orbit)
+        heats.append(28.0 * float(raceways.sum()) / orbit)
         expected.append(rolling_power(clearance))
     # Idle rollers add 1 %: their films share the play.
-    np.testing.assert_allclose(found, expected, rtol=0.03)
+    np.testing.assert_allclose(heats, expected, rtol=0.03)
     assert expected[1] / expected[0] == pytest.approx(1.35, abs=0.01)
-    assert found[1] / found[0] == pytest.approx(1.37, abs=0.02)
-    assert found[2] / found[0] == pytest.approx(2.05, abs=0.03)
+    assert heats[1] / heats[0] == pytest.approx(1.37, abs=0.02)
+    assert heats[2] / heats[0] == pytest.approx(2.05, abs=0.03)

@@ -265,17 +265,17 @@ def test_added_samples_keep_the_linear_loads(bearing, model, lubricant):
     assert standstill.time.tolist() == [0.0, 100.0]
 
 
-def oval_loads(found, bearing, d, shaft_angle=0.0):
+def oval_loads(geometry, bearing, d, shaft_angle=0.0):
     """Roller loads by the definition, places and waves written out."""
-    place = angles + found.orbit_ratio * shaft_angle
+    angle = angles + geometry.orbit_ratio * shaft_angle
     crest = bearing.out_of_round_angle or 0.0
     play = 0.5 * bearing.diametral_clearance
-    play = play + (bearing.out_of_round_second or 0.0) * np.cos(2 * (place - crest))
-    play = play + (bearing.out_of_round_third or 0.0) * np.cos(3 * (place - crest))
+    play = play + (bearing.out_of_round_second or 0.0) * np.cos(2 * (angle - crest))
+    play = play + (bearing.out_of_round_third or 0.0) * np.cos(3 * (angle - crest))
     n = np.column_stack(
-        [np.cos(place) * math.cos(ALPHA), np.sin(place) * math.cos(ALPHA), signs * math.sin(ALPHA)]
+        [np.cos(angle) * math.cos(ALPHA), np.sin(angle) * math.cos(ALPHA), signs * math.sin(ALPHA)]
     )
-    return n, found.stiffness * np.maximum(n @ d - play * math.cos(ALPHA), 0.0) ** 1.5
+    return n, geometry.stiffness * np.maximum(n @ d - play * math.cos(ALPHA), 0.0) ** 1.5
 
 
 @pytest.mark.parametrize(
@@ -324,11 +324,11 @@ def test_given_loads_of_a_balance_are_those_of_the_balance(bearing, model, lubri
     assert fine[at] == pytest.approx(known, rel=1e-9, abs=1e-6)
     # What a kernel makes of a roller's own motion: approach from displacement and place.
     for roller in (0, 3, 30):
-        one = own_motions(own, ring, motion)[roller]
-        place = angles[roller] + ring.orbit_ratio * motion.shaft_angle
+        roller_motion = own_motions(own, ring, motion)[roller]
+        angle = angles[roller] + ring.orbit_ratio * motion.shaft_angle
         radial = (
-            one.displacement[:, 0] * np.cos(place)
-            + one.displacement[:, 1] * np.sin(place)
+            roller_motion.displacement[:, 0] * np.cos(angle)
+            + roller_motion.displacement[:, 1] * np.sin(angle)
             - ring.radial_play
         )
         load = ring.stiffness * np.maximum(radial * ring.cos_contact_angle, 0.0) ** 1.5

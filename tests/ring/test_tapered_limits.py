@@ -38,9 +38,9 @@ def carried_by_the_outer_ring(ring, balance, bearing, angle):
     outwards = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=1)
     axial = np.array([0.0, 0.0, 1.0])
     normal = cosine * outwards + sine * ring.sign[:, None] * axial
-    place = (along * sine)[None, :, None] * outwards[:, None] + height[:, :, None] * axial
+    point = (along * sine)[None, :, None] * outwards[:, None] + height[:, :, None] * axial
     force = outer[:, :, None] * normal[:, None]
-    return force.sum(axis=(0, 1)), np.cross(place, force).sum(axis=(0, 1))
+    return force.sum(axis=(0, 1)), np.cross(point, force).sum(axis=(0, 1))
 
 
 direction = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
@@ -67,19 +67,19 @@ def test_every_finite_load_is_balanced_by_the_rollers(
     largest = 16e6 if bearing.name == MAIN.name else 0.3e6
     force = largest * 10.0**magnitude * np.array(along)
     moment = largest * 10.0**magnitude * bearing.pitch_radius * np.array(about[:2])
-    ring, found = solve(bearing, force, moment, angle)
+    ring, balance = solve(bearing, force, moment, angle)
     size = np.linalg.norm(force) + np.linalg.norm(moment) / bearing.pitch_radius
-    assert found.unbalanced[0] <= 1e-7 * size + 1e-4
-    assert np.isfinite(found.displacement).all()
-    held, turned = carried_by_the_outer_ring(ring, found, bearing, angle)
+    assert balance.unbalanced[0] <= 1e-7 * size + 1e-4
+    assert np.isfinite(balance.displacement).all()
+    held, turned = carried_by_the_outer_ring(ring, balance, bearing, angle)
     assert held == pytest.approx(force, abs=3e-5 * size + 0.02)
     assert turned[:2] == pytest.approx(moment, abs=(3e-5 * size + 0.02) * bearing.pitch_radius)
 
 
 def test_the_lowest_rollers_carry_a_light_load_with_much_play():
     """One of the row that has a roller below the shaft, two of the row half a pitch beside it."""
-    _, found = solve(MAIN.replace(preload=-1e-3), (0.0, -200.0, 0.0), (0.0, 0.0))
-    loads = found.outer_load[0].reshape(2, -1)
+    _, balance = solve(MAIN.replace(preload=-1e-3), (0.0, -200.0, 0.0), (0.0, 0.0))
+    loads = balance.outer_load[0].reshape(2, -1)
     carried = loads > 1e-3 * loads.max()
     assert carried.sum(axis=1).tolist() == [1, 2]
     assert loads[0].argmax() == 0  # at -90 degrees
@@ -102,7 +102,7 @@ def test_without_contact_angle_the_rollers_carry_what_those_of_a_cylindrical_bea
         **{key: getattr(MAIN, key) for key in keys}, outer_angle=angle, preload=0.0
     )
     load, moment = 1.3e6, -120e3
-    ring, found = solve(nearly, (0.0, -load, 0.0), (moment, 0.0))
+    ring, balance = solve(nearly, (0.0, -load, 0.0), (moment, 0.0))
 
     places = strip_places(MAIN.roller_length, ring.profile.size)
     profile = logarithmic_profile(places, MAIN.roller_length, MAIN.roller_diameter)
@@ -131,16 +131,16 @@ def test_without_contact_angle_the_rollers_carry_what_those_of_a_cylindrical_bea
     assert solution.success
     strips, _ = rollers(*(1e-5 * solution.x))
     expected = strips.sum(axis=1)
-    assert found.outer_load[0] == pytest.approx(expected, abs=1e-3 * expected.max())
-    assert found.displacement[0, 1] == pytest.approx(1e-5 * solution.x[0], rel=1e-3)
-    assert found.displacement[0, 3] == pytest.approx(1e-5 * solution.x[1], rel=1e-3)
+    assert balance.outer_load[0] == pytest.approx(expected, abs=1e-3 * expected.max())
+    assert balance.displacement[0, 1] == pytest.approx(1e-5 * solution.x[0], rel=1e-3)
+    assert balance.displacement[0, 3] == pytest.approx(1e-5 * solution.x[1], rel=1e-3)
 
 
 def test_finite_rotations_change_approaches_by_a_thousandth():
     """Rigid cones moved by the balance's displacements, without linearising anything."""
-    ring, found = solve(MAIN, *L1)
+    ring, balance = solve(MAIN, *L1)
     row = tapered_geometry(MAIN)
-    dx, dy, dz, turn_x, turn_y = found.displacement[0]
+    dx, dy, dz, turn_x, turn_y = balance.displacement[0]
     turned = Rotation.from_rotvec([turn_x, turn_y, 0.0])
     moved = np.array([dx, dy, dz])
     places = strip_places(MAIN.roller_length, ring.profile.size)
@@ -158,7 +158,7 @@ def test_finite_rotations_change_approaches_by_a_thousandth():
         radius = row.radius_at(places)[:, None, None]
         round_it = np.cos(eta)[:, None] * down + np.sin(eta)[:, None] * side
         local = places[:, None, None] * axis + radius * round_it
-        radial_v, axial_v, tilt_v = found.roller_motion[0, j]
+        radial_v, axial_v, tilt_v = balance.roller_motion[0, j]
         # A tilt turns the meridian plane as θY does at φ = 0: from s Z0 to the outside.
         roller_turn = Rotation.from_rotvec(tilt_v * np.cross(axial, out))
         shape = local.shape
@@ -173,7 +173,7 @@ def test_finite_rotations_change_approaches_by_a_thousandth():
         apex = row.apex_distance * math.cos(row.axis_angle)
         depth = cone[0] * (apex - sign * height) - cone[1] * from_axis
         exact = depth.max(axis=1)
-        pressed = strip_loads(ring, found, np.zeros(1), 0)[0][j]
+        pressed = strip_loads(ring, balance, np.zeros(1), 0)[0][j]
         linear = (pressed / ring.strip_coefficient) ** (1.0 / ring.strip_exponent)
         loaded = pressed > 0.0
         errors.extend(np.abs(exact - ring.profile - linear)[loaded])
@@ -190,7 +190,7 @@ def test_loose_rollers_do_not_hold_up_the_balance_of_a_history(preload):
     wave = 1.0 + 0.3 * np.sin(3.0 * time)
     force = np.outer(wave, L1[0])
     moment = np.outer(np.cos(2.0 * time), L1[1])
-    found = tapered_balance(ring, 1.2566 * time, force, moment)
+    balance = tapered_balance(ring, 1.2566 * time, force, moment)
     size = np.linalg.norm(force, axis=1) + np.linalg.norm(moment, axis=1) / bearing.pitch_radius
-    assert (found.unbalanced <= 1e-7 * size + 1e-4).all()
-    assert found.iterations[1:].mean() < 12.0
+    assert (balance.unbalanced <= 1e-7 * size + 1e-4).all()
+    assert balance.iterations[1:].mean() < 12.0

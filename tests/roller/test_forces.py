@@ -180,11 +180,11 @@ def test_a_shaft_that_turns_back_is_the_mirror_image(request, kind, angle, dx, d
 def test_rows_are_mirror_images(physical, slip):
     """But for the side to which the roller's axis tilts, which turns the sign of its skew moment."""
     at = a_station(3e4, 10.0)
-    one, other = (forces_of(physical[row], at, slip) for row in SIGNS)
-    np.testing.assert_array_equal(other["skew"], -one["skew"])
-    assert (one["skew"] != 0.0).all()
-    for name in set(one.dtype.names) - {"skew"}:
-        np.testing.assert_array_equal(other[name], one[name], err_msg=name)
+    downwind, other = (forces_of(physical[row], at, slip) for row in SIGNS)
+    np.testing.assert_array_equal(other["skew"], -downwind["skew"])
+    assert (downwind["skew"] != 0.0).all()
+    for name in set(downwind.dtype.names) - {"skew"}:
+        np.testing.assert_array_equal(other[name], downwind[name], err_msg=name)
     here, there = (
         powers_of(physical[row], at, forces_of(physical[row], at, slip), slip) for row in SIGNS
     )
@@ -268,19 +268,19 @@ PLACES = [
 @pytest.mark.parametrize(("at", "slip"), PLACES)
 def test_the_papers_forces_and_their_slope_in_high_precision(paper, at, slip):
     """Total derivative, with film and cage load following the slip; films are those of a table over loads and speeds."""
-    reference, found = Reference(), forces_of(paper["downwind"], at, slip)
+    reference, forces = Reference(), forces_of(paper["downwind"], at, slip)
     with mpmath.workdps(30):
         expected = reference(at, slip)
         for name, force in zip(("inner", "outer", "cage"), expected, strict=True):
-            assert found[name] == pytest.approx(float(force), rel=2e-7), name
+            assert forces[name] == pytest.approx(float(force), rel=2e-7), name
         step = mpmath.mpf(abs(slip)) * mpmath.mpf(10) ** -8
         slope = float(
             (sum(reference(at, slip + step)) - sum(reference(at, slip - step))) / (2 * step)
         )
-    scale = abs(slope) + abs(net(found)) / abs(slip)
-    assert found["slope"] == pytest.approx(slope, abs=1e-4 * scale)
-    assert found["cage_load"] == pytest.approx(
-        float(at["tangential"] + found["inner"] - found["outer"]), rel=1e-14
+    scale = abs(slope) + abs(net(forces)) / abs(slip)
+    assert forces["slope"] == pytest.approx(slope, abs=1e-4 * scale)
+    assert forces["cage_load"] == pytest.approx(
+        float(at["tangential"] + forces["inner"] - forces["outer"]), rel=1e-14
     )
 
 
@@ -292,7 +292,7 @@ def test_slopes_are_the_derivatives_of_all_forces(request, kind, load, slip):
     roller, at = request.getfixturevalue(kind)["downwind"], a_station(load, 8.0)
     change = 1e-7 * max(abs(slip), 1e-3)
     here, ahead, behind = (
-        forces_of(roller, at, one) for one in (slip, slip + change, slip - change)
+        forces_of(roller, at, nearby) for nearby in (slip, slip + change, slip - change)
     )
     scale = sum(abs(float(here[name])) for name in ("inner", "outer", "cage", "resistance")) / max(
         abs(slip), 1e-3
@@ -353,17 +353,17 @@ def test_what_the_rings_give_heats_the_contacts_or_drives_the_spin(
     forces = forces_of(roller, at, slip)
     surface = ring - slip
     given_by_rings, tilt = 0.0, math.sin(ALPHA)
-    for k, (name, place, up) in enumerate(
+    for k, (name, distance, up) in enumerate(
         (("inner", INNER_RADIUS, 1.0), ("outer", OUTER_RADIUS, -1.0))
     ):
         # Distance from the bearing axis: r~ − ζ sin α ± h cos α, the drop being towards the roller.
         pull = forces[name] + forces["lag"][k]
         torque = (
-            place * pull
+            distance * pull
             - tilt * forces["skew"][k]
             + up * math.cos(ALPHA) * RADIUS * forces["lag"][k]
         )
-        given_by_rings += ring / place * torque
+        given_by_rings += ring / distance * torque
     spent = powers_of(roller, at, forces, slip).sum()
     into_spin = surface * (forces["inner"] + forces["outer"] + forces["cage"])
     size = abs(spent) + abs(into_spin) + abs(given_by_rings)
@@ -408,8 +408,10 @@ def test_films_and_approach_fill_the_play(physical, play, body):
 def test_loads_are_continuous_where_play_ends_and_films_fade(physical):
     roller = physical["downwind"]
     dx = np.linspace(-3e-6, 4e-5, 1000) + 1e-4
-    found = np.array([station_of(roller, 0.0, now(RATED, (one, 0.0, 0.0))).tolist() for one in dx])
-    approach, elastic, inner = found[:, 1], found[:, 2], found[:, 3]
+    conditions = np.array(
+        [station_of(roller, 0.0, now(RATED, (shift, 0.0, 0.0))).tolist() for shift in dx]
+    )
+    approach, elastic, inner = conditions[:, 1], conditions[:, 2], conditions[:, 3]
     assert (np.diff(inner) > 0.0).all() and approach[0] < 0.0 < approach[-1]
     # The steepest change is that of the elastic load; where play ends nothing jumps.
     assert np.diff(inner).max() < 1.05 * np.diff(elastic).max()
@@ -424,10 +426,10 @@ def test_loads_are_continuous_where_play_ends_and_films_fade(physical):
 
 def test_films_carry_more_the_less_play_there_is_and_nothing_at_standstill(physical):
     body, tables = physical["downwind"].body[0], physical["downwind"].tables
-    found = [
+    loads = [
         shared_film_load(body, tables, play, 30.0, RING_SPEED) for play in (1e-6, 1e-5, 1e-4, 1e-3)
     ]
-    assert found == sorted(found, reverse=True) and found[-1] > 0.0
+    assert loads == sorted(loads, reverse=True) and loads[-1] > 0.0
     assert shared_film_load(body, tables, 1e-4, 30.0, 0.0) == 0.0
 
 
@@ -462,12 +464,12 @@ def test_a_play_beyond_the_reach_of_films_is_one_at_which_the_search_finds_none(
     for share in (0.5, 0.7, 0.9, 0.97, 1.0, 1.01, 2.0):
         for outward in (-200.0, -30.0, -7.0, -0.1, 0.0, 0.1, 7.0, 30.0, 200.0):
             for speed in (0.1 * RING_SPEED, RING_SPEED):
-                alone, found = (
+                alone, bounded = (
                     shared_film_load(body[0], roller.tables, share * reach.max(), outward, speed)
                     for body in (searched, roller.body)
                 )
-                assert found == pytest.approx(alone, rel=1e-9)
-                assert share < 1.0 or found == pytest.approx(1e-9)
+                assert bounded == pytest.approx(alone, rel=1e-9)
+                assert share < 1.0 or bounded == pytest.approx(1e-9)
 
 
 def test_an_idle_roller_lies_between_two_films(physical, dry):
@@ -482,7 +484,7 @@ def test_an_idle_roller_lies_between_two_films(physical, dry):
 
 def test_a_gripped_roller_makes_up_for_its_rolling_resistance(physical):
     roller, at = physical["downwind"], a_station(2e4)
-    slip = brentq(lambda one: net(forces_of(roller, at, one)), -0.05, 0.05, xtol=1e-16)
+    slip = brentq(lambda trial: net(forces_of(roller, at, trial)), -0.05, 0.05, xtol=1e-16)
     forces = forces_of(roller, at, slip)
     assert forces["resistance"] > 0.0  # against a motion along −x
     assert forces["inner"] + forces["outer"] + forces["cage"] == pytest.approx(
@@ -500,10 +502,11 @@ def test_oil_at_a_raceway_turns_nothing_about_the_bearing(load, slip):
     at = a_station(load)
     with_oil, without = forces_of(roller, at, slip), forces_of(bare, at, slip)
     mean = RING_SPEED - 0.5 * slip
-    for name, place in (("inner", INNER_RADIUS), ("outer", OUTER_RADIUS)):
+    for name, radius in (("inner", INNER_RADIUS), ("outer", OUTER_RADIUS)):
         law = getattr(models(Laws.paper().but(rolling="whole-film"))["downwind"].laws, name)
         conductance, resistance, _ = (
-            float(one) for one in light_contact(law.rolling, np.array(load), np.array(-mean))
+            float(component)
+            for component in light_contact(law.rolling, np.array(load), np.array(-mean))
         )
         assert with_oil[name] - without[name] == pytest.approx(
             conductance * slip, rel=1e-4, abs=1e-6
@@ -519,4 +522,4 @@ def test_oil_at_a_raceway_turns_nothing_about_the_bearing(load, slip):
             else geometry.outer_curvatures(BEARING)
         )
         assert push == pytest.approx(-2.0 / (curvature.rolling * RADIUS), rel=1e-9)
-        assert 2.0 * place + push * PITCH_RADIUS == pytest.approx(0.0, abs=1e-9)
+        assert 2.0 * radius + push * PITCH_RADIUS == pytest.approx(0.0, abs=1e-9)

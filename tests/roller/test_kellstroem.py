@@ -100,8 +100,8 @@ def forces(ring, friction, load, slip, skew, tilt, shift):
     shaft = np.array([0.0, math.sin(ALPHA), math.cos(ALPHA)])
     centre = BEARING.pitch_radius * np.array([0.0, math.cos(ALPHA), -math.sin(ALPHA)])
     at = np.stack([x, np.broadcast_to(y, x.shape), z], axis=-1)
-    place = at + centre + np.array([0.0, 0.0, shift])
-    relative = ring_rate * np.cross(shaft, place) - spin * np.cross(axis, at)
+    point = at + centre + np.array([0.0, 0.0, shift])
+    relative = ring_rate * np.cross(shaft, point) - spin * np.cross(axis, at)
     speed = np.hypot(relative[..., 0], relative[..., 2])
     limit, saturation = friction[0 if k < 0 else 1]
     size = limit * pressure * np.minimum(speed / (saturation * abs(SPEED - 0.5 * slip)), 1.0)
@@ -134,9 +134,9 @@ def balance(friction, load, skew):
         spin, axial, couple, _ = rows(unknowns)
         return [spin / (load * R), axial / load, couple / (load * R)]
 
-    found, _, status, message = fsolve(conditions, [0.5, 0.0, 0.0], full_output=True, xtol=1e-9)
+    solution, _, status, message = fsolve(conditions, [0.5, 0.0, 0.0], full_output=True, xtol=1e-9)
     assert status == 1, message
-    return rows(found)[3]
+    return rows(solution)[3]
 
 
 def package(load, saturation, inner, outer):
@@ -188,7 +188,7 @@ def test_rests_have_the_signs_and_sizes_of_two_coarse_derivations(saturation):
     first, second = SPECIFIED[saturation]
     for k, load in enumerate((2e4, 3.5e4, 5e4, 8e4)):
         _, moment = package(load, saturation, 0.05, 0.05)
-        coarse = [one[k] for one in (first, second) if one is not None]
+        coarse = [estimates[k] for estimates in (first, second) if estimates is not None]
         rest = 1e3 * brentq(moment, -2e-3, 5e-3, xtol=1e-7)
         # Ten points miss the corner: their own difference, or a third of the size and .15 mrad.
         spread = max(max(coarse) - min(coarse), 0.15 + 0.33 * abs(coarse[0]))

@@ -68,7 +68,7 @@ def test_slope_of_all_forces_by_slip(made):
     at = station(300.0)
     step = 1e-6
     for slip in (-0.004, -0.01, -0.1):
-        low, high = (net_force(forces_at(roller, at, slip + one)) for one in (-step, step))
+        low, high = (net_force(forces_at(roller, at, slip + change)) for change in (-step, step))
         slope = float(forces_at(roller, at, slip)["slope"])
         assert slope == pytest.approx((high - low) / (2.0 * step), rel=1e-3)
 

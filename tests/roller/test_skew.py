@@ -35,7 +35,9 @@ def stable_rests(both, load, alignment=0.0):
 
     left = moment(ANGLES)
     places = np.flatnonzero((left[:-1] > 0.0) & (left[1:] < 0.0))
-    return [brentq(lambda one: float(moment(one)), *ANGLES[n : n + 2], xtol=1e-7) for n in places]
+    return [
+        brentq(lambda angle: float(moment(angle)), *ANGLES[n : n + 2], xtol=1e-7) for n in places
+    ]
 
 
 # Of films of 0.7 times the flooded thickness: net moment [N m], power of inner and outer raceway [W] and force on the inner ring [N], twice derived elsewhere.
@@ -66,14 +68,14 @@ def test_conditions_hold_with_contacts_where_the_roller_puts_them():
     both, load, skew = pair(), 5e4, 5e-3
     state = equilibrium(both, LAWS, load, SPEED, skew)
     tilt, shift, forces, couple = state.tilt, state.shift, 0.0, 0.0
-    for one in both:
-        k, r, bend = one.side, one.roller_radius, one.along
-        middle = (-k * tilt + bend * (shift + k * r * tilt)) / one.lateral
-        traction = resultants(one, load, SPEED, state.slip, skew, middle, tilt).axial
-        place = middle + shift + k * r * tilt
-        normal = np.array([-k * load, -load * bend * place])  # along y' and z'
+    for contact in both:
+        k, r, bend = contact.side, contact.roller_radius, contact.along
+        middle = (-k * tilt + bend * (shift + k * r * tilt)) / contact.lateral
+        traction = resultants(contact, load, SPEED, state.slip, skew, middle, tilt).axial
+        station = middle + shift + k * r * tilt
+        normal = np.array([-k * load, -load * bend * station])  # along y' and z'
         forces += traction + normal[1]
-        couple += k * r * (traction + normal[1]) - (place - shift) * normal[0]
+        couple += k * r * (traction + normal[1]) - (station - shift) * normal[0]
     assert forces == pytest.approx(0.0, abs=0.1)
     assert couple == pytest.approx(0.0, abs=0.01)
 

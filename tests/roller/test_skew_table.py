@@ -33,9 +33,13 @@ def test_the_table_gives_what_the_equilibrium_gives(table):
     random, pair, guide = np.random.default_rng(1), raceways(LAWS, BEARING, 1), guide_of(SPAR, 1)
     load = np.exp(random.uniform(math.log(2.5e3), math.log(16e3), 40))
     speed, push = -random.uniform(0.37, 0.42, 40), random.uniform(0.0, 60.0, 40)
-    found = np.array([turned(table, guide, *one) for one in zip(load, speed, push, strict=True)])
-    skew, held, inner, outer, axial, tilt, inner_moment, _, remains, shift, slip, *rough = found.T
-    exact, straight = (equilibrium(pair, LAWS, load, speed, one) for one in (skew, 0.0))
+    looked_up = np.array(
+        [turned(table, guide, *state) for state in zip(load, speed, push, strict=True)]
+    )
+    skew, held, inner, outer, axial, tilt, inner_moment, _, remains, shift, slip, *rough = (
+        looked_up.T
+    )
+    exact, straight = (equilibrium(pair, LAWS, load, speed, angle) for angle in (skew, 0.0))
     reach = LAWS.inner.interface.hertz.semi_axis_across * np.cbrt(load)
     assert (remains < 1e-5 * np.abs(inner_moment)).all()
     # What pulls either way is .04 Q: a rest is where two moments of that size are equal.
@@ -64,8 +68,14 @@ def test_a_rotor_that_stands_has_a_table():
 
 
 def test_a_straight_roller_has_nothing_added(table):
-    found = turned(table, held(0.0), 1e4, -0.4, 20.0)
-    assert (found.skew, found.inner_power, found.outer_power, found.axial, found.tilt) == (
+    straight = turned(table, held(0.0), 1e4, -0.4, 20.0)
+    assert (
+        straight.skew,
+        straight.inner_power,
+        straight.outer_power,
+        straight.axial,
+        straight.tilt,
+    ) == (
         0.0,
         0.0,
         0.0,
@@ -73,11 +83,11 @@ def test_a_straight_roller_has_nothing_added(table):
         0.0,
     )
     exact = equilibrium(raceways(LAWS, BEARING, 1), LAWS, 1e4, -0.4, 0.0)
-    assert found.held == pytest.approx(exact.moment, rel=0.02)
+    assert straight.held == pytest.approx(exact.moment, rel=0.02)
 
 
 def test_half_the_play_leaves_half_the_skew_and_a_quarter_of_what_goes_with_its_square(table):
-    whole, half = (turned(table, held(one), 1e4, -0.4, 0.0) for one in (1e-4, 0.5e-4))
+    whole, half = (turned(table, held(angle), 1e4, -0.4, 0.0) for angle in (1e-4, 0.5e-4))
     assert half.skew == pytest.approx(0.5 * whole.skew, rel=1e-12)
     assert half.axial == pytest.approx(0.5 * whole.axial, rel=0.03)
     # What is even in the skew, beside what tilt and shift add.

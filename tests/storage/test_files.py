@@ -82,7 +82,7 @@ def test_of_two_commands_with_one_new_output_one_succeeds(tmp_path):
         thread.join()
     assert sorted(ended.values()) == [False, True]
     assert ended[path.read_text()] is True
-    assert [one.name for one in tmp_path.iterdir()] == ["out.nc"]
+    assert [path.name for path in tmp_path.iterdir()] == ["out.nc"]
 
 
 def test_what_fails_leaves_the_old_file_and_nothing_else(tmp_path):
@@ -93,4 +93,4 @@ def test_what_fails_leaves_the_old_file_and_nothing_else(tmp_path):
     ):
         temporary.write_text("half")
         raise ZeroDivisionError
-    assert [(one.name, one.read_text()) for one in tmp_path.iterdir()] == [("out.nc", "old")]
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("out.nc", "old")]

@@ -46,11 +46,11 @@ def test_a_comment_in_any_source_changes_every_key(copy, name):
 
 
 def test_a_new_a_renamed_and_a_tables_source_change_it(copy):
-    found = keys()
+    seen = keys()
     (copy / "contact" / "another.py").write_text("")
-    found |= keys()
+    seen |= keys()
     (copy / "contact" / "another.py").rename(copy / "contact" / "renamed.py")
-    found |= keys()
+    seen |= keys()
     (copy / "contact" / "numbers.csv").write_text("1,2\n")
-    found |= keys()
-    assert len(found) == 4 * 3
+    seen |= keys()
+    assert len(seen) == 4 * 3

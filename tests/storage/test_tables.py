@@ -18,7 +18,7 @@ from macroslip.storage import tables as store
 
 
 @pytest.fixture
-def place(tmp_path, monkeypatch):
+def folder(tmp_path, monkeypatch):
     """An empty store on the disk, and no tables in memory."""
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     forget(monkeypatch)
@@ -38,24 +38,26 @@ def forget(monkeypatch):
     monkeypatch.setattr(store, "_in_memory", store.LRUCache(1e9, getsizeof=store._size))
 
 
-def test_a_table_is_found_on_the_disk(place, monkeypatch):
+def test_a_table_is_found_on_the_disk(folder, monkeypatch):
     make = Maker()
     made = store.stored("ab12", make)
     forget(monkeypatch)
     stored = store.stored("ab12", make)
     assert make.count == 1 and len(stored) == 2
-    for one, other in zip(stored, made, strict=True):
-        np.testing.assert_array_equal(one, other)
-        assert one.dtype == other.dtype and not one.flags.writeable and not other.flags.writeable
+    for array, other in zip(stored, made, strict=True):
+        np.testing.assert_array_equal(array, other)
+        assert (
+            array.dtype == other.dtype and not array.flags.writeable and not other.flags.writeable
+        )
 
 
 @pytest.mark.parametrize(
     "damage", [lambda c: c[:-1], lambda c: c[:500] + b"x" + c[501:], lambda c: b""]
 )
-def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
+def test_a_damaged_file_is_made_again(folder, monkeypatch, damage):
     make = Maker()
     store.stored("ab12", make)
-    path = place / "ab12.cache"
+    path = folder / "ab12.cache"
     path.write_bytes(damage(path.read_bytes()))
     forget(monkeypatch)
     store.stored("ab12", make)
@@ -64,14 +66,14 @@ def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
     assert make.count == 2
 
 
-def test_files_that_were_exchanged_are_made_again(place, monkeypatch):
+def test_files_that_were_exchanged_are_made_again(folder, monkeypatch):
     make = Maker()
     for key in ("ab12", "cd34"):
         store.stored(key, make)
-    one, other = place / "ab12.cache", place / "cd34.cache"
-    one.rename(place / "aside")
-    other.rename(one)
-    (place / "aside").rename(other)
+    first, other = folder / "ab12.cache", folder / "cd34.cache"
+    first.rename(folder / "aside")
+    other.rename(first)
+    (folder / "aside").rename(other)
     forget(monkeypatch)
     for key in ("ab12", "cd34"):
         store.stored(key, make)
@@ -79,7 +81,7 @@ def test_files_that_were_exchanged_are_made_again(place, monkeypatch):
 
 
 @pytest.mark.slow
-def test_processes_that_write_one_table_find_it_whole(place):
+def test_processes_that_write_one_table_find_it_whole(folder):
     code = (
         "import time, numpy as np\nfrom macroslip.storage import tables as store\n"
         "made = store.stored('ab12', lambda: (time.sleep(0.2), [np.arange(1e5)])[1])\n"
@@ -89,7 +91,7 @@ def test_processes_that_write_one_table_find_it_whole(place):
         subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) for _ in range(4)
     ]
     assert {process.communicate(timeout=60)[0] for process in started} == {b"4999950000\n"}
-    assert [path.name for path in place.glob("*.cache")] == ["ab12.cache"]
+    assert [path.name for path in folder.glob("*.cache")] == ["ab12.cache"]
     assert store._arrays(cache.read_cache("ab12"))[0].size == 10**5
 
 
@@ -122,45 +124,47 @@ def test_without_a_home_folder_nothing_is_written(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("kind", ["pipe", "folder"])
 @pytest.mark.timeout(60)
-def test_what_is_no_file_under_the_name_of_a_table_is_passed_by(place, kind):
-    path = place / "ab12.cache"
+def test_what_is_no_file_under_the_name_of_a_table_is_passed_by(folder, kind):
+    path = folder / "ab12.cache"
     os.mkfifo(path) if kind == "pipe" else path.mkdir()
     assert store.stored("ab12", Maker())[0].size == 1000
 
 
-def test_threads_make_a_table_once(place):
+def test_threads_make_a_table_once(folder):
     make = Maker()
     threads = [threading.Thread(target=store.stored, args=("ef56", make)) for _ in range(8)]
-    for one in threads:
-        one.start()
-    for one in threads:
-        one.join()
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
     assert make.count == 1
 
 
-def test_the_store_is_bounded(place, monkeypatch):
+def test_the_store_is_bounded(folder, monkeypatch):
     monkeypatch.setattr(cache, "_MOST_BYTES", 30_000)
     for number in range(8):
         store.stored(f"{number:04}", Maker())
-    files = list(place.glob("*.cache"))
+    files = list(folder.glob("*.cache"))
     assert 1 <= len(files) <= 3 and sum(path.stat().st_size for path in files) <= 30_000
 
 
 def test_keys_differ_with_any_value():
-    one = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1)
-    key = store.table_key(one.inner.fluid, 1.0, np.arange(3.0))
-    assert key == store.table_key(one.inner.fluid, 1.0, np.arange(3.0))
+    contacts = prepare(
+        Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1
+    )
+    key = store.table_key(contacts.inner.fluid, 1.0, np.arange(3.0))
+    assert key == store.table_key(contacts.inner.fluid, 1.0, np.arange(3.0))
     others = [
-        (one.inner.fluid, 1.0 + 1e-15, np.arange(3.0)),
-        (one.inner.fluid, 1.0, np.arange(3)),
-        (one.inner.fluid, 1.0, np.arange(3.0).reshape(3, 1)),
-        (one.inner.fluid._replace(heating=0.0), 1.0, np.arange(3.0)),
-        (one.inner.interface.hertz, 1.0, np.arange(3.0)),
+        (contacts.inner.fluid, 1.0 + 1e-15, np.arange(3.0)),
+        (contacts.inner.fluid, 1.0, np.arange(3)),
+        (contacts.inner.fluid, 1.0, np.arange(3.0).reshape(3, 1)),
+        (contacts.inner.fluid._replace(heating=0.0), 1.0, np.arange(3.0)),
+        (contacts.inner.interface.hertz, 1.0, np.arange(3.0)),
     ]
     assert len({key, *(store.table_key(*parts) for parts in others)}) == 6
 
 
-def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
+def test_a_damaged_table_of_a_contact_is_made_again(folder, monkeypatch):
     """A sheet of a raceway's traction, cut in the middle: the table is the same, and the file is whole again."""
     box = table_box(np.array([-0.41, -0.40]), 1e3, 2e-4)._replace(fineness=2.0)
     contact = prepare(
@@ -175,7 +179,7 @@ def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
 
     first = made()
     # Not the oil's table of stresses, which a process makes once.
-    sheets = [path for path in place.glob("*.cache") if path.stat().st_size < 500_000]
+    sheets = [path for path in folder.glob("*.cache") if path.stat().st_size < 500_000]
     assert len(sheets) >= 5
     sizes = [path.stat().st_size for path in sheets]
     for path, size in zip(sheets, sizes, strict=True):
@@ -184,7 +188,7 @@ def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
     assert [path.stat().st_size for path in sheets] == sizes
 
 
-def test_cases_share_their_sheets(place, monkeypatch):
+def test_cases_share_their_sheets(folder, monkeypatch):
     slower, faster = (
         table_box(np.array(speeds), 1e3, 2e-4)._replace(fineness=2.0)
         for speeds in ([-0.41, -0.3], [-0.43, -0.35])
@@ -196,5 +200,5 @@ def test_cases_share_their_sheets(place, monkeypatch):
     counts = []
     for box in (slower, faster):
         write_traction(np.zeros(1, TRACTION)[0], Tables(), contact, box)
-        counts.append(len(list(place.glob("*.cache"))))
+        counts.append(len(list(folder.glob("*.cache"))))
     assert counts[1] - counts[0] < 4

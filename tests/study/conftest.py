@@ -117,10 +117,10 @@ def _rows(directory, query):
 
 def _done(directory):
     """Keys of the results that are recorded; each is shown to be on the disk as it was stored."""
-    found = dict(_rows(directory, "SELECT key, detail FROM results"))
-    for key, detail in found.items():
+    details = dict(_rows(directory, "SELECT key, detail FROM results"))
+    for key, detail in details.items():
         assert checksum(case_path(Path(directory), key).read_bytes()) == detail
-    return set(found)
+    return set(details)
 
 
 def _identities(directory):

@@ -68,11 +68,11 @@ def test_every_result_was_computed_at_that_temperature(directory):
     assert (study.outcome == "completed").all()
     # The way there: the surroundings' temperature, 30 K above, and ever closer, each for both load histories.
     log = (directory / BALANCE_RUNS / "log.txt").read_text()
-    on_the_way = [float(one) for one in re.findall(r"temperature ([\d.]+): completed", log)]
+    on_the_way = [float(number) for number in re.findall(r"temperature ([\d.]+): completed", log)]
     assert {AMBIENT, AMBIENT + 30.0} <= set(on_the_way) and len(on_the_way) == 2 * len(
         set(on_the_way)
     ) >= 6
-    assert min(abs(one - float(study.temperature[0])) for one in on_the_way) < 0.2
+    assert min(abs(temperature - float(study.temperature[0])) for temperature in on_the_way) < 0.2
 
 
 def test_going_on_computes_nothing_again(directory):

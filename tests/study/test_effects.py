@@ -56,11 +56,11 @@ def test_effects_of_a_plane_are_its_slopes():
     # The second oil has ten times the energy: the ranks are those within each oil.
     assert effect.rank_correlation.values[0] > 0.99 and abs(effect.rank_correlation.values[1]) < 0.2
     assert effect.probability.values[0] < 1e-9 and int(effect.points) == 64
-    one = effects(sample(lambda x, y: 10.0 + 4.0 * x, ("a",)))
-    middle = one["range"].sel(quantity="energy", quantile=0.5)
+    table = effects(sample(lambda x, y: 10.0 + 4.0 * x, ("a",)))
+    middle = table["range"].sel(quantity="energy", quantile=0.5)
     assert (
         float(middle) == pytest.approx(2.0 * 12.0 * YEAR, rel=0.02)
-        and one.units.values[0] == "J/year"
+        and table.units.values[0] == "J/year"
     )
 
 
@@ -141,7 +141,7 @@ def test_designs_of_a_year_by_hand():
     np.testing.assert_allclose(table.basic_life, np.array([2e5, 1e5]) * covered / 0.495, rtol=1e-12)
     # What is not known is told, and no column of zeros.
     assert "wear" not in table and "entry_slip" not in table
-    assert any("wear at k = 1e-17 m²/N" in one for one in told)
+    assert any("wear at k = 1e-17 m²/N" in sentence for sentence in told)
     assert "Entries leave out 87.7 h a year in which no orbit is complete." in told
     assert design_names(annual) == ["a", "b"]
 
@@ -192,22 +192,22 @@ def test_rates_of_a_run_are_those_of_its_damage():
     loads = BearingLoads.constant([0.0, -300e3, 60e3], 2.1, 20.0)
     case = Case(loads=loads, laws=Laws.physical(), rollers=[0, 14], temperature=353.15)
     result = simulate(case)
-    found, criteria = damage_values(result), damage(result)
-    assert float(found["pressure_slip_rate"].max()) == float(
+    values, criteria = damage_values(result), damage(result)
+    assert float(values["pressure_slip_rate"].max()) == float(
         criteria.value.sel(criterion="friction_energy_rate")
     )
     # Of the time under load, as the criterion has it, to all time of a roller.
     seconds = 2.0 * (result.attrs["window_end"] - result.attrs["window_start"])
     loaded = result.film_slip_time.sum(["film_class", "slip_class"]) / seconds
     mixed = (criteria.mixed_time.sel(film_ratio=1.0) * loaded).max("raceway")
-    np.testing.assert_allclose(found["mixed_film_time"], mixed, rtol=1e-12)
-    assert float(found["mixed_film_time"].max()) > 0.01
+    np.testing.assert_allclose(values["mixed_film_time"], mixed, rtol=1e-12)
+    assert float(values["mixed_film_time"].max()) > 0.01
     # The first micrometre wears at about this rate: its growth follows a profile of slip that is fitted to the maps.
     first = criteria.wear_time.sel(depth=1e-6, wear_coefficient=1e-17).min("surface")
-    worn = (found["wear_rate"] * first / 1e-6).sel(row="downwind")
+    worn = (values["wear_rate"] * first / 1e-6).sel(row="downwind")
     assert float(worn) == pytest.approx(1.0, abs=0.2)
     # Without details nothing is known, and nothing is zero.
     without = damage_values(simulate(replace(case, contact_details=False)))
-    assert without.keys() == found.keys() and all(
-        bool(one.isnull().all()) for one in without.values()
+    assert without.keys() == values.keys() and all(
+        bool(value.isnull().all()) for value in without.values()
     )

@@ -94,9 +94,9 @@ def test_cycles_of_a_sine(amplitude, number):
     force = np.zeros((time.size, 3))
     force[:, 2] = 100e3 + amplitude * np.sin(2.0 * np.pi * number * time / 10.0)
     force[:, 1] = -300e3
-    found = counted(BearingLoads(time, np.full(time.size, 2.0), force, "a sine")).load_cycles
-    assert found.sel(component="radial").sum() == 0  # a constant has no cycle
-    axial = found.sel(component="axial")
+    cycles = counted(BearingLoads(time, np.full(time.size, 2.0), force, "a sine")).load_cycles
+    assert cycles.sel(component="radial").sum() == 0  # a constant has no cycle
+    axial = cycles.sel(component="axial")
     assert abs(float(axial.sum()) - number) <= 1.0
     largest = int(axial.argmax("load_range"))
     assert (
@@ -127,8 +127,8 @@ def test_cycles_against_the_example_of_the_standard():
 def test_tables_are_written_with_units(study, tmp_path, form):
     import pandas as pd
 
-    found = tables(study, Aggregation(Weibull(9.0, 2.0)))
-    written = write_tables(found, tmp_path, form)
+    sheets = tables(study, Aggregation(Weibull(9.0, 2.0)))
+    written = write_tables(sheets, tmp_path, form)
     assert {path.stem for path in written} == {
         "cases",
         "failures",

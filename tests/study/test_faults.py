@@ -67,9 +67,9 @@ FULL = "(No space left on device|database or disk is full).*--resume"
 @pytest.fixture
 def small_disk(tmp_path):
     """A file system of 400 kB."""
-    place = tmp_path / "disk"
-    place.mkdir()
-    command = ["mount", "-t", "tmpfs", "-o", "size=400k", "tmpfs", str(place)]
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", "size=400k", "tmpfs", str(disk)]
     if (
         shutil.which("mount") is None
         or subprocess.run(command, capture_output=True).returncode != 0
@@ -77,8 +77,8 @@ def small_disk(tmp_path):
         pytest.skip(
             "a file system may not be mounted here; test_a_disk_that_is_full_at_any_moment stands in for it"
         )
-    yield place
-    subprocess.run(["umount", "-l", str(place)], check=True)
+    yield disk
+    subprocess.run(["umount", "-l", str(disk)], check=True)
 
 
 def test_a_disk_that_is_really_full(small_disk, tmp_path, long_content, counted, done, resumed):
@@ -145,10 +145,10 @@ def test_a_damaged_row_is_found_and_only_its_run_computed_again(
     change(
         out, "UPDATE results SET energy_mean_upwind = energy_mean_upwind * 1.001 WHERE rowid = 2"
     )
-    found = open_study(out)
-    assert sorted(found.outcome.values) == ["completed"] * 3 + ["missing"] and "damaged" in "".join(
-        found.reason.values
-    )
+    opened = open_study(out)
+    assert sorted(opened.outcome.values) == ["completed"] * 3 + [
+        "missing"
+    ] and "damaged" in "".join(opened.reason.values)
     ended, simulated = resumed(study, out, counted)
     assert (simulated, ended.progress.unchanged) == (1, 3)
     assert "1 rows of the database are damaged" in (out / "log.txt").read_text()
@@ -236,10 +236,10 @@ def test_a_database_of_another_study_gives_it_no_results(
     tmp_path, load_files, content, counted, resumed
 ):
     """Results are asked for by keys that hold all of a case's input."""
-    one = study_of(content, load_files)
+    first = study_of(content, load_files)
     changed = {"case": content.get("case", {}) | {"forces": {"drag": False}}}
     other = study_of(content | changed, load_files)
-    for study, name in ((one, "one"), (other, "other")):
+    for study, name in ((first, "one"), (other, "other")):
         run_study(study, tmp_path / name)
     expected = open_study(tmp_path / "one").energy.values
     (tmp_path / "one" / "study.sqlite").write_bytes(
@@ -247,7 +247,7 @@ def test_a_database_of_another_study_gives_it_no_results(
     )
     with pytest.raises(InputError):
         open_study(tmp_path / "one").energy.load()
-    assert resumed(one, tmp_path / "one", counted)[1] == 4
+    assert resumed(first, tmp_path / "one", counted)[1] == 4
     np.testing.assert_array_equal(open_study(tmp_path / "one").energy.values, expected)
 
 

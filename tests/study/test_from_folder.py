@@ -44,9 +44,11 @@ def _labels(folder, study="study.yaml"):
     made = study_of_folder(folder, folder.parent / study)
     for path, text in made.texts.items():
         path.write_text(text, encoding="utf-8")
-    found = read_study(folder.parent / study)
-    assert [Path(found.path_of(load)).is_file() for load in found.loads.loads]
-    return {Path(load.name).name: dict(load.fields) for load in found.loads.loads}, made.remarks
+    study_file = read_study(folder.parent / study)
+    assert [Path(study_file.path_of(load)).is_file() for load in study_file.loads.loads]
+    return {
+        Path(load.name).name: dict(load.fields) for load in study_file.loads.loads
+    }, made.remarks
 
 
 @pytest.mark.parametrize(

@@ -40,12 +40,12 @@ def test_nothing_is_read_until_it_is_asked_for(directory, monkeypatch):
 
     module._result.cache_clear()
     monkeypatch.setattr(module, "read_result", watched)
-    one = study.isel(case=1)
+    case = study.isel(case=1)
     assert (study.energy_mean.notnull().sum("row") == 2).sum() == 4 and read == []
-    assert one.energy.shape == (2, 3, 3) and read == []
-    assert np.isfinite(one.energy.sel(roller=3).values).all() and len(read) == 1
+    assert case.energy.shape == (2, 3, 3) and read == []
+    assert np.isfinite(case.energy.sel(roller=3).values).all() and len(read) == 1
     assert (
-        one.orbit_energy.sel(roller=3).notnull().any() and len(read) == 1
+        case.orbit_energy.sel(roller=3).notnull().any() and len(read) == 1
     )  # kept for the next variable
     study.energy.sel(row="upwind").load()
     assert len(set(read)) == 4

@@ -122,7 +122,7 @@ def test_a_year_is_the_sum_over_bins_that_a_loop_makes():
     wind, celsius = months()
     turning = np.arange(9000) % 5 > 0
     study = made_up_study(weights=WEIGHTS)
-    found = real_year(turbine(wind, celsius, turning), study)
+    computed = real_year(turbine(wind, celsius, turning), study)
     binned = np.floor(celsius / 2.5 + 0.5) * 2.5
     events = 200.0 * SECONDS / YEAR + 400.0 * 3600.0 / YEAR
     wear = energy = 0.0
@@ -139,7 +139,7 @@ def test_a_year_is_the_sum_over_bins_that_a_loop_makes():
         seconds = 400.0 * 3600.0 * np.mean(binned[~turning] == at)
         wear += seconds * wear_rate(6.0, at, 5)
         energy += 1.3 * seconds * power(6.0, at, 5)
-    real = found.table.set_index("quantity")["real"]
+    real = computed.table.set_index("quantity")["real"]
     # Both are exponential in temperature, which PCHIP of the logarithm reproduces.
     assert real["wear"] == pytest.approx(wear, rel=1e-9)
     assert real["energy"] == pytest.approx(energy, rel=1e-9)
@@ -163,12 +163,12 @@ def test_bins_add_up_to_the_year():
     wind, celsius = months()
     turning = np.arange(9000) % 5 > 0
     study = made_up_study(weights={**WEIGHTS, "events": {"start-8": "0 per year"}})
-    found = real_year(turbine(wind, celsius, turning), study)
-    real = found.table.set_index("quantity")["real"]
-    assert found.bins["share"].sum() == pytest.approx(1.0, rel=1e-12)
-    assert found.bins["hours [h]"].sum() == pytest.approx(8766.0, rel=1e-12)
-    assert found.bins["energy [J]"].sum() == pytest.approx(real["energy"], rel=1e-9)
-    assert found.bins["wear [m]"].sum() == pytest.approx(real["wear"], rel=1e-9)
+    computed = real_year(turbine(wind, celsius, turning), study)
+    real = computed.table.set_index("quantity")["real"]
+    assert computed.bins["share"].sum() == pytest.approx(1.0, rel=1e-12)
+    assert computed.bins["hours [h]"].sum() == pytest.approx(8766.0, rel=1e-12)
+    assert computed.bins["energy [J]"].sum() == pytest.approx(real["energy"], rel=1e-9)
+    assert computed.bins["wear [m]"].sum() == pytest.approx(real["wear"], rel=1e-9)
 
 
 def test_seeds_scatter_as_the_two_runs_of_a_bin():
@@ -245,7 +245,7 @@ def test_bins_are_the_nearest_ones():
     values = np.linspace(-1.0, 30.0, 311)
     centres = np.array([4.0, 6.0, 12.0, 14.0])
     middle = np.floor(values / 2.0 + 0.5) * 2.0
-    expected = [int(np.argmin(np.abs(centres - one))) for one in middle]
+    expected = [int(np.argmin(np.abs(centres - wind))) for wind in middle]
     assert nearest_bins(values, centres, 2.0).tolist() == expected
 
 
@@ -265,10 +265,10 @@ def test_weights_of_a_study_keep_the_measured_year():
     stored = stored_weighting(study)
     means = weighted_study(study)
     aggregation = Aggregation(stored.year, 1.0, stored.field, stored.width)
-    found = designs(year(means, aggregation))[0].iloc[0]
+    weighted = designs(year(means, aggregation))[0].iloc[0]
     expected = real_year(turbine(wind, celsius), made_up_study(weights=WEIGHTS))
     for line in expected.table.to_dict("records"):
-        assert found[line["quantity"]] == pytest.approx(line["real"], rel=1e-9)
+        assert weighted[line["quantity"]] == pytest.approx(line["real"], rel=1e-9)
 
 
 def test_a_measured_year_excludes_other_winds():
@@ -289,7 +289,7 @@ def test_temperatures_by_wind_weight_the_runs():
     wear = means.wear_rate.sel(row="downwind").values
     expected = [wear_rate(4.0, 20.0, 0), wear_rate(8.0, 27.5, 1), wear_rate(8.0, 27.5, 2)]
     assert wear[:3] == pytest.approx(expected, rel=1e-9)
-    likely = np.array([Weibull(9.0, 2.0).probability(one, 4.0) for one in (4.0, 8.0, 12.0)])
+    likely = np.array([Weibull(9.0, 2.0).probability(wind, 4.0) for wind in (4.0, 8.0, 12.0)])
     mean = likely @ [20.0, 27.5, 40.0] / likely.sum()
     assert wear[4] == pytest.approx(wear_rate(8.0, mean, 4), rel=1e-9)
 
@@ -329,7 +329,7 @@ def test_each_bin_of_each_design_has_the_temperature_of_its_balance():
     assert means.sizes["case"] == 12
     assert means["case"].values.tolist() == list(range(12))
     winds = (4.0, 8.0, 12.0)
-    likely = np.array([Weibull(9.0, 2.0).probability(one, 4.0) for one in winds])
+    likely = np.array([Weibull(9.0, 2.0).probability(wind, 4.0) for wind in winds])
     for clearance in (0.0, 0.5):
         own = means.isel(
             case=np.flatnonzero(means["bearing.diametral_clearance"].values == clearance)

@@ -34,11 +34,11 @@ def test_results_are_those_of_simulate(tmp_path, load_files, content):
     for case in range(4):
         loads = BearingLoads.read(load_files / str(study.loads.values[case]))
         expected = simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0]))
-        one = study.isel(case=case)
+        of_case = study.isel(case=case)
         for name in ("energy", "min_spin_ratio", "status", "end_slip", "steps"):
-            np.testing.assert_array_equal(one[name].values, expected[name].values.astype(float))
+            np.testing.assert_array_equal(of_case[name].values, expected[name].values.astype(float))
         np.testing.assert_allclose(
-            one.energy_mean, expected.energy.sum("interface").mean("roller"), rtol=1e-14
+            of_case.energy_mean, expected.energy.sum("interface").mean("roller"), rtol=1e-14
         )
 
 
@@ -100,16 +100,16 @@ def test_equal_inputs_give_equal_bytes(tmp_path, monkeypatch, load_files, conten
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
     physical = content | {"case": {"rollers": [0], "loads": {"end": "0.4 s"}}}
     study = study_of(physical, load_files)
-    found = []
+    runs = []
     for name in ("cold", "warm", "remembered"):
         if name != "remembered":
             monkeypatch.setattr(tables, "_in_memory", tables.LRUCache(1e9, getsizeof=tables._size))
         run_study(study, tmp_path / name, threads=1)
-        found.append(
+        runs.append(
             {path.name: path.read_bytes() for path in (tmp_path / name).glob("cases/*/*.nc")}
         )
     assert list((tmp_path / "cache").rglob("*.cache"))
-    assert len(found[0]) == 4 and found[0] == found[1] == found[2]
+    assert len(runs[0]) == 4 and runs[0] == runs[1] == runs[2]
     attributes = next(stored_results(tmp_path / "cold"))[1].attrs
     assert not [name for name in attributes if "time" in name or "second" in name]
 
@@ -128,12 +128,12 @@ def test_results_one_by_one_are_whole(tmp_path, load_files, content):
     bad = content | {"models": {"base": {}, "refused": {"bearing.osculation_outer": 1.5}}}
     run_study(study_of(bad, load_files), tmp_path / "out")
     study = open_study(tmp_path / "out")
-    found = dict(stored_results(tmp_path / "out"))
+    results = dict(stored_results(tmp_path / "out"))
     assert (
-        sorted(found) == np.flatnonzero(study.outcome.values == "completed").tolist()
-        and len(found) == 4
+        sorted(results) == np.flatnonzero(study.outcome.values == "completed").tolist()
+        and len(results) == 4
     )
-    for number, result in found.items():
+    for number, result in results.items():
         np.testing.assert_array_equal(result.energy, study.energy.isel(case=number))
         assert json.loads(result.attrs["input"])["rollers"] == [0]
 
@@ -146,12 +146,12 @@ def test_the_torque_of_the_contacts_is_their_power_over_the_speed(tmp_path):
         }
     )
     run_study(study, tmp_path / "out")
-    one = open_study(tmp_path / "out").isel(case=0)
+    of_case = open_study(tmp_path / "out").isel(case=0)
     # Two rollers stand for 28 of each row; whole orbits take a whole part of the shaft's angle.
-    work = 14 * float(one.orbit_energy.sum())
-    seconds = float(one.orbit_end[-1] - one.orbit_start[0])
-    assert float(one.contact_torque) == pytest.approx(
-        work / seconds / float(one.shaft_speed_mean), rel=0.05
+    work = 14 * float(of_case.orbit_energy.sum())
+    seconds = float(of_case.orbit_end[-1] - of_case.orbit_start[0])
+    assert float(of_case.contact_torque) == pytest.approx(
+        work / seconds / float(of_case.shaft_speed_mean), rel=0.05
     )
 
 

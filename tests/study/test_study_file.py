@@ -287,8 +287,8 @@ def test_files_are_found_in_folders_and_above(tmp_path):
     for name in ("a/s1.csv", "a/b/s2.csv", "a/sX.csv", "c[1]/s3.csv", "c1/s4.csv"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
-    found, unread = Pattern("./a/**/s{seed:d}.csv").files(tmp_path)
-    assert found == [("a/b/s2.csv", {"seed": 2}), ("a/s1.csv", {"seed": 1})] and unread == [
+    files, unread = Pattern("./a/**/s{seed:d}.csv").files(tmp_path)
+    assert files == [("a/b/s2.csv", {"seed": 2}), ("a/s1.csv", {"seed": 1})] and unread == [
         "a/sX.csv"
     ]
     assert Pattern("c[1]/s{seed:d}.csv").files(tmp_path)[0] == [("c[1]/s3.csv", {"seed": 3})]
@@ -306,9 +306,9 @@ def test_wildcards_beside_each_other_are_one(tmp_path, text):
     (tmp_path / "runs" / "in").mkdir(parents=True)
     for name in ("runs/ab1.csv", "runs/in/ab2.csv"):
         (tmp_path / name).touch()
-    found, unread = Pattern(text).files(tmp_path)
+    files, unread = Pattern(text).files(tmp_path)
     both = ["runs/ab1.csv", "runs/in/ab2.csv"]
-    assert [name for name, _ in found] == (
+    assert [name for name, _ in files] == (
         sorted(both) if "**/" in text else both[:1]
     ) and unread == []
 
@@ -352,11 +352,11 @@ RANGES = {
 @pytest.mark.parametrize(("method", "count"), [("latin-hypercube", 12), ("sobol", 16)])
 def test_every_parameter_is_spread_evenly(method, count):
     points = Sample(method=method, count=count, seed=7, ranges=RANGES).points()
-    for place, position in (
+    for column, position in (
         (0, lambda x: (x - 2.0) / 4.0),
         (1, lambda x: (math.log10(x) + 6.0) / 4.0),
     ):
-        positions = np.array([position(point[place].value) for point in points])
+        positions = np.array([position(point[column].value) for point in points])
         # One point in each of as many equal parts.
         assert sorted(np.floor(positions * count).astype(int)) == list(range(count))
 

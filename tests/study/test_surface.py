@@ -32,7 +32,7 @@ def study(tmp_path_factory):
 
 def test_sums_are_the_lifetime_energy_of_the_raceways(study):
     maps = weighted_maps(study, Aggregation(CLASS_ONE, years=20.0))
-    found = maps.surface_energy.sum(
+    energy = maps.surface_energy.sum(
         ("raceway", "angle", "station", "slip_sign", "film_regime")
     ).isel(group=0)
     # One roller a row is simulated, so the mean over rollers is that roller; the cage is no raceway.
@@ -40,7 +40,7 @@ def test_sums_are_the_lifetime_energy_of_the_raceways(study):
     expected = lifetime_energy(raceways, Aggregation(CLASS_ONE, years=20.0)).lifetime_energy.isel(
         group=0
     )
-    np.testing.assert_allclose(found.values, expected.values, rtol=1e-9)
+    np.testing.assert_allclose(energy.values, expected.values, rtol=1e-9)
 
 
 def test_one_bin_that_is_always_there_is_the_mean_of_its_cases(study):
@@ -50,9 +50,9 @@ def test_one_bin_that_is_always_there_is_the_mean_of_its_cases(study):
     kinds = ("angle", "station", "slip_sign", "film_regime")
     even = per_pass * outer.surface_energy.sum(kinds) / per_pass.sum(kinds)
     expected = (even / outer.window_length).mean("case") * 365.25 * 86400.0
-    found = maps.surface_energy.isel(group=0).sel(raceway="outer")
+    density = maps.surface_energy.isel(group=0).sel(raceway="outer")
     np.testing.assert_allclose(
-        found.values, expected.transpose(*found.dims).values, rtol=1e-12, atol=0.0
+        density.values, expected.transpose(*density.dims).values, rtol=1e-12, atol=0.0
     )
 
 

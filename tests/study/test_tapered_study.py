@@ -34,7 +34,9 @@ def test_values_of_a_tapered_bearing_are_replaced():
         Setting("bearing.preload", 0.1, "mm"),
         Setting("bearing.rib.oil_supply", 0.2, ""),
     ]
-    bearing = replaced(read_bearing("tdo-main-bearing"), [one.checked() for one in settings])
+    bearing = replaced(
+        read_bearing("tdo-main-bearing"), [setting.checked() for setting in settings]
+    )
     assert (bearing.preload, bearing.rib_oil_supply) == (1e-4, 0.2)
     assert bearing.provenance["preload"].tag == "U"
 

@@ -31,14 +31,14 @@ def slow_content(long_content):
 
 def workers_of(process):
     """The worker processes of a study, those that started first in front."""
-    found = []
+    workers = []
     for child in psutil.Process(process.pid).children(recursive=True):
         try:
             if "spawn_main" in " ".join(child.cmdline()) and child.status() != psutil.STATUS_ZOMBIE:
-                found.append(child)
+                workers.append(child)
         except psutil.NoSuchProcess:
             continue
-    return sorted(found, key=lambda child: child.create_time())
+    return sorted(workers, key=lambda child: child.create_time())
 
 
 def kill_a_worker(process):
@@ -80,10 +80,10 @@ def test_processes_find_what_this_process_finds_and_listen_to_nobody(tmp_path, l
     assert (ended.progress.computed, ended.progress.failed) == (40, 0)
     assert seen == set() and max(count) == 2 and workers_of(psutil.Process()) == []
     run_study(study_of(long_content, tmp_path), tmp_path / "alone", threads=1)
-    several, one = open_study(tmp_path / "out"), open_study(tmp_path / "alone")
-    assert list(several.key.values) == list(one.key.values)
+    several, alone = open_study(tmp_path / "out"), open_study(tmp_path / "alone")
+    assert list(several.key.values) == list(alone.key.values)
     for name in ("energy", "peak_power", "energy_mean", "end_slip"):
-        np.testing.assert_array_equal(several[name].values, one[name].values)
+        np.testing.assert_array_equal(several[name].values, alone[name].values)
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,7 @@ def test_kills_lose_nothing(
         keys = done(out)  # compares every checksum
         assert reported <= len(keys) < runs_in_all
         after = identities(out)
-        assert all(after[name] == place for name, place in before.items())
+        assert all(after[name] == identity for name, identity in before.items())
         before = {f"{key}.nc": after[f"{key}.nc"] for key in keys}
     ended, simulated = resumed(study_of(content, tmp_path), out, counted)
     assert (simulated, ended.progress.unchanged) == (runs_in_all - len(keys), len(keys))
@@ -123,7 +123,7 @@ def test_kills_lose_nothing(
     assert (out / "log.txt").read_text().count(
         "a worker process has died; another takes over"
     ) >= 2 * rounds
-    assert all(identities(out)[name] == place for name, place in before.items())
+    assert all(identities(out)[name] == identity for name, identity in before.items())
 
 
 def test_processes_killed_as_they_start_are_no_missing_main_guard():
@@ -141,7 +141,7 @@ def test_processes_killed_as_they_start_are_no_missing_main_guard():
             for number in range(10):
                 task = {"run": f"{number}"}
                 pool.submit([task])
-                assert [(one["run"], str(found["outcome"])) for one, found in pool.wait()] == [
+                assert [(run["run"], str(outcome["outcome"])) for run, outcome in pool.wait()] == [
                     (f"{number}", "failed")
                 ]
         finally:

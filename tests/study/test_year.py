@@ -131,7 +131,7 @@ def test_bins_hold_what_their_probability_says():
             )
     # The weighted mean speed is the distribution's, 8.42 m/s.
     fine = np.arange(0.0, 60.0, 0.5)
-    mean = sum(weibull.probability(one, 0.5) * one for one in fine)
+    mean = sum(weibull.probability(wind, 0.5) * wind for wind in fine)
     assert mean == pytest.approx(weibull_min(2.0, scale=9.5).mean(), abs=0.005)
 
 

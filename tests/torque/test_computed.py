@@ -77,8 +77,8 @@ def test_microslip_is_felt_downwind_and_the_cage_under_the_papers_model():
         .mean("time")
         for laws in (physical.but(rolling="none"), physical, Laws.paper())
     ]
-    raceways = [one.sel(row="downwind", interface=["inner", "outer"]).sum() for one in mean]
-    cage = [one.sel(interface="cage").sum() for one in mean]
+    raceways = [torque.sel(row="downwind", interface=["inner", "outer"]).sum() for torque in mean]
+    cage = [torque.sel(interface="cage").sum() for torque in mean]
     assert raceways[0] > 100.0 * cage[0]
     # With rolling resistance the inclined pressure pushes the rollers against the cage, whose orbit is imposed.
     assert 100.0 * cage[1] > raceways[1] > cage[1]

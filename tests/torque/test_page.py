@@ -34,9 +34,9 @@ def test_numbers_of_the_base_bearing():
 @pytest.mark.slow
 def test_numbers_of_the_computed_torque():
     # Digits may turn over from one processor to the next.
-    found, shown = (re.findall(r"[\d.]+", text) for text in (printed(BLOCKS[1]), SHOWN[1]))
-    assert [float(one) for one in found] == pytest.approx(
-        [float(one) for one in shown], rel=5e-3, abs=0.011
+    computed, shown = (re.findall(r"[\d.]+", text) for text in (printed(BLOCKS[1]), SHOWN[1]))
+    assert [float(number) for number in computed] == pytest.approx(
+        [float(number) for number in shown], rel=5e-3, abs=0.011
     )
 
 

@@ -66,8 +66,8 @@ def test_a_case_of_a_turbine_says_what_is_assumed(name):
 
 
 def test_seats_are_those_of_the_published_turbine():
-    one, rear = Turbine.read("nrel5").drivetrain, Turbine.read("nrel5-rear").drivetrain
-    assert one == Drivetrain(
+    front, rear = Turbine.read("nrel5").drivetrain, Turbine.read("nrel5-rear").drivetrain
+    assert front == Drivetrain(
         hub_to_bearing=1.912,
         bearing_to_gearbox=3.107,
         shaft_mass=16.5e3,

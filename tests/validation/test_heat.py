@@ -76,7 +76,9 @@ def test_the_record_is_stretched_to_the_speed_of_the_point(monkeypatch):
     assert turns == pytest.approx(np.trapezoid(whole.shaft_speed, whole.time), rel=1e-6)
     assert loads.time[-1] > 1.4 * whole.time[-1]
     assert case.oil.inlet_temperature == pytest.approx(303.15) and case.oil_supply == "flooded"
-    assert heat_of_case == pytest.approx([0.5 * heat.SPEED * one for one in (100.0, 80.0, 60.0)])
+    assert heat_of_case == pytest.approx(
+        [0.5 * heat.SPEED * power for power in (100.0, 80.0, 60.0)]
+    )
 
 
 @pytest.mark.slow

@@ -11,8 +11,8 @@ PAGES = [DOCS / "measurements.md", DOCS / "notes" / "measurements.md"]
 PAGE = " ".join(" ".join(page.read_text(encoding="utf-8") for page in PAGES).split())
 
 
-def written(one, digits):
-    return f"{one.low:.{digits}f} to {one.high:.{digits}f}"
+def written(bounds, digits):
+    return f"{bounds.low:.{digits}f} to {bounds.high:.{digits}f}"
 
 
 @pytest.mark.slow
@@ -21,8 +21,8 @@ def test_friction_of_thrust_bearings(name):
     measured, computed, ratio = thrust_friction.torques(name, "eyring", thrust_friction.FAST)
     factor, mean = thrust_friction.needed_coefficient(name)
     inverse = type(factor)(1.0 / factor.high, 1.0 / factor.low)
-    for one, digits in ((measured, 3), (computed, 3), (ratio, 2), (mean, 1), (inverse, 2)):
-        assert written(one, digits) in PAGE
+    for bounds, digits in ((measured, 3), (computed, 3), (ratio, 2), (mean, 1), (inverse, 2)):
+        assert written(bounds, digits) in PAGE
 
 
 def test_coefficients_of_contacts():

@@ -12,8 +12,8 @@ pytestmark = pytest.mark.slow
     ("case", "at_30", "at_35", "at_40"), [("12B", 0.0, 0.82, 1.0), ("24B", 0.0, 0.44, 0.96)]
 )
 def test_films_become_mixed_between_30_and_40_degrees(case, at_30, at_35, at_40):
-    found = [regime.mixed_share(case, celsius, 0.7) for celsius in (30.0, 35.0, 40.0)]
-    assert found == pytest.approx([at_30, at_35, at_40], abs=0.01)
+    shares = [regime.mixed_share(case, celsius, 0.7) for celsius in (30.0, 35.0, 40.0)]
+    assert shares == pytest.approx([at_30, at_35, at_40], abs=0.01)
 
 
 def test_change_takes_three_kelvin_and_load_hardly_matters():

@@ -32,10 +32,12 @@ def test_replenishment_is_whole_at_rest_and_falls_with_speed_and_viscosity():
 @pytest.mark.slow
 def test_full_rolling_is_skfs_without_replenishment_over_a_factor_of_20_in_viscosity():
     cold, warm = (skf_parts.parts(temperature=at) for at in (skf_parts.COLD, skf_parts.WARM))
-    ratio = [one.rolling / one.skf_rolling for one in (cold, warm)]
+    ratio = [state.rolling / state.skf_rolling for state in (cold, warm)]
     assert ratio[0] == pytest.approx(1.37, abs=0.02)
     assert ratio[1] == pytest.approx(0.89, abs=0.02)
-    assert [one.replenishment for one in (cold, warm)] == pytest.approx([0.577, 0.974], abs=1e-3)
+    assert [state.replenishment for state in (cold, warm)] == pytest.approx(
+        [0.577, 0.974], abs=1e-3
+    )
     # Sliding falls with viscosity, and SKF's does not.
     assert warm.sliding / warm.skf_sliding < 0.37
     assert warm.skf_sliding > 0.99 * cold.skf_sliding

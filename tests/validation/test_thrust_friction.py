@@ -19,7 +19,7 @@ def test_crowned_roller_is_the_programs_patch():
     oil = friction.estimated("PAOR").at("75 degC")
     fluid = prepare_fluid(Laws.physical(), oil)
     speed, load = 60.0, 350.0
-    found = friction_torque(BEARING, oil, fluid, 20 * load, speed).sliding
+    sliding = friction_torque(BEARING, oil, fluid, 20 * load, speed).sliding
     contact = interface_of(BEARING, load, oil)
     hertz, washer = contact.hertz, 0.5 * speed * BEARING.pitch_radius
     # v = −s ζ with s/u2 = 1/R: the washer turns under the roller, and the contour has no drop.
@@ -35,7 +35,7 @@ def test_crowned_roller_is_the_programs_patch():
     parts = np.empty(4)
     patch_traction(patch, chord_table(fluid), load, film, 0.0, washer, 0.0, parts)
     power = -washer / BEARING.pitch_radius * parts[2]
-    assert found == pytest.approx(2 * 20 * power / speed, rel=2e-3)
+    assert sliding == pytest.approx(2 * 20 * power / speed, rel=2e-3)
 
 
 @pytest.mark.parametrize(("crowned", "arm"), [(False, 1.0 / 4.0), (True, 3.0 / 16.0)])
@@ -43,8 +43,8 @@ def test_friction_of_a_constant_coefficient_has_the_arm_of_the_profile(crowned, 
     # Rough enough for asperities to carry all: µ_b F times the mean distance from the roller's middle.
     bearing = BEARING._replace(crowned=crowned, roughness=2e-6)
     oil = friction.estimated("MINR").at("100 degC")
-    found = friction_torque(bearing, oil, prepare_fluid(Laws.physical(), oil), 7e3, 10.0).sliding
-    assert found == pytest.approx(0.05 * 7e3 * 4.2e-3 * arm, rel=1e-3)
+    sliding = friction_torque(bearing, oil, prepare_fluid(Laws.physical(), oil), 7e3, 10.0).sliding
+    assert sliding == pytest.approx(0.05 * 7e3 * 4.2e-3 * arm, rel=1e-3)
 
 
 def test_rebuilt_torque_is_the_catalogues_form():

@@ -113,7 +113,7 @@ def run(bearing, lubricant):
         times, box = np.linspace(0.0, span, outputs), box_for(prepared, motion, tolerance)
         for _ in range(4):
             assembly, _ = with_tables(prepared, box)
-            found = gather(
+            run = gather(
                 prepared,
                 assembly,
                 motion,
@@ -122,10 +122,10 @@ def run(bearing, lubricant):
                 tolerance=tolerance,
                 extrapolates=extrapolates,
             )
-            if found.status != OUTSIDE_TABLES:
+            if run.status != OUTSIDE_TABLES:
                 break
             box = larger(box)
-        return found
+        return run
 
     return simulate
 

@@ -66,7 +66,7 @@ def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
     def rate(_, y):
         phi, orbit, spin = y[:n], y[n : 2 * n], y[2 * n : 3 * n]
         cage_angle, cage_speed, a, b, p, q = y[3 * n : 3 * n + 6]
-        found = np.zeros_like(y)
+        derivative = np.zeros_like(y)
         torque, force_x, force_y = 0.0, 0.0, -prepared.cage_weight
         push, n_x, n_y, _, _ = guide_force(prepared.radial_play, a, b, p, q)
         force_x -= push * n_x
@@ -107,18 +107,18 @@ def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
             against = model.weight_in_plane * math.cos(phi[j]) + model.drag * orbit[j] * abs(
                 orbit[j]
             )
-            found[j] = orbit[j]
-            found[n + j] = (spar - against - at_inner[1] + at_outer[1]) / (mass * pitch)
-            found[2 * n + j] = (at_inner[0] + at_outer[0] + friction) / (0.5 * mass * r)
+            derivative[j] = orbit[j]
+            derivative[n + j] = (spar - against - at_inner[1] + at_outer[1]) / (mass * pitch)
+            derivative[2 * n + j] = (at_inner[0] + at_outer[0] + friction) / (0.5 * mass * r)
             torque -= spar * (pitch - a * cosine - b * sine) + r * math.cos(alpha) * friction
             force_x += spar * sine
             force_y -= spar * cosine
-            found[3 * n + 6 :] += [at_inner[2], at_outer[2], friction * sliding]
-        found[3 * n : 3 * n + 6] = [
+            derivative[3 * n + 6 :] += [at_inner[2], at_outer[2], friction * sliding]
+        derivative[3 * n : 3 * n + 6] = [
             cage_speed, torque / (prepared.cage_mass * pitch**2), p, q,
             force_x / prepared.cage_mass, force_y / prepared.cage_mass,
         ]  # fmt: skip
-        return found
+        return derivative
 
     return rate, start
 

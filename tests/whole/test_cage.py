@@ -70,5 +70,5 @@ def test_random_starts_are_seeded_and_within_the_pocket():
     ],
 )
 def test_axis_is_free_unless_pinned_or_without_weight(given, free, bearing, lubricant):
-    found = whole_bearing(bearing, lubricant, Cage(**given), tilt=0.1, laws=Laws.paper())
-    assert (found.translates, found.cage_weight > 0.0) == (free, given.get("weight", True))
+    assembly = whole_bearing(bearing, lubricant, Cage(**given), tilt=0.1, laws=Laws.paper())
+    assert (assembly.translates, assembly.cage_weight > 0.0) == (free, given.get("weight", True))

@@ -22,11 +22,11 @@ THRUST = (0.0, 0.0, 8.0e-4)
 FREE = (0.0, 0.0, 0.0)
 
 
-def assert_momentum_closes(found):
+def assert_momentum_closes(run):
     impulses = np.abs(
-        found.books.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]
+        run.books.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]
     ).max()
-    assert np.abs(found.books.momentum_residual()).max() < 1e-6 * impulses
+    assert np.abs(run.books.momentum_residual()).max() < 1e-6 * impulses
 
 
 @pytest.mark.parametrize("impact", ["squeeze-film", "dry"])

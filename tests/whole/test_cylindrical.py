@@ -64,12 +64,12 @@ def light():
 def test_its_file_is_read_as_one_row_of_crowned_rollers_on_straight_raceways():
     assert BEARING.rows == 1 and row_names(BEARING) == ("single",)
     assert Bearing.from_dict(BEARING.as_dict()) == BEARING
-    for one, sign in (
+    for curvatures, sign in (
         (geometry.inner_curvatures(BEARING), 1.0),
         (geometry.outer_curvatures(BEARING), -1.0),
     ):
-        assert one.lateral == pytest.approx(1.0 / 20.0)
-        assert one.rolling == pytest.approx(1.0 / 16e-3 + sign / (112.5e-3 - sign * 16e-3))
+        assert curvatures.lateral == pytest.approx(1.0 / 20.0)
+        assert curvatures.rolling == pytest.approx(1.0 / 16e-3 + sign / (112.5e-3 - sign * 16e-3))
     shape = contact_shape(BEARING, interfaces(BEARING, OIL)[0], 1, microslip=True)
     # A pressed contact bends half as much as the crown, and without contact angle nothing spins.
     assert shape.contour_radius == pytest.approx(40.0) and shape.spin_ratio == 0.0
@@ -78,15 +78,15 @@ def test_its_file_is_read_as_one_row_of_crowned_rollers_on_straight_raceways():
 def test_its_load_zone_carries_the_load_as_a_search_for_the_displacement_finds():
     model = roller_model(BEARING, OIL, 1, tilt=0.0)
     ring, angle = ring_geometry(BEARING, model), np.zeros(1)
-    place, _ = balance(ring, angle, np.array([[0.0, -50e3, 0.0]]), np.zeros((1, 3)))
-    found = roller_loads(ring, angle, place)[0]
+    displacement, _ = balance(ring, angle, np.array([[0.0, -50e3, 0.0]]), np.zeros((1, 3)))
+    loads = roller_loads(ring, angle, displacement)[0]
     below = -np.sin(-0.5 * np.pi + 2.0 * np.pi * np.arange(18) / 18)
 
     def load(drop):
         return model.stiffness * np.maximum(drop * below - 5e-5, 0.0) ** 1.5
 
     drop = brentq(lambda drop: load(drop) @ below - 50e3, 5e-5, 1e-3, xtol=1e-16)
-    assert found == pytest.approx(load(drop), rel=1e-8, abs=1e-3)
+    assert loads == pytest.approx(load(drop), rel=1e-8, abs=1e-3)
 
 
 @pytest.mark.slow
@@ -255,7 +255,7 @@ def test_its_lives_follow_from_the_loads_of_its_rollers():
 
         # Off the middle of a symmetric place the ring yields sideways a little; its part is below 1e-4.
         carried = roller_loads_at(brentq(unbalanced, 5e-5, 1e-3))
-        for name, found in lives.items():
+        for name, factors in lives.items():
             damage = 0.0
             for axis, scale, power, exponent in (
                 (semi_axes[0], share / 0.378 * (1.0 + ratio**4.5) ** (2.0 / 9.0), 4.0, 9.0 / 8.0),
@@ -274,9 +274,9 @@ def test_its_lives_follow_from_the_loads_of_its_rollers():
                     inside = reached[-1] - reached[0]
                     lamina[roller] = 30.0 * load * np.diff(reached) / inside
                 damage += np.mean(np.mean((0.83 * lamina / scale) ** power, axis=0) ** exponent)
-            found.append(damage ** (-8.0 / 9.0))
-    for name, found in lives.items():
-        life = 1e6 / np.mean(1.0 / np.array(found)) / turns_an_hour
+            factors.append(damage ** (-8.0 / 9.0))
+    for name, factors in lives.items():
+        life = 1e6 / np.mean(1.0 / np.array(factors)) / turns_an_hour
         assert float(rating.reference_life.sel(load_along_roller=name)) == pytest.approx(
             life, rel=2e-3
         )

@@ -75,8 +75,8 @@ TRAVEL = -orbital * pitch * X
 TURNING = orbital * sp.sin(alpha) * Y + omega * Z
 
 
-def about_axis(place, force):
-    return place.cross(force).dot(AXIS)
+def about_axis(point, force):
+    return point.cross(force).dot(AXIS)
 
 
 @pytest.mark.parametrize("side", [-1, 1], ids=["inner", "outer"])
@@ -88,7 +88,7 @@ def test_rolling_resistance_acts_on_roller_and_ring_with_opposite_torques_and_co
     Motion is counted along +x' at the inner raceway and along −x' at the outer one.
     """
     along = -side * X
-    place = CENTRE + side * r * Y
+    point = CENTRE + side * r * Y
     arm = pitch + side * r * sp.cos(alpha)
     ring_speed = 0 if side > 0 else shaft_speed
     relative = 1 / r - side * sp.cos(alpha) / arm
@@ -99,11 +99,11 @@ def test_rolling_resistance_acts_on_roller_and_ring_with_opposite_torques_and_co
     )  # the film has no mass: forces balance
 
     pull = shear * (1 - 2 * on_roller)
-    roller_torque = about_axis(place, shear * along) + about_axis(
+    roller_torque = about_axis(point, shear * along) + about_axis(
         CENTRE, -2 * shear * on_roller * along
     )
     # The push on the ring goes through the bearing's axis.
-    ring_torque = about_axis(place, shear * along)
+    ring_torque = about_axis(point, shear * along)
     assert sp.simplify(roller_torque + ring_torque) == 0
     assert (
         sp.simplify(roller_torque - side * (pitch * pull + side * r * sp.cos(alpha) * shear)) == 0
@@ -123,10 +123,10 @@ def test_rolling_resistance_in_a_pocket_acts_as_its_friction_does():
     """The film has no mass, so the cage gets the opposite of all that the roller gets; the push goes through its axis."""
     push = sp.symbols("P")
     for side in (-1, 1):
-        place, along = CENTRE + side * r * X, side * Y
-        moment = (place - CENTRE).cross(shear * along)
+        point, along = CENTRE + side * r * X, side * Y
+        moment = (point - CENTRE).cross(shear * along)
         assert moment == r * shear * Z
-        on_cage = -about_axis(place, shear * along) - about_axis(CENTRE, push * along)
+        on_cage = -about_axis(point, shear * along) - about_axis(CENTRE, push * along)
         assert sp.simplify(on_cage + r * sp.cos(alpha) * shear) == 0
         # Its forces along ±y' do no work on the centre, which travels along x'.
         power = moment.dot(TURNING) + on_cage * cage_speed

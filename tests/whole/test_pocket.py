@@ -47,7 +47,7 @@ def test_squeeze_film_of_a_gap_that_is_full_in_part_is_that_integral_over_the_oi
         0.106 * quad(pressure, -reach, reach, limit=200)[0], rel=1e-9
     )
     step = 1e-5 * film
-    above, below = (squeeze_resistance(SHORT, film + one)[0] for one in (step, -step))
+    above, below = (squeeze_resistance(SHORT, film + change)[0] for change in (step, -step))
     assert by_film == pytest.approx((above - below) / (2.0 * step), rel=1e-6)
 
 

@@ -47,11 +47,11 @@ def skewed():
     return simulate(case())
 
 
-def pressed(found, least=2e3):
+def pressed(result, least=2e3):
     """States of the downwind row's rollers under more than `least` [N], one after another."""
     names = ["roller_load", "skew_angle", "axial_force", "stop_force", "cage_force", "spin_pure"]
-    one = found[names].sel(row="downwind").stack(state=("roller", "time"))
-    return one.isel(state=np.flatnonzero(one.roller_load.values > least))
+    states = result[names].sel(row="downwind").stack(state=("roller", "time"))
+    return states.isel(state=np.flatnonzero(states.roller_load.values > least))
 
 
 def test_without_play_all_but_the_friction_of_the_ends_is_that_of_straight_rollers(straight):
@@ -94,19 +94,21 @@ def test_what_skew_adds_stands_beside_closed_books():
 
 def test_spar_and_ends_carry_what_the_contacts_leave(skewed):
     """By the contacts themselves, without the table, at rests on the way and at the stop."""
-    one, bearing = pressed(skewed), case().bearing
-    load, skew = one.roller_load.values, one.skew_angle.values
+    states, bearing = pressed(skewed), case().bearing
+    load, skew = states.roller_load.values, states.skew_angle.values
     laws, stop = (
         prepare(SKEWED, bearing, case().oil, 1),
         pocket(bearing, "conforming-pocket", 0.5e-3),
     )
-    speed = one.spin_pure.values * roller_radius(bearing)
+    speed = states.spin_pure.values * roller_radius(bearing)
     exact = equilibrium(raceways(laws, bearing, 1), laws, load, speed, skew)
     arm = np.minimum(stop.effective_radius * np.abs(skew), 0.5 * stop.arm)
-    borne = np.sign(skew) * (np.abs(one.cage_force.values) * arm + one.stop_force.values * stop.arm)
+    borne = np.sign(skew) * (
+        np.abs(states.cage_force.values) * arm + states.stop_force.values * stop.arm
+    )
     reach = laws.inner.interface.hertz.semi_axis_across * np.cbrt(load)
     assert (np.abs(exact.moment - borne) < 2e-3 * 0.04 * load * reach).all()
-    held = one.stop_force.values > 0.0
+    held = states.stop_force.values > 0.0
     assert 0.02 < held.mean() < 0.98
     assert np.abs(skew[held]) == pytest.approx(stop.largest, rel=1e-9) and np.abs(
         skew
@@ -121,15 +123,15 @@ def test_under_the_forces_of_an_imposed_orbit_rests_are_those_of_an_imposed_orbi
     np.testing.assert_allclose(
         ready.motion.displacement, other.motion.displacement, atol=1e-4 * scale
     )
-    one = pressed(simulate(imposed), 100.0)
-    raw = np.zeros(one.sizes["state"], END)
-    raw["elastic_load"], raw["cage_load"] = one.roller_load, one.cage_force
-    raw["outer_speed"] = one.spin_pure.values * roller_radius(whole.bearing)
+    states = pressed(simulate(imposed), 100.0)
+    raw = np.zeros(states.sizes["state"], END)
+    raw["elastic_load"], raw["cage_load"] = states.roller_load, states.cage_force
+    raw["outer_speed"] = states.spin_pure.values * roller_radius(whole.bearing)
     roller = with_tables(ready.models, ready.box)[0]["downwind"]
     skews = skewing(whole, ready.model.laws, ready.box)["downwind"]
     traces = SkewMeasures(skews, roller, 0.0).traces(raw)
     for name, size in (("skew_angle", 2e-5), ("axial_force", 1.0), ("stop_force", 0.02)):
-        np.testing.assert_allclose(traces[name], one[name], atol=size, err_msg=name)
+        np.testing.assert_allclose(traces[name], states[name], atol=size, err_msg=name)
 
 
 def test_spars_that_press_less_leave_rollers_to_their_stops(skewed):

@@ -83,13 +83,13 @@ def test_slopes_of_a_raceway(assembly, raceway, load, direction):
 
 def test_between_evaluations_forces_follow_the_slopes(assembly):
     linear = linearisations_at(assembly, 3e4, SPEED, SLIP)["inner"]
-    place = (3.003e4, 1.001 * SPEED, 1.001 * SLIP)
-    found = linearisations_at(assembly, *place)["inner"]
+    state = (3.003e4, 1.001 * SPEED, 1.001 * SLIP)
+    exact = linearisations_at(assembly, *state)["inner"]
     linear = SimpleNamespace(**{name: linear[name] for name in LINEARISATION.names or ()})
-    assert raceway_from(linear, *place) == pytest.approx(
-        (found["turning"], found["pull"]), rel=1e-4
+    assert raceway_from(linear, *state) == pytest.approx(
+        (exact["turning"], exact["pull"]), rel=1e-4
     )
-    assert shear_from(linear, *place) == pytest.approx(found["shear"], rel=1e-4)
+    assert shear_from(linear, *state) == pytest.approx(exact["shear"], rel=1e-4)
     assert raceway_from(linear, 0.0, SPEED, SLIP) == (0.0, 0.0)
 
 
