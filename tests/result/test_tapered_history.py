@@ -98,7 +98,7 @@ def test_a_tilted_roller_is_pressed_at_its_edge(history):
     assert straight.edge_share.values == pytest.approx(straight.edge_share.values[0], rel=1e-6)
     # The rib, through the centre of the sphere, moves the load a little from the middle.
     load = straight.pressure_along.isel(row=0) ** 2
-    assert abs(float((load * load.place).sum() / load.sum())) < 2e-3
+    assert abs(float((load * load.station).sum() / load.sum())) < 2e-3
     edges = tilted.edge_pressure / tilted.contact_pressure
     assert edges.max() > (straight.edge_pressure / straight.contact_pressure).max()
     assert tilted.edge_share.max() > 1.5 * straight.edge_share.max()

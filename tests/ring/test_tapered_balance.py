@@ -40,22 +40,22 @@ TABLE = [
 
 @pytest.mark.parametrize(("preload", "load", "expected"), TABLE)
 def test_extreme_roller_loads_are_those_of_an_independent_program(preload, load, expected):
-    _, found = solve(MAIN.replace(preload=preload * 1e-3), load)
-    loads = found.outer_load[0].reshape(2, -1) / 1e3
+    _, balance = solve(MAIN.replace(preload=preload * 1e-3), load)
+    loads = balance.outer_load[0].reshape(2, -1) / 1e3
     numbers = [loads[0].max(), loads[0].min(), loads[1].max(), loads[1].min()]
     assert numbers == pytest.approx(expected, rel=0.02, abs=0.2)
 
 
 def test_x_arrangement_is_loaded_more_by_a_moment():
-    _, found = solve(MAIN.replace(preload=0.4e-3, arrangement="X"), L1)
-    loads = found.outer_load[0].reshape(2, -1) / 1e3
+    _, balance = solve(MAIN.replace(preload=0.4e-3, arrangement="X"), L1)
+    loads = balance.outer_load[0].reshape(2, -1) / 1e3
     numbers = [loads[0].max(), loads[0].min(), loads[1].max(), loads[1].min()]
     assert numbers == pytest.approx((406.2, 0.0, 269.5, 19.5), rel=0.02, abs=0.2)
 
 
 def test_displacements_under_force_and_moment():
-    _, found = solve(MAIN, L1)
-    dy, dz, tilt = found.displacement[0, [1, 2, 3]] * 1e6
+    _, balance = solve(MAIN, L1)
+    dy, dz, tilt = balance.displacement[0, [1, 2, 3]] * 1e6
     assert (dy, dz, tilt) == pytest.approx((-41.61, 8.88, -219.1), rel=1e-3)
 
 
@@ -63,47 +63,47 @@ def test_displacements_under_force_and_moment():
     ("stiffness", "carried", "largest"), [(1e8, 46.2, 206.9), (1e9, 148.4, 158.5)]
 )
 def test_a_gearbox_takes_its_part_of_a_moment(stiffness, carried, largest):
-    _, found = solve(MAIN, L1, support=gearbox_support(stiffness, 3.0))
-    _, dy, _, turn_x, _ = found.displacement[0]
+    _, balance = solve(MAIN, L1, support=gearbox_support(stiffness, 3.0))
+    _, dy, _, turn_x, _ = balance.displacement[0]
     force = stiffness * (dy - 3.0 * turn_x)
     assert force / 1e3 == pytest.approx(carried, rel=0.02)
-    assert found.outer_load.max() / 1e3 == pytest.approx(largest, rel=0.02)
+    assert balance.outer_load.max() / 1e3 == pytest.approx(largest, rel=0.02)
 
 
 @pytest.mark.parametrize(("preload", "load"), [(0.1, 17.96), (0.2, 51.02), (0.4, 137.2)])
 def test_preload_alone_presses_every_roller_alike(preload, load):
-    _, found = solve(MAIN.replace(preload=preload * 1e-3), ((0.0, 0.0, 0.0), (0.0, 0.0)))
-    assert found.outer_load / 1e3 == pytest.approx(load, rel=0.005)
-    assert found.displacement == pytest.approx(0.0, abs=1e-12)
+    _, balance = solve(MAIN.replace(preload=preload * 1e-3), ((0.0, 0.0, 0.0), (0.0, 0.0)))
+    assert balance.outer_load / 1e3 == pytest.approx(load, rel=0.005)
+    assert balance.displacement == pytest.approx(0.0, abs=1e-12)
 
 
 def test_without_load_a_bearing_with_play_carries_nothing():
-    _, found = solve(MAIN.replace(preload=-0.2e-3), ((0.0, 0.0, 0.0), (0.0, 0.0)))
-    assert found.outer_load.max() == 0.0
-    assert found.displacement == pytest.approx(0.0, abs=1e-12)
+    _, balance = solve(MAIN.replace(preload=-0.2e-3), ((0.0, 0.0, 0.0), (0.0, 0.0)))
+    assert balance.outer_load.max() == 0.0
+    assert balance.displacement == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("bearing", [MAIN.replace(preload=-0.1e-3), SMALL])
 def test_thrust_alone_has_its_closed_form(bearing):
     row = tapered_geometry(bearing)
     thrust = 6000.0
-    _, found = solve(bearing, ((0.0, 0.0, thrust), (0.0, 0.0)))
+    _, balance = solve(bearing, ((0.0, 0.0, thrust), (0.0, 0.0)))
     outer = thrust / (bearing.rollers_per_row * math.sin(row.outer_angle))
     beta = row.half_cone_angle
     rib = outer * math.sin(2.0 * beta) / math.cos(row.rib_angle - beta)
     inner = outer - rib * math.sin(row.rib_angle) / math.cos(beta)
     carrying = slice(0, bearing.rollers_per_row)
-    assert found.outer_load[0, carrying] == pytest.approx(outer, rel=1e-6)
-    assert found.rib_force[0, carrying] == pytest.approx(rib, rel=1e-6)
-    assert found.inner_load[0, carrying] == pytest.approx(inner, rel=1e-6)
-    assert found.outer_load[0, bearing.rollers_per_row :].max() == 0.0
+    assert balance.outer_load[0, carrying] == pytest.approx(outer, rel=1e-6)
+    assert balance.rib_force[0, carrying] == pytest.approx(rib, rel=1e-6)
+    assert balance.inner_load[0, carrying] == pytest.approx(inner, rel=1e-6)
+    assert balance.outer_load[0, bearing.rollers_per_row :].max() == 0.0
 
 
 def test_a_pair_under_radial_load_thrusts_against_itself():
-    ring, found = solve(SMALL, ((0.0, -10e3, 0.0), (0.0, 0.0)))
-    assert found.outer_load.max() == pytest.approx(1425.6, rel=0.02)
+    ring, balance = solve(SMALL, ((0.0, -10e3, 0.0), (0.0, 0.0)))
+    assert balance.outer_load.max() == pytest.approx(1425.6, rel=0.02)
     sine = math.sin(tapered_geometry(SMALL).outer_angle)
-    induced = found.outer_load[0].reshape(2, -1).sum(axis=1) * sine
+    induced = balance.outer_load[0].reshape(2, -1).sum(axis=1) * sine
     assert induced == pytest.approx([1691.0, 1691.0], rel=0.02)
     _, pushed = solve(SMALL, ((0.0, -10e3, 3e3), (0.0, 0.0)))
     induced = pushed.outer_load[0].reshape(2, -1).sum(axis=1) * sine
@@ -113,7 +113,7 @@ def test_a_pair_under_radial_load_thrusts_against_itself():
 
 def test_rows_are_mirror_images():
     """Thrust the other way round, and moments likewise, exchange the rows."""
-    _, found = solve(MAIN, L1)
+    _, balance = solve(MAIN, L1)
     (fx, fy, fz), (mx, my) = L1
     # Rows are staggered by half a pitch: after that way each has the places of the other.
     half_pitch = math.pi / MAIN.rollers_per_row / tapered_geometry(MAIN).orbit_ratio
@@ -122,15 +122,15 @@ def test_rows_are_mirror_images():
         mirrored.outer_load[0, MAIN.rollers_per_row :], 1
     )
     assert mirrored.outer_load[0].reshape(2, -1)[::-1] == pytest.approx(
-        found.outer_load[0].reshape(2, -1), rel=1e-5, abs=1.0
+        balance.outer_load[0].reshape(2, -1), rel=1e-5, abs=1.0
     )
 
 
 def test_forces_of_the_outer_ring_balance_the_load_of_the_inner_one():
     """The outer ring holds all that the inner ring is loaded with, force and moment about the middle."""
-    ring, found = solve(MAIN, L1, angle=0.7)
+    ring, balance = solve(MAIN, L1, angle=0.7)
     row = tapered_geometry(MAIN)
-    _, outer = strip_loads(ring, found, np.array([0.7]), 0)
+    _, outer = strip_loads(ring, balance, np.array([0.7]), 0)
     angle = ring.angle + ring.orbit_ratio * 0.7
     force = np.zeros(3)
     moment = np.zeros(3)
@@ -144,11 +144,11 @@ def test_forces_of_the_outer_ring_balance_the_load_of_the_inner_one():
         axial = apex - sign * distance * math.cos(row.outer_angle)
         out = np.array([math.cos(phi), math.sin(phi), 0.0])
         for strip, load in enumerate(outer[roller]):
-            place = radius[strip] * out + np.array([0.0, 0.0, axial[strip]])
+            point = radius[strip] * out + np.array([0.0, 0.0, axial[strip]])
             normal = math.cos(row.outer_angle) * out
             normal = normal + np.array([0.0, 0.0, sign * math.sin(row.outer_angle)])
             force += load * normal
-            moment += np.cross(place, load * normal)
+            moment += np.cross(point, load * normal)
     # Strips are taken at the nominal place of the roller, and their sum follows to rounding.
     assert force == pytest.approx(L1[0], rel=1e-5, abs=10.0)
     assert moment[:2] == pytest.approx(L1[1], rel=1e-4, abs=50.0)
@@ -158,7 +158,7 @@ def test_a_general_minimiser_finds_no_lower_energy():
     """Π of few rollers and strips, written anew here, by BFGS."""
     few = SMALL.replace(rollers_per_row=4)
     load = ((1e3, -4e3, 2e3), (40.0, -30.0))
-    ring, found = solve(few, load, strips=21)
+    ring, balance = solve(few, load, strips=21)
     row = tapered_geometry(few)
     places = few.roller_length * ((np.arange(21) + 0.5) / 21 - 0.5)
     sine, cosine = math.sin(row.axis_angle), math.cos(row.axis_angle)
@@ -177,14 +177,14 @@ def test_a_general_minimiser_finds_no_lower_energy():
         def roller_at(r, z):
             return v[0] + v[2] * (z - station), v[1] - v[2] * (r - few.pitch_radius)
 
-        def place(zeta, eta):
+        def offset(zeta, eta):
             return (
                 few.pitch_radius + zeta * sine + eta * cosine,
                 station + sign * (-zeta * cosine + eta * sine),
             )
 
-        inner_at, outer_at = place(places, -radius), place(places, radius)
-        rib_at = place(row.rib_place, -row.rib_radius_on_roller)
+        inner_at, outer_at = offset(places, -radius), offset(places, radius)
+        rib_at = offset(row.rib_station, -row.rib_radius_on_roller)
         ring_in, roller_in = ring_at(*inner_at), roller_at(*inner_at)
         n_in = math.cos(row.inner_angle), sign * math.sin(row.inner_angle)
         n_out = math.cos(row.outer_angle), sign * math.sin(row.outer_angle)
@@ -210,10 +210,10 @@ def test_a_general_minimiser_finds_no_lower_energy():
             total += 0.4 * ring.rib_stiffness * max(rib, 0.0) ** 2.5
         return total
 
-    roller = found.roller_motion[0].copy()
+    roller = balance.roller_motion[0].copy()
     roller[:, 1:] *= ring.sign[:, None]
-    ours = energy(np.concatenate([found.displacement[0], roller.ravel()]) * 1e5)
-    start = np.concatenate([found.displacement[0], roller.ravel()]) * 1e5
+    ours = energy(np.concatenate([balance.displacement[0], roller.ravel()]) * 1e5)
+    start = np.concatenate([balance.displacement[0], roller.ravel()]) * 1e5
     start += np.random.default_rng(1).normal(0.0, 0.3, start.size)
     best = minimize(energy, start, method="BFGS", options={"maxiter": 800, "gtol": 1e-7})
     assert best.fun >= ours - 1e-7 * abs(ours)

@@ -74,8 +74,8 @@ def profile_sum(depths, exponent: float) -> np.ndarray:
 @jit_inline
 def _on_spline(line, coefficients, coordinate):
     """Value and slope of a spline of one coordinate, straight on beyond its ends."""
-    place = (coordinate - line.first) * line.per_spacing
-    inside = min(max(place, 0.0), float(line.cells))
+    position = (coordinate - line.first) * line.per_spacing
+    inside = min(max(position, 0.0), float(line.cells))
     cell = min(int(inside), line.cells - 1)
     t = inside - cell
     u = 1.0 - t
@@ -83,16 +83,22 @@ def _on_spline(line, coefficients, coordinate):
     second = coefficients[cell + 1]
     third = coefficients[cell + 2]
     fourth = coefficients[cell + 3]
-    value = u * u * u * first + (4.0 - 6.0 * t * t + 3.0 * t * t * t) * second
-    value += (4.0 - 6.0 * u * u + 3.0 * u * u * u) * third + t * t * t * fourth
+    second_weight = 4.0 - 6.0 * t * t + 3.0 * t * t * t
+    third_weight = 4.0 - 6.0 * u * u + 3.0 * u * u * u
+    value = u * u * u * first + second_weight * second
+    value += third_weight * third + t * t * t * fourth
     slope = -u * u * first + t * (3.0 * t - 4.0) * second + u * (4.0 - 3.0 * u) * third
     slope = 0.5 * (slope + t * t * fourth)
-    return value / 6.0 + slope * (place - inside), slope * line.per_spacing
+    beyond = position - inside
+    return value / 6.0 + slope * beyond, slope * line.per_spacing
 
 
 _AXIS = axis(_LOWEST, _HIGHEST, _SPACING)
-_LOADS = spline_coefficients(np.log(profile_sum(np.exp(_AXIS.nodes), PALMGREN_EXPONENT)), 1)
-_WORKS = spline_coefficients(np.log(profile_sum(np.exp(_AXIS.nodes), PALMGREN_EXPONENT + 1.0)), 1)
+_RATIOS = np.exp(_AXIS.nodes)
+_LOAD_SUMS = profile_sum(_RATIOS, PALMGREN_EXPONENT)
+_WORK_SUMS = profile_sum(_RATIOS, PALMGREN_EXPONENT + 1.0)
+_LOADS = spline_coefficients(np.log(_LOAD_SUMS), 1)
+_WORKS = spline_coefficients(np.log(_WORK_SUMS), 1)
 
 
 def _inverse() -> tuple[Axis, np.ndarray]:
@@ -102,10 +108,11 @@ def _inverse() -> tuple[Axis, np.ndarray]:
     slope = value.derivative()
     ends = value([_LOWEST, _HIGHEST])
     line = axis(ends[0], ends[1], _SPACING)
-    place = np.interp(line.nodes, ends, [_LOWEST, _HIGHEST])
+    log_approach = np.interp(line.nodes, ends, [_LOWEST, _HIGHEST])
     for _ in range(_ITERATIONS):
-        place = place - (value(place) - line.nodes) / slope(place)
-    return line, spline_coefficients(place, 1)
+        excess = value(log_approach) - line.nodes
+        log_approach = log_approach - excess / slope(log_approach)
+    return line, spline_coefficients(log_approach, 1)
 
 
 _LOAD_AXIS, _APPROACHES = _inverse()
@@ -152,18 +159,19 @@ def line_load(line_stiffness, profile_depth, approach):
     each = 0.5 * approach
     if profile_depth == 0.0:
         load = line_stiffness * each**PALMGREN_EXPONENT
-        return LineLoad(
-            load,
-            PALMGREN_EXPONENT * load / approach,
-            load * approach / (PALMGREN_EXPONENT + 1.0),
-        )
-    place = math.log(each / profile_depth)
+        slope = PALMGREN_EXPONENT * load / approach
+        work = load * approach / (PALMGREN_EXPONENT + 1.0)
+        return LineLoad(load, slope, work)
+    log_ratio = math.log(each / profile_depth)
     unit = line_stiffness * profile_depth**PALMGREN_EXPONENT
-    value, growth = _on_spline(_AXIS, _LOADS, place)
+    value, growth = _on_spline(_AXIS, _LOADS, log_ratio)
     load = unit * math.exp(value)
     # Both contacts do the work C d^(n+1)/(n + 1) ∫₀¹ (x + ln(1 − t²))₊^(n+1) dt.
-    done = math.exp(_on_spline(_AXIS, _WORKS, place)[0]) / (PALMGREN_EXPONENT + 1.0)
-    return LineLoad(load, growth * load / approach, 2.0 * unit * profile_depth * done)
+    log_work, _ = _on_spline(_AXIS, _WORKS, log_ratio)
+    work_sum = math.exp(log_work) / (PALMGREN_EXPONENT + 1.0)
+    slope = growth * load / approach
+    work = 2.0 * unit * profile_depth * work_sum
+    return LineLoad(load, slope, work)
 
 
 class LineApproach(NamedTuple):
@@ -200,11 +208,13 @@ def line_approach(line_stiffness, profile_depth, log_load):
     log_stiffness = math.log(line_stiffness)
     if profile_depth == 0.0:
         growth = 1.0 / PALMGREN_EXPONENT
-        return LineApproach(2.0 * math.exp((log_load - log_stiffness) * growth), growth)
+        log_each = (log_load - log_stiffness) * growth
+        return LineApproach(2.0 * math.exp(log_each), growth)
     log_depth = math.log(profile_depth)
-    place = log_load - log_stiffness - PALMGREN_EXPONENT * log_depth
-    value, growth = _on_spline(_LOAD_AXIS, _APPROACHES, place)
-    return LineApproach(2.0 * math.exp(log_depth + value), growth)
+    log_sum = log_load - log_stiffness - PALMGREN_EXPONENT * log_depth
+    log_ratio, growth = _on_spline(_LOAD_AXIS, _APPROACHES, log_sum)
+    approach = 2.0 * math.exp(log_depth + log_ratio)
+    return LineApproach(approach, growth)
 
 
 @jit
@@ -213,14 +223,14 @@ def line_loads(line_stiffness, profile_depth, approach):
 
     Returns an array of shape (3, n) from approaches of shape (n,).
     """
-    found = np.zeros((3, approach.size))
+    loads = np.zeros((3, approach.size))
     for n in range(approach.size):
         if approach[n] > 0.0:
-            one = line_load(line_stiffness, profile_depth, approach[n])
-            found[0, n] = one.load
-            found[1, n] = one.slope
-            found[2, n] = one.work
-    return found
+            pressed = line_load(line_stiffness, profile_depth, approach[n])
+            loads[0, n] = pressed.load
+            loads[1, n] = pressed.slope
+            loads[2, n] = pressed.work
+    return loads
 
 
 @jit
@@ -229,9 +239,10 @@ def line_approaches(line_stiffness, profile_depth, loads):
 
     Returns an array of shape (n,) from loads of shape (n,).
     """
-    found = np.zeros(loads.size)
+    approaches = np.zeros(loads.size)
     for n in range(loads.size):
         if loads[n] > 0.0:
             log_load = math.log(loads[n])
-            found[n] = line_approach(line_stiffness, profile_depth, log_load).approach
-    return found
+            pressed = line_approach(line_stiffness, profile_depth, log_load)
+            approaches[n] = pressed.approach
+    return approaches

@@ -138,12 +138,12 @@ def contact_load(load):
 
 
 class _PlaneCell(NamedTuple):
-    """Cell of a plane, and the place in it."""
+    """Cell of a plane, and the position in it."""
 
     start: int  #: Number of its first coefficient
     stride: int  #: From one node to the next along the load
-    t: float  #: Place along the load [-], 0 to 1
-    u: float  #: Place along the speed [-], 0 to 1
+    t: float  #: Position along the load [-], 0 to 1
+    u: float  #: Position along the speed [-], 0 to 1
     load_slope: float  #: Of t by ln Q
     speed_slope: float  #: Of u by ln |u|
 
@@ -299,14 +299,14 @@ def arsinh(z, root):
 
 
 class TractionCell(NamedTuple):
-    """Cell of a table of traction, and the place in it."""
+    """Cell of a table of traction, and the position in it."""
 
     start: int  #: Number of its first coefficient
     strides: tuple[int, int]  #: From one node to the next along load and speed
-    place: tuple[float, float, float]  #: Along load, speed and slip ratio [-], 0 to 1
-    load_slope: float  #: Of the place along the load by ln Q + k Q^(1/3)
-    speed_slope: float  #: Of the place along the speed by w^(1/4)
-    ratio_slope: float  #: Of the place along the slip ratio by y
+    position: tuple[float, float, float]  #: Along load, speed and slip ratio [-], 0 to 1
+    load_slope: float  #: Of the position along the load by ln Q + k Q^(1/3)
+    speed_slope: float  #: Of the position along the speed by w^(1/4)
+    ratio_slope: float  #: Of the position along the slip ratio by y
 
 
 #: What stands for a cell where the closed form serves, and for a plane where it does not.
@@ -365,7 +365,7 @@ def traction(table, tables, load, speeds, cell):
     """
     sign = math.copysign(1.0, speeds.ring)
     root = load.root
-    value, first, second, third = splines_in_cube(tables, cell.start, cell.strides, cell.place)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    value, first, second, third = splines_in_cube(tables, cell.start, cell.strides, cell.position)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     if speeds.ring == 0.0 and speeds.slip == 0.0:
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)

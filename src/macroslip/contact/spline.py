@@ -27,7 +27,7 @@ _INDEX = ir.IntType(32)
 _SIZE = ir.IntType(64)
 _EMPTY = ir.Constant(_VECTOR, ir.Undefined)
 _FOUR = types.UniTuple(types.float64, CHANNELS)
-#: First coefficient, stride and place of a look-up in a plane.
+#: First coefficient, stride and position of a look-up in a plane.
 _IN_PLANE = (types.intp, types.intp, types.float64, types.float64)
 #: The four weights as a polynomial of the position in the cell, constant term first, and their
 #: derivatives.
@@ -180,7 +180,7 @@ class _Vectors:
         return nodes
 
 
-def _place(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, start: Any) -> Any:
+def _address(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, start: Any) -> Any:
     """Address of the number `start` of a flat array, which is given itself or by its address."""
     if isinstance(kind, types.Integer):
         data = array
@@ -213,7 +213,7 @@ def uncounted(typingctx, array):
 
 
 @intrinsic
-def spline_value(typingctx, table, start, strides, places):
+def spline_value(typingctx, table, start, strides, positions):
     """Value of one cubic spline over three axes.
 
     It is Σ w_m(t) w_q(s) w_n(u) c[start + m strides_0 + q strides_1 + n].
@@ -228,7 +228,7 @@ def spline_value(typingctx, table, start, strides, places):
         Number of the cell's first coefficient.
     strides : tuple of two ints
         Numbers from one node to the next along the first and the second axis; 1 along the third.
-    places : tuple of three floats
+    positions : tuple of three floats
         t, s and u in the cell [-], 0 to 1.
 
     Returns
@@ -239,7 +239,7 @@ def spline_value(typingctx, table, start, strides, places):
 
     def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
-        corner = _place(context, builder, table, arguments[0], arguments[1])
+        corner = _address(context, builder, table, arguments[0], arguments[1])
         first, second = (
             builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8))
             for k in range(2)
@@ -280,7 +280,7 @@ def splines_in_square(typingctx, table, start, stride, t, u):
     stride : int
         Numbers from one node of the first axis to the next; 4 along the second.
     t, u : float
-        Places in the cell [-], 0 to 1.
+        Positions in the cell [-], 0 to 1.
 
     Returns
     -------
@@ -290,7 +290,7 @@ def splines_in_square(typingctx, table, start, stride, t, u):
 
     def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
-        address = _place(context, builder, table, arguments[0], arguments[1])
+        address = _address(context, builder, table, arguments[0], arguments[1])
         step = builder.mul(arguments[2], ir.Constant(_SIZE, 8))
         (w, dw), (z, dz) = (
             [write.weights(terms, position) for terms in (_CUBIC, _QUADRATIC)]
@@ -323,7 +323,7 @@ def splines_along_first(typingctx, table, start, stride, t, u):
     stride : int
         Numbers from one node of the first axis to the next; 4 along the second.
     t, u : float
-        Places in the cell [-], 0 to 1.
+        Positions in the cell [-], 0 to 1.
 
     Returns
     -------
@@ -333,7 +333,7 @@ def splines_along_first(typingctx, table, start, stride, t, u):
 
     def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
-        address = _place(context, builder, table, arguments[0], arguments[1])
+        address = _address(context, builder, table, arguments[0], arguments[1])
         step = builder.mul(arguments[2], ir.Constant(_SIZE, 8))
         z = write.weights(_CUBIC, arguments[4])
         sums = [write.sum(z, nodes) for nodes in write.lines(address, step)]
@@ -346,7 +346,7 @@ def splines_along_first(typingctx, table, start, stride, t, u):
 
 
 @intrinsic
-def splines_in_cube(typingctx, table, start, strides, places):
+def splines_in_cube(typingctx, table, start, strides, positions):
     """Four cubic splines over three axes and their derivatives.
 
     They are Σ w_m(t) w_q(s) w_n(u) c[start + m strides_0 + q strides_1 + 4 n + channel]. Values
@@ -362,7 +362,7 @@ def splines_in_cube(typingctx, table, start, strides, places):
         Number of the cell's first coefficient.
     strides : tuple of two ints
         Numbers from one node to the next along the first and the second axis; 4 along the third.
-    places : tuple of three floats
+    positions : tuple of three floats
         t, s and u in the cell [-], 0 to 1.
 
     Returns
@@ -373,7 +373,7 @@ def splines_in_cube(typingctx, table, start, strides, places):
 
     def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
-        corner = _place(context, builder, table, arguments[0], arguments[1])
+        corner = _address(context, builder, table, arguments[0], arguments[1])
         first, second = (
             builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8))
             for k in range(2)

@@ -113,9 +113,13 @@ def table_box(
     slowest = 0.0 if turns else float(speeds.min())
     load = 2.0 ** math.ceil(math.log2(1.02 * highest_load + 100.0))
     # In steps of √2 between a half and 2.
-    steps = min(max(round(2.0 * math.log2((tolerance / 2e-4) ** 0.25)), -2), 2)
+    spacing = (tolerance / 2e-4) ** 0.25
+    steps = round(2.0 * math.log2(spacing))
+    steps = min(max(steps, -2), 2)
+    fineness = 2.0 ** (0.5 * steps)
     # A roller at rest has w = 1.12 u2; one that still runs forward when the ring runs back 1.41 u2.
-    return Box(load, slowest, round((1.45 if turns else 1.15) * fastest, 12), 2.0 ** (0.5 * steps))
+    margin = 1.45 if turns else 1.15
+    return Box(load, slowest, round(margin * fastest, 12), fineness)
 
 
 def larger(box: Box) -> Box:
@@ -164,8 +168,11 @@ def write_plane(
     box : Box
         Highest load, highest speed and fineness.
     """
-    load = axis(math.log(lightest), math.log(box.load), _PLANE_LOAD * box.fineness)
-    speed = axis(math.log(slowest), math.log(2.0 * box.fastest), _PLANE_SPEED * box.fineness)
+    load_spacing = _PLANE_LOAD * box.fineness
+    load = axis(math.log(lightest), math.log(box.load), load_spacing)
+    fastest = 2.0 * box.fastest
+    speed_spacing = _PLANE_SPEED * box.fineness
+    speed = axis(math.log(slowest), math.log(fastest), speed_spacing)
     states = np.meshgrid(np.exp(load.nodes), np.exp(speed.nodes), indexing="ij")
     nodes = np.zeros((*states[0].shape, CHANNELS))
     for channel, numbers in enumerate(values(*states)):
@@ -228,7 +235,9 @@ def cage_values(
         rough = power / (-pull * speed)
     if contact.rolling is None:
         return friction, rough
-    return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
+    mean_speed = 0.5 * speed
+    oil = pocket_contact(contact.rolling, load, mean_speed, pocket_gap)
+    return friction, rough, *oil
 
 
 def tractions(
@@ -260,21 +269,18 @@ def tractions(
     film = contact.film_thickness(load, entrainment)
     share = contact.asperity_share(load, entrainment, film)
     if contact.fluid is not None:
-        found = traction_values(
-            patch_of(contact), chord_table(contact.fluid), load, film, share, ring_speed, slip
-        )
-        return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
+        chords = chord_table(contact.fluid)
+        values = traction_values(patch_of(contact), chords, load, film, share, ring_speed, slip)
+        return values[..., 0], values[..., 1], values[..., 2], values[..., 3]
     if contact.friction is not None:
         states = (load, ring_speed, slip, entrainment, share)
         return _saturating_tractions(contact.friction, patch_of(contact), *states)
-    rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
+    # Asperities have their full friction from a slip of `full_slip` [m/s] on.
+    saturation = np.clip(slip / contact.full_slip, -1.0, 1.0)
+    rough = contact.boundary_friction * share * load * saturation
+    sheared = (1.0 - share) * contact.uniform_traction(load, film, slip)
     none = np.zeros_like(load)
-    return (
-        (1.0 - share) * contact.uniform_traction(load, film, slip) + rough,
-        none,
-        none,
-        rough * slip,
-    )
+    return sheared + rough, none, none, rough * slip
 
 
 def _saturating_tractions(
@@ -282,13 +288,16 @@ def _saturating_tractions(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """`tractions` of a raceway with Kellström's friction, whose asperities have their share."""
     limit, ratio = friction
-    film = saturating_patch(
-        patch, limit * (1.0 - share), ratio * entrainment, load, ring_speed, slip
-    )
-    rough = saturating_patch(
-        patch, patch.boundary_friction * share, patch.full_slip, load, ring_speed, slip
-    )
-    return film.pull + rough.pull, film.lag + rough.lag, film.skew + rough.skew, rough.power
+    # Largest coefficient of friction [-], and the slip [m/s] from which on it acts.
+    film_limit = limit * (1.0 - share)
+    film_slip = ratio * entrainment
+    film = saturating_patch(patch, film_limit, film_slip, load, ring_speed, slip)
+    rough_limit = patch.boundary_friction * share
+    rough = saturating_patch(patch, rough_limit, patch.full_slip, load, ring_speed, slip)
+    pull = film.pull + rough.pull
+    lag = film.lag + rough.lag
+    skew = film.skew + rough.skew
+    return pull, lag, skew, rough.power
 
 
 class _Grid(NamedTuple):
@@ -307,21 +316,22 @@ class _Grid(NamedTuple):
         logarithm = np.array(coordinates)
         for _ in range(100):
             root = np.exp(logarithm / 3.0)
-            logarithm -= (logarithm + self.stretch * root - coordinates) / (
-                1.0 + self.stretch * root / 3.0
-            )
+            excess = logarithm + self.stretch * root - coordinates
+            slope = 1.0 + self.stretch * root / 3.0
+            logarithm -= excess / slope
         return np.exp(logarithm)
 
     def slips(self, coordinates: np.ndarray) -> np.ndarray:
         """Slips as part of w, from −2 to 2, of coordinates."""
-        ratio = np.clip(
-            self.middle + self.scale * np.sinh(coordinates), -_LARGEST_RATIO, _LARGEST_RATIO
-        )
+        ratio = self.middle + self.scale * np.sinh(coordinates)
+        ratio = np.clip(ratio, -_LARGEST_RATIO, _LARGEST_RATIO)
         return ratio / (1.0 + 0.0625 * ratio * ratio)
 
     def coordinates(self, slip: np.ndarray | float) -> np.ndarray:
         """Coordinates of slips as part of w."""
-        ratio = 2.0 * slip / (1.0 + np.sqrt(1.0 - 0.25 * np.square(slip)))
+        # Speed of the ring as part of w.
+        ring_share = np.sqrt(1.0 - 0.25 * np.square(slip))
+        ratio = 2.0 * slip / (1.0 + ring_share)
         return np.arcsinh((ratio - self.middle) / self.scale)
 
 
@@ -340,7 +350,6 @@ def _grid(contact: PreparedContact, box: Box) -> _Grid:
         scale = _LITTLE_MICROSLIP if isinstance(contact, PreparedStrips) else _MICROSLIP
     else:
         scale = _bent_ratio(contact, box)
-    light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
     # A node at no slip, where the splines are exact: errors beside it hide the force of a roller
     # that cold oil grips. And the slip without entrainment in the middle between two: there the
     # film ends, and a node would spread that over its cells.
@@ -348,23 +357,34 @@ def _grid(contact: PreparedContact, box: Box) -> _Grid:
     beyond = _NO_ENTRAINMENT - middle
     cells_below = math.floor(math.asinh(beyond / scale) / fine)
     scale = beyond / math.sinh(fine * (cells_below + 0.5))
-    below, above = (
-        math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle)
-    )
-    # Speeds of sheets are those of all cases whose fastest speed is of the same order.
-    # Orders go by factors of four, such as 1/4 to 1 m/s: fast and slow winds of a turbine share one.
+    lowest = math.asinh((_LARGEST_RATIO + middle) / scale)
+    highest = math.asinh((_LARGEST_RATIO - middle) / scale)
+    below = math.ceil(lowest / fine)
+    above = math.ceil(highest / fine)
+    ratio_axis = Axis(-below * fine, 1.0 / fine, below + above)
+    return _Grid(_load_axis(box, stretch), _speed_axis(box), ratio_axis, stretch, middle, scale)
+
+
+def _load_axis(box: Box, stretch: float) -> Axis:
+    """Axis of ln Q + k Q^(1/3) of a table, Q in N."""
+    lightest = math.log(_LEAST_LOAD) + stretch * _LEAST_LOAD ** (1.0 / 3.0)
+    heaviest = math.log(box.load) + stretch * box.load ** (1.0 / 3.0)
+    return axis(lightest, heaviest, _LOAD_SPACING * box.fineness)
+
+
+def _speed_axis(box: Box) -> Axis:
+    """Axis of w^(1/4) of a table, w in m/s.
+
+    Speeds of sheets are those of all cases whose fastest speed is of the same order. Orders go by
+    factors of four, such as 1/4 to 1 m/s: fast and slow winds of a turbine share one.
+    """
     order = 2 * math.ceil(0.5 * math.log2(box.fastest)) - 1
     spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * order)
-    first = max(math.floor(box.slowest**0.25 / spacing) - _BEYOND, 0)
-    last = max(math.ceil(box.fastest**0.25 / spacing) + _BEYOND, first + 4)
-    return _Grid(
-        axis(light, heavy, _LOAD_SPACING * box.fineness),
-        Axis(first * spacing, 1.0 / spacing, last - first),
-        Axis(-below * fine, 1.0 / fine, below + above),
-        stretch,
-        middle,
-        scale,
-    )
+    node_below = math.floor(box.slowest**0.25 / spacing)
+    node_above = math.ceil(box.fastest**0.25 / spacing)
+    first = max(node_below - _BEYOND, 0)
+    last = max(node_above + _BEYOND, first + 4)
+    return Axis(first * spacing, 1.0 / spacing, last - first)
 
 
 def _bent_ratio(contact: PreparedContact, box: Box) -> float:
@@ -373,23 +393,24 @@ def _bent_ratio(contact: PreparedContact, box: Box) -> float:
     load = np.full_like(ratio, box.load)
     speed = np.full_like(ratio, box.fastest)
     pull, *_ = tractions(contact, load, speed, speed * ratio)
-    bent = pull / ratio < (1.0 - _BENT) * pull[0] / ratio[0]
-    return float(min(ratio[np.argmax(bent)] if bent.any() else 1.0, _MICROSLIP))
+    conductance = pull / ratio
+    bent = conductance < (1.0 - _BENT) * pull[0] / ratio[0]
+    first_bent = ratio[np.argmax(bent)] if bent.any() else 1.0
+    return float(min(first_bent, _MICROSLIP))
 
 
 def _sheet(contact: PreparedContact, grid: _Grid, speed: float) -> np.ndarray:
     """Quantities at all loads and slip ratios at one speed w [m/s]."""
-    load, slip = np.meshgrid(
-        grid.loads(grid.load.nodes), grid.slips(grid.ratio.nodes), indexing="ij"
-    )
+    loads = grid.loads(grid.load.nodes)
+    slips = grid.slips(grid.ratio.nodes)
+    load, slip = np.meshgrid(loads, slips, indexing="ij")
     speed = max(speed, REST_SPEED)
-    along = speed * np.sqrt(np.maximum(1.0 - 0.25 * slip * slip, 0.0))
-    pull, lag, skew, rough = tractions(contact, load, along, speed * slip)
+    ring_speed = speed * np.sqrt(np.maximum(1.0 - 0.25 * slip * slip, 0.0))
+    pull, lag, skew, rough = tractions(contact, load, ring_speed, speed * slip)
     root = np.cbrt(load)
     heavy = load * root * root
-    return np.stack(
-        [pull / load, lag / heavy, skew / (load * root), rough / (heavy * speed)], axis=-1
-    )
+    channels = [pull / load, lag / heavy, skew / (load * root), rough / (heavy * speed)]
+    return np.stack(channels, axis=-1)
 
 
 def contact_parts(contact: PreparedContact) -> tuple:
@@ -417,7 +438,8 @@ def table_gaps(contact: PreparedContact, box: Box) -> tuple[tuple[float, float],
 
     See `macroslip.contact.starvation.shared_gaps`.
     """
-    film = replace(contact, oil_gap=math.inf).film_thickness(box.load, box.fastest)
+    flooded = replace(contact, oil_gap=math.inf)
+    film = flooded.film_thickness(box.load, box.fastest)
     return shared_gaps(contact.inlet_gap, float(film), box.fineness)
 
 
@@ -447,13 +469,14 @@ def write_traction(
     TableErrors
         Relative errors of force and power [-].
     """
-    near, *far = ((contact.at_gap(gap), weight) for gap, weight in table_gaps(contact, box))
-    grid = _grid(near[0], box)
-    made = _nodes(near[0], grid)
+    (first_gap, _), *other_gaps = table_gaps(contact, box)
+    nearest = contact.at_gap(first_gap)
+    grid = _grid(nearest, box)
+    made = _nodes(nearest, grid)
     coefficients = made.coefficients
     rising = made.rising
-    for neighbour, weight in far:
-        made = _nodes(neighbour, grid)
+    for gap, weight in other_gaps:
+        made = _nodes(contact.at_gap(gap), grid)
         coefficients = coefficients + weight * (made.coefficients - coefficients)
         rising = np.minimum(rising, made.rising)
     record["start"] = tables.add(coefficients)
@@ -498,7 +521,10 @@ def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
     from scipy.ndimage import minimum_filter
 
     load = grid.loads(grid.load.nodes)
-    spin = nodes[..., 0] - nodes[..., 1] * np.cbrt(load)[:, None, None] ** 2
+    root = np.cbrt(load)[:, None, None]
+    pull = nodes[..., 0]
+    lag = nodes[..., 1] * root**2
+    spin = pull - lag
     slip = grid.slips(grid.ratio.nodes)
     falls = np.diff(spin, axis=-1) < 0.0
     centre = int(np.searchsorted(slip, grid.middle))
@@ -531,11 +557,17 @@ def _errors(
     scaled = [value * scale for value, scale in zip(interpolated, scales, strict=True)]
     spin, power = _spin_and_power(contact, along, sliding, expected)
     other, other_power = _spin_and_power(contact, along, sliding, scaled)
-    largest = np.abs(spin).max(axis=-1, keepdims=True)
-    off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
-    least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)
-    off = np.maximum(off, np.abs(other_power - power) / np.maximum(power, least))
-    return TableErrors(float(np.median(off)), float(off.max()))
+    force_error = _relative_error(other, spin)
+    power_error = _relative_error(other_power, power)
+    error = np.maximum(force_error, power_error)
+    return TableErrors(float(np.median(error)), float(error.max()))
+
+
+def _relative_error(values: np.ndarray, expected: np.ndarray) -> np.ndarray:
+    """Error over the expected size, or over a part of the largest at the same load and speed [-]."""
+    size = np.abs(expected)
+    largest = size.max(axis=-1, keepdims=True)
+    return np.abs(values - expected) / np.maximum(size, _SMALL_FORCE * largest)
 
 
 class _States(NamedTuple):
@@ -549,29 +581,32 @@ class _States(NamedTuple):
 def _random_states(grid: _Grid, box: Box) -> _States:
     """Draw states inside the box of a table, shape (states, slips)."""
     random = np.random.default_rng(1)
-    load = np.exp(random.uniform(math.log(1.0), math.log(box.load), (_STATES, 1)))
-    speed = random.uniform(max(box.slowest, 0.02 * box.fastest), box.fastest, (_STATES, 1))
+    log_load = random.uniform(math.log(1.0), math.log(box.load), (_STATES, 1))
+    load = np.exp(log_load)
+    slowest = max(box.slowest, 0.02 * box.fastest)
+    speed = random.uniform(slowest, box.fastest, (_STATES, 1))
     held = load > _HELD_LOAD
-    low, high = (
-        grid.coordinates(np.where(held, edge, light))
-        for edge, light in ((-_HELD_RATIO, -1e-3), (_HELD_RATIO, _MOST_RATIO))
-    )
+    low = grid.coordinates(np.where(held, -_HELD_RATIO, -1e-3))
+    high = grid.coordinates(np.where(held, _HELD_RATIO, _MOST_RATIO))
     slip = grid.slips(random.uniform(low, high, (_STATES, _SLIPS)))
-    return _States(np.broadcast_to(load, slip.shape), np.broadcast_to(speed, slip.shape), slip)
+    load = np.broadcast_to(load, slip.shape)
+    speed = np.broadcast_to(speed, slip.shape)
+    return _States(load, speed, slip)
 
 
 def _interpolated(grid: _Grid, coefficients: np.ndarray, state: _States) -> list[np.ndarray]:
     """Look up every channel of a table at states, by an interpolation of its own."""
     from scipy.ndimage import map_coordinates
 
+    stretched_load = np.log(state.load) + grid.stretch * np.cbrt(state.load)
     coordinates = (
-        (grid.load, np.log(state.load) + grid.stretch * np.cbrt(state.load)),
+        (grid.load, stretched_load),
         (grid.speed, state.speed**0.25),
         (grid.ratio, grid.coordinates(state.slip)),
     )
-    places = [(at - axis.first) * axis.per_spacing + 1.0 for axis, at in coordinates]
+    nodes = [(at - axis.first) * axis.per_spacing + 1.0 for axis, at in coordinates]
     return [
-        map_coordinates(coefficients[..., channel], places, order=3, prefilter=False)
+        map_coordinates(coefficients[..., channel], nodes, order=3, prefilter=False)
         for channel in range(CHANNELS)
     ]
 
@@ -586,5 +621,6 @@ def _spin_and_power(
     shape = contact.shape
     curvature = shape.curvature_ratio * shape.roller_radius if shape.microslip else 0.0
     pull, lag, skew, _ = channels
-    sliding = slip * (pull - lag)
-    return pull - lag, sliding + along * (curvature * lag - abs(shape.spin_ratio) * skew)
+    spin = pull - lag
+    rolling = along * (curvature * lag - abs(shape.spin_ratio) * skew)
+    return spin, slip * spin + rolling

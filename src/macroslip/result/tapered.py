@@ -384,7 +384,7 @@ def _coordinates(
     bearing: TaperedBearing, ring: TaperedRing, hub_loads: HubLoads, mount: TaperedMount
 ) -> dict[str, Any]:
     """Coordinates of a result."""
-    places = strip_places(bearing.roller_length, ring.profile.size)
+    stations = strip_places(bearing.roller_length, ring.profile.size)
     along = {"units": "m", "long_name": "place along the roller, towards its large end"}
     return {
         "time": ("time", hub_loads.time, {"units": "s", "long_name": "time"}),
@@ -392,7 +392,7 @@ def _coordinates(
         "direction": ("direction", ["X0", "Y0", "Z0"]),
         "axis": ("axis", ["X0", "Y0"]),
         "surface": ("surface", list(RIB_SURFACES)),
-        "place": ("strip", places, along),
+        "station": ("strip", stations, along),
     }
 
 

@@ -69,11 +69,13 @@ def radial_clearance(ring, cosine, sine):
     >>> [float(round(1e6 * radial_clearance(oval, np.cos(phi), np.sin(phi)), 9)) for phi in (0.0, np.pi / 2)]
     [120.0, 80.0]
     """
-    twice_x, twice_y = cosine * cosine - sine * sine, 2.0 * cosine * sine
-    second = ring.second_x * twice_x + ring.second_y * twice_y
-    third = ring.third_x * (twice_x * cosine - twice_y * sine) + ring.third_y * (
-        twice_y * cosine + twice_x * sine
-    )
+    # Cosine and sine of 2φ and of 3φ.
+    cosine_2 = cosine * cosine - sine * sine
+    sine_2 = 2.0 * cosine * sine
+    cosine_3 = cosine_2 * cosine - sine_2 * sine
+    sine_3 = sine_2 * cosine + cosine_2 * sine
+    second = ring.second_x * cosine_2 + ring.second_y * sine_2
+    third = ring.third_x * cosine_3 + ring.third_y * sine_3
     return ring.radial_play + second + third
 
 
@@ -88,7 +90,9 @@ class _Contacts(NamedTuple):
         """The contacts at some of the samples."""
         if index.size == len(self.play):
             return self
-        return _Contacts(self.normals[index], self.play[index], self.ring)
+        normals = self.normals[index]
+        play = self.play[index]
+        return _Contacts(normals, play, self.ring)
 
     def approach(self, displacement: np.ndarray) -> np.ndarray:
         """Approach δ_j₊ of every roller [m], not negative, shape (n, rollers)."""
@@ -100,9 +104,11 @@ class _Contacts(NamedTuple):
         if self.ring.line_stiffness > 0.0:
             load, slope, work = _line_loads(self.ring, approach)
             return _Forces(load, slope, work.sum(axis=1))
-        slope = self.ring.stiffness * np.sqrt(approach)
-        load = slope * approach
-        return _Forces(load, 1.5 * slope, 0.4 * (load * approach).sum(axis=1))
+        secant = self.ring.stiffness * np.sqrt(approach)
+        load = secant * approach
+        slope = 1.5 * secant
+        work = 0.4 * (load * approach).sum(axis=1)
+        return _Forces(load, slope, work)
 
 
 class _Forces(NamedTuple):
@@ -116,7 +122,8 @@ class _Forces(NamedTuple):
 def _line_loads(ring: RingGeometry, approach: np.ndarray) -> np.ndarray:
     """Loads, slopes and work of line contacts at approaches [m], shape (3, n, rollers)."""
     flat = np.ascontiguousarray(approach).ravel()
-    return line_loads(ring.line_stiffness, ring.profile_depth, flat).reshape(3, *approach.shape)
+    loads = line_loads(ring.line_stiffness, ring.profile_depth, flat)
+    return loads.reshape(3, *approach.shape)
 
 
 class _Balance(NamedTuple):
@@ -134,8 +141,9 @@ class _Balance(NamedTuple):
 
 def _contacts(ring: RingGeometry, shaft_angle: np.ndarray) -> _Contacts:
     """Contacts at shaft angles [rad], shape (n,); rollers move by `orbit_ratio` times the angle."""
-    turn_cosine = np.cos(ring.orbit_ratio * shaft_angle)[:, None]
-    turn_sine = np.sin(ring.orbit_ratio * shaft_angle)[:, None]
+    orbit_angle = ring.orbit_ratio * shaft_angle[:, None]
+    turn_cosine = np.cos(orbit_angle)
+    turn_sine = np.sin(orbit_angle)
     cosine = ring.cosine * turn_cosine - ring.sine * turn_sine
     sine = ring.sine * turn_cosine + ring.cosine * turn_sine
     axial = np.broadcast_to(ring.axial, cosine.shape)
@@ -149,8 +157,10 @@ def _evaluate(contacts: _Contacts, force: np.ndarray, displacement: np.ndarray) 
     """Π, its gradient and Hessian at displacements [m] under forces [N], both of shape (n, 3)."""
     approach = contacts.approach(displacement)
     forces = contacts.forces(approach)
-    energy = forces.energy - (force * displacement).sum(axis=1)
-    gradient = np.matmul(contacts.normals, forces.load[..., None])[..., 0] - force
+    work_of_load = (force * displacement).sum(axis=1)
+    energy = forces.energy - work_of_load
+    carried = np.matmul(contacts.normals, forces.load[..., None])[..., 0]
+    gradient = carried - force
     weighted = contacts.normals * forces.slope[:, None]
     hessian = np.matmul(weighted, contacts.normals.transpose(0, 2, 1))
     return _Balance(energy, gradient, hessian)
@@ -160,15 +170,19 @@ def _damped_newton_step(
     hessian: np.ndarray, gradient: np.ndarray, damping: np.ndarray
 ) -> np.ndarray:
     """Solve (H + damping·1) step = −gradient by Cholesky factors of H, shape (n, 3, 3)."""
-    l11 = np.sqrt(hessian[:, 0, 0] + damping)
+    diagonal_x = hessian[:, 0, 0] + damping
+    diagonal_y = hessian[:, 1, 1] + damping
+    diagonal_z = hessian[:, 2, 2] + damping
+    l11 = np.sqrt(diagonal_x)
     l21 = hessian[:, 0, 1] / l11
     l31 = hessian[:, 0, 2] / l11
-    l22 = np.sqrt(hessian[:, 1, 1] + damping - l21 * l21)
+    l22 = np.sqrt(diagonal_y - l21 * l21)
     l32 = (hessian[:, 1, 2] - l31 * l21) / l22
-    l33 = np.sqrt(hessian[:, 2, 2] + damping - l31 * l31 - l32 * l32)
-    y1 = -gradient[:, 0] / l11
-    y2 = (-gradient[:, 1] - l21 * y1) / l22
-    y3 = (-gradient[:, 2] - l31 * y1 - l32 * y2) / l33
+    l33 = np.sqrt(diagonal_z - l31 * l31 - l32 * l32)
+    right_x, right_y, right_z = -gradient.T
+    y1 = right_x / l11
+    y2 = (right_y - l21 * y1) / l22
+    y3 = (right_z - l31 * y1 - l32 * y2) / l33
     z = y3 / l33
     y = (y2 - l32 * z) / l22
     x = (y1 - l21 * y - l31 * z) / l11
@@ -205,9 +219,11 @@ def _push_into_contact(
         free = np.flatnonzero(is_free)
         if not free.size:
             return state
-        displacement[free] += (push[free] / magnitude[free])[:, None] * force[free]
+        free_force = force[free]
+        per_force = push[free] / magnitude[free]
+        displacement[free] += per_force[:, None] * free_force
         push[free] *= 2.0
-        pushed = _evaluate(contacts.rows(free), force[free], displacement[free])
+        pushed = _evaluate(contacts.rows(free), free_force, displacement[free])
         state.replace(free, pushed, np.arange(free.size))
 
 
@@ -233,11 +249,13 @@ def _descend(
             break
         gradient = state.gradient[active]
         hessian = state.hessian[active]
-        step = _damped_newton_step(hessian, gradient, relative[active] * _trace(hessian))
+        damping = relative[active] * _trace(hessian)
+        step = _damped_newton_step(hessian, gradient, damping)
         trial = displacement[active] + step
         tried = _evaluate(contacts.rows(active), force[active], trial)
         left = _length(tried.gradient)
-        expected = state.energy[active] + 1e-4 * (gradient * step).sum(axis=1)
+        energy_change = (gradient * step).sum(axis=1)
+        expected = state.energy[active] + 1e-4 * energy_change
         in_contact = (_trace(tried.hessian) > 0.0) | (left <= tolerance[active])
         # Close to the solution the energy no longer resolves the progress that the unbalanced force
         # still shows.
@@ -325,11 +343,12 @@ def balance_series(
     unbalanced = np.full(count, np.inf)
     known = np.zeros(0, int)
     for distance in _DISTANCES:
-        wanted = np.append(np.arange(0, count - 1, distance), count - 1)
+        last = count - 1
+        wanted = np.append(np.arange(0, last, distance), last)
         samples = np.setdiff1d(wanted, known, assume_unique=True)
         if known.size:
-            lines = (np.interp(samples, known, line) for line in displacement[known].T)
-            displacement[samples] = np.stack(list(lines), axis=1)
+            for component in displacement.T:
+                component[samples] = np.interp(samples, known, component[known])
         for first in range(0, samples.size, _TOGETHER):
             piece = samples[first : first + _TOGETHER]
             displacement[piece], unbalanced[piece] = balance(
@@ -367,7 +386,9 @@ def tangent_stiffness(
     1500000000.0
     """
     contacts = _contacts(ring, shaft_angle)
-    return _evaluate(contacts, np.zeros_like(displacement), displacement).hessian
+    # The Hessian of Π knows no load.
+    no_force = np.zeros_like(displacement)
+    return _evaluate(contacts, no_force, displacement).hessian
 
 
 def roller_loads(
@@ -386,7 +407,8 @@ def roller_loads(
     loads = np.empty((shaft_angle.size, ring.cosine.size))
     for first in range(0, shaft_angle.size, _TOGETHER):
         piece = slice(first, first + _TOGETHER)
-        approach = _contacts(ring, shaft_angle[piece]).approach(displacement[piece])
+        contacts = _contacts(ring, shaft_angle[piece])
+        approach = contacts.approach(displacement[piece])
         if ring.line_stiffness > 0.0:
             loads[piece] = _line_loads(ring, approach)[0]
         else:

@@ -131,8 +131,8 @@ def _rib_normal(row: TaperedGeometry) -> np.ndarray:
     normal = math.sin(lean), -math.cos(lean)
     sine = math.sin(row.axis_angle)
     cosine = math.cos(row.axis_angle)
-    radial = row.rib_place * sine - row.rib_radius_on_roller * cosine
-    axial = -row.rib_place * cosine - row.rib_radius_on_roller * sine
+    radial = row.rib_station * sine - row.rib_radius_on_roller * cosine
+    axial = -row.rib_station * cosine - row.rib_radius_on_roller * sine
     return np.array([*normal, normal[0] * axial - normal[1] * radial])
 
 

@@ -36,19 +36,18 @@ def _motion_map(ring, roller, angle, motion):
     cosine = math.cos(angle)
     sine = math.sin(angle)
     sign = ring.sign[roller]
+    station = ring.station[roller]
     motion[:] = 0.0
-    # The ring's section in the roller's meridian plane turns by θY cos φ − θX sin φ.
-    motion[2, 3] = -sine
-    motion[2, 4] = cosine
     motion[0, 0] = cosine
     motion[0, 1] = sine
-    motion[0, 3] = -ring.station[roller] * sine
-    motion[0, 4] = ring.station[roller] * cosine
+    motion[0, 3] = -station * sine
+    motion[0, 4] = station * cosine
     motion[1, 2] = sign
     motion[1, 3] = ring.pitch_radius * sine * sign
     motion[1, 4] = -ring.pitch_radius * cosine * sign
-    motion[2, 3] *= sign
-    motion[2, 4] *= sign
+    # The ring's section in the roller's meridian plane turns by θY cos φ − θX sin φ.
+    motion[2, 3] = -sine * sign
+    motion[2, 4] = cosine * sign
 
 
 @jit_inline
@@ -64,17 +63,18 @@ def _add_raceway(radial, axial, arms, ring, moved, force, stiffness):
     slope_moment = 0.0
     slope_square = 0.0
     for k in range(arms.size):
-        approach = normal + arms[k] * moved[2] - ring.profile[k]
+        arm = arms[k]
+        approach = normal + arm * moved[2] - ring.profile[k]
         if approach > 0.0:
-            slope = ring.strip_coefficient * approach ** (ring.strip_exponent - 1.0)
-            load = slope * approach
-            slope *= ring.strip_exponent
+            secant = ring.strip_coefficient * approach ** (ring.strip_exponent - 1.0)
+            load = secant * approach
+            slope = secant * ring.strip_exponent
             energy += load * approach
             load_sum += load
-            moment += load * arms[k]
+            moment += load * arm
             slope_sum += slope
-            slope_moment += slope * arms[k]
-            slope_square += slope * arms[k] * arms[k]
+            slope_moment += slope * arm
+            slope_square += slope * arm * arm
     force[0] = radial * load_sum
     force[1] = axial * load_sum
     force[2] = moment
@@ -97,17 +97,19 @@ def _rib(ring, moved, force, stiffness):
     Its force is taken from, and its stiffness added to, those of the inner raceway. `moved` is the
     motion of the ring relative to the roller.
     """
+    normal = ring.rib_normal
     approach = 0.0
     for a in range(3):
-        approach -= ring.rib_normal[a] * moved[a]
+        approach -= normal[a] * moved[a]
     if approach <= 0.0:
         return 0.0, 0.0
-    root = ring.rib_stiffness * math.sqrt(approach)
-    load = root * approach
+    secant = ring.rib_stiffness * math.sqrt(approach)
+    slope = 1.5 * secant
+    load = secant * approach
     for a in range(3):
-        force[a] -= load * ring.rib_normal[a]
+        force[a] -= load * normal[a]
         for b in range(3):
-            stiffness[a, b] += 1.5 * root * ring.rib_normal[a] * ring.rib_normal[b]
+            stiffness[a, b] += slope * normal[a] * normal[b]
     return 0.4 * load * approach, load
 
 
@@ -153,20 +155,23 @@ def _new_state(rollers):
 def _press(ring, j, state):
     """Fill forces and stiffnesses of a roller at its motion and the ring's; returns its energy [J]."""
     between = state.between[j]
+    ring_motion = state.ring_motion[j]
+    roller_motion = state.roller_motion[j]
     for a in range(3):
-        between[a] = state.ring_motion[j, a] - state.roller_motion[j, a]
+        between[a] = ring_motion[a] - roller_motion[a]
     force = state.ring_force[j]
+    roller_force = state.roller_force[j]
     inner = state.inner_stiffness[j]
     inner_energy, state.inner_load[j] = _add_raceway(
         ring.inner_radial, ring.inner_axial, ring.inner_arm, ring, between, force, inner
     )
     rib_energy, state.rib_force[j] = _rib(ring, between, force, inner)
     outer_energy, state.outer_load[j] = _add_raceway(
-        ring.outer_radial, ring.outer_axial, ring.outer_arm, ring, state.roller_motion[j],
-        state.roller_force[j], state.outer_stiffness[j],
+        ring.outer_radial, ring.outer_axial, ring.outer_arm, ring, roller_motion,
+        roller_force, state.outer_stiffness[j],
     )  # fmt: skip
     for a in range(3):
-        state.roller_force[j, a] -= force[a]
+        roller_force[a] -= force[a]
     return inner_energy + rib_energy + outer_energy
 
 
@@ -174,7 +179,8 @@ def _press(ring, j, state):
 def _roller_unbalance(ring, j, state):
     """Largest force left unbalanced on a roller [N], a moment counting as a force at its end."""
     force = state.roller_force[j]
-    return max(abs(force[0]), abs(force[1]), abs(force[2]) / abs(ring.inner_arm[0]))
+    end_force = abs(force[2]) / abs(ring.inner_arm[0])
+    return max(abs(force[0]), abs(force[1]), end_force)
 
 
 @jit_inline
@@ -186,12 +192,14 @@ def _settle(ring, j, tolerance, state):
     """
     energy = _press(ring, j, state)
     left = _roller_unbalance(ring, j, state)
+    motion = state.roller_motion[j]
+    shift = state.shifted[j]
     trials = 0
     while left > tolerance and trials < _MOST_ITERATIONS:
         trials += 1
         _eliminate(ring, j, state)
         for a in range(3):
-            state.roller_motion[j, a] -= state.shifted[j, a]
+            motion[a] -= shift[a]
         trial = _press(ring, j, state)
         trial_left = _roller_unbalance(ring, j, state)
         # Close to the solution the energy no longer resolves the progress that the unbalanced force
@@ -202,7 +210,7 @@ def _settle(ring, j, tolerance, state):
             state.damping[j] = max(0.1 * state.damping[j], _LEAST_DAMPING)
         else:
             for a in range(3):
-                state.roller_motion[j, a] += state.shifted[j, a]
+                motion[a] += shift[a]
             energy = _press(ring, j, state)
             state.damping[j] *= 10.0
     return energy
@@ -219,11 +227,13 @@ def _evaluate(ring, motions, load, d, tolerance, state, gradient):
         energy += d[a] * (0.5 * held - load[a])
         gradient[a] = held - load[a]
     for j in range(ring.sign.size):
-        _move_ring(ring, motions[j], d, state.ring_motion[j])
+        motion = motions[j]
+        _move_ring(ring, motion, d, state.ring_motion[j])
         energy += _settle(ring, j, tolerance, state)
+        force = state.ring_force[j]
         for b in range(5):
             for a in range(3):
-                gradient[b] += motions[j, a, b] * state.ring_force[j, a]
+                gradient[b] += motion[a, b] * force[a]
     return energy
 
 
@@ -246,19 +256,23 @@ def _eliminate(ring, j, state):
     """
     inner = state.inner_stiffness[j]
     outer = state.outer_stiffness[j]
+    passed = state.passed[j]
+    shifted = state.shifted[j]
+    force = state.roller_force[j]
     damping = state.damping[j]
     tilt_damping = damping * ring.inner_arm[0] * ring.inner_arm[0]
     l11 = math.sqrt(inner[0, 0] + outer[0, 0] + damping)
     l21 = (inner[1, 0] + outer[1, 0]) / l11
     l31 = (inner[2, 0] + outer[2, 0]) / l11
-    l22 = math.sqrt(max(inner[1, 1] + outer[1, 1] + damping - l21 * l21, 1e-3 * damping))
+    square = inner[1, 1] + outer[1, 1] + damping - l21 * l21
+    l22 = math.sqrt(max(square, 1e-3 * damping))
     l32 = (inner[2, 1] + outer[2, 1] - l31 * l21) / l22
     square = inner[2, 2] + outer[2, 2] + tilt_damping - l31 * l31 - l32 * l32
     l33 = math.sqrt(max(square, 1e-3 * tilt_damping))
     for column in range(4):
-        r1 = inner[0, column] if column < 3 else state.roller_force[j, 0]
-        r2 = inner[1, column] if column < 3 else state.roller_force[j, 1]
-        r3 = inner[2, column] if column < 3 else state.roller_force[j, 2]
+        r1 = inner[0, column] if column < 3 else force[0]
+        r2 = inner[1, column] if column < 3 else force[1]
+        r3 = inner[2, column] if column < 3 else force[2]
         y1 = r1 / l11
         y2 = (r2 - l21 * y1) / l22
         y3 = (r3 - l31 * y1 - l32 * y2) / l33
@@ -266,29 +280,31 @@ def _eliminate(ring, j, state):
         x2 = (y2 - l32 * x3) / l22
         x1 = (y1 - l21 * x2 - l31 * x3) / l11
         if column < 3:
-            state.passed[j, 0, column] = x1
-            state.passed[j, 1, column] = x2
-            state.passed[j, 2, column] = x3
+            passed[0, column] = x1
+            passed[1, column] = x2
+            passed[2, column] = x3
         else:
-            state.shifted[j, 0] = x1
-            state.shifted[j, 1] = x2
-            state.shifted[j, 2] = x3
+            shifted[0] = x1
+            shifted[1] = x2
+            shifted[2] = x3
 
 
 @jit_inline
 def _add_roller(motion, j, state, matrix, right):
     """Add a roller's condensed stiffness and load to those of the ring."""
     inner = state.inner_stiffness[j]
+    passed = state.passed[j]
+    shifted = state.shifted[j]
     for a in range(3):
         pushed = 0.0
         for c in range(3):
-            pushed += inner[a, c] * state.shifted[j, c]
+            pushed += inner[a, c] * shifted[c]
         for e in range(5):
             right[e] -= motion[a, e] * pushed
         for b in range(3):
             left = inner[a, b]
             for c in range(3):
-                left -= inner[a, c] * state.passed[j, c, b]
+                left -= inner[a, c] * passed[c, b]
             for e in range(5):
                 for g in range(5):
                     matrix[e, g] += motion[a, e] * left * motion[b, g]
@@ -299,8 +315,9 @@ def _step(ring, motions, state, gradient, damping, d, d_step):
     """Take the Newton step of ring and rollers, the ring's damped; fills the ring's part."""
     matrix = ring.support.copy()
     right = -gradient
+    tilt_damping = damping * ring.pitch_radius**2
     for a in range(5):
-        matrix[a, a] += damping if a < 3 else damping * ring.pitch_radius**2
+        matrix[a, a] += damping if a < 3 else tilt_damping
     rollers = ring.sign.size
     for j in range(rollers):
         _eliminate(ring, j, state)
@@ -308,11 +325,13 @@ def _step(ring, motions, state, gradient, damping, d, d_step):
     d_step[:] = np.linalg.solve(matrix, right)
     d += d_step
     for j in range(rollers):
+        motion = motions[j]
+        passed = state.passed[j]
         for a in range(3):
             step = -state.shifted[j, a]
             for c in range(3):
                 for b in range(5):
-                    step += state.passed[j, a, c] * motions[j, c, b] * d_step[b]
+                    step += passed[a, c] * motion[c, b] * d_step[b]
             state.roller_motion[j, a] += step
 
 
@@ -322,19 +341,30 @@ def _turn_on(ring, motions, d, state):
     w = np.empty(3)
     for j in range(ring.sign.size):
         _move_ring(ring, motions[j], d, w)
+        passed = state.passed[j]
+        ring_motion = state.ring_motion[j]
+        roller_motion = state.roller_motion[j]
         for a in range(3):
             for c in range(3):
-                change = w[c] - state.ring_motion[j, c]
-                state.roller_motion[j, a] += state.passed[j, a, c] * change
+                roller_motion[a] += passed[a, c] * (w[c] - ring_motion[c])
+
+
+@jit_inline
+def _largest_force(ring, components):
+    """Largest of forces and moments on the ring [N], a moment counting as forces at its rollers."""
+    largest = 0.0
+    for a in range(5):
+        size = abs(components[a])
+        if a >= 3:
+            size /= ring.pitch_radius
+        largest = max(largest, size)
+    return largest
 
 
 @jit_inline
 def _unbalance(ring, state, gradient):
     """Largest force left unbalanced on ring and rollers [N]."""
-    largest = 0.0
-    for a in range(5):
-        force = abs(gradient[a]) if a < 3 else abs(gradient[a]) / ring.pitch_radius
-        largest = max(largest, force)
+    largest = _largest_force(ring, gradient)
     for j in range(ring.sign.size):
         largest = max(largest, _roller_unbalance(ring, j, state))
     return largest
@@ -347,10 +377,7 @@ def _descend(ring, motions, load, tolerance, d, state):
     Returns the force left unbalanced [N] and the number of steps.
     """
     gradient = np.zeros(5)
-    slack = 0.5 * tolerance
-    for a in range(5):
-        force = abs(load[a]) if a < 3 else abs(load[a]) / ring.pitch_radius
-        slack = max(slack, _FIRST_SLACK * force)
+    slack = max(0.5 * tolerance, _FIRST_SLACK * _largest_force(ring, load))
     energy = _evaluate(ring, motions, load, d, slack, state, gradient)
     left = _unbalance(ring, state, gradient)
     relative = 1e-9
@@ -422,16 +449,18 @@ def solve_series(ring, shaft_angle, loads, tolerance, results):
     _start(ring, d, state)
     for n in range(shaft_angle.size):
         for j in range(rollers):
-            _motion_map(ring, j, ring.angle[j] + ring.orbit_ratio * shaft_angle[n], motions[j])
+            angle = ring.angle[j] + ring.orbit_ratio * shaft_angle[n]
+            _motion_map(ring, j, angle, motions[j])
         if n > 0:
             _turn_on(ring, motions, d, state)
-        left, iterations = _descend(ring, motions, loads[n], tolerance[n], d, state)
-        if not left <= tolerance[n]:
+        allowed = tolerance[n]
+        left, iterations = _descend(ring, motions, loads[n], allowed, d, state)
+        if not left <= allowed:
             # Small loads on loose rollers are approached from larger ones.
             _start(ring, d, state)
             for factor in _FALLING_LOADS:
                 load = factor * loads[n]
-                left, again = _descend(ring, motions, load, factor * tolerance[n], d, state)
+                left, again = _descend(ring, motions, load, factor * allowed, d, state)
                 iterations += again
         results.displacement[n] = d
         results.unbalanced[n] = left

@@ -276,7 +276,7 @@ def _rib_numbers(bearing: TaperedBearing) -> RibNumbers:
         share=row.rib_share,
         speed=row.rib_radius / row.inner_radius,
         arm=row.rib_radius_on_roller / row.roller_radius,
-        pull=1.0 + row.rib_place * math.sin(row.axis_angle) / row.pitch_radius,
+        pull=1.0 + row.rib_station * math.sin(row.axis_angle) / row.pitch_radius,
     )
 
 

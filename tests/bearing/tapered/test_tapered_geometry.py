@@ -38,7 +38,7 @@ class Vectors:
     def rib_point(self):
         """The rib contact, from the roller's axis and the sphere."""
         row = self.row
-        along = row.apex_distance + row.rib_place
+        along = row.apex_distance + row.rib_station
         middle = self.on_line(row.axis_angle, along)
         inwards = np.array([-math.cos(row.axis_angle), 0.0, -math.sin(row.axis_angle)])
         return middle + row.rib_radius_on_roller * inwards
@@ -67,15 +67,15 @@ def test_the_turning_rate_about_the_inner_line_is_that_of_the_relative_angular_v
 @BEARINGS
 def test_the_rib_slides_with_the_turning_rate_times_its_height_above_the_line(bearing):
     bodies = Vectors(bearing)
-    place = bodies.rib_point()
-    sliding = np.cross(bodies.roller - bodies.ring, place)
+    contact = bodies.rib_point()
+    sliding = np.cross(bodies.roller - bodies.ring, contact)
     expected = bodies.row.rib_sliding_speed(bodies.ring_speed)
     assert np.linalg.norm(sliding) == pytest.approx(expected, rel=1e-10)
     line = bodies.on_line(bodies.row.inner_angle, 1.0)
-    height = np.linalg.norm(np.cross(place, line))
+    height = np.linalg.norm(np.cross(contact, line))
     assert height == pytest.approx(bearing.rib_contact_height, rel=1e-10)
     relative = [
-        np.linalg.norm(np.cross(body - bodies.orbit, place))
+        np.linalg.norm(np.cross(body - bodies.orbit, contact))
         for body in (bodies.roller, bodies.ring)
     ]
     assert np.mean(relative) == pytest.approx(
@@ -86,7 +86,7 @@ def test_the_rib_slides_with_the_turning_rate_times_its_height_above_the_line(be
 @BEARINGS
 def test_the_rib_contact_lies_on_the_sphere_of_the_large_end(bearing):
     row = tapered_geometry(bearing)
-    along = row.apex_distance + row.rib_place - row.sphere_distance
+    along = row.apex_distance + row.rib_station - row.sphere_distance
     assert math.hypot(along, row.rib_radius_on_roller) == pytest.approx(
         row.sphere_radius, rel=1e-12
     )

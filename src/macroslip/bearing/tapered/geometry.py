@@ -45,7 +45,7 @@ class TaperedGeometry:
     )
     rib_contact_height: float  #: h_f, of the rib contact above the line of the inner raceway
     rib_radius_on_roller: float  #: ρ_P, from the roller's axis to the rib contact
-    rib_place: float  #: ζ_P of the rib contact along the roller's axis
+    rib_station: float  #: ζ_P of the rib contact along the roller's axis
     rib_radius: float  #: R_P, from the bearing's axis to the rib contact
 
     @property
@@ -250,7 +250,7 @@ def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
     lift = math.asin((centre * math.sin(beta) - bearing.rib_contact_height) / sphere)
     epsilon = beta + lift
     on_roller = sphere * math.sin(epsilon)
-    place = centre + sphere * math.cos(epsilon) - apex
+    station = centre + sphere * math.cos(epsilon) - apex
     return TaperedGeometry(
         outer_angle=bearing.outer_angle,
         axis_angle=alpha,
@@ -267,6 +267,6 @@ def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
         rib_angle=epsilon,
         rib_contact_height=bearing.rib_contact_height,
         rib_radius_on_roller=on_roller,
-        rib_place=place,
-        rib_radius=bearing.pitch_radius + place * math.sin(alpha) - on_roller * math.cos(alpha),
+        rib_station=station,
+        rib_radius=bearing.pitch_radius + station * math.sin(alpha) - on_roller * math.cos(alpha),
     )
