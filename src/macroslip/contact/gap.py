@@ -75,13 +75,16 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
         return 1.0, 1.0, 1.0
 
     def squared(t: float) -> float:  # ∫ dt/(1 + t²)²
-        return 0.5 * (t / (1.0 + t * t) + math.atan(t))
+        gap = 1.0 + t * t
+        return 0.5 * (t / gap + math.atan(t))
 
     def cubed(t: float) -> float:  # ∫ dt/(1 + t²)³
-        return 0.25 * t / (1.0 + t * t) ** 2 + 0.75 * squared(t)
+        gap = 1.0 + t * t
+        return 0.25 * t / gap**2 + 0.75 * squared(t)
 
     def start_of(end: float) -> float:  # where the gap is S times the film of the volume flow
-        return -math.sqrt(inlet * (1.0 + end * end) - 1.0)
+        film = 1.0 + end * end
+        return -math.sqrt(inlet * film - 1.0)
 
     def flow(end: float) -> float:
         start = start_of(end)
@@ -100,7 +103,8 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
 
     load = -24.0 * (antiderivative(end) - antiderivative(start))
     rise = math.atan(end) - math.atan(start)
-    rolling = 6.0 * math.sqrt(2.0) * (rise - film * (squared(end) - squared(start)))
+    by_speed = squared(end) - squared(start)
+    rolling = 6.0 * math.sqrt(2.0) * (rise - film * by_speed)
     return load / LOAD, rolling / ROLLING_AT_GAP, rise / SHEAR
 
 
@@ -137,7 +141,8 @@ def _ratio_splines() -> list[RectBivariateSpline]:
         columns = np.loadtxt(file, delimiter=",", skiprows=1)
     curvatures = np.unique(columns[:, 0])
     aspects = np.unique(columns[:, 1])
-    values = np.log(columns[:, 2:5]).reshape(curvatures.size, aspects.size, 3)
+    log_ratios = np.log(columns[:, 2:5])
+    values = log_ratios.reshape(curvatures.size, aspects.size, 3)
     aspects = np.concatenate([-aspects[:0:-1], aspects])
     values = np.concatenate([values[:, :0:-1], values], axis=1)
     return [RectBivariateSpline(curvatures, aspects, values[:, :, k]) for k in range(3)]
@@ -151,8 +156,10 @@ def ratios(kappa, aspect) -> np.ndarray:
     >>> bool(np.allclose(ratios(1.0, 0.0), 1.0, atol=1e-12))
     True
     """
-    coordinates = np.log1p(kappa), np.sqrt(aspect * np.sqrt(1.0 + kappa))
-    return np.exp([spline.ev(*coordinates) for spline in _ratio_splines()])
+    curvature = np.log1p(kappa)
+    width = np.sqrt(aspect * np.sqrt(1.0 + kappa))
+    log_ratios = [spline.ev(curvature, width) for spline in _ratio_splines()]
+    return np.exp(log_ratios)
 
 
 # Both rows have the same contacts, and runs of a study many of them in common.
@@ -170,42 +177,50 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     length = shape.length
     curvature = length**2 / (8.0 * shape.lateral_radius)  # κ h0
     # λ² (1 + κ) = s²: s² = 8 R_x h0/l² + R_x/R_y.
-    highest = (WIDEST**2 - radius / shape.lateral_radius) * length**2 / (8.0 * radius)
+    least_square = radius / shape.lateral_radius
+    highest = (WIDEST**2 - least_square) * length**2 / (8.0 * radius)
     lowest = max(curvature / MOST_CURVED, 1e-9 * length)
     highest = min(highest, oil_gap / (_LEAST_INLET * FLOW))
     lowest = min(lowest, 1e-3 * highest)
     log_gap = np.linspace(math.log(lowest), math.log(highest), _KNOTS)
     gap = np.exp(log_gap)
-    root = np.sqrt(np.maximum(curvature / gap, 1e-12))
+    kappa = curvature / gap
+    root = np.sqrt(np.maximum(kappa, 1e-12))
     narrow = np.arctan(root) / root
     wide = np.arcsinh(root) / root
     load = LOAD * radius * length / gap * narrow
     rolling = ROLLING_AT_GAP * length * np.sqrt(radius / gap) * wide
     shear = SHEAR * length * np.sqrt(2.0 * radius / gap) * wide
     slices = np.stack([load, rolling, shear])
-    correction = ratios(curvature / gap, np.sqrt(8.0 * radius * gap) / length)
+    aspect = np.sqrt(8.0 * radius * gap) / length
+    correction = ratios(kappa, aspect)
     if math.isfinite(oil_gap):
         inlets = np.minimum(widest_inlet, oil_gap / (FLOW * gap))
-        starved = np.array([starved_martin(inlet) for inlet in inlets.tolist()]).T
+        factors = [starved_martin(inlet) for inlet in inlets.tolist()]
+        starved = np.array(factors).T
     else:
         starved = np.array(starved_martin(widest_inlet))[:, None]
     values = np.log(slices * correction * starved).T
+    by_gap = CubicSpline(log_gap, values).c
     # Load falls with the gap.
-    log_loads = np.linspace(values[-1, _LOAD], values[0, _LOAD], _KNOTS)
-    along = np.column_stack([log_gap, values[:, _ROLLING], values[:, _SHEAR]])[::-1]
-    over_load = CubicSpline(values[::-1, _LOAD], along)(log_loads)
-    return Gap(
-        log_gap, CubicSpline(log_gap, values).c, log_loads, CubicSpline(log_loads, over_load).c
-    )
+    rising_load = values[::-1, _LOAD]
+    log_loads = np.linspace(rising_load[0], rising_load[-1], _KNOTS)
+    of_load = np.column_stack([log_gap, values[:, _ROLLING], values[:, _SHEAR]])[::-1]
+    over_load = CubicSpline(rising_load, of_load)(log_loads)
+    by_load = CubicSpline(log_loads, over_load).c
+    return Gap(log_gap, by_gap, log_loads, by_load)
 
 
 def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, coordinate):
     """Value of one of the splines over even knots; straight on beyond their ends."""
-    inside = np.clip(coordinate, knots[0], knots[-1])
-    per_step = (knots.size - 1) / (knots[-1] - knots[0])
-    cell = np.minimum(((inside - knots[0]) * per_step).astype(int), knots.size - 2)
+    first = knots[0]
+    last = knots[-1]
+    inside = np.clip(coordinate, first, last)
+    per_step = (knots.size - 1) / (last - first)
+    position = (inside - first) * per_step
+    cell = np.minimum(position.astype(int), knots.size - 2)
     t = inside - knots[cell]
-    a, b, c, d = (np.ascontiguousarray(cubics[k, :, which])[cell] for k in range(4))
+    a, b, c, d = np.ascontiguousarray(cubics[:, :, which])[:, cell]
     value = ((a * t + b) * t + c) * t + d
     slope = (3.0 * a * t + 2.0 * b) * t + c
     return value + (coordinate - inside) * slope

@@ -35,8 +35,11 @@ def edge_strips(length: float, strips: int) -> np.ndarray:
     [0.5, 0.0, 0.0, 0.0, 0.5]
     """
     width = 1.0 / strips
-    from_end = 0.5 - np.abs(strip_places(length, strips)) / length - 0.5 * width
-    return np.clip((EDGE - from_end) / width, 0.0, 1.0)
+    from_middle = np.abs(strip_places(length, strips)) / length
+    # Of the strip's outer edge from the roller's end.
+    from_end = 0.5 - from_middle - 0.5 * width
+    covered = (EDGE - from_end) / width
+    return np.clip(covered, 0.0, 1.0)
 
 
 def microslip(
@@ -67,18 +70,22 @@ def microslip(
     The interface lies midway between the undeformed surfaces of a roller that is lower by P at ζ
     than its cone; the cones themselves share an apex and do not slide on each other.
     """
-    places = strip_places(row.roller_length, profile.size)
+    stations = strip_places(row.roller_length, profile.size)
     spin = row.spin_ratio * shaft_speed
     ring = (1.0 - row.orbit_ratio) * shaft_speed
+    turning = spin - ring * math.cos(row.inner_angle)
     uneven = -0.5 * row.inner_rolling_ratio * shaft_speed * profile
-    uneven -= 0.5 * (spin - ring * math.cos(row.inner_angle)) * tilt * places
-    taper = 1.0 + places / row.apex_distance
+    uneven -= 0.5 * turning * tilt * stations
+    taper = 1.0 + stations / row.apex_distance
     # Forwards and backwards carry alike where −Δu is the median of v/(1 + ζ/A) by load.
     order = np.argsort(uneven / taper)
     below = np.cumsum(loads[order])
-    middle = order[np.searchsorted(below, 0.5 * below[-1])]
-    slip = uneven - uneven[middle] / taper[middle] * taper
-    return float((np.abs(slip) * loads).sum() / loads.sum())
+    half = 0.5 * below[-1]
+    middle = order[np.searchsorted(below, half)]
+    balanced = uneven[middle] / taper[middle]
+    slip = uneven - balanced * taper
+    weighted = np.abs(slip) * loads
+    return float(weighted.sum() / loads.sum())
 
 
 def raceway_strips(
@@ -123,15 +130,18 @@ def raceway_strips(
         inner, _ = strip_loads(ring, balance, shaft_angle, sample)
         inner = inner.reshape(rows, rollers, count)
         largest = inner.max(axis=1)
-        line_pressures = line_pressure(largest / width, contact.curvature, contact.modulus)
+        per_length = largest / width
+        line_pressures = line_pressure(per_length, contact.curvature, contact.modulus)
         pressure[sample] = line_pressures.max(axis=1)
         edge_pressure[sample] = line_pressures[:, at_edge > 0.0].max(axis=1)
         for k in range(rows):
             hardest = int(inner[k].sum(axis=1).argmax())
             loads = inner[k, hardest]
-            if loads.sum() > 0.0:
-                along[sample, k] = line_pressure(loads / width, contact.curvature, contact.modulus)
-                edge_share[sample, k] = (loads * at_edge).sum() / loads.sum()
+            load = loads.sum()
+            if load > 0.0:
+                per_length = loads / width
+                along[sample, k] = line_pressure(per_length, contact.curvature, contact.modulus)
+                edge_share[sample, k] = (loads * at_edge).sum() / load
                 tilt = _tilt(ring, balance, shaft_angle, sample, k * rollers + hardest)
                 speed = abs(float(shaft_speed[sample]))
                 slip[sample, k] = microslip(row, speed, ring.profile, tilt, loads)
@@ -144,7 +154,8 @@ def _tilt(
     """Approach of the inner raceway per ζ by the tilt of the ring relative to a roller [rad]."""
     angle = ring.angle[roller] + ring.orbit_ratio * shaft_angle[sample]
     turn_x, turn_y = balance.displacement[sample, 3:]
-    own = ring.sign[roller] * (turn_y * math.cos(angle) - turn_x * math.sin(angle))
+    in_meridian = turn_y * math.cos(angle) - turn_x * math.sin(angle)
+    own = ring.sign[roller] * in_meridian
     relative = own - balance.roller_motion[sample, roller, 2]
     length = ring.inner_arm[-1] - ring.inner_arm[0]
     return float(relative * np.sign(length))
@@ -174,9 +185,11 @@ def axial_float(
         gap to the inner raceway; every step towards the apex takes 2 sin β of it.
     """
     angle = ring.angle + ring.orbit_ratio * shaft_angle[:, None]
-    dx, dy, dz, turn_x, turn_y = (part[:, None] for part in balance.displacement.T)
-    tilt = turn_y * np.cos(angle) - turn_x * np.sin(angle)
-    radial = dx * np.cos(angle) + dy * np.sin(angle) + ring.station * tilt
+    cosine = np.cos(angle)
+    sine = np.sin(angle)
+    dx, dy, dz, turn_x, turn_y = balance.displacement.T[..., None]
+    tilt = turn_y * cosine - turn_x * sine
+    radial = dx * cosine + dy * sine + ring.station * tilt
     axial = ring.sign * (dz - ring.pitch_radius * tilt) + ring.preload
     lean = row.axis_angle - row.rib_angle
     towards_rib = math.sin(lean) * radial - math.cos(lean) * axial

@@ -36,8 +36,9 @@ def shaft_angle(time: np.ndarray, shaft_speed: np.ndarray) -> np.ndarray:
     >>> shaft_angle(np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0, 2.0])).tolist()
     [0.0, 1.0, 5.0]
     """
-    steps = 0.5 * (shaft_speed[1:] + shaft_speed[:-1]) * np.diff(time)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    mean_speed = 0.5 * (shaft_speed[1:] + shaft_speed[:-1])
+    turned = np.cumsum(mean_speed * np.diff(time))
+    return np.concatenate([[0.0], turned])
 
 
 class Instant(NamedTuple):
@@ -53,7 +54,8 @@ class Instant(NamedTuple):
 @jit_inline
 def last_before(times, time):
     """Index of the last of rising times that is not after `time`; −1 if there is none."""
-    low, high = 0, times.size
+    low = 0
+    high = times.size
     while low < high:
         middle = (low + high) // 2
         if times[middle] <= time:
@@ -89,14 +91,16 @@ def instant(motion, interval, time):
     >>> float(now.shaft_speed), float(now.shaft_angle)
     (2.0, 1.5)
     """
-    since = time - motion.time[interval]
-    span = motion.time[interval + 1] - motion.time[interval]
-    share = since / span
+    start = motion.time[interval]
+    end = motion.time[interval + 1]
+    since = time - start
+    share = since / (end - start)
     speed = motion.shaft_speed[interval]
     rise = motion.shaft_speed[interval + 1] - speed
     near = motion.displacement[interval]
     far = motion.displacement[interval + 1]
-    angle = motion.shaft_angle[interval] + (speed + 0.5 * rise * share) * since
+    mean_speed = speed + 0.5 * rise * share
+    angle = motion.shaft_angle[interval] + mean_speed * since
     x = near[0] + (far[0] - near[0]) * share
     y = near[1] + (far[1] - near[1]) * share
     z = near[2] + (far[2] - near[2]) * share
@@ -127,12 +131,15 @@ def merged_times(times: np.ndarray, anchors: np.ndarray) -> np.ndarray:
     [0.3, 0.5]
     """
     last = anchors.size - 1
-    after = np.clip(np.searchsorted(anchors, times), 1, max(last, 1))
+    after = np.searchsorted(anchors, times)
+    after = np.clip(after, 1, max(last, 1))
     below = anchors[after - 1]
     above = anchors[np.minimum(after, last)]
-    nearest = np.where(times - below <= above - times, below, above)
-    rounding = TIME_ROUNDING * max(abs(anchors[0]), abs(anchors[-1]))
-    return np.where(np.abs(times - nearest) <= rounding, nearest, times)
+    below_is_nearer = times - below <= above - times
+    nearest = np.where(below_is_nearer, below, above)
+    largest = max(abs(anchors[0]), abs(anchors[-1]))
+    is_anchor = np.abs(times - nearest) <= TIME_ROUNDING * largest
+    return np.where(is_anchor, nearest, times)
 
 
 def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
@@ -148,7 +155,9 @@ def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
     k = np.clip(before, 0, motion.time.size - 2)
     since = time - motion.time[k]
     speed = motion.shaft_speed[k]
-    acceleration = (motion.shaft_speed[k + 1] - speed) / (motion.time[k + 1] - motion.time[k])
+    rise = motion.shaft_speed[k + 1] - speed
+    span = motion.time[k + 1] - motion.time[k]
+    acceleration = rise / span
     mean_speed = speed + 0.5 * acceleration * since
     return motion.shaft_angle[k] + mean_speed * since
 
@@ -168,9 +177,11 @@ def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.
     far = shaft_speed[1:] * orbit_ratio
     span = np.diff(time)
     straight = 0.5 * np.abs(near + far) * span
+    squares = near**2 + far**2
     with np.errstate(invalid="ignore", divide="ignore"):
-        turning = 0.5 * (near**2 + far**2) / np.abs(far - near) * span
-    ways = np.where(near * far < 0.0, turning, straight)
+        turning = 0.5 * squares / np.abs(far - near) * span
+    turns_back = near * far < 0.0
+    ways = np.where(turns_back, turning, straight)
     return np.concatenate([[0.0], np.cumsum(ways)])
 
 
@@ -186,20 +197,28 @@ def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -
     """
     speed = shaft_speed * orbit_ratio
     turns = np.flatnonzero(speed[:-1] * speed[1:] < 0.0)
-    fall = speed[turns] - speed[turns + 1]
-    zeros = time[turns] + np.diff(time)[turns] * speed[turns] / fall
+    before = speed[turns]
+    fall = before - speed[turns + 1]
+    until_zero = np.diff(time)[turns] * before / fall
+    zeros = time[turns] + until_zero
     # Between these times the speed has one sign and goes straight.
     time = np.insert(time, turns + 1, zeros)
     speed = np.insert(np.abs(speed), turns + 1, 0.0)
     path = travel(time, speed, 1.0)
     # Rounding of the sum may take a little from the last orbit of a whole number; it is given back.
     rounding = 4e-16 * (time.size + 10)
-    count = math.floor(path[-1] / (2.0 * math.pi) * (1.0 + rounding))
-    targets = np.minimum(2.0 * math.pi * np.arange(1, count + 1), path[-1])
+    full_turn = 2.0 * math.pi
+    whole_path = path[-1]
+    count = math.floor(whole_path / full_turn * (1.0 + rounding))
+    targets = full_turn * np.arange(1, count + 1)
+    targets = np.minimum(targets, whole_path)
     k = np.searchsorted(path, targets, side="left") - 1
     since = targets - path[k]
-    acceleration = (speed[k + 1] - speed[k]) / (time[k + 1] - time[k])
-    square = speed[k] ** 2 + 2.0 * acceleration * since
+    start = time[k]
+    end = time[k + 1]
+    start_speed = speed[k]
+    acceleration = (speed[k + 1] - start_speed) / (end - start)
+    square = start_speed**2 + 2.0 * acceleration * since
     speed_there = np.sqrt(np.maximum(square, 0.0))
-    mean_speed = 0.5 * (speed[k] + speed_there)
-    return np.minimum(time[k] + since / mean_speed, time[k + 1])
+    mean_speed = 0.5 * (start_speed + speed_there)
+    return np.minimum(start + since / mean_speed, end)

@@ -105,10 +105,18 @@ def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     """State and work space for a bearing; `memory` is the integrator's."""
     count = assembly.positions.size
     cages = int(assembly.bearing[0]["cages"])
+    linearisations, numbers = new_linearisations(count)
     return Space(
-        np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), CONDITIONS), *new_linearisations(count), np.zeros(count, SCHEDULE),
-        np.zeros(count, BLOCK), np.zeros(cages, BORDER), memory,
-    )  # fmt: skip
+        rollers=np.zeros(count, ROLLER),
+        cages=np.zeros(cages, CAGE),
+        conditions=np.zeros((2, count), CONDITIONS),
+        linearisations=linearisations,
+        numbers=numbers,
+        schedules=np.zeros(count, SCHEDULE),
+        blocks=np.zeros(count, BLOCK),
+        borders=np.zeros(cages, BORDER),
+        memory=memory,
+    )
 
 
 class Stage(NamedTuple):
@@ -186,9 +194,8 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
     at.sliding = sliding
     at.pocket_speed = speed
     give = by_speed + stage.step * by_offset
-    return Meeting(
-        push, friction, give, by_sliding, by_push, 1.0 - off_axis / bearing.pitch_radius, cage_turn
-    )
+    arm = 1.0 - off_axis / bearing.pitch_radius
+    return Meeting(push, friction, give, by_sliding, by_push, arm, cage_turn)
 
 
 @jit_inline
@@ -210,10 +217,13 @@ def _write_block(inertia, at, linear, met, block):
     # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
     shared = met.by_sliding
     tilted = met.by_push * met.give
-    j11 = inertia + pull_in + 2.0 * turning_in + shared + tilted - 0.5 * met.give
-    j12 = -pull_out + 2.0 * turning_out + shared - tilted + 0.5 * met.give
-    j21 = -pull_in + 2.0 * turning_in + shared + tilted + 0.5 * met.give
-    j22 = inertia + pull_out + 2.0 * turning_out + shared - tilted - 0.5 * met.give
+    half_push = 0.5 * met.give
+    spin_in = 2.0 * turning_in
+    spin_out = 2.0 * turning_out
+    j11 = inertia + pull_in + spin_in + shared + tilted - half_push
+    j12 = -pull_out + spin_out + shared - tilted + half_push
+    j21 = -pull_in + spin_in + shared + tilted + half_push
+    j22 = inertia + pull_out + spin_out + shared - tilted - half_push
     part = 1.0 / (j11 * j22 - j12 * j21)
     inverse = block.inverse
     inverse[0] = j22 * part
@@ -230,31 +240,41 @@ def _add_to_border(bearing, stage, at, met, block, border):
     row = block.row
     column = block.column
     lever = bearing.lever
-    by_w = -met.give
-    residual[0] += met.push * met.arm + met.friction * lever
-    half_push = 0.5 * met.give
-    half_friction = 0.5 * met.by_push * met.give
-    row[0, 0] = half_push * met.arm + lever * (0.5 * met.by_sliding + half_friction)
-    row[1, 0] = -half_push * met.arm + lever * (0.5 * met.by_sliding - half_friction)
-    friction_by_w = met.by_sliding * lever + met.by_push * by_w
+    arm = met.arm
+    give = met.give
+    by_push = met.by_push
+    by_w = -give
+    residual[0] += met.push * arm + met.friction * lever
+    # Derivatives of the torque on the cage by v_in and v_out: of the push, and of friction by its
+    # slip and by the push.
+    half_push = 0.5 * give
+    half_sliding = 0.5 * met.by_sliding
+    half_friction = 0.5 * by_push * give
+    row[0, 0] = half_push * arm + lever * (half_sliding + half_friction)
+    row[1, 0] = -half_push * arm + lever * (half_sliding - half_friction)
+    friction_by_w = met.by_sliding * lever + by_push * by_w
     column[0, 0] = 2.0 * friction_by_w - by_w
     column[1, 0] = 2.0 * friction_by_w + by_w
-    matrix[0, 0] += met.arm * by_w + lever * friction_by_w
+    matrix[0, 0] += arm * by_w + lever * friction_by_w
     if bearing.translates:
-        cosine, sine = at.cosine, at.sine
+        cosine = at.cosine
+        sine = at.sine
         residual[1] -= met.push * sine
         residual[2] += met.push * cosine
-        by_p = met.give * (sine + stage.step * met.cage_turn * cosine)
-        by_q = met.give * (-cosine + stage.step * met.cage_turn * sine)
+        turned = stage.step * met.cage_turn
+        by_p = give * (sine + turned * cosine)
+        by_q = give * (-cosine + turned * sine)
         row[0, 1] = -sine * half_push
         row[1, 1] = sine * half_push
         row[0, 2] = cosine * half_push
         row[1, 2] = -cosine * half_push
-        column[0, 1] = (2.0 * met.by_push - 1.0) * by_p
-        column[1, 1] = (2.0 * met.by_push + 1.0) * by_p
-        column[0, 2] = (2.0 * met.by_push - 1.0) * by_q
-        column[1, 2] = (2.0 * met.by_push + 1.0) * by_q
-        by_turn = met.arm + lever * met.by_push
+        inner_by_push = 2.0 * by_push - 1.0
+        outer_by_push = 2.0 * by_push + 1.0
+        column[0, 1] = inner_by_push * by_p
+        column[1, 1] = outer_by_push * by_p
+        column[0, 2] = inner_by_push * by_q
+        column[1, 2] = outer_by_push * by_q
+        by_turn = arm + lever * by_push
         matrix[0, 1] += by_turn * by_p
         matrix[0, 2] += by_turn * by_q
         for k, by in enumerate((by_w, by_p, by_q)):
@@ -279,9 +299,10 @@ def eliminate(positions, size, blocks, borders):
     """
     for j in range(positions.size):
         matrix = borders[positions[j].cage].matrix
-        inverse = blocks[j].inverse
-        column = blocks[j].column
-        row = blocks[j].row
+        block = blocks[j]
+        inverse = block.inverse
+        column = block.column
+        row = block.row
         i0 = inverse[0]
         i1 = inverse[1]
         i2 = inverse[2]
@@ -292,7 +313,8 @@ def eliminate(positions, size, blocks, borders):
             first = i0 * ahead + i1 * behind
             second = i2 * ahead + i3 * behind
             for i in range(size):
-                matrix[i, k] -= row[0, i] * first + row[1, i] * second
+                passed = row[0, i] * first + row[1, i] * second
+                matrix[i, k] -= passed
 
 
 @jit_inline
@@ -316,19 +338,19 @@ def _solve_border(matrix, residual, size):
     c00 = m11 * m22 - m12 * m21
     c01 = m12 * m20 - m10 * m22
     c02 = m10 * m21 - m11 * m20
+    c10 = m02 * m21 - m01 * m22
+    c11 = m00 * m22 - m02 * m20
+    c12 = m01 * m20 - m00 * m21
+    c20 = m01 * m12 - m02 * m11
+    c21 = m02 * m10 - m00 * m12
+    c22 = m00 * m11 - m01 * m10
     determinant = m00 * c00 + m01 * c01 + m02 * c02
     r0 = residual[0]
     r1 = residual[1]
     r2 = residual[2]
-    residual[0] = (
-        r0 * c00 + r1 * (m02 * m21 - m01 * m22) + r2 * (m01 * m12 - m02 * m11)
-    ) / determinant
-    residual[1] = (
-        r0 * c01 + r1 * (m00 * m22 - m02 * m20) + r2 * (m02 * m10 - m00 * m12)
-    ) / determinant
-    residual[2] = (
-        r0 * c02 + r1 * (m01 * m20 - m00 * m21) + r2 * (m00 * m11 - m01 * m10)
-    ) / determinant
+    residual[0] = (r0 * c00 + r1 * c10 + r2 * c20) / determinant
+    residual[1] = (r0 * c01 + r1 * c11 + r2 * c21) / determinant
+    residual[2] = (r0 * c02 + r1 * c12 + r2 * c22) / determinant
 
 
 @jit_inline
@@ -346,22 +368,27 @@ def solve(positions, size, blocks, borders):
         `residual` of each: right-hand side [N], replaced by the solution w, p, q [m/s].
     """
     for j in range(positions.size):
-        inverse = blocks[j].inverse
-        residual = blocks[j].residual
-        row = blocks[j].row
-        first = inverse[0] * residual[0] + inverse[1] * residual[1]
-        second = inverse[2] * residual[0] + inverse[3] * residual[1]
+        block = blocks[j]
+        inverse = block.inverse
+        residual = block.residual
+        row = block.row
+        ahead = residual[0]
+        behind = residual[1]
+        first = inverse[0] * ahead + inverse[1] * behind
+        second = inverse[2] * ahead + inverse[3] * behind
         residual[0] = first
         residual[1] = second
         border_residual = borders[positions[j].cage].residual
         for i in range(size):
-            border_residual[i] -= row[0, i] * first + row[1, i] * second
+            passed = row[0, i] * first + row[1, i] * second
+            border_residual[i] -= passed
     for c in range(borders.size):
         _solve_border(borders[c].matrix, borders[c].residual, size)
     for j in range(positions.size):
-        inverse = blocks[j].inverse
-        residual = blocks[j].residual
-        column = blocks[j].column
+        block = blocks[j]
+        inverse = block.inverse
+        residual = block.residual
+        column = block.column
         change = borders[positions[j].cage].residual
         first = 0.0
         second = 0.0
@@ -384,25 +411,29 @@ def _begin_cage(bearing, stage, cage, star, border):
     turning = cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius
     drive = math.tanh(turning / GUIDE_SPEED)
     past = turning - bearing.land_turns * stage.shaft_speed * bearing.pitch_radius
-    residual[0] = (
-        inertia * (cage[0] - star[0]) + bearing.guide_friction * drive + bearing.land_drag * past
-    )
-    matrix[0, 0] += bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED + bearing.land_drag
-    residual[1] = inertia * (cage[2] - star[2])
-    residual[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
+    friction = bearing.guide_friction * drive
+    drag = bearing.land_drag * past
+    residual[0] = inertia * (cage[0] - star[0]) + friction + drag
+    friction_slope = bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED
+    matrix[0, 0] += friction_slope + bearing.land_drag
+    p = cage[2]
+    q = cage[3]
+    residual[1] = inertia * (p - star[2])
+    residual[2] = inertia * (q - star[3]) + bearing.cage_weight
     if bearing.translates:
-        push, n_x, n_y, by_sector, by_speed = guide_force(
-            bearing.radial_play, cage[4], cage[5], cage[2], cage[3]
-        )
+        a = cage[4]
+        b = cage[5]
+        push, n_x, n_y, by_sector, by_speed = guide_force(bearing.radial_play, a, b, p, q)
         residual[1] += push * n_x
         residual[2] += push * n_y
         radial = by_speed + stage.step * by_sector
-        turning_push = (
-            stage.step * push / math.sqrt(cage[4] ** 2 + cage[5] ** 2) if push > 0.0 else 0.0
-        )
+        turning_push = 0.0
+        if push > 0.0:
+            turning_push = stage.step * push / math.sqrt(a**2 + b**2)
+        crossed = (radial - turning_push) * n_x * n_y
         matrix[1, 1] += radial * n_x * n_x + turning_push * n_y * n_y
-        matrix[1, 2] += (radial - turning_push) * n_x * n_y
-        matrix[2, 1] += (radial - turning_push) * n_x * n_y
+        matrix[1, 2] += crossed
+        matrix[2, 1] += crossed
         matrix[2, 2] += radial * n_y * n_y + turning_push * n_x * n_x
 
 
@@ -465,9 +496,11 @@ def _assemble(assembly, stage, k, size, space):
     borders = space.borders
     bearing = assembly.bearing[0]
     contact = (assembly.bodies[0], address(assembly), assembly.evaluate_cage)
+    present = FIRST + k
     _place_cages(stage, k, cages)
     for c in range(cages.size):
-        _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], borders[c])
+        y = cages[c].y
+        _begin_cage(bearing, stage, y[present], y[STAR], borders[c])
     memory = space.memory[0]
     memory.evaluations += _raceway_forces(
         assembly, stage, k, conditions, rollers, space.schedules, linearisations
@@ -481,18 +514,21 @@ def _assemble(assembly, stage, k, size, space):
         at = conditions[j]
         linear = linearisations[j]
         block = blocks[j]
-        own = rollers[j].y[FIRST + k]
+        own = rollers[j].y[present]
         star = rollers[j].y[STAR]
-        met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], linear)
+        cage = cages[c].y[present]
+        met = meet(bearing, contact, stage, at, own, star, cage, linear)
         friction = at.turning_inner + at.turning_outer + met.friction
         drive = slip_drive(friction, at.pull_inner, at.pull_outer, met.push, at.tangential)
         residual_in = inertia * (own[0] - star[0]) + drive.turning - drive.driving
         residual_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
         block.residual[0] = residual_in
         block.residual[1] = residual_out
-        worst = max(worst, abs(residual_in), abs(residual_out))
+        size_in = abs(residual_in)
+        size_out = abs(residual_out)
+        worst = max(worst, size_in, size_out)
         # `max` may ignore a NaN.
-        finite = finite and abs(residual_in) + abs(residual_out) < math.inf
+        finite = finite and size_in + size_out < math.inf
         _write_block(inertia, at, linear, met, block)
         _add_to_border(bearing, stage, at, met, block, borders[c])
     for c in range(cages.size):
