@@ -34,7 +34,6 @@ FIRST = (
     "tests/whole/",
     "tests/docs/test_pages.py",
     "tests/torque/test_rings.py",
-    "tests/study/test_cluster.py",
     "tests/paper/",
     "tests/docs/",
 )
@@ -51,9 +50,12 @@ CHECKED = (
     "tests/validation/",
     "tests/benchmarks/",
     "tests/golden/",
-    "tests/study/test_cluster.py",
     "tests/report/test_browser.py",
+    # More kills, and second examples of processes that end; one of each kind stays in `make test`.
+    "tests/study/test_workers.py::test_kills_lose_nothing[fifteen]",
+    "tests/study/test_workers.py::test_a_scheduler_that_dies_loses_nothing",
     # Compile everything anew, in folders of their own.
+    "tests/storage/test_kernels.py::test_a_simulation_keeps_its_kernels_before_the_process_ends",
     "tests/cli/test_current_folder.py::test_a_first_run_and_a_study_with_workers",
     "tests/cli/test_nothing_else.py::test_the_network_is_never_asked_for",
     # Tables for tolerances of 5e-5 and finer; one example of each stays in `make test`.
