@@ -211,8 +211,10 @@ def told(judged: Mapping[str, Mapping[str, Statement]]) -> list[dict[str, Any]]:
             "paper": first.paper,
             "models": {
                 model: {
-                    name: getattr(statements[subject], name)
-                    for name in ("verdict", "found", "because", "numbers")
+                    "verdict": statements[subject].verdict,
+                    "found": statements[subject].summary,
+                    "because": statements[subject].because,
+                    "numbers": statements[subject].numbers,
                 }
                 for model, statements in judged.items()
             },
