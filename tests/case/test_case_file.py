@@ -24,6 +24,7 @@ from macroslip import (
     simulate,
 )
 from macroslip.case.case_file import case_schema, read_case
+from tests.quick import COARSE
 
 DATA = Path(__file__).parents[1] / "data"
 LOADS = "loads: {bundled: 14B, start: 0 s, end: 10 s}\n"
@@ -126,6 +127,7 @@ def test_a_whole_bearing_whose_rollers_skew(write):
         "loads: {main_bearing: {force: [0 N, -60 kN, 40 kN], shaft_speed: 20 rpm, duration: 1 s}}\n"
     )
     text = "dynamics: whole-bearing\nlaws: {model: physical, skew: quasi-static}\ncage: {gap: 0.3 mm, skew_play: 4 mrad}\n"
+    text += f"integrator: {{tolerance: {COARSE.tolerance}}}\n"
     result = simulate(read_case(write(loads + text)))
     assert (result.status == 0).all() and result.attrs["dynamics"] == "whole-bearing"
     told = json.loads(result.attrs["input"])

@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+from tests.quick import COARSE
+
 pytestmark = pytest.mark.slow
 
 
@@ -31,7 +33,8 @@ def test_two_results(ran, macroslip):
 
 def test_criteria_of_damage_stand_side_by_side(quick, folder, macroslip):
     for name, further in (("cold", ""), ("warm", "temperature: 60 degC\n")):
-        case = quick("laws: {model: physical}\n" + further)
+        integrator = f"integrator: {{tolerance: {COARSE.tolerance}}}\n"
+        case = quick("laws: {model: physical}\n" + integrator + further)
         assert macroslip("run", case, "-o", f"{name}.nc", "--quiet").code == 0
     done = macroslip("compare", "cold.nc", "warm.nc")
     told = json.loads(macroslip("damage", "warm.nc", "--json").out)["criteria"]
@@ -45,7 +48,8 @@ def test_criteria_of_damage_stand_side_by_side(quick, folder, macroslip):
 
 def test_designs_of_a_study_with_an_event(folder, macroslip):
     (folder / "study.yaml").write_text(
-        "case: {rollers: [0], loads: {start: 30 s, end: 46 s}}\nloads: {bundled: [12A, stop-14]}\n"
+        "case: {rollers: [0], loads: {start: 30 s, end: 46 s}, "
+        f"integrator: {{tolerance: {COARSE.tolerance}}}}}\nloads: {{bundled: [12A, stop-14]}}\n"
         "lubricants: [vg460-pao, vg320-mineral]\n"
         "weights: {wind: {weibull: IEC II}, events: {stop-14: 100 per year}}\n",
         encoding="utf-8",

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.quick import COARSE
+
 SOURCES = Path(__file__).parents[2] / "src" / "macroslip"
 LOADS = "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + "".join(
     f"{n / 20},20,0,-300,80\n" for n in range(41)
@@ -54,10 +56,12 @@ def folder(tmp_path_factory):
     case = folder / "home" / "case.yaml"
     case.write_text(
         f"loads: {{bearing_file: {folder / 'home' / 'loads.csv'}}}\nrollers: [0]\ntraces: {{step: 50 ms}}\n"
+        f"integrator: {{tolerance: {COARSE.tolerance}}}\n"
     )
     study = folder / "home" / "study.yaml"
     study.write_text(
-        'case: {rollers: [0]}\nloads: {files: "{what}_{wind_speed:g}.csv", kind: main-bearing}\n'
+        f"case: {{rollers: [0], integrator: {{tolerance: {COARSE.tolerance}}}}}\n"
+        'loads: {files: "{what}_{wind_speed:g}.csv", kind: main-bearing}\n'
     )
     (folder / "home" / "loads_12.csv").write_text(LOADS)
     (folder / "home" / "broken_14.csv").write_text(LOADS[:200] + "\n1,2,3,4\n")

@@ -20,6 +20,7 @@ from macroslip.case.case_file import case_schema
 from macroslip.cli.run import with_motion
 from macroslip.imposed.status import Status
 from macroslip.result.rating import with_rating
+from tests.quick import COARSE
 
 pytestmark = pytest.mark.slow
 
@@ -406,6 +407,7 @@ def test_a_cylindrical_bearing_runs_from_file_to_page_and_tells_how_its_cage_sli
         f"bearing: {bearing}\nlubricant: vg320-mineral\ntemperature: 40 degC\noil_supply: flooded\n"
         "loads: {main_bearing: {force: [0 N, -8 kN, 0 N], shaft_speed: 1500 rpm, duration: 0.5 s}}\n"
         "dynamics: whole-bearing\ncage: {gap: 0.3 mm, mass: 4 kg}\n"
+        f"integrator: {{tolerance: {COARSE.tolerance}}}\n"
     )
     done = macroslip("run", "case.yaml", "-o", "case.nc")
     assert (

@@ -10,6 +10,7 @@ from macroslip.result.simulate import simulate
 from macroslip.roller import skew_table
 from macroslip.storage import tables
 from macroslip.storage.waiting import COMPILING, heard_by
+from tests.quick import COARSE
 
 pytestmark = pytest.mark.slow
 
@@ -25,6 +26,7 @@ def warmed(tmp_path_factory):
     path.write_text(
         "loads: {bundled: 14B, start: 60 s, end: 62 s}\nrollers: [0]\n"
         "temperature: 37 degC\nlaws: {model: physical, skew: quasi-static}\n"
+        f"integrator: {{tolerance: {COARSE.tolerance}}}\n"
     )
     done = CliRunner().invoke(app, ["doctor", "--warm", str(path)])
     assert done.exit_code == 0 and "caches" in done.stdout

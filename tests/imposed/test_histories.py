@@ -26,6 +26,7 @@ from macroslip.imposed.run import fixed_step
 from macroslip.imposed.status import Status
 from macroslip.roller.model import with_tables
 from tests.one_roller import RATED, limits_of, models, motion_of, rollers, walk
+from tests.quick import COARSE
 
 pytestmark = pytest.mark.slow
 
@@ -241,14 +242,16 @@ def test_shaft_reversal_with_microslip(period, thrust):
 @both
 def test_standstill(laws):
     """Nothing is spent where nothing moves; after a stop energy stays as it is."""
-    rest = run(BearingLoads.constant([20e3, -300e3, 60e3], 0.0, 3.0), 2e-4, [0, 7], laws=laws)
+    rest = run(
+        BearingLoads.constant([20e3, -300e3, 60e3], 0.0, 3.0), COARSE.tolerance, [0, 7], laws=laws
+    )
     assert (rest.status == Status.COMPLETED).all() and rest.min_spin_ratio.isnull().all()
     for name in ("energy", "rolling_energy", "asperity_energy", "end_slip"):
         assert name not in rest or float(abs(rest[name]).max()) == 0.0
     short, long = (
         run(
             history(lambda t: np.clip(2.1 * (1.5 - t), 0.0, 2.1), seconds=end),
-            2e-4,
+            COARSE.tolerance,
             [0, 7, 14],
             laws=laws,
             window=START,

@@ -3,6 +3,7 @@
 import pytest
 
 from macroslip import Case, HubLoads, Laws, Lubricant, simulate
+from tests.quick import COARSE
 
 pytestmark = pytest.mark.slow
 
@@ -13,7 +14,7 @@ def downwind_energy(oil, rheology):
     """Energy [J] of one roller of the loaded row in 30 s of turbulence."""
     loads = HubLoads.bundled("12B").window(0.0, 30.0)
     laws = Laws.physical().but(rheology=rheology)
-    result = simulate(Case(loads=loads, lubricant=oil, laws=laws, rollers=[0]))
+    result = simulate(Case(loads=loads, lubricant=oil, laws=laws, rollers=[0], integrator=COARSE))
     return float(result.energy.sum("interface").sel(row="downwind").item())
 
 

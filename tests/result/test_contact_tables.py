@@ -22,6 +22,7 @@ from macroslip.result import prepared
 from macroslip.result import simulate as runs
 from macroslip.result.orbit import position
 from macroslip.result.run_input import run_input
+from tests.quick import COARSE
 
 pytestmark = pytest.mark.slow
 
@@ -125,12 +126,13 @@ def test_a_state_beyond_the_tables_makes_them_larger(monkeypatch, dynamics):
         loads=BearingLoads.constant([0.0, -300e3, 50e3], 2.1, 1.0),
         laws=Laws.physical(),
         rollers=[0],
+        integrator=COARSE,
     )
     case = replace(case, dynamics=dynamics)
     wanted = simulate(case)
     table_box = prepared.table_box
     monkeypatch.setattr(
-        prepared, "table_box", lambda *given: table_box(*given)._replace(load=8192.0)
+        prepared, "table_box", lambda *given: table_box(*given)._replace(load=16384.0)
     )
     result = simulate(case)
     assert (wanted.status == Status.COMPLETED).all() and (result.status == Status.COMPLETED).all()

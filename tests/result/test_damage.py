@@ -17,6 +17,7 @@ from macroslip.result.criteria.evaluation import SURFACES
 from macroslip.result.damage import damage, lines
 from macroslip.result.stored import to_netcdf
 from macroslip.result.surface_maps import energy_density
+from tests.quick import COARSE
 
 BEARING = Bearing.read("skf-240-600-bc")
 RATED = 20.463 * math.pi / 30.0
@@ -137,7 +138,7 @@ def test_two_rollers_tell_what_all_of_them_do(name, within):
     loads = HubLoads.bundled(name)
     if name == "12B":
         loads = loads.window(0.0, 120.0)
-    case = Case(loads=loads, laws=Laws.physical())
+    case = Case(loads=loads, laws=Laws.physical(), integrator=COARSE)
     every, some = (damage(simulate(replace(case, rollers=rollers))) for rollers in ("all", [0, 14]))
     for rate in ("pressure_slip_rate", "asperity_work_rate"):
         ratio = some[rate].max("station") / every[rate].max("station")
@@ -236,7 +237,10 @@ def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
 def test_free_orbits_change_the_criteria_little(result):
     """The whole bearing has its rollers on orbits of their own; the loads and the slip under them are nearly the same."""
     case = Case(
-        loads=HubLoads.bundled("14B").window(0.0, 20.0), laws=Laws.physical(), temperature=323.15
+        loads=HubLoads.bundled("14B").window(0.0, 20.0),
+        laws=Laws.physical(),
+        temperature=323.15,
+        integrator=COARSE,
     )
     imposed, free = (
         damage(simulate(replace(case, dynamics=dynamics)))
@@ -309,7 +313,13 @@ def test_what_was_not_kept_is_said_and_no_zero(result):
     )
     assert rows == [] and "contact_details: true" in sentence
     rows, missing = lines(
-        simulate(Case(loads=HubLoads.bundled("parked-12").window(0.0, 20.0), rollers=[0]))
+        simulate(
+            Case(
+                loads=HubLoads.bundled("parked-12").window(0.0, 20.0),
+                rollers=[0],
+                integrator=COARSE,
+            )
+        )
     )
     assert not any("entry" in row["criterion"] for row in rows) and any(
         "No roller entered" in sentence for sentence in missing

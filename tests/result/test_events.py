@@ -5,6 +5,7 @@ import pytest
 
 from macroslip import BearingLoads, Case, HubLoads, Laws, Traces, simulate
 from macroslip.bearing.geometry import orbit_ratio
+from tests.quick import COARSE
 
 
 def _swing(bearing, *, event, turns=0.3, duration=20.0):
@@ -18,7 +19,7 @@ def _swing(bearing, *, event, turns=0.3, duration=20.0):
 
 def test_an_event_is_computed_from_its_first_sample(bearing):
     loads = [_swing(bearing, event=event, turns=2.2) for event in (True, False)]
-    event, other = (simulate(Case(loads=load, rollers=[0])) for load in loads)
+    event, other = (simulate(Case(loads=load, rollers=[0], integrator=COARSE)) for load in loads)
     assert event.attrs["window_start"] == 0.0 and event.sizes["orbit"] == 2
     assert other.attrs["window_start"] == pytest.approx(event.orbit_end[0].item(), abs=1e-9)
     assert other.sizes["orbit"] == 1
@@ -32,13 +33,15 @@ def test_an_event_is_computed_from_its_first_sample(bearing):
 def test_a_given_window_holds_for_an_event_too(bearing):
     from macroslip import Window
 
-    case = Case(loads=_swing(bearing, event=True, turns=2.2), rollers=[0], window=Window(start=8.0))
+    loads = _swing(bearing, event=True, turns=2.2)
+    case = Case(loads=loads, rollers=[0], window=Window(start=8.0), integrator=COARSE)
     assert simulate(case).attrs["window_start"] == 8.0
 
 
 def test_peaks_of_a_window_without_a_complete_orbit_are_those_of_the_traces(bearing):
-    case = Case(loads=_swing(bearing, event=True), rollers=[0, 9], traces=Traces(step=0.002))
-    result = simulate(case)
+    loads = _swing(bearing, event=True)
+    traces = Traces(step=0.002)
+    result = simulate(Case(loads=loads, rollers=[0, 9], traces=traces, integrator=COARSE))
     assert result.sizes["orbit"] == 0 and (result.status == 0).all()
     traced = result.power.max("time")
     peak = result.window_peak_power
@@ -63,7 +66,8 @@ def test_the_rest_after_the_last_orbit_counts_for_the_peak_of_the_window(bearing
     turn = 2.0 * np.pi / orbit_ratio(bearing)
     speed = np.where(time < 38.0, 1.05 * turn / 38.0, 1.05 * turn / 38.0 + (time - 38.0) * 2.0)
     force = np.tile([0.0, -300e3, 100e3], (time.size, 1))
-    result = simulate(Case(loads=BearingLoads(time, speed, force, "late", True), rollers=[0]))
+    loads = BearingLoads(time, speed, force, "late", True)
+    result = simulate(Case(loads=loads, rollers=[0], integrator=COARSE))
     assert result.sizes["orbit"] >= 1
     inside = result.orbit_end[-1].item()
     assert inside < 40.0
@@ -73,7 +77,7 @@ def test_the_rest_after_the_last_orbit_counts_for_the_peak_of_the_window(bearing
 @pytest.mark.parametrize("name", ["idle-6", "parked-12", "estop-20"])
 def test_a_slice_of_bundled_events_under_the_paper_s_model(name):
     loads = HubLoads.bundled(name)
-    result = simulate(Case(loads=loads.window(30.0, 50.0), rollers=[0, 14]))
+    result = simulate(Case(loads=loads.window(30.0, 50.0), rollers=[0, 14], laws=Laws.paper()))
     assert (result.status == 0).all() and result.attrs["window_start"] == 30.0
     assert bool(np.isfinite(result.window_peak_power).all())
     assert "its supervisor is assumed" in result.attrs["title"]
@@ -82,9 +86,8 @@ def test_a_slice_of_bundled_events_under_the_paper_s_model(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["start-8", "idle-25", "stop-24"])
 def test_a_slice_of_bundled_events_under_the_physical_model(name):
-    result = simulate(
-        Case(loads=HubLoads.bundled(name).window(38.0, 48.0), rollers=[0], laws=Laws.physical())
-    )
+    loads = HubLoads.bundled(name).window(38.0, 48.0)
+    result = simulate(Case(loads=loads, rollers=[0], laws=Laws.physical(), integrator=COARSE))
     assert (result.status == 0).all() and bool((result.window_peak_power >= 0.0).all())
 
 
@@ -94,6 +97,7 @@ def test_a_slice_of_an_emergency_stop_of_the_whole_bearing():
         loads=HubLoads.bundled("estop-20").window(46.0, 49.0),
         dynamics="whole-bearing",
         rollers=[0, 14],
+        integrator=COARSE,
     )
     result = simulate(case)
     assert (result.status == 0).all() and bool((result.window_peak_power > 0.0).any())

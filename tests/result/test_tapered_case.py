@@ -20,6 +20,7 @@ from macroslip.result.rating import with_rating
 from macroslip.result.tapered_case import tapered_ring_motion
 from macroslip.ring.tapered import tapered_balance, tapered_ring
 from macroslip.whole.cage import Cage
+from tests.quick import COARSE
 
 MAIN = read_bearing("tdo-main-bearing")
 OIL = Lubricant.read("vg460-pao")
@@ -43,6 +44,7 @@ def case(force=L0[0], duration=1.6 * ORBIT, preload=0.2e-3, **values):
         "rollers": [0],
         "oil_supply": 0.7,
         "window": Window(start=0.5 * ORBIT),
+        "integrator": COARSE,
     }
     return Case(**defaults | values)
 

@@ -25,6 +25,7 @@ from macroslip.result.heat_balance import at_balance, bearing_friction_power, op
 from macroslip.result.plausibility import doubtful_result
 from macroslip.result.prepared import prepare
 from macroslip.result.run_input import run_input
+from tests.quick import COARSE
 
 pytestmark = pytest.mark.slow
 
@@ -32,7 +33,7 @@ LOADS = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=2.143, d
 
 
 def case(**changes):
-    return Case(loads=LOADS, rollers=[0], laws=Laws.physical(), **changes)
+    return Case(loads=LOADS, rollers=[0], laws=Laws.physical(), integrator=COARSE, **changes)
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +68,9 @@ def test_friction_of_every_kind_falls_with_temperature(by_temperature):
 
 def test_the_oil_given_is_the_oil_at_that_temperature(by_temperature):
     oil = Lubricant.read("vg460-pao").at("50 degC")
-    direct = simulate(Case(loads=LOADS, rollers=[0], laws=Laws.physical(), lubricant=oil))
+    direct = simulate(
+        Case(loads=LOADS, rollers=[0], laws=Laws.physical(), lubricant=oil, integrator=COARSE)
+    )
     np.testing.assert_array_equal(direct.energy, by_temperature[50.0].energy)
     # What a result tells of its own input has that oil too.
     np.testing.assert_array_equal(
@@ -281,6 +284,7 @@ def test_heat_of_a_preload_follows_from_the_loads_of_its_rollers():
                 rollers=[0],
                 bearing=bearing_with(clearance, "warm"),
                 contact_details=False,
+                integrator=COARSE,
             )
         )
         raceways = result.rolling_energy.sel(interface=["inner", "outer"])

@@ -32,6 +32,7 @@ from tests.one_roller import (
     rollers,
     station_of,
 )
+from tests.quick import COARSE
 
 ALPHA, RADIUS, PITCH_RADIUS = math.radians(11.2), 0.035, 0.3727
 MASS = 7850.0 * math.pi * RADIUS**2 * 0.106
@@ -445,7 +446,8 @@ def test_what_films_carry_does_not_depend_on_where_the_search_begins(physical):
 
 
 def test_starved_films_carry_nothing_where_the_play_is_wider_than_the_oil_reaches():
-    roller = rollers(models(Laws.physical(), OIL.supplied(2e-4)))["downwind"]
+    made = models(Laws.physical(), OIL.supplied(2e-4))
+    roller = rollers(made, tolerance=COARSE.tolerance)["downwind"]
     within, beyond = (
         shared_film_load(roller.body[0], roller.tables, play, 30.0, RING_SPEED)
         for play in (1e-4, 4e-4)
@@ -455,7 +457,8 @@ def test_starved_films_carry_nothing_where_the_play_is_wider_than_the_oil_reache
 
 @pytest.mark.parametrize("supply", [2e-5, 2e-4])
 def test_a_play_beyond_the_reach_of_films_is_one_at_which_the_search_finds_none(supply):
-    roller = rollers(models(Laws.physical(), OIL.supplied(supply)))["downwind"]
+    made = models(Laws.physical(), OIL.supplied(supply))
+    roller = rollers(made, tolerance=COARSE.tolerance)["downwind"]
     searched = roller.body.copy()
     searched["film_reach"] = math.inf
     reach = roller.body["film_reach"][0]

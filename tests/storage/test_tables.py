@@ -148,6 +148,18 @@ def test_the_store_is_bounded(folder, monkeypatch):
     assert 1 <= len(files) <= 3 and sum(path.stat().st_size for path in files) <= 30_000
 
 
+def test_what_a_process_uses_until_it_ends_is_not_removed_for_tables(folder, monkeypatch):
+    """The archive of kernels is read once, as a process begins, and then by the next one."""
+    monkeypatch.setattr(cache, "_MOST_BYTES", 30_000)
+    monkeypatch.setattr(cache, "_in_use", {"kernels"})
+    cache.write_cache("kernels", bytes(10_000))
+    os.utime(folder / "kernels.cache", (0, 0))
+    for number in range(8):
+        store.stored(f"{number:04}", Maker())
+    assert cache.read_cache("kernels") == bytes(10_000)
+    assert sum(path.stat().st_size for path in folder.glob("*.cache")) <= 30_000
+
+
 def test_keys_differ_with_any_value():
     contacts = prepare(
         Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1

@@ -20,6 +20,7 @@ from macroslip.scada.synthetic import (
 from macroslip.study.friction import friction_table
 from macroslip.study.heat import heat_fit
 from macroslip.study.study_file import study_of
+from tests.quick import COARSE
 from tools.friction_tables import friction_study
 
 pytestmark = pytest.mark.slow
@@ -48,6 +49,7 @@ def content(**changed):
         "case": {
             "rollers": [0],
             "laws": {"model": "physical"},
+            "integrator": {"tolerance": COARSE.tolerance},
             "loads": {"end": f"{END:g} s"},
         },
         "loads": {"bundled": ["4B", "12B"]},

@@ -9,6 +9,7 @@ from macroslip import InputError, compare, open_study, run_study
 from macroslip.bearing.kinds import read_bearing
 from macroslip.study.settings import Setting, replaced
 from macroslip.study.study_file import study_of
+from tests.quick import COARSE
 
 CASE = {
     "bearing": "tdo-main-bearing",
@@ -69,6 +70,7 @@ def test_a_spherical_and_a_tapered_bearing_are_designs_of_one_study(tmp_path):
                 "loads": {"start": "100 s", "end": "103 s"},
                 "drivetrain": {"mount": "three-point", "gearbox_stiffness": "100 MN/m"},
                 "rollers": [0],
+                "integrator": {"tolerance": COARSE.tolerance},
             },
             "bearings": ["skf-240-600-bc", "tdo-main-bearing"],
         }

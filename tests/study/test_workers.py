@@ -23,10 +23,17 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture
 def slow_content(long_content):
-    """Forty runs of some thirty milliseconds."""
-    return long_content | {
+    """Twenty runs that take a tenth of a second each."""
+    return few(long_content, 20) | {
         "case": {"laws": {"model": "paper"}, "rollers": [0, 7], "loads": {"end": "150 s"}}
     }
+
+
+def few(content, count):
+    """The first runs of a study over tilts."""
+    tilt = content["variations"]["grid"]["drivetrain.tilt"]
+    tilts = tilt | {"values": tilt["values"][:count]}
+    return content | {"variations": {"grid": {"drivetrain.tilt": tilts}}}
 
 
 def workers_of(process):
@@ -76,22 +83,25 @@ def test_processes_find_what_this_process_finds_and_listen_to_nobody(tmp_path, l
         )
         count.append(len(workers_of(psutil.Process())))
 
-    ended = run_study(study_of(long_content, tmp_path), tmp_path / "out", workers=2, progress=look)
-    assert (ended.progress.computed, ended.progress.failed) == (40, 0)
+    study = study_of(few(long_content, 12), tmp_path)
+    ended = run_study(study, tmp_path / "out", workers=2, progress=look)
+    assert (ended.progress.computed, ended.progress.failed) == (12, 0)
     assert seen == set() and max(count) == 2 and workers_of(psutil.Process()) == []
-    run_study(study_of(long_content, tmp_path), tmp_path / "alone", threads=1)
+    run_study(study, tmp_path / "alone", threads=1)
     several, alone = open_study(tmp_path / "out"), open_study(tmp_path / "alone")
     assert list(several.key.values) == list(alone.key.values)
     for name in ("energy", "peak_power", "energy_mean", "end_slip"):
         np.testing.assert_array_equal(several[name].values, alone[name].values)
 
 
-@pytest.mark.parametrize(("rounds", "kills"), [(1, 2), (3, 4)], ids=["three", "fifteen"])
+@pytest.mark.parametrize(
+    ("rounds", "kills", "runs_in_all"), [(1, 2, 30), (3, 4, 120)], ids=["three", "fifteen"]
+)
 def test_kills_lose_nothing(
-    rounds, kills, tmp_path, begin, slow_content, wait_for, done, rows, identities, counted, resumed
-):
+    rounds, kills, runs_in_all, tmp_path, begin, slow_content, wait_for, done, rows, identities,
+    counted, resumed,
+):  # fmt: skip
     """In each round some worker processes and then the study itself; what was reported is there once, and stays as it was."""
-    runs_in_all = 30 + 30 * rounds
     values = [round(2.0 + 0.05 * number, 2) for number in range(runs_in_all)]
     content = slow_content | {
         "variations": {"grid": {"drivetrain.tilt": {"values": values, "unit": "deg"}}}
@@ -164,6 +174,7 @@ def test_a_run_that_kills_its_workers_is_recorded_and_the_others_computed(
         "sys.addaudithook(hook)\n"
     )
     monkeypatch.setenv("PYTHONPATH", str(site))
+    monkeypatch.setattr(module, "_DEATHS", 2)
     ended = run_study(study_of(content, load_files), tmp_path / "out", workers=2)
     assert (ended.progress.computed, ended.progress.failed) == (3, 1)
     assert (
@@ -330,8 +341,8 @@ def test_a_worker_joins_late_and_another_is_killed(dask, under_way, wait_for, do
     assert under_way.error is None and (
         under_way.ended.progress.computed,
         under_way.ended.progress.failed,
-    ) == (40, 0)
-    assert second.poll() is None and len(done(under_way.out)) == 40
+    ) == (20, 0)
+    assert second.poll() is None and len(done(under_way.out)) == 20
     assert "has joined" in under_way.log and "is gone; others take over" in under_way.log
     assert open_study(under_way.out).energy.notnull().all()
 
@@ -347,9 +358,9 @@ def test_a_scheduler_that_dies_loses_nothing(
     under_way.join()
     assert isinstance(under_way.error, MacroslipError) and "--resume" in str(under_way.error)
     keys = done(under_way.out)
-    assert reported <= len(keys) < 40
+    assert reported <= len(keys) < 20
     ended, simulated = resumed(study_of(slow_content, tmp_path), under_way.out, counted)
-    assert (simulated, ended.progress.unchanged) == (40 - len(keys), len(keys))
+    assert (simulated, ended.progress.unchanged) == (20 - len(keys), len(keys))
 
 
 def test_the_client_of_the_user_stays_theirs(dask, tmp_path, load_files, content):

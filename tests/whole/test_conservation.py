@@ -13,6 +13,7 @@ from macroslip.roller.model import with_tables as rollers_with_tables
 from macroslip.whole.books import FLOWS
 from macroslip.whole.model import whole_bearing, with_tables
 from macroslip.whole.sdirk import pure_rolling
+from tests.quick import COARSE
 from tests.whole.conftest import gather
 
 pytestmark = pytest.mark.slow
@@ -219,7 +220,7 @@ def test_a_shaft_that_starts_under_load_gives_rollers_no_energy_of_their_own():
     case = Case(
         loads=BearingLoads(time, shaft, force, "start"), bearing=Bearing.read("skf-230-900-ca"),
         lubricant=Lubricant.read("skf-lgwm-1"), temperature=292.0, laws=Laws.physical(), dynamics="whole-bearing",
-        rating=False, contact_details=False, gravity=False, window=Window(start=0.0, end=0.28),
+        rating=False, contact_details=False, gravity=False, window=Window(start=0.0, end=0.28), integrator=COARSE,
     )  # fmt: skip
     result = simulate(case)
     assert (result.status == 0).all()

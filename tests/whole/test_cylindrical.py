@@ -34,6 +34,7 @@ from macroslip.ring.balance import balance, roller_loads
 from macroslip.roller.model import ring_geometry, roller_model
 from macroslip.study.reader import open_study
 from macroslip.study.run import run_study
+from tests.quick import COARSE
 
 FILE = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
 BEARING, OIL = Bearing.read(FILE), Lubricant.read("vg320-mineral").at(333.15)
@@ -51,7 +52,7 @@ LED = Cage(
 def case(force=(0.0, -8e3, 0.0), span=0.6, speed=SPEED, **choices):
     given = {
         "bearing": BEARING, "lubricant": OIL, "oil_supply": "flooded", "dynamics": "whole-bearing", "cage": LED, "rating": False,
-        "loads": BearingLoads.constant(force, speed, span), "traces": Traces(step=5e-3),
+        "loads": BearingLoads.constant(force, speed, span), "traces": Traces(step=5e-3), "integrator": COARSE,
     }  # fmt: skip
     return Case(**given | choices)
 

@@ -30,6 +30,8 @@ _ENDING = ".cache"
 
 #: Bytes that this process has written since it last counted all files.
 _written = [float(_MOST_BYTES)]
+#: Names of the files that this process uses until it ends.
+_in_use: set[str] = set()
 
 
 def cache_folder() -> Path | None:
@@ -96,12 +98,23 @@ def write_cache(name: str, content: bytes) -> None:
             _remove_oldest(folder)
 
 
+def keep_in_use(name: str) -> None:
+    """Count a cached file as used for as long as this process makes others.
+
+    It is then not among those that were used longest ago, though it is read only once.
+    """
+    _in_use.add(name)
+
+
 def _checksum(name: str, content: bytes) -> bytes:
     return hashlib.sha256(name.encode() + content).digest()
 
 
 def _remove_oldest(folder: Path) -> None:
     """Remove the files that were used longest ago until the others are few enough."""
+    for name in _in_use:
+        with contextlib.suppress(OSError):
+            os.utime(folder / f"{name}{_ENDING}")
     files = []
     for path in folder.iterdir():
         if path.name.endswith((_ENDING, UNFINISHED)):

@@ -27,7 +27,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from macroslip.storage.cache import cache_folder, read_cache, write_cache
+from macroslip.storage.cache import cache_folder, keep_in_use, read_cache, write_cache
 from macroslip.storage.fingerprint import fingerprint
 
 #: Beginning of the names of the folders of processes, and the lock that a process holds in its own.
@@ -82,6 +82,8 @@ def _process_folder() -> _ProcessFolder | None:
     home = cache_folder()
     if home is None or shutil.disk_usage(home).free < _SPACE:
         return None
+    # A study that makes many tables would push the kernels out, and its next process compile.
+    keep_in_use(_archive())
     _remove_abandoned(home)
     with contextlib.suppress(OSError):
         path = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=home))
