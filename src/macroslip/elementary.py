@@ -41,7 +41,8 @@ _HALF_PI = (
 
 #: Cells of the exponential's table between two powers of 2, and the bits of its values 2^(j/cells).
 _POWER_BITS = 6
-_POWERS = (2.0 ** (np.arange(1 << _POWER_BITS) / (1 << _POWER_BITS))).view(np.int64)
+_POWER_COUNT = 1 << _POWER_BITS
+_POWERS = (2.0 ** (np.arange(_POWER_COUNT) / _POWER_COUNT)).view(np.int64)
 _PER_CELL = (1 << _POWER_BITS) / math.log(2.0)
 _CELL = (_LN_2[0] / (1 << _POWER_BITS), _LN_2[1] / (1 << _POWER_BITS))
 #: Range of the exponential's argument: the values at its ends are 3e-308 and 8e307.
@@ -74,8 +75,10 @@ def _polynomial(coefficients: list[float], degree: int, last: float) -> np.ndarr
 
 
 #: (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ as functions of r², |r| ≤ π/4.
-_SINE = _polynomial([(-1.0) ** (k + 1) / math.factorial(2 * k + 3) for k in range(12)], 5, 0.617)
-_COSINE = _polynomial([(-1.0) ** k / math.factorial(2 * k + 4) for k in range(12)], 5, 0.617)
+_SINE_SERIES = [(-1.0) ** (k + 1) / math.factorial(2 * k + 3) for k in range(12)]
+_COSINE_SERIES = [(-1.0) ** k / math.factorial(2 * k + 4) for k in range(12)]
+_SINE = _polynomial(_SINE_SERIES, 5, 0.617)
+_COSINE = _polynomial(_COSINE_SERIES, 5, 0.617)
 
 
 def _write_bits_of(typingctx, x):

@@ -16,7 +16,10 @@ def html_overview(title: str, headings: Sequence[str], rows: Iterable[Sequence[o
     >>> html_overview("a < b", ["", ""], [["x", 1]])
     '<div><strong>a &lt; b</strong><table><tr><td>x</td><td>1</td></tr></table></div>'
     """
-    lines = ["".join(f"<td>{escape(str(cell))}</td>" for cell in row) for row in rows]
+    lines = []
+    for row in rows:
+        cells = [f"<td>{escape(str(cell))}</td>" for cell in row]
+        lines.append("".join(cells))
     if any(headings):
         lines.insert(0, "".join(f"<th>{escape(heading)}</th>" for heading in headings))
     table = "".join(f"<tr>{line}</tr>" for line in lines)

@@ -140,7 +140,8 @@ class MakersPage:
         if self.bpfo is None or self.bpfi is None:
             return
         count = self.bpfo + self.bpfi
-        if abs(count - round(count)) > 0.05 or round(count) < 3 or not self.bpfo < self.bpfi:
+        nearest = round(count)
+        if abs(count - nearest) > 0.05 or nearest < 3 or not self.bpfo < self.bpfi:
             raise InputError(
                 f"bpfo is {self.bpfo:g} and bpfi {self.bpfi:g} per turn of the shaft, together "
                 f"{count:g}",
@@ -250,7 +251,8 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
         length = _length(rating, count, diameter, alpha, centre * cosine)
         if gamma is None:
             drop = _drop(drawn["osculation"] * sphere, length)
-            diameter = sphere + drop - (inside + 0.5 * length * np.sin(alpha)) / cosine
+            inner_height = inside + 0.5 * length * np.sin(alpha)
+            diameter = sphere + drop - inner_height / cosine
             diameter = np.clip(diameter, 0.05 * height, height)
     count = np.round(count)
     centre = sphere - 0.5 * diameter
@@ -267,22 +269,27 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
 def _length(rating, count, diameter, alpha, pitch_radius):
     """Roller length [m] of a static load rating [N], ISO 76 solved for L."""
     projected = diameter * np.cos(alpha)
-    return rating / (44e6 * (1.0 - projected / (2.0 * pitch_radius)) * ROWS * count * projected)
+    slenderness = 1.0 - projected / (2.0 * pitch_radius)
+    return rating / (44e6 * slenderness * ROWS * count * projected)
 
 
 def _drop(contour, length):
     """How much smaller than in its middle a barrel's radius is at its ends [m]."""
-    return contour - np.sqrt(np.maximum(contour**2 - 0.25 * length**2, 0.0))
+    square = contour**2 - 0.25 * length**2
+    return contour - np.sqrt(np.maximum(square, 0.0))
 
 
 def _fitting(page: MakersPage, drawn: dict[str, FloatArray]) -> dict[str, FloatArray]:
-    sine, cosine = np.sin(drawn["contact_angle"]), np.cos(drawn["contact_angle"])
+    sine = np.sin(drawn["contact_angle"])
+    cosine = np.cos(drawn["contact_angle"])
     diameter = drawn["roller_diameter"]
     length = drawn["roller_length"]
-    end = 0.5 * diameter - _drop(drawn["osculation"] * drawn["outer_raceway_radius"], length)
+    contour = drawn["osculation"] * drawn["outer_raceway_radius"]
+    end = 0.5 * diameter - _drop(contour, length)
     along = 0.5 * length * cosine
     across = end * sine
-    spacing = 2.0 * drawn["pitch_radius"] * np.sin(np.pi / drawn["rollers_per_row"]) / diameter
+    half_pitch = np.pi / drawn["rollers_per_row"]
+    spacing = 2.0 * drawn["pitch_radius"] * np.sin(half_pitch) / diameter
     clearance = 0.5 - (drawn["row_offset"] + along + across) / page.width
     wall = (drawn["pitch_radius"] - 0.5 * length * sine - end * cosine - 0.5 * page.bore) / (
         page.outside - page.bore

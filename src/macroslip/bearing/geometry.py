@@ -232,7 +232,9 @@ def roller_end_radius(bearing: Bearing) -> float:
     """
     contour = roller_contour_radius(bearing)
     half = bearing.roller_length / 2
-    drop = contour - math.sqrt(contour**2 - half**2) if half < contour else contour
+    drop = contour
+    if half < contour:
+        drop = contour - math.sqrt(contour**2 - half**2)
     return max(0.0, roller_radius(bearing) - drop)
 
 
@@ -259,7 +261,8 @@ def envelope(bearing: Bearing) -> Envelope:
     >>> [round(place, 4) for place in envelope(Bearing.read("skf-240-600-bc"))]
     [0.0159, 0.1321, 0.3315]
     """
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    sine = math.sin(bearing.contact_angle)
+    cosine = math.cos(bearing.contact_angle)
     half = bearing.roller_length / 2
     end = roller_end_radius(bearing)
     return Envelope(

@@ -72,7 +72,8 @@ def static_load_rating(
     16283
     """
     projected = roller_diameter * math.cos(contact_angle)
-    return 44e6 * (1.0 - projected / pitch) * rows * rollers_per_row * roller_length * projected
+    slenderness = 1.0 - projected / pitch
+    return 44e6 * slenderness * rows * rollers_per_row * roller_length * projected
 
 
 def geometry_factor(gamma: float) -> float:

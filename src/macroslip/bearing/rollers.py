@@ -30,7 +30,8 @@ def no_roller(bearing: Bearing | TaperedBearing, source: Source) -> Iterator[Inp
 def overlapping(bearing: Bearing | TaperedBearing, source: Source) -> Iterator[InputError]:
     """Yield more rollers than fit round the circumference."""
     # Centres of neighbouring rollers are a chord of the pitch circle apart.
-    spacing = 2 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
+    half_pitch = math.pi / bearing.rollers_per_row
+    spacing = 2 * bearing.pitch_radius * math.sin(half_pitch)
     if spacing <= bearing.roller_diameter:
         most = math.floor(
             math.pi / math.asin(min(1.0, bearing.roller_diameter / (2 * bearing.pitch_radius)))

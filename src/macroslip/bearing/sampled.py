@@ -56,7 +56,9 @@ def check_bore(bore: float, outside: float) -> None:
 
 def within(values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0) -> BoolArray:
     """True where a proportion lies in what is accepted, widened by a margin on both sides."""
-    return (values >= accepted.low - margin) & (values <= accepted.high + margin)
+    lowest = accepted.low - margin
+    highest = accepted.high + margin
+    return (values >= lowest) & (values <= highest)
 
 
 def fitting(

@@ -60,7 +60,8 @@ class RollerNumbers(Form):
         """Check that each is a whole number; NumPy's are welcome."""
         if isinstance(value, str) and value == "all":
             return "all"
-        is_list = isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping | Set)
+        is_no_list = isinstance(value, str | bytes | Mapping | Set)
+        is_list = isinstance(value, Iterable) and not is_no_list
         numbers = tuple(value) if is_list else ()
         if not numbers or not all(
             isinstance(item, Integral) and not isinstance(item, bool) for item in numbers
@@ -251,7 +252,9 @@ class Case:
                 remedy="Give the temperature of the oil; inlet_temperature of a result has the one "
                 "it found.",
             )
-        oil = self.lubricant if self.temperature is None else self.lubricant.at(self.temperature)
+        oil = self.lubricant
+        if self.temperature is not None:
+            oil = oil.at(self.temperature)
         if not self.laws.asks_for_oil:
             return oil
         return oil.supplied(
@@ -460,14 +463,16 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
     """Yield rollers that the bearing does not have, and times at which there are no loads."""
     count = case.bearing.rollers_per_row
     numbers = case.roller_numbers
-    if len(set(numbers)) < len(numbers) or min(numbers) < 0 or max(numbers) >= count:
+    is_repeated = len(set(numbers)) < len(numbers)
+    if is_repeated or min(numbers) < 0 or max(numbers) >= count:
         allowed = f"all, or a list of different numbers from 0 to {count - 1}"
         yield InputError(f"rollers is {shown(list(numbers))}", where="rollers", allowed=allowed)
     first = case.loads.start
     last = case.loads.end
     rounding = TIME_ROUNDING * max(abs(first), abs(last))
     # A record of 600 s often ends one sample before 600 s.
-    latest = last + (1.0 + 1e-6) * (last - first) / (case.loads.time.size - 1)
+    mean_step = (last - first) / (case.loads.time.size - 1)
+    latest = last + (1.0 + 1e-6) * mean_step
     for name, part, allowed in (
         ("window", case.window, "start before end, both within the loads'"),
         ("traces", case.traces, "times within the loads'"),

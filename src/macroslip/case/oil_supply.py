@@ -135,12 +135,14 @@ def oil_gap(
     float
         The gap [m]. 1 m counts as flooded, and is given without load or motion as well.
     """
-    turned = np.abs(loads.shaft_speed) * np.convolve(np.diff(loads.time), [0.5, 0.5])
+    seconds = np.convolve(np.diff(loads.time), [0.5, 0.5])
+    turned = np.abs(loads.shaft_speed) * seconds
     if not turned.any():
         return FLOODED_GAP
     force = np.average(loads.force, axis=0, weights=turned)
     speed = np.average(np.abs(loads.shaft_speed), weights=turned)
-    return _gap(supply, bearing, oil, laws, tuple(map(float, force)), float(speed))
+    mean_force = tuple(map(float, force))
+    return _gap(supply, bearing, oil, laws, mean_force, float(speed))
 
 
 @functools.lru_cache(maxsize=64)
@@ -192,11 +194,14 @@ def _inner_raceway(
     angle = np.zeros(1)
     if bearing.kind == "tapered":
         # Moments hardly change the mean load of the rollers.
-        result = tapered_balance(tapered_ring(bearing), angle, np.array([force]), np.zeros((1, 2)))
+        ring = tapered_ring(bearing)
+        no_moment = np.zeros((1, 2))
+        result = tapered_balance(ring, angle, np.array([force]), no_moment)
         loads = result.outer_load[0]
     else:
         ring = ring_geometry(bearing, model)
-        displacement, _ = balance(ring, angle, np.array([force]), np.zeros((1, 3)))
+        start = np.zeros((1, 3))
+        displacement, _ = balance(ring, angle, np.array([force]), start)
         loads = roller_loads(ring, angle, displacement)[0]
     row = max(loads.reshape(bearing.rows, -1), key=np.sum)
     loaded = row[row > 0.0]

@@ -143,7 +143,8 @@ def _show(record: Record, more: _Rows | None, as_json: bool) -> None:
         values = {key: asdict(origin) for key, origin in record.provenance.items()}
         printed = {"name": record.name, "title": record.title, "values": values}
         heading, lines = more or _Rows(_FOLLOWS, [])
-        print_json(printed | {heading: [dict(zip(names, line, strict=True)) for line in lines]})
+        entries = [dict(zip(names, line, strict=True)) for line in lines]
+        print_json(printed | {heading: entries})
         return
     rows = [
         [
@@ -390,7 +391,10 @@ def _estimate(
     from macroslip.bearing.tapered.estimate import TaperedPage, estimate_tapered_bearing
 
     sizes = [page[key] for key in ("bore", "outside", "width") if page[key] is not None]
-    size = f", {' x '.join(f'{1e3 * length:g}' for length in sizes)} mm" if sizes else ""
+    size = ""
+    if sizes:
+        millimetres = [f"{1e3 * length:g}" for length in sizes]
+        size = f", {' x '.join(millimetres)} mm"
     title = f"Estimated from its maker's page{size}"
     if kind is Kind.TAPERED:
         return estimate_tapered_bearing(TaperedPage(**page), name, title, seed=seed)
@@ -409,7 +413,8 @@ def _tell_estimate(
     for key, entry in numbers["values"].items():
         unit = "" if entry["unit"] == "1" else f" {entry['unit']}"
         low, high = entry["10 to 90 %"]
-        rows.append([key, f"{entry['median']:g}{unit}", f"{low:g} to {high:g}{unit}"])
+        median = f"{entry['median']:g}{unit}"
+        rows.append([key, median, f"{low:g} to {high:g}{unit}"])
     title = (
         f"{estimate.bearing.name}: median and range of four out of five of "
         f"{numbers['bearings that fit the page']} bearings that fit the page"

@@ -82,10 +82,12 @@ def damage(
             for i, row in enumerate(criteria.row.values.tolist())
             for j, surface in enumerate(criteria.surface.values.tolist())
         ]
-        coefficients = ", ".join(f"{k:.2g}" for k in criteria.wear_coefficient.values[::-1])
+        smallest_last = criteria.wear_coefficient.values[::-1]
+        coefficients = ", ".join(f"{k:.2g}" for k in smallest_last)
         title = f"years of wear at k = {coefficients} m²/N"
         depths = [f"{1e6 * worn:g} µm" for worn in criteria.depth.values]
-        print_table(title, ["row", "surface", *depths], rows, "ll" + "r" * len(depths))
+        sides = "ll" + "r" * len(depths)
+        print_table(title, ["row", "surface", *depths], rows, sides)
     if xlsx is not None:
         typer.echo(f"written: {xlsx}")
 

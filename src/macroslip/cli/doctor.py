@@ -47,7 +47,9 @@ def doctor(
     from macroslip.storage.cache import cache_folder
 
     folder = cache_folder()
-    sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()] if folder else []
+    sizes = []
+    if folder:
+        sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()]
     lacking = {command: missing_packages(need) for command, need in COMMANDS.items()}
     report = {
         "version": macroslip.__version__,
@@ -71,7 +73,8 @@ def doctor(
         print_json(report)
         return
     rows = [[name, str(report["machine"][name])] for name in _OF_THE_MACHINE]
-    stored = f"{folder}, {sum(sizes) / 1e6:.3g} MB in {len(sizes)} files"
+    megabytes = sum(sizes) / 1e6
+    stored = f"{folder}, {megabytes:.3g} MB in {len(sizes)} files"
     rows.append(
         ["caches", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"]
     )

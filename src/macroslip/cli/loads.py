@@ -207,7 +207,8 @@ def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
     quantities = {"shaft speed [rpm]": read.shaft_speed * 30.0 / math.pi}
     if isinstance(read, HubLoads):
         names = ("fx [kN]", "fy [kN]", "fz [kN]", "mx [kN m]", "my [kN m]", "mz [kN m]")
-        quantities |= dict(zip(names, np.hstack([read.force, read.moment]).T / 1e3, strict=True))
+        loads_in_kilo = np.hstack([read.force, read.moment]).T / 1e3
+        quantities |= dict(zip(names, loads_in_kilo, strict=True))
     else:
         quantities |= _forces(read)
     return {
@@ -225,7 +226,8 @@ def _forces(read: BearingLoads) -> dict[str, NDArray]:
         f"{name} [kN]": values / 1e3
         for name, values in zip(("F_X0", "F_Y0", "F_Z0"), read.force.T, strict=True)
     }
-    radial = (read.force[:, 0] ** 2 + read.force[:, 1] ** 2) ** 0.5
+    square = read.force[:, 0] ** 2 + read.force[:, 1] ** 2
+    radial = square**0.5
     return forces | {"radial [kN]": radial / 1e3}
 
 
@@ -298,4 +300,5 @@ def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -
     )
     case = Case(loads=bearing, drivetrain=drivetrain, **parts)
     time, rollers = roller_load_series(case, bearing.start, bearing.end)
-    return load_figure(bearing, time, rollers[:, ROWS.index("upwind")].sum(axis=-1))
+    upwind = rollers[:, ROWS.index("upwind")]
+    return load_figure(bearing, time, upwind.sum(axis=-1))

@@ -218,12 +218,14 @@ def _print_rows(dataset: xr.Dataset, summary: dict[str, Any]) -> None:
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{plural}"
     columns = [words for key, words in _OF_ROW.items() if key != "rollers"]
     title = f"{summary['title']}, {window}"
-    print_table(title, ["row", *columns], rows, "l" + "r" * len(columns))
+    sides = "l" + "r" * len(columns)
+    print_table(title, ["row", *columns], rows, sides)
     cages = summary.get("cage slip [1]", {})
     for cage, slip in cages.items():
         whose = "the cage" if len(cages) == 1 else f"the {cage} cage"
         behind = "behind" if slip <= 0.0 else "ahead of"
-        typer.echo(f"mean slip of {whose}: {number(100.0 * abs(slip))} % {behind} pure rolling")
+        percent = number(100.0 * abs(slip))
+        typer.echo(f"mean slip of {whose}: {percent} % {behind} pure rolling")
     if "rating_problem" in dataset.attrs:
         typer.echo(f"not rated: {dataset.attrs['rating_problem']}")
     if "static_safety" in dataset:

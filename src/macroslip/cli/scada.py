@@ -94,8 +94,12 @@ def inspect(
     print_notes(notes)
     typer.echo()
     shown = [str(name) for name, rows in counts.items() if rows.sum() > 0]
-    lines = [[month, *(f"{counts.loc[month, name]}" for name in shown)] for month in counts.index]
-    lines.append(["all", *(f"{counts[name].sum()}" for name in shown)])
+    lines = []
+    for month in counts.index:
+        cells = [f"{counts.loc[month, name]}" for name in shown]
+        lines.append([month, *cells])
+    sums = [f"{counts[name].sum()}" for name in shown]
+    lines.append(["all", *sums])
     print_table(
         "rows by month, and the first filter that drops them; absent: steps without a row",
         ["", *shown],
@@ -123,12 +127,14 @@ def _print_histogram(read: Scada) -> None:
     table = turning.pivot_table(
         index="wind_speed [m/s]", columns="temperature", values="share", aggfunc="sum"
     )
-    stood = shares[shares["state"] == "idle"].groupby("temperature")["share"].sum().to_dict()
+    idle = shares[shares["state"] == "idle"]
+    stood = idle.groupby("temperature")["share"].sum().to_dict()
     lines = [
         [f"{wind:g}", *(_percent(share) for share in row)]
         for wind, row in zip(table.index, table.to_numpy(), strict=True)
     ]
-    lines.append(["idle", *(_percent(stood.get(at, 0.0)) for at in table.columns)])
+    idle_shares = [_percent(stood.get(at, 0.0)) for at in table.columns]
+    lines.append(["idle", *idle_shares])
     print_table(
         "% of the rows with data, by wind speed [m/s] and temperature of the bearing [degC]",
         ["", *(f"{at:g}" for at in table.columns)],

@@ -97,9 +97,11 @@ def _print(rings: xr.Dataset) -> None:
     for k in range(rings.sizes["point"]):
         point = rings.isel(point=k)
         forces = [number(float(value) / 1e3) for value in point.force.values]
-        entries = [number(float(point.stiffness.values[pair]) / 1e6) for pair in pairs]
+        matrix = point.stiffness.values / 1e6
+        entries = [number(float(matrix[pair])) for pair in pairs]
         held = "" if point.held else "not held"
-        rows.append([point.case.item(), point.kind.item(), *forces, *entries, held])
+        head = [point.case.item(), point.kind.item()]
+        rows.append([*head, *forces, *entries, held])
     print_table(
         "loads [kN] and stiffness of displacements [MN/m]; tilts: 0, the bearing aligns itself",
         ["case", "about", *headings, ""],

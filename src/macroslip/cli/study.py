@@ -156,7 +156,8 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
             }
         )  # fmt: skip
         return
-    rows = [[name, str(count)] for count, name in parts] + [["runs", str(estimate.runs)]]
+    rows = [[name, str(count)] for count, name in parts]
+    rows.append(["runs", str(estimate.runs)])
     if estimate.looked_at:
         rows += [
             ["length of a load history, mean", f"{estimate.simulated_seconds:.6g} s"],

@@ -84,9 +84,11 @@ def load_ratio(load, speed, material, roughness, hardness):
     log_speed = np.log(speed)
     log_material = np.log(material)
     with np.errstate(divide="ignore"):
-        exponent = math.log(4470.0) + 6.015 * np.log(roughness) + 1.168 * np.log(hardness)
+        exponent = math.log(4470.0) + 6.015 * np.log(roughness)
+        exponent = exponent + 1.168 * np.log(hardness)
     exponent = exponent + 0.485 * log_load - 3.741 * log_speed - 2.898 * log_material
-    share = 5e-5 * np.exp(-0.408 * log_load - 0.088 * log_speed + 0.103 * log_material)
+    log_share = -0.408 * log_load - 0.088 * log_speed + 0.103 * log_material
+    share = 5e-5 * np.exp(log_share)
     return share * np.logaddexp(0.0, exponent)
 
 
@@ -205,10 +207,12 @@ def _passes(level, sliding, bend, spin, half):
 
     They are its extremum where v does not reach the level: a corner too many does no harm.
     """
-    inside = np.maximum(spin * spin - 4.0 * bend * (sliding - level), 0.0)
-    larger = 0.5 * (spin + np.copysign(np.sqrt(inside), spin))
+    over_level = sliding - level
+    inside = np.maximum(spin * spin - 4.0 * bend * over_level, 0.0)
+    root = np.copysign(np.sqrt(inside), spin)
+    larger = 0.5 * (spin + root)
     first = np.minimum(np.maximum(larger / bend, -half), half)
-    smaller = (sliding - level) / (larger + _LEAST * (larger == 0.0))
+    smaller = over_level / (larger + _LEAST * (larger == 0.0))
     second = np.minimum(np.maximum(smaller, -half), half)
     return np.minimum(first, second), np.maximum(first, second)
 
@@ -269,8 +273,10 @@ def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
         for node, weight in _RULE:
             station = middle + reach * node
             slip = sliding + station * (bend * station - spin)
-            part = scale * reach * weight * (1.0 - station * station / (across * across))
-            part = part * np.minimum(np.maximum(slip / full_slip, -1.0), 1.0)
+            pressed = 1.0 - station * station / (across * across)
+            saturation = np.minimum(np.maximum(slip / full_slip, -1.0), 1.0)
+            part = scale * reach * weight * pressed
+            part = part * saturation
             force = force + part
             second = second + part * station * station
             skew = skew + part * station

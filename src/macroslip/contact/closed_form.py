@@ -78,7 +78,8 @@ def moment_of_coth(u):
     decay = power = exponential(-2.0 * u)
     n = 1.0
     while power > 1e-18:
-        total += power * (u * u + (u + 0.5 / n) / n) / n
+        term = u * u + (u + 0.5 / n) / n
+        total += power * term / n
         power *= decay
         n += 1.0
     return u * u * u / 3.0 + _HALF_ZETA_3 - total
@@ -96,7 +97,8 @@ def _reduction(heating):
         return g, slope
     root = math.sqrt(heating)
     g = math.asinh(root) / (root * math.sqrt(1.0 + heating))
-    return g, 0.5 * (1.0 - (1.0 + 2.0 * heating) * g) / (1.0 + heating)
+    slope = 0.5 * (1.0 - (1.0 + 2.0 * heating) * g) / (1.0 + heating)
+    return g, slope
 
 
 @jit_inline
@@ -198,11 +200,14 @@ def patch_integral(pressure_exponent, root_heating):
     u0 = math.asinh(root_heating)
     u1 = math.asinh(q1)
     w1 = u1 * (q1 / math.sqrt(1.0 + q1 * q1))
-    integral = 0.5 * (h * u1 * u1 - (moment_of_coth(u1) - moment_of_coth(u0)))
+    coth_moment = moment_of_coth(u1) - moment_of_coth(u0)
+    integral = 0.5 * (h * u1 * u1 - coth_moment)
     slope = h * w1 - 0.5 * (u1 - u0) * (u1 + u0)
     scale = 1.0 / (h * h * heating)
     value = integral * scale
-    return value, slope * scale - 2.0 * value, 0.5 * w1 * h * scale - value / h
+    by_slip = slope * scale - 2.0 * value
+    by_heating = 0.5 * w1 * h * scale - value / h
+    return value, by_slip, by_heating
 
 
 #: Φ of `patch_integral` for arrays.

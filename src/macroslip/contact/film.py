@@ -139,8 +139,11 @@ def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
     groups = line_groups(interface)
     w = groups.load * np.cbrt(load) ** 2
     u = groups.speed * np.asarray(entrainment_speed)
-    (least, most), (slowest, fastest) = RANGES["load"], RANGES["speed"]
-    return (least <= w) & (w <= most) & (slowest <= u) & (u <= fastest)
+    least, most = RANGES["load"]
+    slowest, fastest = RANGES["speed"]
+    load_is_in_range = (least <= w) & (w <= most)
+    speed_is_in_range = (slowest <= u) & (u <= fastest)
+    return load_is_in_range & speed_is_in_range
 
 
 def masjedi_khonsari_notes(interface: Interface) -> list[str]:
@@ -186,7 +189,8 @@ def log_moes(log_rigid, log_load, log_material):
     6.9701
     """
     log_elastic = math.log(2.621) - 0.2 * log_load
-    order = 1.4 + 1.6 * np.exp(-2.0 * np.exp(np.minimum(log_elastic - log_rigid, 700.0)))
+    log_ratio = np.minimum(log_elastic - log_rigid, 700.0)
+    order = 1.4 + 1.6 * np.exp(-2.0 * np.exp(log_ratio))
     isoviscous = joined(log_rigid, log_elastic, 7.0 / 3.0)
     piezoviscous = joined(
         math.log(1.287) + (2.0 / 3.0) * log_material,
@@ -229,7 +233,8 @@ def moes_in_range(interface: Interface, load, entrainment_speed):
     """
     groups = line_groups(interface)
     doubled = 2.0 * groups.speed * np.asarray(entrainment_speed)
-    m = groups.load * np.cbrt(load) ** 2 / np.sqrt(doubled)
+    load_group = groups.load * np.cbrt(load) ** 2
+    m = load_group / np.sqrt(doubled)
     material = groups.material * doubled**0.25
     return (m <= HIGHEST_COMPARED_LOAD) & (material <= HIGHEST_COMPARED_MATERIAL)
 
@@ -278,7 +283,8 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
         return smooth
     # Constant below a tenth of the least W and U of the range.
     level_w = np.logaddexp(2.0 * log_w, 2.0 * (_LOG_HEAVY - _DECADE))
-    level_u = np.logaddexp(2.0 * log_u, 2.0 * (math.log(RANGES["speed"][0]) - _DECADE))
+    lowest_u = math.log(RANGES["speed"][0]) - _DECADE
+    level_u = np.logaddexp(2.0 * log_u, 2.0 * lowest_u)
     rough = math.log(0.2) + 1.222 * math.log(groups.roughness) + 0.223 * math.log(groups.hardness)
     return smooth + np.exp(
         scale + rough - 0.842 * math.log(groups.material) - 0.182 * level_w - 0.0215 * level_u

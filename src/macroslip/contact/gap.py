@@ -162,6 +162,28 @@ def ratios(kappa, aspect) -> np.ndarray:
     return np.exp(log_ratios)
 
 
+def _slices(shape: GapShape, gap: np.ndarray, kappa: np.ndarray) -> np.ndarray:
+    """Q/(η0 u) [m], F_R/(η0 u) [m] and S [m] of slices side by side, each Martin's line."""
+    radius = shape.rolling_radius
+    length = shape.length
+    root = np.sqrt(np.maximum(kappa, 1e-12))
+    narrow = np.arctan(root) / root
+    wide = np.arcsinh(root) / root
+    load = LOAD * radius * length / gap * narrow
+    rolling = ROLLING_AT_GAP * length * np.sqrt(radius / gap) * wide
+    shear = SHEAR * length * np.sqrt(2.0 * radius / gap) * wide
+    return np.stack([load, rolling, shear])
+
+
+def _starved(gap: np.ndarray, oil_gap: float, widest_inlet: float) -> np.ndarray:
+    """Factors of `starved_martin` at gaps h0 [m], the first axis of the result."""
+    if math.isinf(oil_gap):
+        return np.array(starved_martin(widest_inlet))[:, None]
+    inlets = np.minimum(widest_inlet, oil_gap / (FLOW * gap))
+    factors = [starved_martin(inlet) for inlet in inlets.tolist()]
+    return np.array(factors).T
+
+
 # Both rows have the same contacts, and runs of a study many of them in common.
 @functools.lru_cache(maxsize=64)
 def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float = math.inf) -> Gap:
@@ -185,21 +207,10 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     log_gap = np.linspace(math.log(lowest), math.log(highest), _KNOTS)
     gap = np.exp(log_gap)
     kappa = curvature / gap
-    root = np.sqrt(np.maximum(kappa, 1e-12))
-    narrow = np.arctan(root) / root
-    wide = np.arcsinh(root) / root
-    load = LOAD * radius * length / gap * narrow
-    rolling = ROLLING_AT_GAP * length * np.sqrt(radius / gap) * wide
-    shear = SHEAR * length * np.sqrt(2.0 * radius / gap) * wide
-    slices = np.stack([load, rolling, shear])
     aspect = np.sqrt(8.0 * radius * gap) / length
+    slices = _slices(shape, gap, kappa)
     correction = ratios(kappa, aspect)
-    if math.isfinite(oil_gap):
-        inlets = np.minimum(widest_inlet, oil_gap / (FLOW * gap))
-        factors = [starved_martin(inlet) for inlet in inlets.tolist()]
-        starved = np.array(factors).T
-    else:
-        starved = np.array(starved_martin(widest_inlet))[:, None]
+    starved = _starved(gap, oil_gap, widest_inlet)
     values = np.log(slices * correction * starved).T
     by_gap = CubicSpline(log_gap, values).c
     # Load falls with the gap.

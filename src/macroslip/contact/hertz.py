@@ -62,7 +62,9 @@ def effective_modulus(
     >>> round(effective_modulus(210e9, 0.3, 210e9, 0.3) / 1e9, 3)
     230.769
     """
-    return 2.0 / ((1.0 - poisson_1**2) / modulus_1 + (1.0 - poisson_2**2) / modulus_2)
+    compliance_1 = (1.0 - poisson_1**2) / modulus_1
+    compliance_2 = (1.0 - poisson_2**2) / modulus_2
+    return 2.0 / (compliance_1 + compliance_2)
 
 
 def axis_ratio(curvature_ratio: float) -> float:

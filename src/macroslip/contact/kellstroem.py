@@ -65,7 +65,8 @@ def saturating_stress(friction: SaturatingFriction, pressure, slip, mean_speed):
     12500000.0
     """
     full = friction.slide_roll_ratio * np.asarray(mean_speed)
-    return friction.limit * np.asarray(pressure) * np.minimum(np.asarray(slip) / full, 1.0)
+    saturation = np.minimum(np.asarray(slip) / full, 1.0)
+    return friction.limit * np.asarray(pressure) * saturation
 
 
 class PatchFriction(NamedTuple):

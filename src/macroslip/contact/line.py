@@ -138,7 +138,8 @@ def plane_strain_approach(load_per_length, half_width, roller_radius, ring_thick
     """
     poisson = 0.3
     roller = 2.0 * np.log(4.0 * roller_radius / half_width) - 1.0
-    ring = 2.0 * np.log(2.0 * ring_thickness / half_width) - poisson / (1.0 - poisson)
+    lateral = poisson / (1.0 - poisson)
+    ring = 2.0 * np.log(2.0 * ring_thickness / half_width) - lateral
     return load_per_length / (np.pi * modulus) * (roller + ring)
 
 

@@ -67,8 +67,10 @@ def profile_sum(depths, exponent: float) -> np.ndarray:
     below = 1.0 / (1.0 + np.exp(-stretched))
     above = 1.0 / (1.0 + np.exp(stretched))
     weight = _STEP * math.pi * np.cosh(tau) * below * above
-    values = above ** (exponent - 1.0) * np.sqrt(-np.expm1(-x * below))
-    return exponent * x[..., 0] ** exponent * (weight * values).sum(axis=-1)
+    touched = np.sqrt(-np.expm1(-x * below))
+    values = above ** (exponent - 1.0) * touched
+    integral = (weight * values).sum(axis=-1)
+    return exponent * x[..., 0] ** exponent * integral
 
 
 @jit_inline

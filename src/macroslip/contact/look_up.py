@@ -334,7 +334,8 @@ def traction_cell(table, load, speeds):
     """
     z = (speeds.ratio - table.middle) / table.scale
     size = math.sqrt(z * z + 1.0)
-    i, t, load_slope = cell_of(table.load, load.logarithm + table.stretch * load.root)
+    stretched_load = load.logarithm + table.stretch * load.root
+    i, t, load_slope = cell_of(table.load, stretched_load)
     k, s, speed_slope = cell_of(table.speed, speeds.root_speed)
     j, u, ratio_slope = cell_of(table.ratio, arsinh(z, size))
     inner = CHANNELS * (table.ratio.cells + 3)
@@ -425,4 +426,5 @@ def rising_slip(table, tables, load, speed):
     stretched = ln_load + table.stretch * exponential(ln_load * (1.0 / 3.0))
     row = _nearest_node(table.load, stretched)
     column = _nearest_node(table.speed, math.sqrt(math.sqrt(speed)))
-    return tables[table.rising + row * (table.speed.cells + 1) + column] * speed
+    columns = table.speed.cells + 1
+    return tables[table.rising + row * columns + column] * speed

@@ -145,8 +145,10 @@ class Laws:
         if self.traction not in (MECHANISMS, KELLSTROEM):
             void = [name for name in _REPLACED if getattr(self, name) != _DEFAULTS[name]]
             if void:
-                chosen = " and ".join(f"{name} ({_word(getattr(self, name))})" for name in void)
-                beside = ", ".join(f"{name}: {str(_DEFAULTS[name]).lower()}" for name in void)
+                choices = [f"{name} ({_word(getattr(self, name))})" for name in void]
+                defaults = [f"{name}: {str(_DEFAULTS[name]).lower()}" for name in void]
+                chosen = " and ".join(choices)
+                beside = ", ".join(defaults)
                 raise InputError(
                     f"the traction law '{self.traction}' has no {chosen}, which stand beside it: a traction law of one's "
                     "own takes the place of these mechanisms",
@@ -277,4 +279,5 @@ def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
         key for key, mechanism in needed.items() if mechanism and getattr(lubricant, key) is None
     ]
     if keys:
-        lubricant.require(*keys, purpose=" and ".join(dict.fromkeys(needed[key] for key in keys)))
+        purposes = dict.fromkeys(needed[key] for key in keys)
+        lubricant.require(*keys, purpose=" and ".join(purposes))

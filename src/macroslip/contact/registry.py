@@ -373,7 +373,8 @@ def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, sp
     films = np.geomspace(thin, thick, 5)
     loads, films, slips = np.meshgrid(loads[:, 0], films, slips, indexing="ij")
     force = law(interface, loads, films, slips)
-    off = np.abs(0.5 * force[..., 1] / force[..., 0] - 1.0)
+    ratio = 0.5 * force[..., 1] / force[..., 0]
+    off = np.abs(ratio - 1.0)
     if off.max() > _PROPORTIONAL:
         i, k = np.unravel_index(off.argmax(), off.shape)
         load = loads[i, k, 0]

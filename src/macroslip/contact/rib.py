@@ -93,8 +93,10 @@ def chittenden_thickness(
     speed = lubricant.viscosity * entrainment_speed / (modulus * rolling_radius)
     material = lubricant.pressure_viscosity * modulus
     force = load / (modulus * rolling_radius**2)
-    shape = 1.0 - math.exp(-1.23 * (lateral_radius / rolling_radius) ** (2.0 / 3.0))
-    groups = 4.31 * np.power(speed, 0.68) * material**0.49 * np.power(force, -0.073)
+    aspect = (lateral_radius / rolling_radius) ** (2.0 / 3.0)
+    shape = 1.0 - math.exp(-1.23 * aspect)
+    by_speed = 4.31 * np.power(speed, 0.68)
+    groups = by_speed * material**0.49 * np.power(force, -0.073)
     return rolling_radius * groups * shape
 
 
@@ -157,7 +159,8 @@ def film_friction(contact: RibContact, load, film_thickness, sliding_speed, laws
         np.asarray(film_thickness)[..., None],
         np.asarray(sliding_speed)[..., None],
     )
-    return (stress * chord * across * np.cos(angle) * weight).sum(axis=-1)
+    force = stress * chord * across * np.cos(angle)
+    return (force * weight).sum(axis=-1)
 
 
 def rib_asperity_share(film_ratio):

@@ -176,7 +176,8 @@ def log_elastic(name: str, log_load, log_material):
     [1.149, 1.627]
     """
     if name == "inlet":
-        heavy = math.log(4.318 * 2.0**-0.658) - 0.342 * log_material + 0.0126 * log_load
+        coefficient = math.log(4.318 * 2.0**-0.658)
+        heavy = coefficient - 0.342 * log_material + 0.0126 * log_load
         return joined(heavy, math.log(1.42 / 0.966), -ORDERS[name])
     load = np.exp(log_load)
     material = np.exp(log_material)
@@ -199,9 +200,9 @@ def line_rolling(name: str, load, material):
     1.4705
     """
     log_m = np.log(load)
-    return np.exp(
-        joined(_LOG_RIGID + 0.5 * log_m, log_elastic(name, log_m, np.log(material)), -ORDERS[name])
-    )
+    rigid = _LOG_RIGID + 0.5 * log_m
+    elastic = log_elastic(name, log_m, np.log(material))
+    return np.exp(joined(rigid, elastic, -ORDERS[name]))
 
 
 class Plug(NamedTuple):
@@ -331,8 +332,10 @@ def _beside(numbers: RollingNumbers, log_load, log_speed, log_h0):
     across = np.minimum(numbers.across * np.exp(log_load / 3.0), half)
     rise = numbers.double_lateral * np.exp(log_h0)
     far = np.sqrt(half * half + rise - across * across)
-    length = np.log((half + far) / (across + np.sqrt(rise)))
-    return np.where(across < half, numbers.beside * np.exp(log_speed) * length, 0.0)
+    near = across + np.sqrt(rise)
+    length = np.log((half + far) / near)
+    resistance = numbers.beside * np.exp(log_speed) * length
+    return np.where(across < half, resistance, 0.0)
 
 
 def light_contact(numbers: RollingNumbers, load, mean_speed):
@@ -410,9 +413,11 @@ def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h
         heavy = np.log(starvation_factor(inlet))
         beside = beside * rigid_rolling_factor(inlet)
     if numbers.loading > 0.0:
-        heavy = heavy + np.log(inlet_heating_of_rolling(numbers.loading * np.exp(2.0 * log_speed)))
+        loading = numbers.loading * np.exp(2.0 * log_speed)
+        heavy = heavy + np.log(inlet_heating_of_rolling(loading))
     force = np.exp(scale + line + share * light + rest * heavy)
-    return force + rest * beside + share * plug_force(numbers, np.exp(log_h0))
+    plug = plug_force(numbers, np.exp(log_h0))
+    return force + rest * beside + share * plug
 
 
 def plug_force(numbers: RollingNumbers, gap):
@@ -468,7 +473,8 @@ def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):
         log_group = _log_group(numbers, np.log(load), np.log(mean_speed))
     carries = np.isfinite(log_group)
     free, _, _ = film_at_load(numbers.gap, np.where(carries, log_group, 0.0))
-    log_gap = np.where(carries, joined(free, math.log(widest), -4.0), math.log(widest))
+    log_widest = math.log(widest)
+    log_gap = np.where(carries, joined(free, log_widest, -4.0), log_widest)
     _, conductance, resistance = contact_at_gap(numbers, np.exp(log_gap))
     if numbers.plug.per_length:
         # The roller slides past the grease of both sides with its surface speed, twice the mean.

@@ -66,8 +66,10 @@ def axis(first: float, last: float, spacing: float) -> Axis:
     >>> axis(0.0, 1.0, 0.1)
     Axis(first=0.0, per_spacing=10.0, cells=10)
     """
-    cells = max(math.ceil((last - first) / spacing * (1.0 - 1e-12)), 4)
-    return Axis(float(first), cells / (last - first), cells)
+    length = last - first
+    cells = math.ceil(length / spacing * (1.0 - 1e-12))
+    cells = max(cells, 4)
+    return Axis(float(first), cells / length, cells)
 
 
 def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
@@ -256,7 +258,8 @@ def spline_value(typingctx, table, start, strides, positions):
                 address = builder.add(address, second)
             planes.append(write.sum(z, lines))
             corner = builder.add(corner, first)
-        a, b, c, d = write.lanes(builder.fmul(write.sum(w, planes), write.polynomial(_CUBIC, u)))
+        along = write.polynomial(_CUBIC, u)
+        a, b, c, d = write.lanes(builder.fmul(write.sum(w, planes), along))
         return builder.fadd(builder.fadd(a, b), builder.fadd(c, d))
 
     arguments_taken = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
@@ -396,7 +399,8 @@ def splines_in_cube(typingctx, table, start, strides, positions):
             sums = [write.sum(w, four) for four in nodes]
             values.append(write.sum(v, sums))
             by_third.append(write.sum(dv, sums))
-            by_first.append(write.sum(v, [write.sum(dw, four) for four in nodes]))
+            slopes = [write.sum(dw, four) for four in nodes]
+            by_first.append(write.sum(v, slopes))
         derivatives = [
             write.sum(z, values),
             write.sum(z, by_first),

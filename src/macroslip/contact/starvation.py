@@ -78,14 +78,16 @@ def inlet_for_rolling(factor: float) -> float:
 def _inlets() -> CubicSpline:
     """Ln(S − 1) over ln(S `film_factor`)."""
     above = np.geomspace(_LEAST, _LARGEST, _KNOTS)
-    return CubicSpline(np.log((1.0 + above) * film_factor(1.0 + above)), np.log(above))
+    inlet = 1.0 + above
+    return CubicSpline(np.log(inlet * film_factor(inlet)), np.log(above))
 
 
 @functools.cache
 def _martin() -> CubicSpline:
     """Ln of the starved over the flooded rolling force of a rigid line contact, over ln(S − 1)."""
     above = np.geomspace(_LEAST, _LARGEST, 80)
-    return CubicSpline(np.log(above), np.log([starved_martin(1.0 + excess)[1] for excess in above]))
+    rolling = [starved_martin(1.0 + excess)[1] for excess in above]
+    return CubicSpline(np.log(above), np.log(rolling))
 
 
 def inlet_at_gap(gap, flooded_film):
@@ -160,5 +162,6 @@ def shared_gaps(
     number = math.floor(math.log(oil_gap) / spacing)
     near = math.exp(number * spacing)
     far = math.exp((number + 1) * spacing)
-    weight = (1.0 / oil_gap - 1.0 / near) / (1.0 / far - 1.0 / near)
+    per_near = 1.0 / near
+    weight = (1.0 / oil_gap - per_near) / (1.0 / far - per_near)
     return (near, 1.0 - weight), (far, weight)

@@ -69,7 +69,8 @@ class Strips(NamedTuple):
     def profile(self, station):
         """Drop P of the contour at stations ζ [m]."""
         relative = 2.0 * np.asarray(station) / self.length
-        return -self.depth * np.log1p(-np.minimum(relative * relative, 1.0 - 1e-15))
+        square = np.minimum(relative * relative, 1.0 - 1e-15)
+        return -self.depth * np.log1p(-square)
 
     def load_per_length(self, approach):
         """Load per length q [N/m] of a strip that is pressed by δ − P ≥ 0 [m]."""
@@ -77,9 +78,11 @@ class Strips(NamedTuple):
 
     def reach(self, drop):
         """Station ζ ≥ 0 up to which the profile drops by less than P ≥ 0 [m]."""
+        half = 0.5 * self.length
         if self.depth == 0.0:
-            return 0.5 * self.length * np.greater(drop, 0.0)
-        return 0.5 * self.length * np.sqrt(-np.expm1(-np.asarray(drop) / self.depth))
+            return half * np.greater(drop, 0.0)
+        square = -np.expm1(-np.asarray(drop) / self.depth)
+        return half * np.sqrt(square)
 
 
 def strips_of(bearing: Bearing | TaperedBearing) -> tuple[Strips, Strips]:
@@ -154,11 +157,13 @@ def equivalent_ellipse(strips: Strips, load: float = REFERENCE_LOAD) -> HertzCon
     """
     approach = float(strip_approach(strips, load))
     largest = float(strips.load_per_length(approach))
+    width = float(half_width(largest, strips.curvature, strips.modulus))
+    pressure = float(line_pressure(largest, strips.curvature, strips.modulus))
     root = load ** (1.0 / 3.0)
     return HertzContact(
         semi_axis_across=0.75 * load / largest / root,
-        semi_axis_along=float(half_width(largest, strips.curvature, strips.modulus)) / root,
-        pressure=float(line_pressure(largest, strips.curvature, strips.modulus)) / root,
+        semi_axis_along=width / root,
+        pressure=pressure / root,
         approach=approach / root**2,
     )
 
@@ -178,7 +183,8 @@ def load_at_pressure(strips: Strips, pressure: float) -> float:
     >>> round(load_at_pressure(line, 1.637e9) / 1e3)
     174
     """
-    per_length = 2.0 * math.pi * pressure**2 / (strips.curvature * strips.modulus)
+    curved_modulus = strips.curvature * strips.modulus
+    per_length = 2.0 * math.pi * pressure**2 / curved_modulus
     approach = (per_length / strips.coefficient) ** (1.0 / PALMGREN_EXPONENT)
     stiffness = strips.coefficient * strips.length
     return float(line_load(stiffness, strips.depth, 2.0 * approach).load)
@@ -242,7 +248,8 @@ class PreparedStrips(PreparedContact):
             *(values.ravel() for values in (strip.pressure, strip.film, np.abs(local))),
         ).reshape(local.shape)
         carried = self.boundary_friction * strip.share * strip.per_length
-        rough = carried * np.clip(local / self.full_slip, -1.0, 1.0) * weight
+        saturation = np.clip(local / self.full_slip, -1.0, 1.0)
+        rough = carried * saturation * weight
         sheared = (1.0 - strip.share) * 2.0 * strip.half_width * stress
         force = sheared * np.copysign(weight, local) + rough
         growth, half_drop = self._cone_and_drop(station)
@@ -314,7 +321,8 @@ class PreparedStrips(PreparedContact):
             for corner, side in ((1, -1.0), (2, 1.0)):
                 station = np.zeros_like(reach)
                 for _ in range(_ITERATIONS):
-                    drop = np.maximum(-ratio * (1.0 + station * strips.taper), 0.0)
+                    growth = 1.0 + station * strips.taper
+                    drop = np.maximum(-ratio * growth, 0.0)
                     station = side * np.minimum(strips.reach(drop), reach)
                 edges[corner] = station
         corners = np.stack(edges, axis=-1)
@@ -330,13 +338,11 @@ class PreparedStrips(PreparedContact):
         load, mean_speed = np.broadcast_arrays(np.asarray(load, dtype=float), mean_speed)
         reach, approach = self._reach(load)
         middle = self.strips.load_per_length(approach)
-        conductance, _, film = light_contact(
-            self._slender(load, reach, middle, 0.0), load, mean_speed
-        )
+        at_middle = self._slender(load, reach, middle, 0.0)
+        conductance, _, film = light_contact(at_middle, load, mean_speed)
         mean = 0.5 * load / reach
-        _, resistance, _ = light_contact(
-            self._slender(load, reach, mean, LOG_SLICE), load, mean_speed
-        )
+        at_mean = self._slender(load, reach, mean, LOG_SLICE)
+        _, resistance, _ = light_contact(at_mean, load, mean_speed)
         return conductance, resistance, film
 
     def _slender(self, load, reach, per_length, slice_of_ellipse: float) -> RollingNumbers:
@@ -345,17 +351,14 @@ class PreparedStrips(PreparedContact):
         assert numbers is not None, "the laws have no rolling resistance"
         log_root = np.log(load) / 3.0
         interface = self.interface
-        doubled = (
-            2.0 * interface.lubricant.viscosity / (interface.modulus * interface.rolling_radius)
-        )
         unit = interface.modulus * interface.rolling_radius
+        log_doubled = math.log(2.0 * interface.lubricant.viscosity / unit)
+        log_load = np.log(per_length / unit) - 0.5 * log_doubled - 2.0 * log_root
+        log_scale = np.log(2.0 * reach * unit) + 0.75 * log_doubled - log_root
         width = half_width(per_length, self.strips.curvature, self.strips.modulus)
         return numbers._replace(
-            log_load=np.log(per_length / unit)
-            - 0.5 * math.log(doubled)
-            - 2.0 * log_root
-            - slice_of_ellipse,
-            log_scale=np.log(2.0 * reach * unit) + 0.75 * math.log(doubled) - log_root,
+            log_load=log_load - slice_of_ellipse,
+            log_scale=log_scale,
             across=reach * np.exp(-log_root),
             area=4.0 * reach * width * np.exp(-2.0 * log_root),
         )

@@ -405,7 +405,8 @@ def _sheet(contact: PreparedContact, grid: _Grid, speed: float) -> np.ndarray:
     slips = grid.slips(grid.ratio.nodes)
     load, slip = np.meshgrid(loads, slips, indexing="ij")
     speed = max(speed, REST_SPEED)
-    ring_speed = speed * np.sqrt(np.maximum(1.0 - 0.25 * slip * slip, 0.0))
+    square = np.maximum(1.0 - 0.25 * slip * slip, 0.0)
+    ring_speed = speed * np.sqrt(square)
     pull, lag, skew, rough = tractions(contact, load, ring_speed, speed * slip)
     root = np.cbrt(load)
     heavy = load * root * root

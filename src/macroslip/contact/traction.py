@@ -99,16 +99,17 @@ def limited_stress(rheology: int, viscous_stress, characteristic_stress):
     if rheology == NEWTONIAN:
         return viscous_stress + 0.0 * characteristic_stress
     ratio = viscous_stress / characteristic_stress
-    return characteristic_stress * (
-        -np.expm1(-ratio) if rheology == LIMITING_SHEAR else np.arcsinh(ratio)
-    )
+    if rheology == LIMITING_SHEAR:
+        return characteristic_stress * -np.expm1(-ratio)
+    return characteristic_stress * np.arcsinh(ratio)
 
 
 def _elasticity(rheology: int, ratio):
     """D ln τ/d ln τ* of `limited_stress` at τ*/τ_L > 0, between 0 and 1."""
     if rheology == LIMITING_SHEAR:
         return ratio / np.expm1(np.minimum(ratio, 700.0))
-    return ratio / (np.sqrt(1.0 + ratio * ratio) * np.arcsinh(ratio))
+    root = np.sqrt(1.0 + ratio * ratio)
+    return ratio / (root * np.arcsinh(ratio))
 
 
 def heated_shear(rheology: int, viscous_stress, characteristic_stress, heat):
@@ -156,16 +157,16 @@ def heated_shear(rheology: int, viscous_stress, characteristic_stress, heat):
     power = heat * stress
     if rheology == NEWTONIAN:
         c = np.arcsinh(np.sqrt(power))
-        return np.where(c < 1e-4, stress * (1.0 - power * (2.0 / 3.0)), stress * _thinning(c))[()]
+        series = 1.0 - power * (2.0 / 3.0)
+        return np.where(c < 1e-4, stress * series, stress * _thinning(c))[()]
     hot = power >= _SMALL
     slight = (power > 0.0) & ~hot
-    stress[slight] *= 1.0 - (2.0 / 3.0) * power[slight] * _elasticity(
-        rheology, viscous[slight] / limit[slight]
-    )
+    elasticity = _elasticity(rheology, viscous[slight] / limit[slight])
+    stress[slight] *= 1.0 - (2.0 / 3.0) * power[slight] * elasticity
     if hot.any():
-        stress[hot] = (
-            _hot_stress(rheology, viscous[hot] / limit[hot], heat[hot] * limit[hot]) * limit[hot]
-        )
+        hot_limit = limit[hot]
+        ratio = viscous[hot] / hot_limit
+        stress[hot] = _hot_stress(rheology, ratio, heat[hot] * hot_limit) * hot_limit
     return stress[()]
 
 
@@ -173,9 +174,9 @@ def _thinning(c):
     """2c/sinh 2c [-], by which heating lowers the mean viscosity of the film."""
     # Beyond 340 the stress is nothing, but its logarithm has to exist.
     decay = np.exp(-2.0 * np.minimum(c, 340.0))
-    return np.where(
-        c < 1e-3, 1.0 - c * c * (2.0 / 3.0), 4.0 * c * decay / np.maximum(1.0 - decay * decay, 1e-4)
-    )
+    series = 1.0 - c * c * (2.0 / 3.0)
+    whole = 4.0 * c * decay / np.maximum(1.0 - decay * decay, 1e-4)
+    return np.where(c < 1e-3, series, whole)
 
 
 def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarray:
@@ -185,9 +186,9 @@ def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarra
     """
     power = heat * limited_stress(rheology, ratio, 1.0)
     # Neither more than without thinning by heat, nor more than in a Newtonian film.
-    high = np.minimum(
-        np.sqrt(power) * np.sqrt(1.0 + power), np.arcsinh(np.sqrt(heat) * np.sqrt(ratio))
-    )
+    not_thinned = np.sqrt(power) * np.sqrt(1.0 + power)
+    newtonian = np.arcsinh(np.sqrt(heat) * np.sqrt(ratio))
+    high = np.minimum(not_thinned, newtonian)
     low = np.zeros_like(high)
     c = high.copy()
     left = np.arange(c.size)
@@ -196,19 +197,22 @@ def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarra
         stress = ratio[left]
         warm = heat[left]
         decay = np.exp(-2.0 * at)
+        square = decay * decay
         tangent = (1.0 - decay) / (1.0 + decay)
-        spread = 2.0 * at * (1.0 + decay * decay) / (1.0 - decay * decay) - 1.0
+        spread = 2.0 * at * (1.0 + square) / (1.0 - square) - 1.0
         thinned = stress * _thinning(at)
         put_in = warm * limited_stress(rheology, thinned, 1.0)
         residual = at * tangent - put_in
         above = residual > 0.0
-        high[left] = np.where(above, at, high[left])
-        low[left] = np.where(above, low[left], at)
+        upper = np.where(above, at, high[left])
+        lower = np.where(above, low[left], at)
+        high[left] = upper
+        low[left] = lower
         elasticity = _elasticity(rheology, np.maximum(thinned, 1e-300))
         slope = tangent + at * (1.0 - tangent * tangent) + put_in * elasticity * spread / at
         following = at - residual / slope
-        inside = (low[left] <= following) & (following <= high[left])
-        following = np.where(inside, following, 0.5 * (low[left] + high[left]))
+        inside = (lower <= following) & (following <= upper)
+        following = np.where(inside, following, 0.5 * (lower + upper))
         c[left] = following
         # Newton's next change would be of the order of this one squared.
         left = left[np.abs(following - at) > 1e-6 * following]
@@ -251,11 +255,9 @@ def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
         LIMITING_SHEAR: lubricant.limiting_shear,
         EYRING: lubricant.eyring_stress,
     }
-    heating = (
-        lubricant.temperature_viscosity / (8.0 * lubricant.thermal_conductivity)
-        if laws.heating
-        else 0.0
-    )
+    heating = 0.0
+    if laws.heating:
+        heating = lubricant.temperature_viscosity / (8.0 * lubricant.thermal_conductivity)
     fluid = Fluid(
         rheology, lubricant.viscosity, exponent, index, pressure, characteristic[rheology], heating
     )
@@ -280,9 +282,9 @@ def log_viscosity(fluid: Fluid, pressure):
     >>> float(round(log_viscosity(fluid, 1e9), 6))
     20.383814
     """
-    return math.log(fluid.viscosity) + fluid.exponent * (
-        np.power(1.0 + np.asarray(pressure) / fluid.reference_pressure, fluid.index) - 1.0
-    )
+    relative = 1.0 + np.asarray(pressure) / fluid.reference_pressure
+    rise = np.power(relative, fluid.index) - 1.0
+    return math.log(fluid.viscosity) + fluid.exponent * rise
 
 
 def characteristic_stress(fluid: Fluid, pressure):
@@ -312,7 +314,8 @@ def characteristic_slip(fluid: Fluid, log_eta, pressure, film_thickness):
         Slip [m/s], > 0.
     """
     if fluid.rheology == NEWTONIAN:
-        return np.exp(-0.5 * log_eta) / math.sqrt(max(fluid.heating, 1e-30)) + 0.0 * film_thickness
+        heating = max(fluid.heating, 1e-30)
+        return np.exp(-0.5 * log_eta) / math.sqrt(heating) + 0.0 * film_thickness
     return film_thickness * characteristic_stress(fluid, pressure) * np.exp(-log_eta)
 
 
@@ -358,9 +361,9 @@ def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
     local = pressure * _COSINES
     viscous = np.exp(log_viscosity(fluid, local)) * slip / film
     heat = fluid.heating * film * slip
-    return (
-        heated_shear(fluid.rheology, viscous, characteristic_stress(fluid, local), heat) @ _WEIGHTS
-    )
+    limit = characteristic_stress(fluid, local)
+    stress = heated_shear(fluid.rheology, viscous, limit, heat)
+    return stress @ _WEIGHTS
 
 
 class _LocalStress(NamedTuple):
@@ -381,7 +384,9 @@ def _local_stress(rheology: int) -> _LocalStress:
     viscous, heat = (axis(*bounds, _SPACING) for bounds in _BOUNDS)
 
     def solved(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-        return np.log(heated_shear(rheology, np.exp(first)[:, None], 1.0, np.exp(second)))
+        ratio = np.exp(first)[:, None]
+        heating = np.exp(second)
+        return np.log(heated_shear(rheology, ratio, 1.0, heating))
 
     coefficients = spline_coefficients(solved(viscous.nodes, heat.nodes), 2)
     # A spline has one coefficient before its first node.
@@ -396,28 +401,25 @@ def _local_stress(rheology: int) -> _LocalStress:
 def _log_local_stress(rheology: int, viscous: np.ndarray, heat: np.ndarray) -> np.ndarray:
     """ln(τ/τ_L) at both coordinates of `_LocalStress`, from its table where that is good."""
     table = _local_stress(rheology)
-    places = [
-        (coordinate - low) / _SPACING
-        for coordinate, (low, _) in zip((viscous, heat), _BOUNDS, strict=True)
-    ]
-    cells = [
-        np.clip(coordinate, 0.0, size - 1.0).astype(int)
-        for coordinate, size in zip(places, table.good.shape, strict=True)
-    ]
-    inside = [
-        (coordinate >= 0.0) & (coordinate < size)
-        for coordinate, size in zip(places, table.good.shape, strict=True)
-    ]
-    known = inside[0] & inside[1] & table.good[cells[0], cells[1]]
+    known = np.ones(viscous.shape, dtype=bool)
+    positions = []
+    cells = []
+    for coordinate, (low, _), size in zip((viscous, heat), _BOUNDS, table.good.shape, strict=True):
+        position = (coordinate - low) / _SPACING
+        known &= (position >= 0.0) & (position < size)
+        positions.append(position)
+        cells.append(np.clip(position, 0.0, size - 1.0).astype(int))
+    known &= table.good[tuple(cells)]
     logarithm = np.empty(viscous.shape)
     # A spline has one coefficient before its first node.
-    nodes = [coordinate[known] + 1.0 for coordinate in places]
+    nodes = [position[known] + 1.0 for position in positions]
     logarithm[known] = map_coordinates(
         table.coefficients, nodes, order=3, prefilter=False, mode="nearest"
     )
-    logarithm[~known] = np.log(
-        heated_shear(rheology, np.exp(viscous[~known]), 1.0, np.exp(heat[~known]))
-    )
+    unknown = ~known
+    ratio = np.exp(viscous[unknown])
+    heating = np.exp(heat[unknown])
+    logarithm[unknown] = np.log(heated_shear(rheology, ratio, 1.0, heating))
     return logarithm
 
 
@@ -451,19 +453,16 @@ def local_stress(fluid: Fluid, pressure, log_film, log_slip):
     log_eta = log_viscosity(fluid, pressure)
     if fluid.rheology == NEWTONIAN or fluid.heating == 0.0:
         slip = np.exp(log_slip)
+        viscous = np.exp(log_eta - log_film) * slip
         heat = fluid.heating * np.exp(log_film) * slip
-        return heated_shear(
-            fluid.rheology,
-            np.exp(log_eta - log_film) * slip,
-            characteristic_stress(fluid, pressure),
-            heat,
-        )
+        limit = characteristic_stress(fluid, pressure)
+        return heated_shear(fluid.rheology, viscous, limit, heat)
     log_limit = np.log(characteristic_stress(fluid, pressure))
-    viscous, heat = np.broadcast_arrays(
-        log_slip - log_film + (log_eta - log_limit),
-        math.log(fluid.heating) + log_slip + log_film + log_limit,
-    )
-    return np.exp(_log_local_stress(fluid.rheology, viscous, heat) + log_limit)
+    log_ratio = log_slip - log_film + (log_eta - log_limit)
+    log_heat = math.log(fluid.heating) + log_slip + log_film + log_limit
+    log_ratio, log_heat = np.broadcast_arrays(log_ratio, log_heat)
+    log_stress = _log_local_stress(fluid.rheology, log_ratio, log_heat)
+    return np.exp(log_stress + log_limit)
 
 
 class ChordTable(NamedTuple):
@@ -510,13 +509,17 @@ def chord_table(fluid: Fluid | None) -> ChordTable:
         return ChordTable(nothing, (4, 4, 4), empty, np.zeros(4), 1.0, 1.0, 1.0, 0.0)
     count, slip_spacing, film_spacing = _GRIDS[fluid.rheology]
     roots = np.linspace(0.0, HIGHEST_PRESSURE**0.25, count)
-    films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + film_spacing, film_spacing)
+    thickest = math.log(_THICKEST) + film_spacing
+    films = np.arange(math.log(_THINNEST), thickest, film_spacing)
     pressures = np.maximum(roots**4, LOWEST_PRESSURE)
     log_eta = log_viscosity(fluid, pressures)
-    slowest = characteristic_slip(fluid, log_eta, pressures, math.exp(films[0]))[1:].min()
+    slip_units = characteristic_slip(fluid, log_eta, pressures, math.exp(films[0]))
+    slowest = slip_units[1:].min()
+    fastest = math.log(_FASTEST / slowest) + slip_spacing
     # A spline needs five nodes, even where stress is proportional to slip all through: Newtonian,
     # without heating.
-    highest = max(math.log(_FASTEST / slowest) + slip_spacing, LOWEST_LOG_SLIP + 4.5 * slip_spacing)
+    fifth = LOWEST_LOG_SLIP + 4.5 * slip_spacing
+    highest = max(fastest, fifth)
     slips = np.arange(LOWEST_LOG_SLIP, highest, slip_spacing)
 
     def make() -> list[np.ndarray]:
@@ -543,15 +546,17 @@ def _chord_values(
     where_film = np.nonzero(solved)[0]
     slip = log_slip[solved]
     log_film = films[where_film]
-    stress = local_stress(fluid, pressure * _COSINES, log_film[:, None], slip[:, None]) @ _WEIGHTS
-    unit = (
-        np.exp(log_eta) * scale / film
-        if fluid.rheology == NEWTONIAN
-        else characteristic_stress(fluid, pressure)
-    )
-    values[solved] = np.log(stress) - np.broadcast_to(np.log(unit), film.shape)[where_film]
+    along_chord = local_stress(fluid, pressure * _COSINES, log_film[:, None], slip[:, None])
+    stress = along_chord @ _WEIGHTS
+    if fluid.rheology == NEWTONIAN:
+        unit = np.exp(log_eta) * scale / film
+    else:
+        unit = characteristic_stress(fluid, pressure)
+    log_unit = np.broadcast_to(np.log(unit), film.shape)
+    values[solved] = np.log(stress) - log_unit[where_film]
     # Beyond, a straight line through the last two that were solved for.
     last = solved.sum(axis=1)[:, None] - 1
     end = np.take_along_axis(values, last, axis=1)
     before = np.take_along_axis(values, last - 1, axis=1)
-    return np.where(solved, values, end + (np.arange(slips.size) - last) * (end - before))
+    beyond = np.arange(slips.size) - last
+    return np.where(solved, values, end + beyond * (end - before))

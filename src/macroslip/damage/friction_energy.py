@@ -90,11 +90,14 @@ class ThrustTest:
                 * -np.log1p(-((2.0 * offset / self.roller_length) ** 2))
             )
             approach = 1e-3 * (1e-3 * mean / 35948.0) ** 0.9
-            load = slice_loads(gap, self.force / self.rollers, 10.0 / 9.0 * mean / approach, width)
+            force = self.force / self.rollers
+            stiffness = 10.0 / 9.0 * mean / approach
+            load = slice_loads(gap, force, stiffness, width)
         radius = self.pitch_radius + offset
         passing = 0.5 * self.speed * radius
         work = pass_work(load, 0.5 * self.speed * offset, passing)
-        return offset, friction_power(work, self.rollers * 0.5 * self.speed / (2.0 * math.pi))
+        passes_a_second = self.rollers * 0.5 * self.speed / (2.0 * math.pi)
+        return offset, friction_power(work, passes_a_second)
 
     def range(self) -> tuple[float, float]:
         """Largest e_a on the washers [W/m²], with the logarithmic profile and with even load.
@@ -104,4 +107,6 @@ class ThrustTest:
         >>> [float(round(1e-6 * one, 1)) for one in ThrustTest().range()]
         [3.9, 5.6]
         """
-        return float(self.power("logarithmic")[1].max()), float(self.power()[1].max())
+        _, profiled = self.power("logarithmic")
+        _, even = self.power()
+        return float(profiled.max()), float(even.max())

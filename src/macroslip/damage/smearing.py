@@ -34,4 +34,5 @@ def entries_beyond(largest: ArrayLike, entries: ArrayLike, limit: float) -> tupl
     """
     beyond = np.asarray(largest) > limit
     entries_there = np.where(beyond, entries, 0)
-    return beyond.sum(axis=(-2, -1)), entries_there.sum(axis=(-2, -1))
+    rollers_and_orbits = (-2, -1)
+    return beyond.sum(axis=rollers_and_orbits), entries_there.sum(axis=rollers_and_orbits)

@@ -78,7 +78,8 @@ def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> 
     # The approach if only the slices up to each gap were pressed.
     approach = (load / (stiffness * width) + np.cumsum(rising)) / count
     pressed = np.flatnonzero(approach > rising)
-    return stiffness * np.maximum(approach[pressed[-1] if pressed.size else 0] - gap, 0.0)
+    last = pressed[-1] if pressed.size else 0
+    return stiffness * np.maximum(approach[last] - gap, 0.0)
 
 
 def hertz_slices(load: float, half_length: float, curvature: float) -> float:
@@ -164,7 +165,10 @@ def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DE
     depths = [depth]
     rings = np.array([bool(contact.ring * contact.load) for contact in contacts])
     wears = np.append(rings, any(contact.roller * contact.load for contact in contacts))
-    while wears.any() and len(work) < _MOST_STEPS and (depth.max(axis=-1)[wears] < deepest).any():
+    while wears.any() and len(work) < _MOST_STEPS:
+        deepest_now = depth.max(axis=-1)[wears]
+        if not (deepest_now < deepest).any():
+            break
         rate = np.zeros_like(depth)
         for i, contact in enumerate(contacts):
             if contact.load > 0.0:

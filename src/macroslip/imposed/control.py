@@ -23,9 +23,8 @@ from macroslip.ring.orbit import instant
 _ROOT_6 = math.sqrt(6.0)
 
 
-_THIRD = np.linalg.solve(
-    np.vander(NODES, 3, increasing=True).T, np.array([1.0 - 1.0 / EIGENVALUE, 0.5, 1.0 / 3.0])
-)
+_MOMENTS = np.array([1.0 - 1.0 / EIGENVALUE, 0.5, 1.0 / 3.0])
+_THIRD = np.linalg.solve(np.vander(NODES, 3, increasing=True).T, _MOMENTS)
 #: Weights of (third-order rule with weight 1/EIGENVALUE at the start) − (Radau rule), at nodes 0,
 #: c1, c2, 1.
 EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
@@ -164,9 +163,11 @@ def first_cusp(now, zone, attempt):
         second.tangential + held,
         third.tangential + held,
     )
-    part = min(part, crossing(at.ring_speed, first.ring_speed, second.ring_speed, third.ring_speed))
+    turn = crossing(at.ring_speed, first.ring_speed, second.ring_speed, third.ring_speed)
+    part = min(part, turn)
     if zone == FREE:
-        part = min(part, crossing(_lean(at), _lean(first), _lean(second), _lean(third)))
+        change_over = crossing(_lean(at), _lean(first), _lean(second), _lean(third))
+        part = min(part, change_over)
     return part
 
 
@@ -194,7 +195,9 @@ def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
     ----------
     Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8.
     """
-    rest = ((13.0 + 7.0 * _ROOT_6) * z1 + (13.0 - 7.0 * _ROOT_6) * z2 + z3) / 3.0
+    first = (13.0 + 7.0 * _ROOT_6) * z1
+    second = (13.0 - 7.0 * _ROOT_6) * z2
+    rest = (first + second + z3) / 3.0
     return -(force_0 + scale * rest) / (scale * EIGENVALUE + slope)
 
 
@@ -231,7 +234,8 @@ def slip_error(path, now, zone, attempt, sample, sums):
     last = forces[2].slope
     if not (firm and microslip):
         # A held roller's slip is the balance of the instant, solved for at the end of the step.
-        least = max(min(now.forces.slope, forces[0].slope, forces[1].slope, last), 0.0)
+        least = min(now.forces.slope, forces[0].slope, forces[1].slope, last)
+        least = max(least, 0.0)
         error = abs(
             embedded_slip_error(
                 attempt.scale,
@@ -243,17 +247,23 @@ def slip_error(path, now, zone, attempt, sample, sums):
             )
         )
     turn = attempt.length * path.body.mobility
-    # With microslip grip ceases gradually.
-    for check in range(0 if firm else (2 if zone == EDGE and not microslip else 1)):
+    checks = 1
+    if firm:
+        checks = 0
+    elif zone == EDGE and not microslip:
+        # With microslip grip ceases gradually.
+        checks = 2
+    for check in range(checks):
         sample_between(path, now, attempt, tuning.DEFECT_NODES[check], sample)
         evaluate(path, sample.at, sample.slip, sample.forces)
         sums.evaluations += 1
         defect = sample.rate + turn * net_force(sample.forces)
-        error = max(
-            error, tuning.DEFECT_WEIGHT * abs(defect) / (1.0 + turn * abs(sample.forces.slope))
-        )
-    # Slip that the next step forgets need not be known so well.
-    return error / (1.0 + tuning.FORGOTTEN * turn * max(last, 0.0)) if microslip else error
+        stiffening = 1.0 + turn * abs(sample.forces.slope)
+        error = max(error, tuning.DEFECT_WEIGHT * abs(defect) / stiffening)
+    if microslip:
+        # Slip that the next step forgets need not be known so well.
+        error /= 1.0 + tuning.FORGOTTEN * turn * max(last, 0.0)
+    return error
 
 
 @jit
@@ -265,7 +275,8 @@ def missed_way(path, now, attempt):
     """
     before = instant(path.motion, now.interval, now.time)
     after = instant(path.motion, attempt.end_interval, attempt.times[2])
-    way = -path.body.orbit_ratio * path.body.outer_radius * (after.shaft_angle - before.shaft_angle)
+    turned = after.shaft_angle - before.shaft_angle
+    way = -path.body.orbit_ratio * path.body.outer_radius * turned
     mean_speed = 0.0
     for k in range(3):
         mean_speed += WEIGHTS[k] * attempt.at[k].ring_speed
@@ -285,7 +296,8 @@ def _kink_error(path, now, attempt):
         # At rest at all stages; the shaft may have turned in between.
         return math.inf if missed > 0.0 else 0.0
     totals = attempt.totals
-    return tuning.KINK_WEIGHT * missed / fastest * max(totals[0], totals[1], totals[2], totals[3])
+    largest = max(totals[0], totals[1], totals[2], totals[3])
+    return tuning.KINK_WEIGHT * missed / fastest * largest
 
 
 @jit_inline
@@ -330,7 +342,8 @@ def energy_error(path, now, zone, attempt, sample, sums):
     evaluate(path, sample.at, slip, sample.forces)
     sums.evaluations += 1
     power = powers(path.body, sample.at, sample.forces, slip, sample.powers[:])
-    missed = abs(power - cubic(tuning.CUSP_LOOK, totals[0], totals[1], totals[2], totals[3]))
+    expected = cubic(tuning.CUSP_LOOK, totals[0], totals[1], totals[2], totals[3])
+    missed = abs(power - expected)
     return max(error, tuning.CUSP_WEIGHT * attempt.length * missed)
 
 

@@ -56,7 +56,8 @@ def _defect(path, work, spin, step):
     at = work.end
     evaluate(path, at, at.ring_speed - body.radius * spin, work.forces)
     work.sums.evaluations += 1
-    return spin - work.spin - step * body.mobility / body.radius * net_force(work.forces)
+    per_force = step * body.mobility / body.radius
+    return spin - work.spin - per_force * net_force(work.forces)
 
 
 @jit_inline
@@ -88,7 +89,8 @@ def backward_euler_step(path, work, step, tolerance):
     older_defect = _defect(path, work, older, step)
     newer = older + 1.5e-8 * max(abs(older), 1e-3)
     newer_defect = _defect(path, work, newer, step)
-    low, high = -math.inf, math.inf
+    low = -math.inf
+    high = math.inf
     for _ in range(tuning.SECANT_ITERATIONS):
         for candidate, defect in ((older, older_defect), (newer, newer_defect)):
             if defect <= 0.0 and candidate > low:
@@ -151,7 +153,8 @@ def integrate_fixed_step(path, work, steps):
         else:
             row.time[0] = now.time
             write_stage(row, 0, body, now.at, now.forces, now.slip, now.powers[:])
-            work.spin += span * body.mobility / body.radius * net_force(now.forces)
+            per_force = span * body.mobility / body.radius
+            work.spin += per_force * net_force(now.forces)
         slip = work.end.ring_speed - body.radius * work.spin
         if not math.isfinite(slip):
             return NO_ROOT if rule.implicit else NOT_FINITE, count

@@ -37,7 +37,8 @@ def guess(path, now, zone, before, attempt):
     microslip = path.body.microslip
     last = before.increment
     gripped = path.body.mobility * forces.slope * h
-    continues = zone != FIRM and h <= tuning.MOST_AHEAD * before.length and gripped < tuning.GRIPPED
+    is_near = h <= tuning.MOST_AHEAD * before.length
+    continues = zone != FIRM and is_near and gripped < tuning.GRIPPED
     drifts = gripped < 1.0 and zone != EDGE
     # The cage may hold the roller: its spin then stays as it is, at zero.
     spins = drifts or forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope)
@@ -48,7 +49,8 @@ def guess(path, now, zone, before, attempt):
     for k in range(3):
         quickening = attempt.at[k].ring_speed - at.ring_speed
         if continues:
-            ahead, _ = collocation(1.0 + NODES[k] * h / before.length, last[0], last[1], last[2])
+            part = 1.0 + NODES[k] * h / before.length
+            ahead, _ = collocation(part, last[0], last[1], last[2])
             attempt.slip[k] = slip - last[2] + quickening + ahead
             continue
         attempt.slip[k] = slip + quickening + drift * NODES[k] if spins else slip

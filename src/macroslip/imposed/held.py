@@ -39,7 +39,8 @@ def follows_loads(path, now, zone, length):
     if zone != FIRM or not path.body.microslip:
         return False
     held = path.body.mobility * now.forces.slope * length > tuning.QUASI_STATIC
-    return held and abs(net_force(now.forces)) <= tuning.SETTLED_FORCE * magnitude(now.forces)
+    allowed = tuning.SETTLED_FORCE * magnitude(now.forces)
+    return held and abs(net_force(now.forces)) <= allowed
 
 
 @jit_inline
@@ -69,7 +70,8 @@ def held_update(scale, d2, d3, rest_2, rest_3):
     (-5.5, -5.0)
     """
     last = 3.0 * scale + d3
-    change_3 = (-rest_3 * d2 - 4.0 * scale * rest_2) / (last * d2 + 4.0 * scale * scale)
+    determinant = last * d2 + 4.0 * scale * scale
+    change_3 = (-rest_3 * d2 - 4.0 * scale * rest_2) / determinant
     return (-rest_2 - scale * change_3) / d2, change_3
 
 
@@ -114,7 +116,8 @@ def solve_held(path, now, attempt, before, sums):
     rest = scale * 2.0 * (attempt.slip[1] - slip - (middle.ring_speed - at.ring_speed)) + net_force(
         second
     )
-    ahead = attempt.slip[1] - rest / (2.0 * scale + second.slope)
+    stiffness = 2.0 * scale + second.slope
+    ahead = attempt.slip[1] - rest / stiffness
     attempt.slip[2] = held_slip(
         path.body.microslip,
         ahead,
@@ -125,7 +128,8 @@ def solve_held(path, now, attempt, before, sums):
     evaluate(path, end, attempt.slip[2], third)
     sums.evaluations += 2
     for k in range(1, 3):
-        attempt.increment[k] = attempt.slip[k] - slip - (attempt.at[k].ring_speed - at.ring_speed)
+        ring_change = attempt.at[k].ring_speed - at.ring_speed
+        attempt.increment[k] = attempt.slip[k] - slip - ring_change
     attempt.left = math.inf
     change = 0.0
     foreseen = math.inf
@@ -221,4 +225,5 @@ def held_exponent(at, slip, later, later_slip, exponent):
     )
     if abs(change) < tuning.LEAST_CHANGE or ratio <= 0.0:
         return exponent
-    return min(max(math.log(ratio) / change, -tuning.STEEPEST), tuning.STEEPEST)
+    exponent = math.log(ratio) / change
+    return min(max(exponent, -tuning.STEEPEST), tuning.STEEPEST)

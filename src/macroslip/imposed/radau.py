@@ -83,7 +83,8 @@ def set_step(path, now, attempt, length, held):
             continue
         part = 0.5 * k if held else NODES[k]
         # The last stage is the end, without rounding.
-        attempt.times[k] = now.time + (length if k == 2 else part * length)
+        since = length if k == 2 else part * length
+        attempt.times[k] = now.time + since
         interval = interval_of(path.motion, attempt.times[k], interval)
         # The search for the films' load begins where that of the stage before ended.
         attempt.at[k].log_film_balance = films
@@ -125,11 +126,10 @@ def residuals(scale, z1, z2, z3, f1, f2, f3):
     tuple of float
         R_1, R_2 and R_3 [N].
     """
-    return (
-        scale * (A11 * z1 + A12 * z2 + A13 * z3) + f1,
-        scale * (A21 * z1 + A22 * z2 + A23 * z3) + f2,
-        scale * (A31 * z1 + A32 * z2 + A33 * z3) + f3,
-    )
+    first = A11 * z1 + A12 * z2 + A13 * z3
+    second = A21 * z1 + A22 * z2 + A23 * z3
+    third = A31 * z1 + A32 * z2 + A33 * z3
+    return scale * first + f1, scale * second + f2, scale * third + f3
 
 
 @jit_inline
@@ -166,7 +166,8 @@ def newton_update(scale, d1, d2, d3, residual):
     r3 = -residual[2] + q3 * residual[0] - p3 * r2
     x3 = r3 / m33
     x2 = (r2 - m23 * x3) * per_second
-    return (-residual[0] - m12 * x2 - m13 * x3) * per_first, x2, x3
+    x1 = (-residual[0] - m12 * x2 - m13 * x3) * per_first
+    return x1, x2, x3
 
 
 @jit_inline
@@ -201,12 +202,11 @@ def collocation(part, z1, z2, z3):
     last = (z3 - z2) / (1.0 - b)
     second = (between - first) / b
     third = (last - between) / (1.0 - a) - second
-    increment = part * (first + (part - a) * (second + (part - b) * third))
-    rate = (
-        first
-        + second * (2.0 * part - a)
-        + third * ((part - a) * (part - b) + part * (2.0 * part - a - b))
-    )
+    from_a = part - a
+    from_b = part - b
+    increment = part * (first + from_a * (second + from_b * third))
+    third_rate = from_a * from_b + part * (2.0 * part - a - b)
+    rate = first + second * (2.0 * part - a) + third * third_rate
     return increment, rate
 
 
@@ -243,10 +243,9 @@ def force_tolerance(tolerance, microslip):
     """
     if not microslip:
         return tuning.FORCE_TOLERANCE
-    return max(
-        tuning.FORCE_TOLERANCE,
-        min(tuning.MICROSLIP_FORCE_SHARE * tolerance, tuning.MICROSLIP_FORCE_TOLERANCE),
-    )
+    share = tuning.MICROSLIP_FORCE_SHARE * tolerance
+    share = min(share, tuning.MICROSLIP_FORCE_TOLERANCE)
+    return max(tuning.FORCE_TOLERANCE, share)
 
 
 @jit_inline
@@ -255,7 +254,8 @@ def new_bend(bend, size, change):
 
     Half of what was known is forgotten.
     """
-    return max(size / (change * change), tuning.FORGET * bend if bend < math.inf else 0.0)
+    kept = tuning.FORGET * bend if bend < math.inf else 0.0
+    return max(size / (change * change), kept)
 
 
 @jit_inline
@@ -276,9 +276,8 @@ def evaluate_stages(path, now, attempt, sums, first):
     """
     for k in range(first, 3):
         evaluate(path, attempt.at[k], attempt.slip[k], attempt.forces[k])
-        attempt.increment[k] = (
-            attempt.slip[k] - now.slip - (attempt.at[k].ring_speed - now.at.ring_speed)
-        )
+        ring_change = attempt.at[k].ring_speed - now.at.ring_speed
+        attempt.increment[k] = attempt.slip[k] - now.slip - ring_change
         sums.evaluations += 1
 
 
@@ -303,9 +302,8 @@ def correct(now, attempt, change, first, shifted):
         attempt.slip[k] += change[k]
         if shifted:
             _shift(attempt.forces[k], change[k])
-            attempt.increment[k] = (
-                attempt.slip[k] - now.slip - (attempt.at[k].ring_speed - now.at.ring_speed)
-            )
+            ring_change = attempt.at[k].ring_speed - now.at.ring_speed
+            attempt.increment[k] = attempt.slip[k] - now.slip - ring_change
 
 
 @jit_inline

@@ -83,7 +83,8 @@ def radau_limits(
     fastest = body["orbit_ratio"] * np.abs(motion.shaft_speed).max()
     # A shaft at rest has no speed of its own by which an error of slip could be judged.
     speed = max(float(fastest * body["outer_radius"]), REST_SPEED)
-    longest = 0.1 * float(motion.time[-1] - motion.time[0])
+    duration = float(motion.time[-1] - motion.time[0])
+    longest = 0.1 * duration
     if fastest > 0.0:
         longest = min(longest, longest_turn / fastest)
     # By the closed form a ring that turns slower has its films end at less slip, which is evaluated
@@ -127,7 +128,9 @@ def fixed_step(
     """
     body = roller.body[0]
     speeds = motion.shaft_speed * body["orbit_ratio"] * body["outer_radius"]
-    largest = 1.01 * float(max(speeds.max(), 0.0) - min(speeds.min(), 0.0)) + 1e-9
+    fastest = max(speeds.max(), 0.0)
+    slowest = min(speeds.min(), 0.0)
+    largest = 1.01 * float(fastest - slowest) + 1e-9
     return np.array([(step, tolerance is not None, tolerance or 0.0, largest, end)], RULE)
 
 

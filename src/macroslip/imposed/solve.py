@@ -62,9 +62,8 @@ def _rebalance(path, now, sums, forces):
     body = path.body
     motion = path.motion
     k = now.interval
-    acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (
-        motion.time[k + 1] - motion.time[k]
-    )
+    rise = motion.shaft_speed[k + 1] - motion.shaft_speed[k]
+    acceleration = rise / (motion.time[k + 1] - motion.time[k])
     needed = -body.orbit_ratio * body.outer_radius * acceleration / body.mobility
     slip = now.slip
     for _ in range(3):
@@ -167,10 +166,9 @@ def _attempt(path, work):
     share = max(attempt.length, tuning.SHORT_PART * work.stretch.sample_step)
     limits = path.limits
     worth = max(mean_power * share, attempt.energy, tuning.NO_ENERGY * limits.energy_scale)
-    slip_off /= tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
-    return max(
-        abs(slip_off), abs(energy_off) / (tuning.ENERGY_SHARE * limits.tolerance * worth + 1e-300)
-    )
+    allowed_slip = tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
+    allowed_energy = tuning.ENERGY_SHARE * limits.tolerance * worth + 1e-300
+    return max(abs(slip_off / allowed_slip), abs(energy_off) / allowed_energy)
 
 
 @jit_inline
@@ -187,14 +185,13 @@ def _reject(path, work, error):
     if error < math.inf:
         # With microslip a step that is too long crosses the kink of the loads at a sample: its
         # error is of second order.
-        part = max(
-            tuning.LEAST_PART,
-            tuning.SAFETY / math.sqrt(error) if path.body.microslip else step_factor(error),
-        )
+        part = tuning.SAFETY / math.sqrt(error) if path.body.microslip else step_factor(error)
+        part = max(tuning.LEAST_PART, part)
     stretch.step = part * attempt.length
     # A shorter step should not cross samples if it is short.
     sample = path.motion.time[now.interval + 1]
-    if stretch.step <= 2.0 * (sample - path.motion.time[now.interval]):
+    sample_step = sample - path.motion.time[now.interval]
+    if stretch.step <= 2.0 * sample_step:
         stretch.barrier = min(stretch.barrier, sample)
 
 
@@ -221,10 +218,13 @@ def _may_peak_inside(path, work, resolved):
     sliding = 0.0
     for k in range(3):
         forces = attempt.forces[k]
-        sliding = max(sliding, max(abs(forces.inner), abs(forces.outer)) * abs(attempt.slip[k]))
-    return sliding > 0.5 * work.sums.top_power or (
-        abs(slip) > resolved and abs(attempt.slip[2]) < tuning.SNAP * abs(slip)
-    )
+        larger = max(abs(forces.inner), abs(forces.outer))
+        sliding = max(sliding, larger * abs(attempt.slip[k]))
+    slides = sliding > 0.5 * work.sums.top_power
+    before = abs(slip)
+    after = abs(attempt.slip[2])
+    snaps_back = before > resolved and after < tuning.SNAP * before
+    return slides or snaps_back
 
 
 @jit_inline
@@ -236,9 +236,12 @@ def _film_ends_at(now, attempt, resolved):
     """
     if min(abs(now.slip), abs(attempt.slip[2])) <= resolved:
         return 1.0
+    # Speed of entrainment [m/s].
     before = now.at.ring_speed - 0.5 * now.slip
     after = attempt.at[2].ring_speed - 0.5 * attempt.slip[2]
-    return before / (before - after) if before * after < 0.0 else 1.0
+    if before * after < 0.0:
+        return before / (before - after)
+    return 1.0
 
 
 @jit_inline
@@ -283,7 +286,8 @@ def _accept(path, work, end, rows):
     attempt = work.attempt
     sums = work.sums
     zone = work.stretch.zone
-    resolved = tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale
+    limits = path.limits
+    resolved = tuning.RESOLVED * tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale
     count = 0
     cusp = _film_ends_at(now, attempt, resolved) if path.body.closed_form else 1.0
     sampled = cusp < 1.0 or _may_peak_inside(path, work, resolved)
@@ -434,6 +438,7 @@ def integrate(path, stops, classes, work, steps):
         count += _accept(
             path, work, stretch.barrier if length == left else attempt.times[2], steps[count:]
         )
-        stretch.step = length * min(1.0 if stretch.failed else tuning.GROWTH, step_factor(error))
+        growth = 1.0 if stretch.failed else tuning.GROWTH
+        stretch.step = length * min(growth, step_factor(error))
         stretch.failed = 0
     return UNDER_WAY, count

@@ -149,13 +149,17 @@ def classify(body, motion, start_angle, firm, classes):
         after = approach_at(body, motion, start_angle, k, motion.time[k + 1])
         near = motion.displacement[k]
         far = motion.displacement[k + 1]
+        start_speed = motion.shaft_speed[k]
+        end_speed = motion.shaft_speed[k + 1]
         span = abs(body.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
-        turn = span * max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
-        quickening = span * abs(motion.shaft_speed[k + 1] - motion.shaft_speed[k])
+        turn = span * max(abs(start_speed), abs(end_speed))
+        quickening = span * abs(end_speed - start_speed)
         near_square = near[0] * near[0] + near[1] * near[1]
         far_square = far[0] * far[0] + far[1] * far[1]
         reach = math.sqrt(max(near_square, far_square))
-        shift = math.sqrt((far[0] - near[0]) ** 2 + (far[1] - near[1]) ** 2)
+        shift_x = far[0] - near[0]
+        shift_y = far[1] - near[1]
+        shift = math.sqrt(shift_x**2 + shift_y**2)
         curvature = (turn * turn + quickening) * (reach + waves) + 2.0 * turn * shift
         margin = 0.125 * curvature + 1e-15
         classes[k] = EDGE
@@ -192,7 +196,8 @@ def edge_time(body, motion, start_angle, interval, start, end):
     last = approach_at(body, motion, start_angle, interval, end)
     if first == 0.0 or first * last >= 0.0:
         return end
-    low, high = start, end
+    low = start
+    high = end
     while high - low > 4e-16 * (abs(high) + abs(low)):
         middle = 0.5 * (low + high)
         if middle <= low or middle >= high:

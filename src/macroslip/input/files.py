@@ -45,7 +45,8 @@ class Source:
         line = next(
             (self.lines[keys[:depth]] for depth in depths if keys[:depth] in self.lines), None
         )
-        return ", ".join(part for part in (self.file, f"line {line}" if line else "") if part)
+        line_text = f"line {line}" if line else ""
+        return ", ".join(filter(None, (self.file, line_text)))
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,8 @@ class Location:
     @property
     def where(self) -> str:
         """File, line and key: `case.yaml, line 7, loads.hub.force`."""
-        return ", ".join(part for part in (self.source.where(*self.keys), self.key) if part)
+        parts = (self.source.where(*self.keys), self.key)
+        return ", ".join(filter(None, parts))
 
     def problem(self, fault: str, allowed: str = "", remedy: str = "") -> InputError:
         """An error at this location."""
@@ -263,7 +265,8 @@ def yaml_text(entries: Mapping[str, Any], header: str, explained: Mapping[str, s
     """Write YAML 1.2 of one line an entry, with the meaning of every key in the line above it."""
     lines = [*_comment(header), ""]
     for key, entry in entries.items():
-        lines += _comment(f"{explained[key][0].upper()}{explained[key][1:]}.")
+        meaning = explained[key]
+        lines += _comment(f"{meaning[0].upper()}{meaning[1:]}.")
         if isinstance(entry, Mapping):
             entry = CommentedMap({name: _quoted(name, value) for name, value in entry.items()})
             entry.fa.set_flow_style()

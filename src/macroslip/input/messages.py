@@ -36,7 +36,8 @@ def nearest(value: Any, names: Iterable[str]) -> str:
     ('14C', '')
     """
     # Comparing takes the square of the length; no name is that long.
-    return next(iter(get_close_matches(str(value)[:60], list(names), n=1)), "")
+    nearest = get_close_matches(str(value)[:60], list(names), n=1)
+    return nearest[0] if nearest else ""
 
 
 def unknown_name(value: Any, names: Sequence[str], more: str = "") -> InputError:
@@ -98,7 +99,8 @@ class Problems(InputError):  # noqa: N818, a list of errors as one
 
     def __init__(self, parts: Sequence[InputError]):
         self.parts = list(parts)
-        texts = [f"({n}) {part}" for n, part in enumerate(parts[:MOST_PROBLEMS], 1)]
+        told = parts[:MOST_PROBLEMS]
+        texts = [f"({n}) {part}" for n, part in enumerate(told, 1)]
         ends = itertools.accumulate(len(text) + 1 for text in texts)
         listed = max(1, sum(end <= MOST_LETTERS for end in ends))
         rest = f" And {len(parts) - listed} more." if len(parts) > listed else ""

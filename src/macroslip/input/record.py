@@ -68,11 +68,10 @@ class Provenance:
     def as_entry(self) -> dict[str, Any]:
         """The entry of a catalogue file for a quantity of this origin."""
         entry = asdict(self)
-        return (
-            entry | {"range": list(self.range)}
-            if self.range
-            else {key: entry[key] for key in entry if key != "range"}
-        )
+        del entry["range"]
+        if self.range:
+            entry["range"] = list(self.range)
+        return entry
 
     @property
     def written(self) -> str:
@@ -99,21 +98,22 @@ class _Number(Form):
         return {"type": "integer" if self.whole else "number"}
 
 
+#: Remedy for a range that is none.
+_NO_SCATTER = "Leave it out if nothing is known of the scatter."
+
+
 @dataclass(frozen=True)
 class _Range(Form):
     form = "two numbers in the unit of the value, [lowest, highest], with the value between them"
 
     def read(self, value: Any, context: Context) -> tuple[float, float]:
-        pair: Any = (
-            value
-            if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2
-            else ()
-        )
+        is_list = isinstance(value, Sequence) and not isinstance(value, str)
+        if not is_list or len(value) != 2 or not all(map(is_finite_number, value)):
+            raise self.wrong(value, _NO_SCATTER)
+        lowest, highest = value
         middle = context.before.get("value")
-        good = pair and all(map(is_finite_number, pair))
-        if not good or not (middle is None or pair[0] <= middle <= pair[1]):
-            raise self.wrong(value, "Leave it out if nothing is known of the scatter.")
-        lowest, highest = pair
+        if middle is not None and not lowest <= middle <= highest:
+            raise self.wrong(value, _NO_SCATTER)
         return _as_written(lowest), _as_written(highest)
 
     def json(self) -> dict[str, Any]:
@@ -137,7 +137,8 @@ class _Unit(Choice):
 @functools.cache
 def _entry(dimension: Dimension, whole: bool = False) -> Section:
     """The section of an entry, `{value: 70, unit: mm, tag: E, note: "...", range: [66, 74]}`."""
-    tags = f"{'; '.join(f'{tag}: {meaning}' for tag, meaning in TAGS.items())}. Leave it out for a value of your own."
+    meanings = "; ".join(f"{tag}: {meaning}" for tag, meaning in TAGS.items())
+    tags = f"{meanings}. Leave it out for a value of your own."
     forms = {
         "value": _Number("number, without its unit", whole),
         "unit": _Unit("unit of the value", lambda: list(dimension.units)),
@@ -145,9 +146,11 @@ def _entry(dimension: Dimension, whole: bool = False) -> Section:
         "note": Text("free text", may_be_empty=True, line=True),
         "range": _Range("lowest and highest value; four out of five lie between them"),
     }
-    return Section(
-        "", {key: Field(form, key in ("value", "unit"), False) for key, form in forms.items()}
-    )
+    fields = {}
+    for key, form in forms.items():
+        is_required = key in ("value", "unit")
+        fields[key] = Field(form, is_required, False)
+    return Section("", fields)
 
 
 @dataclass(frozen=True)
@@ -251,22 +254,29 @@ class Record:
     ) -> None:
         fields = fields_of(type(self))
         kinds = dimensions(type(self))
-        units = {key: kinds[key].si_unit for key in values if key in kinds}
-        written = {key: (with_unit(values[key], unit), unit) for key, unit in units.items()}
-        written |= {key: (origin.written, origin.unit) for key, origin in provenance.items()}
+        written = {}
+        for key, value in values.items():
+            if key in kinds:
+                unit = kinds[key].si_unit
+                written[key] = (with_unit(value, unit), unit)
+        for key, origin in provenance.items():
+            written[key] = (origin.written, origin.unit)
         # An entry may have several lines; what is wrong with its value is in the line of the value.
-        lines = {keys[:1]: line for keys, line in source.lines.items() if keys[1:] == ("value",)}
+        lines = {}
+        for keys, line in source.lines.items():
+            if keys[1:] == ("value",):
+                lines[keys[:1]] = line
         location = Location(Source(source.file, {**source.lines, **lines}))
         checked, problems = read_keys(fields, values, Context(location, written=written))
         if problems:
             raise together(problems)
         own = {key: checked.get(key, member.default) for key, member in fields.items()}
-        origins = tuple(
-            (key, provenance.get(key) or Provenance(own[key], dimension.si_unit))
-            for key, dimension in kinds.items()
-            if own[key] is not None
-        )
-        vars(self).update(own, _provenance=origins, _derived=derived)
+        origins = []
+        for key, dimension in kinds.items():
+            if own[key] is not None:
+                origin = provenance.get(key) or Provenance(own[key], dimension.si_unit)
+                origins.append((key, origin))
+        vars(self).update(own, _provenance=tuple(origins), _derived=derived)
         problems = [*self._wide_ranges(source), *self._inconsistencies(source)]
         if problems:
             raise together(problems)
@@ -275,7 +285,8 @@ class Record:
         for key, origin in self._provenance:
             quantity = quantities(type(self))[key]
             for limit in origin.range or ():
-                if not quantity.holds(quantity.dimension.to_si(limit, origin.unit)):
+                si_limit = quantity.dimension.to_si(limit, origin.unit)
+                if not quantity.holds(si_limit):
                     yield Location(source, (key, "range")).problem(
                         f"it goes to {shown(limit)}",
                         quantity.range_text(origin.unit),
@@ -301,7 +312,8 @@ class Record:
     def written(self, key: str, si_value: float | None = None) -> str:
         """Write a quantity, or another value for it, in the unit in which it was given."""
         value = getattr(self, key) if si_value is None else si_value
-        return dimensions(type(self))[key].text(value, self.provenance[key].unit)
+        unit = self.provenance[key].unit
+        return dimensions(type(self))[key].text(value, unit)
 
     def __repr__(self) -> str:
         title = f": {self.title}" if self.title else ""
@@ -313,9 +325,9 @@ class Record:
         rows = [
             [key, origin.written, TAGS[origin.tag], origin.note] for key, origin in self._provenance
         ]
-        return html_overview(
-            repr(self)[1:-1], ["quantity", "value", "where it comes from", "note"], rows
-        )
+        title = repr(self)[1:-1]
+        headings = ["quantity", "value", "where it comes from", "note"]
+        return html_overview(title, headings, rows)
 
     @property
     def provenance(self) -> Mapping[str, Provenance]:
@@ -374,29 +386,28 @@ class Record:
             optional, entries, Context(Location(source), in_file=True)
         )
         for part in problems:
-            part.is_located = (
-                False  # in the record's own file; a case file that names it adds its own location
-            )
+            # In the record's own file; a case file that names it adds its own location.
+            part.is_located = False
         if problems:
             raise together(problems)
         for section in cls.sections.keys() & entries_read.keys():
             inside = entries_read.pop(section)
             entries_read |= {f"{section}_{key}": value for key, value in inside.items()}
-        lines = {
-            (f"{keys[0]}_{keys[1]}", *keys[2:])
-            if keys[0] in cls.sections and keys[1:]
-            else keys: line
-            for keys, line in source.lines.items()
-        }
-        origins = {
-            key: entry for key, entry in entries_read.items() if isinstance(entry, Provenance)
-        }
+        lines = {}
+        for keys, line in source.lines.items():
+            if keys[0] in cls.sections and keys[1:]:
+                section, key, *inner = keys
+                keys = (f"{section}_{key}", *inner)
+            lines[keys] = line
         units = dimensions(cls)
-        values = {
-            key: units[key].to_si(origin.value, origin.unit) for key, origin in origins.items()
-        }
+        origins = {}
+        values = dict(entries_read)
+        for key, entry in entries_read.items():
+            if isinstance(entry, Provenance):
+                origins[key] = entry
+                values[key] = units[key].to_si(entry.value, entry.unit)
         record = cls.__new__(cls)
-        record._fill(entries_read | values, origins, Source(source.file, lines))
+        record._fill(values, origins, Source(source.file, lines))
         return record
 
     def require(self, *keys: str, purpose: str) -> None:
@@ -469,7 +480,8 @@ class Record:
     def replace(self, **values: Any) -> Self:
         """Copy the record with other values [SI], which are checked and get the tag U."""
         kept = {key: origin for key, origin in self._provenance if key not in values}
-        own = {key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived}
+        given = [key for key in fields_of(type(self)) if key not in self._derived]
+        own = {key: getattr(self, key) for key in given}
         record = type(self).__new__(type(self))
         record._fill(own | values, kept, Source())
         return record
@@ -517,7 +529,8 @@ def _in_file(record: type[Record]) -> Fields:
     keys = {
         name: tuple(key for key in fields if key.startswith(f"{name}_")) for name in record.sections
     }
-    return grouped(fields, {name: (about, keys[name]) for name, about in record.sections.items()})
+    groups = {name: (about, keys[name]) for name, about in record.sections.items()}
+    return grouped(fields, groups)
 
 
 @functools.cache

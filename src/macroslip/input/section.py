@@ -275,7 +275,8 @@ class Section(Form):
 
     def read(self, value: Any, context: Context) -> Any:
         """Read every key and make the object, or a mapping; None for the word."""
-        if self.word and (value is None or (isinstance(value, str) and value == self.word)):
+        is_word = value is None or (isinstance(value, str) and value == self.word)
+        if self.word and is_word:
             return None
         if self.kind is not None and not context.in_file:
             if not isinstance(value, self.kind):

@@ -38,7 +38,9 @@ def with_unit(value: object, unit: str) -> str:
     >>> with_unit(70, "mm"), with_unit(28, "1"), with_unit(0.3614820474579369, "Pa s")
     ('70 mm', '28', '0.361482 Pa s')
     """
-    text = f"{value:.6g}" if len(f"{value}") > 12 and isinstance(value, float) else f"{value}"
+    text = f"{value}"
+    if len(text) > 12 and isinstance(value, float):
+        text = f"{value:.6g}"
     return text if unit == "1" else f"{text} {unit}"
 
 
@@ -93,7 +95,8 @@ class Dimension:
         ('70 mm', '0.25 rad', '28')
         """
         chosen = self.units[unit]
-        return with_unit(f"{float(Fraction(si_value) / chosen.scale - chosen.offset):.6g}", unit)
+        value = float(Fraction(si_value) / chosen.scale - chosen.offset)
+        return with_unit(f"{value:.6g}", unit)
 
 
 def _dimension(**scales: Fraction | int) -> Dimension:
@@ -223,7 +226,8 @@ def parse_quantity(
             raise problem("is not a quantity", advice)
         raise problem(f"has the unit {shown(unit)}", remedy)
     value = float(number)
-    if not math.isfinite(value) or not math.isfinite(dimension.to_si(value, unit)):
+    is_finite = math.isfinite(value) and math.isfinite(dimension.to_si(value, unit))
+    if not is_finite:
         raise problem("is too large for a number")
     return (int(value) if re.fullmatch(r"[+-]?\d{1,15}", number) else value), unit
 

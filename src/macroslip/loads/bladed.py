@@ -252,7 +252,10 @@ def _columns(group: _Group, names: Sequence[str]) -> FloatArray:
         samples = announced_text(data, shape, "its header", _AGAIN)
     else:
         samples = Samples(announced_binary(data, number, shape, "its header", _AGAIN))
-    columns = [samples.channel(group.names.index(name), name, str(data)) for name in names]
+    columns = []
+    for name in names:
+        column = group.names.index(name)
+        columns.append(samples.channel(column, name, str(data)))
     if group.mean.size:
         _check_means(group, samples, data)
     return np.column_stack(columns)
@@ -263,7 +266,8 @@ def _check_means(group: _Group, samples: Samples, data: Path) -> None:
     mean = samples.values.mean(axis=0, dtype=np.float64)
     largest = np.maximum(np.abs(samples.values).max(axis=0), 1e-30)
     # Values that are not finite matter in the channels that are used, and in no others.
-    difference = np.nan_to_num(np.abs(mean - group.mean) / largest, posinf=0.0)
+    relative = np.abs(mean - group.mean) / largest
+    difference = np.nan_to_num(relative, posinf=0.0)
     worst = int(difference.argmax())
     if difference[worst] > _SAME_MEAN:
         raise InputError(

@@ -372,7 +372,8 @@ def _channel_list(
 
     Scale factors are None for text. ValueError or StopIteration if it is none.
     """
-    start = next(i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"])
+    headings = ["Scans", "Channels"]
+    start = next(i for i, line in enumerate(lines) if line.split()[:2] == headings)
     if "coordinate convention" in lines[start].lower():
         raise ValueError("it is BHawC's: its heading has a Coordinate convention and no Format")
     announcement = lines[start + 1].split()
@@ -388,7 +389,8 @@ def _channel_list(
         "BINARY",
     ):
         raise ValueError(f"{scans} scans of {count} channels in {duration} s, format {kind}")
-    rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:count]
+    below = lines[start + 2 :]
+    rows = [line for line in below if re.match(r"\s*\d+\s+\S", line)][:count]
     if len(rows) != count:
         raise ValueError(f"{len(rows)} channels are listed, {count} are announced")
     # Name, unit and description of a channel are in fixed columns.
@@ -403,7 +405,8 @@ def _channel_list(
     ]
     if len(factors) < count:
         raise ValueError(f"{len(factors)} scale factors for {count} channels")
-    return (scans, count), duration, channels, np.array(factors[-count:], dtype=np.float64)
+    factors_of_channels = np.array(factors[-count:], dtype=np.float64)
+    return (scans, count), duration, channels, factors_of_channels
 
 
 def _beside(path: Path, extension: str, remedy: str) -> Path:
@@ -425,7 +428,9 @@ def _announced_time(stamps: NDArray, duration: float, resolution: float, data: P
     """
     # Some programs announce the time from first to last sample, others one step more.
     near = 2.5 * duration / stamps.size + resolution + 1e-3
-    if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
+    span = stamps[-1] - stamps[0]
+    off = min(abs(span - duration), abs(stamps[-1] - duration))
+    if off > near:
         fault = (
             f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels "
             f"announces {duration:g} s"
@@ -459,7 +464,8 @@ def _read_gtsdf(path: Path) -> _Output:
             channels = [
                 _Channel(index, *texts) for index, texts in enumerate(zip(*columns, strict=True))
             ]
-            blocks = [file[f"block{i:04d}"] for i in range(_plain(file.attrs["no_blocks"]))]
+            block_count = _plain(file.attrs["no_blocks"])
+            blocks = [file[f"block{i:04d}"] for i in range(block_count)]
             values = np.concatenate([_block_values(block) for block in blocks])
             time = np.concatenate([_block_time(block) for block in blocks])
     except (OSError, KeyError, ValueError, TypeError) as error:

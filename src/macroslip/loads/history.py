@@ -525,7 +525,9 @@ def cut(
             allowed=f"start before end, both within {first:.10g} s to {last:.10g} s",
             remedy="Choose a window on the record's own time axis, which need not begin at zero.",
         )
-    inside = np.flatnonzero((columns["time"] >= low - slack) & (columns["time"] <= high + slack))
+    time = columns["time"]
+    is_inside = (time >= low - slack) & (time <= high + slack)
+    inside = np.flatnonzero(is_inside)
     if inside.size < 2:
         fault = f"{window} holds {inside.size} sample(s)"
         raise InputError(
@@ -533,7 +535,8 @@ def cut(
         )
     # A stamp that is not a number may lie inside: it is kept, so that validation refuses it.
     unknown = np.flatnonzero(~np.isfinite(columns["time"]))
-    unknown = unknown[(unknown > inside[0]) & (unknown < inside[-1])]
+    is_between = (unknown > inside[0]) & (unknown < inside[-1])
+    unknown = unknown[is_between]
     keep = np.sort(np.concatenate([inside, unknown]))
     return {name: values[keep] for name, values in columns.items()}
 
@@ -559,7 +562,8 @@ def _constant(
         raise InputError(
             f"the shaft_speed is {shaft_speed!r}", where=source, allowed="a finite number"
         )
-    count = max(2, math.ceil(duration / step * (1 - 1e-12)) + 1)
+    steps = math.ceil(duration / step * (1 - 1e-12))
+    count = max(2, steps + 1)
     fields = {
         "time": np.linspace(0.0, duration, count),
         "shaft_speed": np.full(count, float(shaft_speed)),

@@ -41,7 +41,9 @@ def moment_bearing_load(
     fx, fy, fz = hub_loads.force.T
     _, my, mz = hub_loads.moment.T
     force = np.column_stack([fy, fz, fx])
-    moment = np.column_stack([my + hub_to_bearing * fz, mz - hub_to_bearing * fy])
+    moment_y = my + hub_to_bearing * fz
+    moment_z = mz - hub_to_bearing * fy
+    moment = np.column_stack([moment_y, moment_z])
     return force, moment
 
 
@@ -82,7 +84,8 @@ def shaft_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[BearingLoad
     force, moment = moment_bearing_load(hub_loads, middle)
     weight = drivetrain.shaft_mass * GRAVITY
     across = weight * np.cos(drivetrain.tilt)
-    force += np.array([0.0, -across, weight * np.sin(drivetrain.tilt)])
+    along = weight * np.sin(drivetrain.tilt)
+    force += np.array([0.0, -across, along])
     moment[:, 0] += (drivetrain.shaft_mass_station - middle) * across
     source = f"main bearing under {hub_loads.source}"
     loads = BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, source, hub_loads.event)

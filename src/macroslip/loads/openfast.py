@@ -286,7 +286,9 @@ class Channels:
             return turn_to_fixed(y, z, azimuth)
         for aliases in fixed:
             if not self.has_all((aliases,)):
-                turned = f"{rotating[0][0]}, {rotating[1][0]} and {_AZIMUTH[0]}"
+                first = rotating[0][0]
+                second = rotating[1][0]
+                turned = f"{first}, {second} and {_AZIMUTH[0]}"
                 self.missing[aliases[0]] = f"{' or '.join(aliases)} (or {turned})"
         nothing = np.zeros(len(self.samples.values))
         return nothing, nothing
@@ -298,7 +300,8 @@ class Channels:
         if "time" not in self.index:
             remedy = "This is not an OpenFAST time series."
             raise InputError("there is no channel Time", where=self.where, remedy=remedy)
-        lines = "\n".join(f'"{name}"'.ljust(16) + f"- {_MEANING[name]}" for name in self.missing)
+        meanings = [f'"{name}"'.ljust(16) + f"- {_MEANING[name]}" for name in self.missing]
+        lines = "\n".join(meanings)
         gauge = [name for name in self.names if name.lower().startswith("lssgagm")]
         gauge = [name for name in gauge if name.lower()[7] in "yz"]
         note = ""
@@ -388,7 +391,9 @@ def _binary_size(path: Path) -> int:
         if description < 0:
             raise damaged
         header = file.tell() + description + 2 * (channels + 1) * name_length
-        return header + samples * ((4 if file_format == 1 else 0) + channels * (2 if packed else 8))
+        time_bytes = 4 if file_format == 1 else 0
+        number_bytes = 2 if packed else 8
+        return header + samples * (time_bytes + channels * number_bytes)
 
 
 def _read_text(path: Path) -> Channels:
@@ -420,7 +425,8 @@ def _read_text(path: Path) -> Channels:
             unreadable.setdefault(channel, f"{word} (line {number + 1})")
     # A line cut within its last number still parses. OpenFAST ends every line, and all data lines
     # are equally long.
-    if not content.endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip()):
+    has_end = content.endswith((b"\n", b"\r"))
+    if not has_end and len(lines[-1]) < len(lines[-2].rstrip()):
         remedy = "Copy the file again, run OpenFAST again, or delete that line."
         raise InputError("the last line is cut off", where=str(path), remedy=remedy)
     return Channels(names, units, Samples(values, unreadable), str(path))

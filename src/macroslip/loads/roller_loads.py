@@ -141,7 +141,8 @@ class RollerLoads(History):
             indices = [table.names.index(name) for name in COLUMNS if name != "row"]
             values = np.array(table.numbers(indices))
         row = np.array([ROW_NAMES.index(name) for name in rows])
-        _, counts = np.unique(np.stack([values[0], row]), axis=1, return_counts=True)
+        samples = np.stack([values[0], row])
+        _, counts = np.unique(samples, axis=1, return_counts=True)
         times = np.unique(values[0]).size
         if counts.size != len(ROW_NAMES) * times or np.ptp(counts):
             raise InputError(
@@ -190,4 +191,5 @@ class RollerLoads(History):
 
     def approach(self, stiffness: float, play: float) -> FloatArray:
         """Approach of the rings [m] at every position, from K [N/m^1.5]; without load −play [m]."""
-        return np.where(self.load > 0.0, (self.load / stiffness) ** (2.0 / 3.0), -play)
+        pressed = (self.load / stiffness) ** (2.0 / 3.0)
+        return np.where(self.load > 0.0, pressed, -play)

@@ -40,7 +40,8 @@ class SheetTable:
 
     def texts(self, index: int) -> list[str | None]:
         """Cells of a column as text."""
-        return [None if row[index] is None else str(row[index]).strip() for row in self.rows]
+        cells = [row[index] for row in self.rows]
+        return [None if cell is None else str(cell).strip() for cell in cells]
 
     def numbers(self, indices: Sequence[int], *, text_allowed: bool = False) -> list[FloatArray]:
         """Values of columns; NaN where a cell is empty or, if that is allowed, no number."""

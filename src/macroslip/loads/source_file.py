@@ -288,8 +288,11 @@ def turn_to_fixed(
     >>> round(float(y), 12), round(float(z), 12)
     (-1.0, 0.0)
     """
-    cos, sin = np.cos(azimuth), np.sin(azimuth)
-    return along_ya * cos - along_za * sin, along_ya * sin + along_za * cos
+    cos = np.cos(azimuth)
+    sin = np.sin(azimuth)
+    along_y = along_ya * cos - along_za * sin
+    along_z = along_ya * sin + along_za * cos
+    return along_y, along_z
 
 
 def moment_at_hub(force: NDArray, moment: NDArray, hub_to_output: float) -> FloatArray:

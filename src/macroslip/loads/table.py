@@ -214,7 +214,8 @@ def _read(
     result: dict = {name: series[name] for name in _BASE if name in series}
     for field, components in vectors.items():
         result[field] = np.column_stack([series[name] for name in components])
-    return result | {"reading": tuple(table.names[index] for index, _ in chosen.values())}
+    reading = tuple(table.names[index] for index, _ in chosen.values())
+    return result | {"reading": reading}
 
 
 def _other_sheets(path: Path) -> str:

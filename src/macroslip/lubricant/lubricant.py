@@ -223,7 +223,8 @@ class Lubricant(Record):
         """
         sources = {source for those in _SOURCES.values() for source in those}
         kept = {key: origin for key, origin in self.provenance.items() if key not in sources}
-        values = {key: getattr(self, key) for key in fields_of(type(self)) if key not in sources}
+        keys = [key for key in fields_of(type(self)) if key not in sources]
+        values = {key: getattr(self, key) for key in keys}
         record = type(self).__new__(type(self))
         record._fill(
             values | {key: origin.value for key, origin in changes.items()},

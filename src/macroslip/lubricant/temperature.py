@@ -56,7 +56,8 @@ def walther_viscosity(line: WaltherLine, temperature: float) -> float:
     >>> round(walther_viscosity(line, 323.15) * 1e6, 1)
     179.4
     """
-    return (10.0**10.0 ** (line.intercept - line.slope * math.log10(temperature)) - _SHIFT) * _MM2
+    ordinate = line.intercept - line.slope * math.log10(temperature)
+    return (10.0**10.0**ordinate - _SHIFT) * _MM2
 
 
 def walther_coefficient(line: WaltherLine, temperature: float) -> float:
@@ -141,7 +142,8 @@ def walther_line_with_slope(
         raise InputError(fault, allowed="a positive number", remedy=remedy)
     ordinate = _ordinate(viscosity)
     number = viscosity / _MM2
-    slope = coefficient * number * temperature / ((number + _SHIFT) * math.log(number + _SHIFT))
+    shifted = number + _SHIFT
+    slope = coefficient * number * temperature / (shifted * math.log(shifted))
     return WaltherLine(ordinate + slope * math.log10(temperature), slope)
 
 

@@ -179,7 +179,8 @@ def film_reach(body, tables, outward, ring_speed):
         The play [m], from which on films carry nothing; it is less at lower speeds.
     """
     log_u = logarithm(max(0.5 * abs(ring_speed), LOWEST_SPEED))
-    inner = in_plane(body.inner.oil, tables, log_load(_LIGHTEST_LOAD + max(-outward, 0.0)), log_u)
+    inner_load = _LIGHTEST_LOAD + max(-outward, 0.0)
+    inner = in_plane(body.inner.oil, tables, log_load(inner_load), log_u)
     outer = in_plane(body.outer.oil, tables, log_load(_LIGHTEST_LOAD + max(outward, 0.0)), log_u)
     return _REACH_MARGIN * (exponential(inner[0][2]) + exponential(outer[0][2])) / FLOW
 

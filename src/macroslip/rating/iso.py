@@ -137,7 +137,9 @@ def dynamic_equivalent_load(
     """
     radial = np.asarray(radial_load, float)
     axial = np.abs(axial_load)
-    return np.where(axial <= e * radial, radial + y1 * axial, 0.67 * radial + y2 * axial)
+    light = radial + y1 * axial
+    heavy = 0.67 * radial + y2 * axial
+    return np.where(axial <= e * radial, light, heavy)
 
 
 def basic_life(load_rating: float, equivalent_load: ArrayLike) -> FloatArray:
@@ -229,7 +231,8 @@ def life_modification(
     )
     # At kappa 0.1 the film's part is zero but for the rounding of its coefficients. Where the
     # bracket is not positive the endurance limit is reached.
-    bracket = 1.0 - max(1.5859 - a / kappa**b, 0.0) * (contamination * ratio) ** 0.4
+    by_film = max(1.5859 - a / kappa**b, 0.0)
+    bracket = 1.0 - by_film * (contamination * ratio) ** 0.4
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         factor = np.where(bracket > 0.0, 0.1 * np.abs(bracket) ** -9.185, np.inf)
     return np.minimum(factor, LARGEST_MODIFICATION)
@@ -289,7 +292,8 @@ def ring_ratings(
     (514, 657)
     """
     ratio = 1.038 * ((1.0 - gamma) / (1.0 + gamma)) ** (143 / 108)
-    share = dynamic_load_rating / (rollers_per_row * math.cos(contact_angle) * rows ** (7 / 9))
+    rollers = rollers_per_row * math.cos(contact_angle) * rows ** (7 / 9)
+    share = dynamic_load_rating / rollers
     return RingRatings(
         share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9),
         share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9),

@@ -49,10 +49,12 @@ def loads_of_strips(strips: Strips, load: NDArray[np.float64], count: int) -> ND
     load = np.asarray(load, dtype=float)
     pressed = strip_approach(strips, load)
     drop = strips.profile(strip_places(strips.length, count))
-    parts = np.maximum(pressed[..., None] - drop, 0.0) ** PALMGREN_EXPONENT
+    approach = np.maximum(pressed[..., None] - drop, 0.0)
+    parts = approach**PALMGREN_EXPONENT
     # Strips that are few carry a little less or more than the line that they stand for.
     total = parts.sum(axis=-1)
-    scale = np.divide(load, total, out=np.zeros(load.shape), where=total > 0.0)
+    scale = np.zeros(load.shape)
+    np.divide(load, total, out=scale, where=total > 0.0)
     return parts * scale[..., None]
 
 

@@ -67,7 +67,8 @@ def roller_load_history(
     by_roller = isinstance(loads, RollerLoads)
     known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row) if by_roller else loads
     finer = known.resampled(motion.time, motion.shaft_speed)
-    return finer, np.moveaxis(roller_load, 0, -1).reshape(bearing.rows, bearing.rollers_per_row, -1)
+    shape = (bearing.rows, bearing.rollers_per_row, -1)
+    return finer, np.moveaxis(roller_load, 0, -1).reshape(shape)
 
 
 def rate(
@@ -172,12 +173,14 @@ class _History(NamedTuple):
         """Edges of the classes of load [N]."""
         low = min(load.min() for load in self.load_series)
         high = max(load.max() for load in self.load_series)
-        return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
+        highest = high if high > 0.0 else 1.0
+        return np.linspace(min(low, 0.0), highest, LOAD_CLASSES + 1)
 
     @property
     def viscosity_ratio(self) -> float:
         """Kappa at the mean speed; NaN for a shaft at rest."""
-        mean_speed = 2.0 * math.pi * self.revolutions.sum() / self.duration.sum()
+        turned = 2.0 * math.pi * self.revolutions.sum()
+        mean_speed = turned / self.duration.sum()
         if mean_speed == 0.0:
             return math.nan
         kinematic = self.lubricant.viscosity / self.lubricant.density
@@ -292,7 +295,8 @@ def _reference(history: _History) -> dict[str, tuple]:
         raceway.hertz.semi_axis_across for raceway in interfaces(bearing, history.lubricant)
     ]
     # (Q_e/Q_c)^(9/2) over distribution, row, raceway and sample.
-    damages = np.empty((len(DISTRIBUTIONS), bearing.rows, len(RACEWAYS), history.loads.time.size))
+    samples = history.loads.time.size
+    damages = np.empty((len(DISTRIBUTIONS), bearing.rows, len(RACEWAYS), samples))
     for row, load in enumerate(history.roller_load):
         for k, rating in enumerate(ratings):
             stationary = RACEWAYS[k] == "outer"
@@ -352,7 +356,8 @@ def _contacts(history: _History) -> dict[str, tuple]:
         pressure = history.strips.pressure
     inner = geometry.inner_contact_radius(bearing)
     outer = geometry.outer_contact_radius(bearing)
-    entrainment = np.abs(history.loads.shaft_speed) * inner * outer / (inner + outer)
+    raceway_speed = np.abs(history.loads.shaft_speed) * inner
+    entrainment = raceway_speed * outer / (inner + outer)
     low, middle = np.full((2, bearing.rows, len(RACEWAYS)), np.nan)
     weights = np.broadcast_to(history.duration, load.shape[1:])
     film = FILM_LAWS.named(FILM_LAW)

@@ -20,7 +20,9 @@ def sample_durations(time: FloatArray) -> FloatArray:
     [0.5, 1.5, 1.0]
     """
     step = np.diff(time)
-    return 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
+    after = np.concatenate([step, [0.0]])
+    before = np.concatenate([[0.0], step])
+    return 0.5 * (after + before)
 
 
 def load_duration(load: FloatArray, weight: FloatArray, edges: FloatArray) -> NDArray:
@@ -105,4 +107,5 @@ def damage_equivalent_load(
     90.0
     """
     ranges = rainflow_ranges(np.asarray(load, float))
-    return float((np.sum(ranges**exponent) / (frequency * duration)) ** (1.0 / exponent))
+    mean_power = np.sum(ranges**exponent) / (frequency * duration)
+    return float(mean_power ** (1.0 / exponent))

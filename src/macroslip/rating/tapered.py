@@ -172,7 +172,8 @@ def strip_damage(strips: FloatArray, rating: float, stationary: bool) -> FloatAr
     ratio = strips * count * REDUCTION / rating
     if stationary:
         return (ratio**4.5).mean(axis=-2).mean(axis=-1)
-    return ((ratio**4.0).mean(axis=-2) ** (4.5 / 4.0)).mean(axis=-1)
+    over_turn = (ratio**4.0).mean(axis=-2)
+    return (over_turn ** (4.5 / 4.0)).mean(axis=-1)
 
 
 def tapered_reference_life(
@@ -244,7 +245,8 @@ def strip_rating(
     ISO/TS 16281:2008, section 6.3.
     """
     row = tapered_geometry(bearing)
-    slenderness = bearing.roller_diameter * math.cos(row.outer_angle) / (2.0 * bearing.pitch_radius)
+    projected = bearing.roller_diameter * math.cos(row.outer_angle)
+    slenderness = projected / (2.0 * bearing.pitch_radius)
     rating = ring_ratings(
         tapered_ratings(bearing).dynamic,
         len(ROW_SIGNS),
@@ -259,7 +261,8 @@ def strip_rating(
         inner, outer = strips.reshape(2, len(ROW_SIGNS), -1, strips.shape[-1])
         damage[:, 0, sample] = strip_damage(inner, rating.inner, stationary=False)
         damage[:, 1, sample] = strip_damage(outer, rating.outer, stationary=True)
-        largest = np.maximum(largest, np.stack([inner, outer], axis=1).max(axis=(2, 3)))
+        by_raceway = np.stack([inner, outer], axis=1)
+        largest = np.maximum(largest, by_raceway.max(axis=(2, 3)))
     modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
     curvature = np.array(raceway_curvatures(row))
     strip = bearing.roller_length / ring.profile.size

@@ -216,7 +216,9 @@ class Plot:
         return axes
 
     def _row(self, row: str | None, first: str = "downwind") -> str:
-        return row or (first if first in self._result.row else str(self._result.row[0].item()))
+        if row:
+            return row
+        return first if first in self._result.row else str(self._result.row[0].item())
 
     def energy(self, *, axes: Axes | None = None) -> Axes:
         """Energy of a mean roller of each row, by interface."""

@@ -220,7 +220,8 @@ def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
         sentence += ", so not distinguishable from it"
     if beyond:
         sentence += "; also beyond: "
-    return [f"{sentence}{'; '.join(f'{_name(line)} ({_times(line)})' for line in beyond)}."]
+    others = [f"{_name(line)} ({_times(line)})" for line in beyond]
+    return [f"{sentence}{'; '.join(others)}."]
 
 
 def _name(line: Mapping[str, Any]) -> str:
@@ -238,7 +239,8 @@ def _times(line: Mapping[str, Any]) -> str:
     >>> _times({"ratio": 0.03125, "value": 640.0, "reference": 20.0})
     'the reference is 0.031 of it'
     """
-    times = f"{number(line['ratio'], 2)} {'times' if line['ratio'] > 1.0 else 'of'}"
+    ratio = line["ratio"]
+    times = f"{number(ratio, 2)} {'times' if ratio > 1.0 else 'of'}"
     if line["ratio"] < 1e-3:
         times = "less than a thousandth of"
     is_direct = math.isclose(line["ratio"], line["value"] / line["reference"])

@@ -22,6 +22,8 @@ ROLLER = "#bcd3ea"
 LINE = "#1f5a96"
 SPHERE = "#b3261e"
 _MILLI = 1e3
+#: Along and across the bearing's axis [mm].
+_Point = tuple[float, float]
 
 
 @program_style()
@@ -36,30 +38,28 @@ def draw_bearing(bearing: Bearing) -> Figure:
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_aspect("equal")
     axes.axis("off")
-    width = (
-        bearing.width if bearing.width is not None else 2.1 * geometry.envelope(bearing).farthest
-    )
+    width = bearing.width
+    if width is None:
+        width = 2.1 * geometry.envelope(bearing).farthest
     half = 0.5 * _MILLI * width
     _rings(axes, bearing, half)
     for side in (-1, 1):
         axes.fill(*_roller(bearing, side), fc=ROLLER, ec="black", lw=1.0, zorder=3)
     _dimensions(axes, bearing, half)
-    axes.plot([-1.15 * half, 1.15 * half], [0, 0], color="black", lw=0.8, ls="-.")
+    end = 1.15 * half
+    axes.plot([-end, end], [0, 0], color="black", lw=0.8, ls="-.")
     axes.text(-1.17 * half, 0, "bearing axis", ha="right", va="center", fontsize=9)
-    axes.set(
-        xlim=(-3.0 * half, 3.0 * half), ylim=(-0.08 * _outside(bearing), 1.2 * _outside(bearing))
-    )
-    axes.text(0, 1.14 * _outside(bearing), bearing.name, ha="center", va="center", fontsize=12)
+    outside = _outside(bearing)
+    axes.set(xlim=(-3.0 * half, 3.0 * half), ylim=(-0.08 * outside, 1.2 * outside))
+    axes.text(0, 1.14 * outside, bearing.name, ha="center", va="center", fontsize=12)
     return figure
 
 
 def _outside(bearing: Bearing) -> float:
     diameter = bearing.outside_diameter
-    return (
-        0.5 * _MILLI * diameter
-        if diameter is not None
-        else 1.05 * _MILLI * bearing.outer_raceway_radius
-    )
+    if diameter is None:
+        return 1.05 * _MILLI * bearing.outer_raceway_radius
+    return 0.5 * _MILLI * diameter
 
 
 def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
@@ -73,7 +73,9 @@ def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
         inner = _inner_raceway(bearing, np.abs(along))
         axes.fill_between(along, bore, inner, fc=STEEL, ec="black", lw=1.0)
     turn = np.radians(np.linspace(-40, 40, 200))
-    axes.plot(sphere * np.sin(turn), sphere * np.cos(turn), color=SPHERE, lw=0.8, ls=":")
+    axial = sphere * np.sin(turn)
+    radial = sphere * np.cos(turn)
+    axes.plot(axial, radial, color=SPHERE, lw=0.8, ls=":")
 
 
 def _inner_raceway(bearing: Bearing, distance: FloatArray) -> FloatArray:
@@ -82,7 +84,8 @@ def _inner_raceway(bearing: Bearing, distance: FloatArray) -> FloatArray:
     reach = contour - 0.5 * _MILLI * bearing.roller_diameter
     along = _MILLI * bearing.row_offset + reach * math.sin(bearing.contact_angle)
     across = _MILLI * bearing.pitch_radius + reach * math.cos(bearing.contact_angle)
-    return across - np.sqrt(np.maximum(contour**2 - (distance - along) ** 2, 0.0))
+    height_square = contour**2 - (distance - along) ** 2
+    return across - np.sqrt(np.maximum(height_square, 0.0))
 
 
 def _roller(bearing: Bearing, side: int) -> tuple[FloatArray, FloatArray]:
@@ -90,12 +93,15 @@ def _roller(bearing: Bearing, side: int) -> tuple[FloatArray, FloatArray]:
     contour = geometry.roller_contour_radius(bearing)
     half = 0.5 * bearing.roller_length
     along = np.linspace(-half, half, 101)
-    radius = geometry.roller_radius(bearing) - contour + np.sqrt(contour**2 - along**2)
+    drop = contour - np.sqrt(contour**2 - along**2)
+    radius = geometry.roller_radius(bearing) - drop
     along = np.concatenate([along, along[::-1]])
     radius = np.concatenate([radius, -radius[::-1]])
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    sine = math.sin(bearing.contact_angle)
+    cosine = math.cos(bearing.contact_angle)
     axial = bearing.row_offset + along * cosine + radius * sine
-    return side * _MILLI * axial, _MILLI * (bearing.pitch_radius - along * sine + radius * cosine)
+    radial = bearing.pitch_radius - along * sine + radius * cosine
+    return side * _MILLI * axial, _MILLI * radial
 
 
 class _Section(NamedTuple):
@@ -140,12 +146,15 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
         diameter = getattr(bearing, key)
         if diameter is not None:
             end = 0.5 * _MILLI * diameter
-            arrows.append(((-share * half, 0), (-share * half, end), "black"))
+            axial = -share * half
+            arrows.append(((axial, 0), (axial, end), "black"))
             height = (1.0 - share) * end + 0.02 * section.outside
-            labels.append((key, -1, height, (-share * half, (1.1 - share) * end)))
+            labels.append((key, -1, height, (axial, (1.1 - share) * end)))
+    offset = section.offset
+    pitch = section.pitch
     axes.plot([0, 0], [0, 1.04 * section.outside], color="black", lw=0.6, ls="-.")
-    axes.plot([section.offset] * 2, [0.70 * section.pitch, section.pitch], color=LINE, lw=0.6)
-    axes.plot([-1.1 * half, -section.offset], [section.pitch] * 2, color=LINE, lw=0.6)
+    axes.plot([offset, offset], [0.70 * pitch, pitch], color=LINE, lw=0.6)
+    axes.plot([-1.1 * half, -offset], [pitch, pitch], color=LINE, lw=0.6)
     turn = np.linspace(0, bearing.contact_angle, 30)
     arc = 0.3 * section.sphere
     axes.plot(arc * np.sin(turn), arc * np.cos(turn), color=SPHERE, lw=1.2)
@@ -156,28 +165,28 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
         text = f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})"
         style = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": 9}
         line = {"arrowstyle": "-", "color": "#777777", "lw": 0.6}
-        axes.annotate(text, to, (1.25 * side * half, height), arrowprops=line, zorder=6, **style)
+        at = (1.25 * side * half, height)
+        axes.annotate(text, to, at, arrowprops=line, zorder=6, **style)
 
 
-def _arrows(section: _Section) -> list[tuple[tuple[float, float], tuple[float, float], str]]:
+def _arrows(section: _Section) -> list[tuple[_Point, _Point, str]]:
     """Start, end and colour of the arrows that every bearing has."""
     half, z, y, sphere, _, r, length, sine, cosine = section
+    # Half of a roller's diameter and of its length, along and across the bearing's axis.
+    radius_z = r * sine
+    radius_y = r * cosine
+    length_z = length * cosine
+    length_y = length * sine
     return [
         ((0, 0), (sphere * sine, sphere * cosine), SPHERE),
         ((0, 0.72 * y), (z, 0.72 * y), LINE),
         ((-1.08 * half, 0), (-1.08 * half, y), LINE),
-        ((-z - r * sine, y + r * cosine), (-z + r * sine, y - r * cosine), LINE),
-        (
-            (-z + length * cosine, y + length * sine),
-            (-z - length * cosine, y - length * sine),
-            LINE,
-        ),
+        ((-z - radius_z, y + radius_y), (-z + radius_z, y - radius_y), LINE),
+        ((-z + length_z, y + length_y), (-z - length_z, y - length_y), LINE),
     ]
 
 
-def _labels(
-    section: _Section, bearing: Bearing
-) -> list[tuple[str, int, float, tuple[float, float]]]:
+def _labels(section: _Section, bearing: Bearing) -> list[tuple[str, int, float, _Point]]:
     """Key, side and height of the words that every bearing has, and the place they belong to."""
     half, z, y, sphere, outside, r, length, sine, cosine = section
     middle = 0.5 * bearing.contact_angle

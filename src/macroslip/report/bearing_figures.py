@@ -70,15 +70,17 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
 
     of_row = 1e3 * energy.sel(row=row)
     width = 360.0 / of_row.sizes["angle"]
-    theta = np.radians(np.append(of_row.angle.values, of_row.angle.values[0] + 360.0))
+    angles = of_row.angle.values
+    theta = np.radians(np.append(angles, angles[0] + 360.0))
     for interface in of_row.interface.values.tolist():
         values = of_row.sel(interface=interface).values
         total = width * values.sum()
-        orbit = f"{three_digits(1e-3 * total)} J" if total >= 1e3 else f"{three_digits(total)} mJ"
+        orbit = f"{three_digits(total)} mJ"
+        if total >= 1e3:
+            orbit = f"{three_digits(1e-3 * total)} J"
         label = f"{interface}: {orbit} per orbit"
-        axes.plot(
-            theta, np.append(values, values[0]), label=label, linewidth=1.6, **INTERFACE[interface]
-        )
+        closed = np.append(values, values[0])
+        axes.plot(theta, closed, label=label, linewidth=1.6, **INTERFACE[interface])
     axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(MaxNLocator(3, prune="lower"))
     return _round(axes, "S", ["bottom", "left", "top", "right"], f"{row} row [mJ/°]")
@@ -110,7 +112,8 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     thickness = 1e6 * orbit.film_thickness.sel(row=row)
     angle = thickness.angle.values
     for interface in thickness.interface.values.tolist():
-        low, middle, high = thickness.sel(interface=interface).transpose("quantile", "angle").values
+        of_interface = thickness.sel(interface=interface).transpose("quantile", "angle")
+        low, middle, high = of_interface.values
         style = INTERFACE[interface]
         axes.fill_between(angle, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
         axes.plot(angle, middle, label=interface, linewidth=1.6, **style)
@@ -120,10 +123,16 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     log_ticks(axes)
     # Rollers without load have no film but play.
     axes.set_ylim(top=min(axes.get_ylim()[1], 300.0))
-    scale = 1e-6 * float((orbit.film_parameter / orbit.film_thickness).median())
-    right = axes.secondary_yaxis(
-        "right", functions=(lambda h: np.multiply(h, scale), lambda ratio: np.divide(ratio, scale))
-    )
+    per_metre = orbit.film_parameter / orbit.film_thickness
+    scale = 1e-6 * float(per_metre.median())
+
+    def to_parameter(thickness: np.ndarray) -> np.ndarray:
+        return np.multiply(thickness, scale)
+
+    def to_thickness(parameter: np.ndarray) -> np.ndarray:
+        return np.divide(parameter, scale)
+
+    right = axes.secondary_yaxis("right", functions=(to_parameter, to_thickness))
     decade_ticks(right.yaxis)
     right.set_ylabel("film parameter Λ [–]", fontsize=LABEL)
     right.tick_params(labelsize=SMALL)
@@ -190,7 +199,8 @@ def plot_bearing(
         ]
         axes.text(centre, 0.0, row, ha="center", va="center", fontsize=LABEL)
     shown = PatchCollection(rollers, cmap="cividis", edgecolor=BLACK, linewidth=0.6)
-    shown.set_array(100.0 * still.slip.transpose("row", "roller").values.ravel())
+    slip = still.slip.transpose("row", "roller")
+    shown.set_array(100.0 * slip.values.ravel())
     shown.set_clim(0.0, 100.0)
     axes.add_collection(shown)
     axes.set(
@@ -217,7 +227,8 @@ def plot_roller_spread(axes: Axes, energy: xr.DataArray, row: str) -> Axes:
     mean = float(total.mean())
     axes.axhline(1.0, color=GREY, linewidth=0.8)
     numbers = total.roller.values
-    axes.plot(numbers, total.values / mean, markersize=5, **{**ROW[row], "linestyle": "none"})
+    style = {**ROW[row], "linestyle": "none"}
+    axes.plot(numbers, total.values / mean, markersize=5, **style)
     axes.set_xticks(numbers[:: max(1, numbers.size // 7)])
     axes.margins(y=0.25)
     axes.ticklabel_format(axis="y", useOffset=False)
@@ -278,10 +289,12 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
     from matplotlib.ticker import LogFormatter
 
     for row in result.row.values.tolist():
-        peak = np.sort(result.peak_power.sel(row=row).max("interface", skipna=False).values.ravel())
+        largest = result.peak_power.sel(row=row).max("interface", skipna=False)
+        peak = np.sort(largest.values.ravel())
         peak = peak[np.isfinite(peak)]
         if peak.size:
-            share = np.append(1.0, 1.0 - np.arange(peak.size) / peak.size)
+            below = np.arange(peak.size) / peak.size
+            share = np.append(1.0, 1.0 - below)
             style = _line_of(row)
             power = np.append(0.5 * peak[0], peak)
             axes.step(power, share, where="pre", label=f"{row} row", linewidth=1.6, **style)
@@ -377,7 +390,8 @@ def plot_map(
     """
     # Angles count from +X0, which is a quarter of a turn past the bottom; the bottom is in the
     # middle of the map.
-    order = np.argsort((np.degrees(values.angle.values) + 270.0) % 360.0)
+    from_top = (np.degrees(values.angle.values) + 270.0) % 360.0
+    order = np.argsort(from_top)
     along = 1e3 * values.station.values
     half = 0.5 * (along[1] - along[0])
     extent = (-180.0, 180.0, along[0] - half, along[-1] + half)
@@ -439,7 +453,8 @@ def plot_along_roller(axes: Axes, density: xr.DataArray, row: str) -> Axes:
     axes.plot(along, density.sum(_SPLIT).values, color=BLACK, label="all", linewidth=1.8)
     for name, (part, style) in _PARTS.items():
         part_density = density.sel(part)
-        values = part_density.sum([dim for dim in _SPLIT if dim in part_density.dims]).values
+        other_dims = [dim for dim in _SPLIT if dim in part_density.dims]
+        values = part_density.sum(other_dims).values
         axes.plot(along, values, label=name, linewidth=1.5, **style)
     axes.set_ylim(bottom=0.0)
     return finish(axes, _ALONG, "energy per area [J/mm²]", f"{row} row")
@@ -449,7 +464,8 @@ def plot_load_duration(axes: Axes, result: xr.Dataset) -> Axes:
     """Share of time in which each load of the bearing exceeds a value, from its rating."""
     middle = 1e-3 * result.load_class_middle.values
     for load in result["load"].values.tolist():
-        exceeded = np.cumsum(result.time_share.sel(load=load).values[::-1])[::-1]
+        falling = result.time_share.sel(load=load).values[::-1]
+        exceeded = np.cumsum(falling)[::-1]
         axes.plot(100.0 * exceeded, middle, label=load, linewidth=1.6, **_LOADS[load])
     axes.set_xlim(0.0, 101.0)
     return finish(axes, "share of time above [%]", "load of the bearing [kN]")
@@ -461,7 +477,8 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
     Takes a result of a whole bearing.
     """
     angle = result.position.values
-    values = np.maximum(result.largest_force_by_position.sel(row=row).values, 1e-1)
+    largest = result.largest_force_by_position.sel(row=row)
+    values = np.maximum(largest.values, 1e-1)
     # A full turn later, not back across the picture.
     axes.plot(
         np.append(angle, angle[0] + 2.0 * np.pi),
@@ -497,7 +514,8 @@ def plot_slip_over_orbit(axes: Axes, slip: xr.DataArray) -> Axes:
     Takes `slip` [1] over (row, quantile, angle): 1 for a roller that does not spin.
     """
     for row in slip.row.values.tolist():
-        low, middle, high = 100.0 * slip.sel(row=row).transpose("quantile", "angle").values
+        of_row = slip.sel(row=row).transpose("quantile", "angle")
+        low, middle, high = 100.0 * of_row.values
         style = _line_of(row)
         axes.fill_between(
             slip.angle.values, low, high, color=style["color"], alpha=0.18, linewidth=0.0
@@ -518,11 +536,14 @@ def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
     factor = known.factor.values
     axes.axvline(1.0, color=BLACK, linewidth=1.0)
     axes.set_xscale("log")
-    for line, (title, own, sure) in enumerate(zip(known.title.values, ratio, factor, strict=True)):
+    criteria = zip(known.title.values, ratio, factor, strict=True)
+    for line, (title, own, sure) in enumerate(criteria):
         has_reference = np.isfinite(own)
         if has_reference:
             colour = ORANGE if own > 1.0 else BLUE
-            bar = [[own - own / sure], [own * sure - own]]
+            below = own - own / sure
+            above = own * sure - own
+            bar = [[below], [above]]
             axes.errorbar(own, -line, xerr=bar, color=colour, marker="o", capsize=3)
             _name_line(axes, line, str(title))
         else:
@@ -619,8 +640,9 @@ def _row_bars(
             "label": f"{row} row",
             "hatch": "///" if k else None,
         }
-        offset = width * (k - 0.5 * (len(rows) - 1))
-        bars.append((middles + offset, 0.9 * width, row, style))
+        from_middle = k - 0.5 * (len(rows) - 1)
+        positions = middles + width * from_middle
+        bars.append((positions, 0.9 * width, row, style))
     return bars
 
 

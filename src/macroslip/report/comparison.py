@@ -131,9 +131,9 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     for name in others:
         pieces = _differences_of_pieces(results[first], results[name])
         if pieces is not None:
-            ranges[name] = _half_range(
-                pieces.var(ddof=1) / pieces.size, pieces.size - 1, numbers[first][ENERGY, "J/h"]
-            )
+            variance_of_mean = pieces.var(ddof=1) / pieces.size
+            base = numbers[first][ENERGY, "J/h"]
+            ranges[name] = _half_range(variance_of_mean, pieces.size - 1, base)
     titles = [
         f"{name}: {result.attrs['title']}"
         for name, result in results.items()
@@ -179,7 +179,10 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
     notes += _between_kinds(results)
     if len({tuple(result.roller.values.tolist()) for result in results.values()}) > 1:
         notes.append("The results have different rollers; the mean is over those that each has.")
-    failed = [name for name, result in results.items() if bool((result.status != 0).any())]
+    failed = []
+    for name, result in results.items():
+        if bool((result.status != 0).any()):
+            failed.append(name)
     if failed:
         notes.append(
             f"Rollers failed in {', '.join(failed)}; every mean that they enter is missing."
@@ -201,8 +204,10 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
 def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
     """Headline numbers of a result by quantity and unit."""
     hours = window_length(result) / HOUR
-    energy = result.energy.sum("interface", skipna=False).mean("roller", skipna=False) / hours
-    peak = result["window_peak_power" if "window_peak_power" in result else "peak_power"]
+    of_roller = result.energy.sum("interface", skipna=False)
+    energy = of_roller.mean("roller", skipna=False) / hours
+    peak_name = "window_peak_power" if "window_peak_power" in result else "peak_power"
+    peak = result[peak_name]
     numbers = {(ENERGY, "J/h"): float(energy.sum(skipna=False))}
     for row in result.row.values.tolist():
         spin = result.min_spin_ratio.sel(row=row).min(skipna=False)
@@ -213,7 +218,9 @@ def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
         }
     for name in ("static_safety", "basic_life", "modified_life"):
         if name in result:
-            numbers[name.replace("_", " "), result[name].attrs["units"]] = float(result[name])
+            words = name.replace("_", " ")
+            units = result[name].attrs["units"]
+            numbers[words, units] = float(result[name])
     return numbers
 
 
@@ -240,9 +247,11 @@ def _differences_of_pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray |
         for result in pair
     )
     orbits = energies.size
-    edges = [part[0] for part in np.array_split(np.arange(orbits), min(_PIECES, orbits))]
+    pieces = np.array_split(np.arange(orbits), min(_PIECES, orbits))
+    edges = [piece[0] for piece in pieces]
     differences = np.add.reduceat(other_energies - energies, edges)
-    return 3600.0 * differences / np.diff(times[[*edges, orbits]])
+    seconds = np.diff(times[[*edges, orbits]])
+    return 3600.0 * differences / seconds
 
 
 def _half_range(variance: float, freedom: int, base: float) -> float:
@@ -251,7 +260,8 @@ def _half_range(variance: float, freedom: int, base: float) -> float:
 
     if not freedom or not base:
         return np.nan
-    return float(100.0 * t.ppf(0.975, freedom) * np.sqrt(variance) / abs(base))
+    half = 100.0 * t.ppf(0.975, freedom) * np.sqrt(variance)
+    return float(half / abs(base))
 
 
 def _table(
@@ -280,7 +290,9 @@ def _table(
             is_other = values is not first and base != 0.0
             change = 100.0 * (value / base - 1.0) if is_other else np.nan
             half = ranges.get(design, np.nan) if quantity == ENERGY else np.nan
-            rows.append((quantity, units, design, value, change, change - half, change + half))
+            low = change - half
+            high = change + half
+            rows.append((quantity, units, design, value, change, low, high))
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     table.attrs = {**about, "ranking": " ".join(ranking_sentences(table))}
     return table
@@ -317,7 +329,8 @@ def compare_designs(
     total = numbers[first][ENERGY, "J/year"]
     bins = aggregation.bins(parts[first])
     share = bins.probabilities(aggregation.weights)
-    bin_of_loads = dict(zip(parts[first].loads.values.tolist(), bins.bin.tolist(), strict=False))
+    loads = parts[first].loads.values.tolist()
+    bin_of_loads = dict(zip(loads, bins.bin.tolist(), strict=False))
     ranges = {}
     for name in others:
         differences = _power_differences(parts[first], parts[name])
@@ -338,7 +351,12 @@ def compare_designs(
 def _varied_labels(study: xr.Dataset) -> list[str]:
     """Labels of designs that have several values in a study."""
     groups = binned(study, None).groups
-    return [str(name) for name in groups if len(set(groups[name].astype(str))) > 1]
+    varied = []
+    for name in groups:
+        texts = groups[name].astype(str)
+        if len(set(texts)) > 1:
+            varied.append(str(name))
+    return varied
 
 
 def _labels_of_designs(
@@ -405,7 +423,10 @@ def _design_notes(
             f"{'; '.join(same)} differ in nothing but their names: "
             "they were computed from the same input."
         )
-    unknown = itertools.chain(*(designs(annual)[1] for annual in years.values()))
+    unknown = []
+    for annual in years.values():
+        _, notes_of_design = designs(annual)
+        unknown += notes_of_design
     return [*notes, *dict.fromkeys(unknown)]
 
 

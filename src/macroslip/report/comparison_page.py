@@ -67,7 +67,8 @@ def comparison_page(
 
 def _listed(names: list[str]) -> str:
     """Names as a list in a sentence."""
-    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+    *others, last = names
+    return " and ".join(filter(None, (", ".join(others), last)))
 
 
 def _criteria_pictures(comparison: pd.DataFrame) -> list[Picture]:
@@ -135,7 +136,9 @@ def _maps(results: Mapping[str, xr.Dataset]) -> tuple[list[Picture], bool]:
                 # Angles of different maps may differ in the last bit.
                 differences[raceway, f"{name} − {first}"] = maps[raceway] - start.values
     drawn = _drawn_maps(values) | _drawn_maps(differences, difference=True)
-    pictures = [drawn[key] for raceway in rates[first] for key in drawn if key[0] == raceway]
+    pictures = []
+    for raceway in rates[first]:
+        pictures += [drawn[key] for key in drawn if key[0] == raceway]
     return pictures, bool(differences)
 
 
@@ -193,14 +196,17 @@ def _criteria_table(by_name: Mapping[str, list[dict[str, Any]]]) -> Table:
             ratio = f" ({number(line['ratio'], 2)})" if np.isfinite(line["ratio"]) else ""
             value = f"{usual_units(line['value'], line['unit'])}{ratio}"
             cells.setdefault(line["title"], {})[name] = value
-    rows = [(title, *(of.get(name, "–") for name in by_name)) for title, of in cells.items()]
+    rows = []
+    for title, of in cells.items():
+        rows.append((title, *(of.get(name, "–") for name in by_name)))
     caption = "Criteria of damage; in brackets: value over reference"
     return Table(("criterion", *by_name), rows, caption)
 
 
 def _line(quantity: str, designs: pd.DataFrame) -> tuple[str, ...]:
     """A quantity of every design, and its difference from the first."""
-    factor, units = scaled(designs["value"].abs().max(), designs["units"].iloc[0])
+    largest = designs["value"].abs().max()
+    factor, units = scaled(largest, designs["units"].iloc[0])
     cells = []
     for value, change, low, high in designs[
         ["value", "difference [%]", "low [%]", "high [%]"]
@@ -215,4 +221,6 @@ def _line(quantity: str, designs: pd.DataFrame) -> tuple[str, ...]:
 
 def _short(value: object) -> str:
     text = number(value, 6) if isinstance(value, float) else str(value)
-    return text if len(text) <= _LENGTH else f"{text[: _LENGTH - 1]}…"
+    if len(text) <= _LENGTH:
+        return text
+    return f"{text[: _LENGTH - 1]}…"

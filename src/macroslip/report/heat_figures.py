@@ -49,7 +49,8 @@ def plot_root_mean_squares(axes: Axes, heat: BearingHeat) -> Axes:
     """Root mean square of the residuals of the reference, a bar a model, the least at the top."""
     fits = sorted(heat.fits, key=lambda fit: -fit.residual)
     colours = [BLUE if fit.model.supply else ORANGE for fit in fits]
-    axes.barh(range(len(fits)), [fit.residual for fit in fits], height=0.4, color=colours)
+    residuals = [fit.residual for fit in fits]
+    axes.barh(range(len(fits)), residuals, height=0.4, color=colours)
     for line, fit in enumerate(fits):
         axes.annotate(
             fit.model.title,
@@ -119,7 +120,8 @@ def plot_cusum(axes: Axes, heat: BearingHeat, column: str = "cusum") -> Axes:
     """Cumulative sum of the daily index above 1.10, a line a model; as `plot_index`."""
     days = _plot_index_column(axes, heat, "day", column, marker="")
     axes.axhline(FLAGGED, color=BLACK, linewidth=0.8)
-    axes.set_ylim(0.0, max(1.5 * FLAGGED, min(float(days[column].max()), 6.0 * FLAGGED)))
+    highest = min(float(days[column].max()), 6.0 * FLAGGED)
+    axes.set_ylim(0.0, max(1.5 * FLAGGED, highest))
     _dates(axes)
     return finish(axes, "", "cumulative sum [-]")
 

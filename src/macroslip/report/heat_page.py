@@ -126,8 +126,10 @@ def block_scatter(heat: BearingHeat, rival: HeatFit) -> float:
     """
     inside = heat.windows["reference"].to_numpy()
     more = (rival.residuals**2 - heat.chosen.residuals**2)[inside]
-    blocks = pd.Series(more).groupby(heat.windows["block"].to_numpy()[inside]).sum().to_numpy()
-    return float(blocks.mean() / (blocks.std(ddof=1) / np.sqrt(blocks.size)))
+    block_of_window = heat.windows["block"].to_numpy()[inside]
+    blocks = pd.Series(more).groupby(block_of_window).sum().to_numpy()
+    error = blocks.std(ddof=1) / np.sqrt(blocks.size)
+    return float(blocks.mean() / error)
 
 
 def _constants(fit: HeatFit) -> str:
@@ -212,7 +214,8 @@ def fit_table(heat: BearingHeat) -> Table:
             factor, unit = _SHOWN.get(name, (1.0, PARAMETERS[name][0]))
             head = (fit.model.title, f"{fit.residual:.4f}") if position == 0 else ("", "–")
             constant = PARAMETERS[name][1]
-            shown = (number(factor * value, 3), number(factor * fit.errors[name], 2))
+            error = factor * fit.errors[name]
+            shown = (number(factor * value, 3), number(error, 2))
             rows.append((*head, constant, *shown, unit))
     return Table(_HEADINGS, rows, "Constants of every model, fitted to the reference")
 

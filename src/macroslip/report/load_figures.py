@@ -31,7 +31,8 @@ def plot_bearing_load(axes: Axes, loads: BearingLoads) -> Axes:
 
 def plot_shaft_speed(axes: Axes, loads: BearingLoads) -> Axes:
     """Shaft speed [rpm] over time."""
-    axes.plot(loads.time, loads.shaft_speed * 30.0 / math.pi, color=BLACK, linewidth=0.8)
+    rpm = loads.shaft_speed * 30.0 / math.pi
+    axes.plot(loads.time, rpm, color=BLACK, linewidth=0.8)
     return finish(axes, "time [s]", "shaft speed [rpm]", "shaft speed")
 
 
@@ -62,7 +63,8 @@ def plot_spectrum(axes: Axes, loads: BearingLoads) -> Axes:
         frequency, density = welch(values / 1e3, 1.0 / step, nperseg=piece)
         if np.any(density[1:] > 0.0):
             axes.plot(frequency[1:], density[1:], color=color, linewidth=0.9, label=name)
-    turns = abs(float(loads.shaft_speed.mean())) / (2.0 * math.pi)
+    mean_speed = abs(float(loads.shaft_speed.mean()))
+    turns = mean_speed / (2.0 * math.pi)
     if turns > 0.0:
         for multiple in (1, 3):
             axes.axvline(
@@ -108,7 +110,8 @@ def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
     plot_empty_row(axes[4], time, carried, float(np.mean(carried <= 0.0)))
     radial = loads.radial_load / 1e3
     exceeded = np.sort(radial)[::-1]
-    axes[5].plot(np.linspace(0.0, 100.0, exceeded.size), exceeded, color=BLUE, linewidth=1.2)
+    percent = np.linspace(0.0, 100.0, exceeded.size)
+    axes[5].plot(percent, exceeded, color=BLUE, linewidth=1.2)
     finish(axes[5], "share of time [%]", "radial load exceeded [kN]", "load duration")
     figure.suptitle(loads.source, fontsize=10, x=0.01, ha="left")
     return figure

@@ -66,9 +66,11 @@ def _better_design(quantity: str, numbers: pd.DataFrame, best: str) -> str:
     if quantity.partition(",")[0].endswith(_MORE_IS_BETTER):
         if quantity.endswith("life"):
             values = values.clip(upper=_LONG_LIFE)
-        is_better = float(values.max()) > (1.0 + _ALIKE) * float(values[best])
+        largest = float(values.max())
+        is_better = largest > (1.0 + _ALIKE) * float(values[best])
         return str(values.idxmax()) if is_better else ""
-    is_better = float(values.min()) < (1.0 - _ALIKE) * float(values[best])
+    least = float(values.min())
+    is_better = least < (1.0 - _ALIKE) * float(values[best])
     return str(values.idxmin()) if is_better else ""
 
 
@@ -77,9 +79,11 @@ def _order(ranked: pd.DataFrame) -> str:
     best = ranked.iloc[0]
     factor, units = scaled(best["value"], best["units"])
     parts = [f"{best['design']} dissipates least, {factor * best['value']:.4g} {units} ({ENERGY})"]
-    for design, value in zip(ranked["design"][1:], ranked["value"][1:], strict=True):
+    others = ranked[1:]
+    for design, value in zip(others["design"], others["value"], strict=True):
         if best["value"] > 0.0:
-            parts.append(f"{design} {100.0 * (value / best['value'] - 1.0):.3g} % more")
+            percent = 100.0 * (value / best["value"] - 1.0)
+            parts.append(f"{design} {percent:.3g} % more")
         else:
             factor, units = scaled(value, best["units"])
             parts.append(f"{design} {factor * value:.4g} {units}")

@@ -32,7 +32,8 @@ def verdict(real_year: RealYear) -> list[str]:
 
     How much the mean temperature decides, and how much the place of the sensor.
     """
-    first = real_year.table[real_year.table["design"] == real_year.table["design"].iloc[0]]
+    table = real_year.table
+    first = table[table["design"] == table["design"].iloc[0]]
     of = first.set_index("quantity")
     temperatures = (
         f"The oil is at {real_year.mean_production:.1f} °C in the mean while the rotor turns, "
@@ -44,7 +45,9 @@ def verdict(real_year: RealYear) -> list[str]:
         return [oil]
     wear = of.loc["wear"]
     alone = wear["at_mean"] / wear["fixed"]
-    ends = wear["oil_warmer"] / wear["real"], wear["real"] / wear["oil_cooler"]
+    warmer = wear["oil_warmer"] / wear["real"]
+    cooler = wear["real"] / wear["oil_cooler"]
+    ends = warmer, cooler
     return [
         f"Wear is {wear['real_over_fixed']:.2g} of that at 35 °C: the mean temperature alone makes "
         f"it {alone:.2g}, and how temperature and wind go together changes that by a factor of "
@@ -111,7 +114,8 @@ def _table(table: pd.DataFrame) -> Table:
         head = f"{line['design']}: {name}{unit}" if several else f"{name}{unit}"
         amounts = {key: factor * line[key] for key in _AMOUNTS}
         keys = ("real", "at_mean", "fixed", "real_over_fixed", "oil_cooler", "oil_warmer")
-        cells = [number((line | amounts)[key], 3) for key in (*keys, "seeds [%]", "factor")]
+        numbers = line | amounts
+        cells = [number(numbers[key], 3) for key in (*keys, "seeds [%]", "factor")]
         rows.append((head, *cells))
     headings = ("", "real", "at the mean", "at 35 °C", "real over 35 °C")
     headings += ("oil 5 K cooler", "oil 5 K warmer", "seeds [%]", "known to a factor")

@@ -210,7 +210,8 @@ def comparison_table(result: xr.Dataset, imposed: xr.Dataset) -> Table:
     for row, interface in itertools.product(now.row.values, now.interface.values):
         energies = [float(side.sel(row=row, interface=interface)) for side in (before, now)]
         cells = [f"{energy:.4g}" for energy in energies]
-        rows.append((row, interface, *cells, number(ratio.sel(row=row, interface=interface))))
+        ratio_here = ratio.sel(row=row, interface=interface)
+        rows.append((row, interface, *cells, number(ratio_here)))
     return Table(("row", "interface", "imposed orbit [J]", "whole bearing [J]", "ratio"), rows)
 
 
@@ -240,7 +241,10 @@ def pocket_table(result: xr.Dataset) -> Table:
 
 def rating_tables(result: xr.Dataset) -> list[Table]:
     """The rating of a result: the bearing as a whole, its raceways, damage-equivalent loads."""
-    whole = [(str(result[name].attrs["long_name"]), rating_text(result[name])) for name in _RATING]
+    whole = []
+    for name in _RATING:
+        meaning = str(result[name].attrs["long_name"])
+        whole.append((meaning, rating_text(result[name])))
     for along, words in (("hertz", "as in a Hertz contact"), ("uniform", "even along the roller")):
         under_load = result.sel(load_along_roller=along)
         whole.append(
@@ -310,7 +314,8 @@ def rating_summary(study: xr.Dataset) -> Table | None:
                 values.median(keep_attrs=True),
                 values.max(keep_attrs=True),
             )
-            rows.append((str(study[name].attrs["long_name"]), *map(rating_text, ends)))
+            meaning = str(study[name].attrs["long_name"])
+            rows.append((meaning, *map(rating_text, ends)))
     return Table(("", "least", "median of the runs", "largest"), rows)
 
 
@@ -334,7 +339,9 @@ def rating_text(value: xr.DataArray) -> str:
         return f"{1e-9 * amount:.3g} GPa"
     if units == "h":
         return years(amount)
-    return f"{100.0 * amount:.3g} %" if str(value.name).startswith("share") else f"{amount:.3g}"
+    if str(value.name).startswith("share"):
+        return f"{100.0 * amount:.3g} %"
+    return f"{amount:.3g}"
 
 
 def usual_units(value: float, unit: str) -> str:
@@ -390,12 +397,14 @@ def how_sure(lines: Sequence[Mapping[str, Any]]) -> str:
     mechanisms: dict[str, dict[str, None]] = {}
     for line in lines:
         mechanisms.setdefault(line["how sure"], {})[line["mechanism"]] = None
-    return "; ".join(f"{reason} ({', '.join(names)})" for reason, names in mechanisms.items())
+    parts = [f"{reason} ({', '.join(names)})" for reason, names in mechanisms.items()]
+    return "; ".join(parts)
 
 
 def by_raceway(values: xr.DataArray) -> list[tuple[str, str, float]]:
     """Row, raceway and largest value of every map."""
-    largest = values.max([dim for dim in values.dims if dim not in ("row", "raceway")])
+    other_dims = [dim for dim in values.dims if dim not in ("row", "raceway")]
+    largest = values.max(other_dims)
     return [
         (row, raceway, float(largest.sel(row=row, raceway=raceway)))
         for row, raceway in itertools.product(values.row.values.tolist(), ("outer", "inner"))

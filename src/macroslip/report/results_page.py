@@ -70,7 +70,8 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
         raise InputError("there is no result to report on")
     for name, dataset in results.items():
         _check(name, dataset)
-    shown = {name: _shown(result) for name, result in itertools.islice(results.items(), DETAILED)}
+    detailed = itertools.islice(results.items(), DETAILED)
+    shown = {name: _shown(result) for name, result in detailed}
     is_alone = len(results) == 1
     parts = sections(_TEMPLATE, {"numbers": _numbers(results, is_alone), "bearing": _motion(shown)})
     for number, (name, details) in enumerate(shown.items()):
@@ -86,7 +87,9 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
     if is_alone:
         (only,) = shown.values()
         return render(title, _subtitle(only.result), result_opening(only), parts)
-    names = ", ".join(list(results)[:_NAMED]) + (" …" if len(results) > _NAMED else "")
+    names = ", ".join(list(results)[:_NAMED])
+    if len(results) > _NAMED:
+        names += " …"
     return render(title, f"{len(results)} results: {names}.", results_opening(results), parts)
 
 
@@ -188,8 +191,11 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
     extremes: dict[str, dict[str, Any]] = {}
     pictures = []
     for key, label, is_least in _EXTREMES:
-        by_row = [{row["name"]: row[key] for row in lines} for lines in by_result.values()]
-        values = np.array([[known.get(row) for row in rows] for known in by_row], dtype=float)
+        by_row = []
+        for numbers_of_rows in by_result.values():
+            by_row.append({row["name"]: row[key] for row in numbers_of_rows})
+        table = [[known.get(row) for row in rows] for known in by_row]
+        values = np.array(table, dtype=float)
         if np.isfinite(values).any():
             extreme = np.nanargmin(values) if is_least else np.nanargmax(values)
             which, row = np.unravel_index(extreme, values.shape)
@@ -271,7 +277,10 @@ def _roller_bodies(shown: ShownResult) -> dict[str, Markup]:
         orbit = shown.profile["orbit"]
         load = shown.profile["load_zone"].roller_load
         rows = orbit.row.values.tolist()
-        largest = [(row, 1e-3 * float(load.sel(row=row).max())) for row in rows]
+        largest = []
+        for row in rows:
+            kilonewtons = 1e-3 * float(load.sel(row=row).max())
+            largest.append((row, kilonewtons))
         zones = row_pictures(draw.plot_load_zone, _ZONE, load, rows)
         bodies["load-zone"] = text.load_zone(zones, largest)
         about = "Film thickness and film parameter of the {} row over the orbit, by interface"

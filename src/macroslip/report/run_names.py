@@ -33,7 +33,8 @@ def study_about(study: xr.Dataset) -> str:
         elif name == "model" and not several_models:
             parts.append(f"model {study.attrs.get('model', values[0])}")
         else:
-            parts.append(f"{name} {file_names([str(values[0])])[0]}")
+            (file_name,) = file_names([str(values[0])])
+            parts.append(f"{name} {file_name}")
     if temperatures := _inlet_temperatures(study):
         parts.append(f"oil at {' to '.join(temperatures)} °C")
     return ", ".join(parts)
@@ -53,13 +54,17 @@ def _inlet_temperatures(study: xr.Dataset) -> list[str]:
     warm = study.inlet_temperature[np.sort(runs)] - ZERO_CELSIUS
     if not bool(warm.notnull().any()):
         return []
-    return list(dict.fromkeys(f"{float(end):.3g}" for end in (warm.min(), warm.max())))
+    ends = [f"{float(end):.3g}" for end in (warm.min(), warm.max())]
+    return list(dict.fromkeys(ends))
 
 
 def situation(annual: xr.Dataset, number: int) -> str:
     """Name of a bin: its wind speed, or its event."""
     event = str(annual.event.values[number]) if "event" in annual.coords else ""
-    return event or f"{float(annual.bin[number]):g} {annual.bin.attrs['units']}"
+    if event:
+        return event
+    units = annual.bin.attrs["units"]
+    return f"{float(annual.bin[number]):g} {units}"
 
 
 def case_names(study: xr.Dataset) -> list[str]:
@@ -75,10 +80,8 @@ def case_names(study: xr.Dataset) -> list[str]:
     if fields and are_files:
         # A wind speed is known by its unit: it needs no name before it.
         others = as_groups(study, [name for name in fields if name != "wind_speed"])
-        names = [
-            ", ".join(filter(None, parts))
-            for parts in zip(_speeds(study, fields), design_names(others), strict=True)
-        ]
+        parts_of_runs = zip(_speeds(study, fields), design_names(others), strict=True)
+        names = [", ".join(filter(None, parts)) for parts in parts_of_runs]
         if len(set(names)) == len(set(loads)):
             return names
     return [name.rpartition("/")[2] for name in loads]
@@ -88,23 +91,24 @@ def _speeds(study: xr.Dataset, fields: list[str]) -> list[str]:
     """Wind speed of every run with its unit; empty if it is no field or the same for all."""
     if "wind_speed" not in fields or np.unique(study.wind_speed).size < 2:
         return [""] * study.sizes["case"]
-    return [f"{speed:.12g} {study.wind_speed.attrs['units']}" for speed in study.wind_speed.values]
+    unit = study.wind_speed.attrs["units"]
+    return [f"{speed:.12g} {unit}" for speed in study.wind_speed.values]
 
 
 def run_names(study: xr.Dataset) -> list[str]:
     """Name of every run: its case, and its design where there are several."""
-    labels = [
-        str(name)
-        for name in study.coords
-        if name != "loads" and (name in (*SEVERAL, "temperature") or is_parameter(study, str(name)))
-    ]
+    labels = []
+    for name in map(str, study.coords):
+        is_choice = name in (*SEVERAL, "temperature")
+        if name != "loads" and (is_choice or is_parameter(study, name)):
+            labels.append(name)
     designs = design_names(as_groups(study, labels), 3)
-    return [
-        ", ".join(filter(None, names)) for names in zip(case_names(study), designs, strict=True)
-    ]
+    names_of_runs = zip(case_names(study), designs, strict=True)
+    return [", ".join(filter(None, names)) for names in names_of_runs]
 
 
 def as_groups(study: xr.Dataset, labels: list[str]) -> xr.Dataset:
     """Labels of the runs of a study as those of groups, one a run."""
     coordinates = {name: ("group", study[name].values, study[name].attrs) for name in labels}
-    return xr.Dataset({"number": ("group", np.arange(study.sizes["case"]))}, coordinates)
+    numbers = np.arange(study.sizes["case"])
+    return xr.Dataset({"number": ("group", numbers)}, coordinates)

@@ -61,10 +61,11 @@ def result_sheets(
         criteria of damage, the numbers of the bearing, a table for all that a result holds over
         the same dimensions, except series over time and maps, and last the input.
     """
-    rows = pd.DataFrame(row_numbers(result))
+    rows = pd.DataFrame(row_numbers(result)).loc[:, list(_OF_ROW)]
+    rows = rows.set_axis(list(_OF_ROW.values()), axis="columns")
     sheets = {
         "answer": pd.DataFrame({"answer": list(sentences)}),
-        "rows": rows.loc[:, list(_OF_ROW)].set_axis(list(_OF_ROW.values()), axis="columns"),
+        "rows": rows,
         "criteria": pd.DataFrame(list(criteria)),
         "bearing": _scalars(result),
     }
@@ -87,7 +88,8 @@ def _scalars(result: xr.Dataset) -> pd.DataFrame:
     """Numbers without dimension, one a column."""
     names = _by_dimensions(result).get((), [])
     units = {name: result[name].attrs.get("units", "1") for name in names}
-    return pd.DataFrame([{f"{name} [{units[name]}]": float(result[name]) for name in names}])
+    numbers = {f"{name} [{units[name]}]": float(result[name]) for name in names}
+    return pd.DataFrame([numbers])
 
 
 def damage_sheets(
@@ -123,25 +125,24 @@ def comparison_sheets(
     dict
         Tables by the names of their sheets.
     """
-    headed = comparison.assign(heading=comparison["quantity"] + " [" + comparison["units"] + "]")
+    heading = comparison["quantity"] + " [" + comparison["units"] + "]"
+    headed = comparison.assign(heading=heading)
     designs = headed.pivot(index="design", columns="heading", values="value")
-    designs = designs.loc[comparison["design"].unique(), headed["heading"].unique()].reset_index()
+    # In the order of the comparison.
+    designs = designs.loc[comparison["design"].unique(), heading.unique()].reset_index()
     differences = comparison.drop(columns=["units", "value"]).dropna(subset="difference [%]")
-    inputs = pd.DataFrame(
-        [{"input": key} | dict(values) for key, values in comparison.attrs["inputs"].items()]
-    )
+    inputs = []
+    for key, values in comparison.attrs["inputs"].items():
+        inputs.append({"input": key, **values})
+    criteria = []
+    for name, lines in comparison.attrs.get("criteria", {}).items():
+        criteria += [{"design": name} | line for line in lines]
     notes = [comparison.attrs["about"], comparison.attrs["ranking"], *comparison.attrs["notes"]]
     sheets = {
         "designs": designs,
         "differences": differences,
-        "criteria": pd.DataFrame(
-            [
-                {"design": name} | line
-                for name, lines in comparison.attrs.get("criteria", {}).items()
-                for line in lines
-            ]
-        ),
-        "inputs that differ": inputs,
+        "criteria": pd.DataFrame(criteria),
+        "inputs that differ": pd.DataFrame(inputs),
         "notes": pd.DataFrame({"note": [note for note in notes if note]}),
     }
     filled = {name: table for name, table in sheets.items() if not table.empty}

@@ -53,7 +53,9 @@ def _curves(
 
 
 def _rows(values: xr.DataArray, shown: Sequence[int]) -> str:
-    return "lines downwind, dashes upwind" if len(shown) > 1 and values.sizes["row"] > 1 else ""
+    if len(shown) > 1 and values.sizes["row"] > 1:
+        return "lines downwind, dashes upwind"
+    return ""
 
 
 def plot_lifetime(axes: Axes, life: xr.Dataset, shown: Sequence[int]) -> Axes:
@@ -145,11 +147,13 @@ def plot_by_result(
     upright = len(names) > 4 or sum(map(len, shown)) > 32
     axes.set_xticks(middles, shown, rotation=90 if upright else 0)
     axes.set_xlim(-0.5, len(names) - 0.5)
-    axes.set_ylim(0.0, 1.08 * max(float(np.nanmax(values, initial=0.0)), 1e-12))
+    highest = max(float(np.nanmax(values, initial=0.0)), 1e-12)
+    axes.set_ylim(0.0, 1.08 * highest)
     return finish(axes, "", textwrap.fill(label, _LABEL_LENGTH))
 
 
 def drawable(values: xr.DataArray, order: Sequence[int]) -> list[int]:
     """The first groups in this order that have something to draw."""
-    positive = (values > 0.0).any([name for name in values.dims if name != "group"]).values
+    other_dims = [name for name in values.dims if name != "group"]
+    positive = (values > 0.0).any(other_dims).values
     return [group for group in order if positive[group]][:MOST_CURVES]

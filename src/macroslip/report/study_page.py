@@ -368,7 +368,8 @@ def _year(annual: xr.Dataset, names: list[str]) -> Table:
     rows = []
     for group, bin_number in np.ndindex(annual.sizes["group"], annual.sizes["bin"]):
         here = annual.isel(group=group, bin=bin_number)
-        share = 100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
+        energy = here.energy.sum("row", skipna=False)
+        share = 100.0 * energy / here.total.sum("row", skipna=False)
         values = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
         for name, (_, factor) in sums.items():
             both = (
@@ -439,7 +440,8 @@ def _extreme_pictures(
 def _plot_extremes(axes: Axes, values: xr.DataArray, names: Sequence[str]) -> Axes:
     """A value of the most extreme runs, over the names of the runs."""
     extreme = -values.min("row") if values.name == "lowest_spin_ratio" else values.max("row")
-    ordered = np.argsort(-np.nan_to_num(extreme.values, nan=-np.inf), kind="stable")
+    known = np.nan_to_num(extreme.values, nan=-np.inf)
+    ordered = np.argsort(-known, kind="stable")
     shown = np.sort(ordered[:_MOST_NAMES])
     by_row = values.transpose("case", "row").values[shown]
     label = _EXTREMES[str(values.name)]
@@ -472,7 +474,8 @@ def _worst(study: xr.Dataset) -> list[Table]:
     for name in _WORST:
         table = as_table(worst(study, name, count=_WORST_COUNT), [name])
         alike = [label for label in _COMMON if label in study and _has_one_value(study[label])]
-        table = table.drop(columns=[column for column in (*INTERNAL, *alike) if column in table])
+        left_out = [column for column in (*INTERNAL, *alike) if column in table]
+        table = table.drop(columns=left_out)
         tables.append(_table(table, f"By {study[name].attrs['long_name']}"))
     return tables
 
@@ -494,13 +497,17 @@ def _failures(study: xr.Dataset) -> Table | None:
 
 def _table(frame: pd.DataFrame, caption: str) -> Table:
     def cell(value: Any) -> str:
-        return number(float(value)) if isinstance(value, (float, np.floating)) else str(value)
+        if isinstance(value, (float, np.floating)):
+            return number(float(value))
+        return str(value)
 
     for name in [name for name in frame if str(name).endswith("[J]")]:
         factor, units = scaled(float(frame[name].max()), "J")
         frame = frame.assign(**{name: factor * frame[name]}).rename(
             columns={name: f"{name[:-3]}[{units}]"}
         )
-    rows = [tuple(map(cell, line)) for line in frame.head(_MOST_LINES).itertuples(index=False)]
+    shown = frame.head(_MOST_LINES)
+    rows = [tuple(map(cell, line)) for line in shown.itertuples(index=False)]
     more = f"; the first {_MOST_LINES} of {len(frame)}" if len(frame) > _MOST_LINES else ""
-    return Table([str(name).replace("_", " ") for name in frame], rows, f"{caption}{more}")
+    headings = [str(name).replace("_", " ") for name in frame]
+    return Table(headings, rows, f"{caption}{more}")

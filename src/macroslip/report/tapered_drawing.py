@@ -49,7 +49,8 @@ class _Row:
     def apex(self) -> float:
         """Z of the apex."""
         row = self.geometry
-        return self.middle + self.sign * 1e3 * row.apex_distance * math.cos(row.axis_angle)
+        along_axis = 1e3 * row.apex_distance * math.cos(row.axis_angle)
+        return self.middle + self.sign * along_axis
 
     def points(self, places: Points, heights: Points) -> tuple[Points, Points]:
         """Z and R of points ζ along a roller's axis and heights over it [m], outwards positive."""
@@ -58,22 +59,25 @@ class _Row:
         sine = math.sin(row.axis_angle)
         from_apex = row.apex_distance + np.asarray(places)
         across = np.asarray(heights)
-        axial = self.apex - self.sign * 1e3 * (from_apex * cosine - across * sine)
-        return axial, 1e3 * (from_apex * sine + across * cosine)
+        along_bearing = 1e3 * (from_apex * cosine - across * sine)
+        radial = 1e3 * (from_apex * sine + across * cosine)
+        return self.apex - self.sign * along_bearing, radial
 
     def roller(self) -> tuple[Points, Points]:
         """Outline of the roller: a cone with a spherical large end."""
         row = self.geometry
         half = 0.5 * row.roller_length
         large = row.radius_at(half)
-        turn = np.linspace(-1.0, 1.0, 41) * math.asin(large / row.sphere_radius)
+        last = math.asin(large / row.sphere_radius)
+        turn = np.linspace(-1.0, 1.0, 41) * last
         middle = row.sphere_distance - row.apex_distance
         end = middle + row.sphere_radius * np.cos(turn)
         # The sphere of the large end stands out; the rim lies where the cone ends.
         end += half - end[0]
         small = row.radius_at(-half)
+        sphere = row.sphere_radius * np.sin(turn)
         places = np.concatenate([[-half], end, [-half]])
-        heights = np.concatenate([[-small], row.sphere_radius * np.sin(turn), [small]])
+        heights = np.concatenate([[-small], sphere, [small]])
         return self.points(places, heights)
 
     def outer_ring(self, outside: float) -> tuple[Points, Points]:
@@ -82,7 +86,9 @@ class _Row:
         half = 0.55 * row.roller_length
         places = np.array([-half, half])
         axial, radial = self.points(places, row.radius_at(places))
-        return np.concatenate([axial, axial[::-1]]), np.concatenate([radial, [outside, outside]])
+        outline_axial = np.concatenate([axial, axial[::-1]])
+        outline_radial = np.concatenate([radial, [outside, outside]])
+        return outline_axial, outline_radial
 
     def inner_ring(self, bore: float) -> tuple[Points, Points]:
         """Outline of the inner ring with its rib, down to its bore radius [mm]."""
@@ -91,12 +97,13 @@ class _Row:
         top = row.radius_at(half) - _RIB * row.rib_contact_height
         back = half + 0.2 * row.roller_length
         places = np.array([-half, half, half, back])
-        heights = np.array([-row.radius_at(-half), -row.radius_at(half), -top, -top])
+        small = row.radius_at(-half)
+        large = row.radius_at(half)
+        heights = np.array([-small, -large, -top, -top])
         axial, radial = self.points(places, heights)
-        return (
-            np.concatenate([axial, [axial[-1], axial[0]]]),
-            np.concatenate([radial, [bore, bore]]),
-        )
+        outline_axial = np.concatenate([axial, [axial[-1], axial[0]]])
+        outline_radial = np.concatenate([radial, [bore, bore]])
+        return outline_axial, outline_radial
 
 
 @program_style()
@@ -128,7 +135,8 @@ def draw_tapered_bearing(bearing: TaperedBearing) -> Figure:
         axes.fill(*drawn.outer_ring(outside), fc=STEEL, ec="black", lw=1.0)
         axes.fill(*drawn.inner_ring(_bore(bearing, row)), fc=STEEL, ec="black", lw=1.0)
         axes.fill(*drawn.roller(), fc=ROLLER, ec="black", lw=1.0, zorder=3)
-    reach = max(1.1 * max(abs(drawn.apex) for drawn in rows.values()), 1.8 * outside)
+    farthest_apex = max(abs(drawn.apex) for drawn in rows.values())
+    reach = max(1.1 * farthest_apex, 1.8 * outside)
     axes.set(xlim=(-reach, reach), ylim=(-0.22 * outside, 1.45 * outside))
     _apexes(axes, rows)
     _words(axes, bearing, rows, reach, outside)
@@ -139,7 +147,8 @@ def _outside(bearing: TaperedBearing, row: TaperedGeometry) -> float:
     """Outside radius [mm]; behind the raceway where it is not given."""
     if bearing.outside_diameter is not None:
         return 0.5e3 * bearing.outside_diameter
-    largest = row.outer_radius * (1.0 + 0.55 * row.roller_length / row.apex_distance)
+    growth = 0.55 * row.roller_length / row.apex_distance
+    largest = row.outer_radius * (1.0 + growth)
     return 1e3 * (largest + _THICKNESS * bearing.roller_diameter)
 
 
@@ -147,7 +156,8 @@ def _bore(bearing: TaperedBearing, row: TaperedGeometry) -> float:
     """Bore radius [mm]; behind the raceway where it is not given."""
     if bearing.bore_diameter is not None:
         return 0.5e3 * bearing.bore_diameter
-    least = row.inner_radius * (1.0 - 0.5 * row.roller_length / row.apex_distance)
+    narrowing = 0.5 * row.roller_length / row.apex_distance
+    least = row.inner_radius * (1.0 - narrowing)
     return 1e3 * (least - _THICKNESS * bearing.roller_diameter)
 
 
@@ -160,11 +170,13 @@ def _apexes(axes: Axes, rows: dict[str, _Row]) -> None:
             (geometry.axis_angle, "-."),
             (geometry.inner_angle, "-"),
         ):
-            distance = 1e3 * geometry.apex_distance / math.cos(geometry.half_cone_angle)
-            if angle == geometry.axis_angle:
-                distance = 1e3 * geometry.apex_distance
-            start = (row.apex - row.sign * distance * math.cos(angle), distance * math.sin(angle))
-            axes.plot([start[0], row.apex], [start[1], 0.0], style, color=_COLOURS[name], lw=0.7)
+            distance = 1e3 * geometry.apex_distance
+            if angle != geometry.axis_angle:
+                distance /= math.cos(geometry.half_cone_angle)
+            axial = row.apex - row.sign * distance * math.cos(angle)
+            radial = distance * math.sin(angle)
+            colour = _COLOURS[name]
+            axes.plot([axial, row.apex], [radial, 0.0], style, color=colour, lw=0.7)
         axes.plot([row.apex], [0.0], "o", color=_COLOURS[name], ms=4)
 
 

@@ -91,8 +91,12 @@ def open_books(books: Books) -> str:
     """
     flows = {name: np.abs(books.flows[:, k]) for k, name in enumerate(FLOWS)}
     losses = ("raceway_loss", "friction_loss", "guide_loss")
-    dissipated = sum(flows[name][-1] for name in losses) + books.pocket_loss()[-1]
-    impulses = [values.max() for name, values in flows.items() if name.endswith("_impulse")]
+    friction = sum(flows[name][-1] for name in losses)
+    dissipated = friction + books.pocket_loss()[-1]
+    impulses = []
+    for name, values in flows.items():
+        if name.endswith("_impulse"):
+            impulses.append(values.max())
     residuals = (
         ("energy", books.energy_residual(), dissipated, "what is dissipated"),
         (

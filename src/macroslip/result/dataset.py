@@ -239,7 +239,8 @@ def _traces(table: Table) -> dict[str, np.ndarray]:
     rollers = [[roller.measures.traces() for roller in line] for line in table]
     stacked = {}
     for name in rollers[0][0]:
-        stacked[name] = np.array([[traces[name] for traces in line] for line in rollers])
+        by_roller = [[traces[name] for traces in line] for line in rollers]
+        stacked[name] = np.array(by_roller)
     return stacked
 
 
@@ -397,7 +398,8 @@ def roller_coordinates(
     if curved:
         coordinates["mechanism"] = list(MECHANISMS)
     if curved and case.contact_details:
-        middles = ((np.arange(STATIONS) + 0.5) / STATIONS - 0.5) * case.bearing.roller_length
+        parts = (np.arange(STATIONS) + 0.5) / STATIONS
+        middles = (parts - 0.5) * case.bearing.roller_length
         axis = "the roller's axis z'"
         if case.bearing.kind == "tapered":
             axis = "the roller from its middle to its large end"

@@ -105,7 +105,8 @@ def balance_temperature(
             )
         return heat - conductance * (temperature - ambient)
 
-    temperatures = np.linspace(ambient, hottest, math.ceil((hottest - ambient) / _SCAN_STEP) + 1)
+    steps = math.ceil((hottest - ambient) / _SCAN_STEP)
+    temperatures = np.linspace(ambient, hottest, steps + 1)
     colder = ambient
     for temperature in temperatures.tolist():
         left = surplus(temperature)
@@ -143,7 +144,8 @@ def tabulated_power(
     if at.ndim != 1 or at.shape != values.shape or at.size < 2:
         fault = f"there are {at.size} temperatures and {values.size} powers"
         raise InputError(fault, allowed="as many of the one as of the other, two at least")
-    if not (np.isfinite(at).all() and (np.diff(at) > 0.0).all()):
+    rises = (np.diff(at) > 0.0).all()
+    if not (np.isfinite(at).all() and rises):
         raise InputError(
             "the temperatures of the table do not rise", allowed="rising, finite temperatures"
         )
@@ -343,7 +345,9 @@ def operating_rings(case: Case) -> dict[str, float]:
 def rings_at_balance(heat: Heat, temperature: float) -> tuple[float, float]:
     """Temperatures of inner and outer ring [K] with the oil at a temperature [K] of the balance."""
     power = heat.to_oil * (temperature - heat.ambient)
-    inner, outer = ring_temperatures(heat, power, [math.inf], (heat.ambient, heat.ambient))[0]
+    start = (heat.ambient, heat.ambient)
+    (steady,) = ring_temperatures(heat, power, [math.inf], start)
+    inner, outer = steady
     return float(inner), float(outer)
 
 
@@ -389,7 +393,8 @@ def ring_temperatures(
     between = heat.ring_conductance
     out = heat.conductance
     capacity = SPECIFIC_HEAT * np.array([[heat.inner_mass], [heat.outer_mass]])
-    rate = np.array([[-between, between], [between, -between - out]]) / capacity
+    conductances = [[-between, between], [between, -between - out]]
+    rate = np.array(conductances) / capacity
     outer = heat.ambient + power / out
     steady = np.array([outer + 0.5 * power / between, outer])
     return np.array(

@@ -58,16 +58,16 @@ def travelled(result: xr.Dataset) -> np.ndarray:
     bearing = run_input(result).bearing
     ratio = geometry.roller_radius(bearing) / geometry.outer_contact_radius(bearing)
     speed = -ratio * result.spin_pure.values[whole][0]
-    steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(result.time.values)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    mean_speed = 0.5 * (speed[1:] + speed[:-1])
+    turned = np.cumsum(mean_speed * np.diff(result.time.values))
+    return np.concatenate([[0.0], turned])
 
 
 def in_window(result: xr.Dataset) -> xr.Dataset:
     """The times of the traces inside the window over which energies are taken."""
-    time = result.time
-    return result.sel(
-        time=(time >= result.attrs["window_start"]) & (time <= result.attrs["window_end"])
-    )
+    has_begun = result.time >= result.attrs["window_start"]
+    goes_on = result.time <= result.attrs["window_end"]
+    return result.sel(time=has_begun & goes_on)
 
 
 def _thinned(size: int, most: int) -> slice:
@@ -76,17 +76,21 @@ def _thinned(size: int, most: int) -> slice:
 
 
 def _middles(sectors: int) -> tuple[str, np.ndarray, dict[str, str]]:
-    return "angle", 360.0 / sectors * (np.arange(sectors) + 0.5), _ANGLE
+    middles = 360.0 / sectors * (np.arange(sectors) + 0.5)
+    return "angle", middles, _ANGLE
 
 
 def _sectors(angle: xr.DataArray, sectors: int) -> np.ndarray:
-    return np.minimum((angle.values * (sectors / 360.0)).astype(int), sectors - 1)
+    numbers = (angle.values * (sectors / 360.0)).astype(int)
+    return np.minimum(numbers, sectors - 1)
 
 
 def _evenly_passed(energy: np.ndarray, passed: np.ndarray) -> np.ndarray:
     """The same energy over the sectors as if all were passed equally often."""
-    per_way = np.divide(energy, passed, out=np.zeros(energy.size), where=passed > 0.0)
-    return per_way / max(per_way.sum(), np.finfo(float).tiny) * energy.sum()
+    per_way = np.zeros(energy.size)
+    np.divide(energy, passed, out=per_way, where=passed > 0.0)
+    total = max(per_way.sum(), np.finfo(float).tiny)
+    return per_way / total * energy.sum()
 
 
 def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArray:
@@ -113,14 +117,15 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
         weights[[0, -1]] *= 0.5  # trapezoids
     completed = (result.status == 0).values
     sector = _sectors(angle.sel(time=window.time), sectors)
-    values = np.full((result.sizes["row"], result.sizes["interface"], sectors), np.nan)
+    interfaces = result.sizes["interface"]
+    values = np.full((result.sizes["row"], interfaces, sectors), np.nan)
     for row in np.flatnonzero(completed.any(axis=1) & (orbits > 0.0)):
         chosen = completed[row]
         rollers = int(chosen.sum())
         sector_of_sample = sector[row, chosen].ravel()
         passed = np.bincount(sector_of_sample, np.tile(way, rollers), sectors)
         degrees = rollers * orbits * 360.0 / sectors
-        for interface in range(result.sizes["interface"]):
+        for interface in range(interfaces):
             energy = power[row, chosen, :, interface] * seconds
             in_sector = np.bincount(sector_of_sample, energy.ravel(), sectors)
             values[row, interface] = _evenly_passed(in_sector, passed) / degrees
@@ -147,9 +152,10 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
     load = result.roller_load.isel(time=every).values
     dims = _middles(sectors)
     values = np.empty((result.sizes["row"], angle.sizes["time"], sectors))
+    _, middles, _ = dims
     for r, k in np.ndindex(*values.shape[:2]):
         known = angle.values[r, :, k]
-        values[r, k] = np.interp(dims[1], known, load[r, :, k], period=360.0)
+        values[r, k] = np.interp(middles, known, load[r, :, k], period=360.0)
     labels = {"row": result.row, "time": angle.time, "angle": dims}
     about = {"units": "N", "long_name": "load of the rollers"}
     return xr.DataArray(values, labels, ("row", "time", "angle"), "roller_load", about)
@@ -181,7 +187,8 @@ def over_orbit(
     quantile_values = np.full(
         (values.sizes["row"], values.sizes["interface"], len(quantiles), sectors), np.nan
     )
-    for r, sector in enumerate(_sectors(angle, sectors).reshape(len(quantile_values), -1)):
+    sectors_by_row = _sectors(angle, sectors).reshape(values.sizes["row"], -1)
+    for r, sector in enumerate(sectors_by_row):
         order = np.argsort(sector, kind="stable")
         ends = np.searchsorted(sector[order], np.arange(sectors + 1))
         for i, k in np.ndindex(quantile_values.shape[1], sectors):
@@ -219,7 +226,8 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
     thickness = over_orbit(traced.film_thickness.transpose(*_ORDER, "interface"), angle)
     orbit["film_thickness"] = thickness
     with np.errstate(invalid="ignore", divide="ignore"):
-        slip = (1.0 - traced.spin / traced.spin_pure).expand_dims(interface=["raceways"], axis=-1)
+        slip = 1.0 - traced.spin / traced.spin_pure
+    slip = slip.expand_dims(interface=["raceways"], axis=-1)
     orbit["slip"] = over_orbit(slip, angle).isel(interface=0, drop=True)
     about = {"units": "1", "long_name": "film thickness over composite roughness, Λ"}
     roughness = run_input(result).bearing.composite_roughness
@@ -242,7 +250,8 @@ def still(result: xr.Dataset) -> xr.Dataset:
     angle = position(result)
     power = in_window(result).power.sum("interface").max(("row", "roller"))
     moment = result.sel(time=power.time[int(power.argmax("time"))])
-    values = {"angle": angle.sel(time=moment.time), "slip": 1.0 - moment.spin / moment.spin_pure}
+    slip = 1.0 - moment.spin / moment.spin_pure
+    values = {"angle": angle.sel(time=moment.time), "slip": slip}
     return xr.Dataset(values | {"roller_load": moment.roller_load})
 
 
@@ -266,7 +275,9 @@ def scene(
     largest = np.nan_to_num(power.values, nan=-1.0).max(axis=(0, 1))
     total = np.where(window, largest, -1.0)
     middle = int(np.argmax(total))
-    first = min(max(middle - samples // 2, 0), max(0, total.size - samples))
+    last_start = max(0, total.size - samples)
+    first = max(middle - samples // 2, 0)
+    first = min(first, last_start)
     part = slice(first, first + samples)
     thin = result.isel(time=every).isel(time=part)
     values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}
@@ -281,8 +292,8 @@ def scene(
     }
     if "pocket_offset" in thin:
         pitch_radius = run_input(result).bearing.pitch_radius
-        lead = np.degrees(thin.cage_lag.transpose("cage", "time").values / pitch_radius)
-        lead = lead.astype(np.float32)
+        lag = thin.cage_lag.transpose("cage", "time").values
+        lead = np.degrees(lag / pitch_radius).astype(np.float32)
         of_rows = np.broadcast_to(lead, (result.sizes["row"], lead.shape[1]))
         about = {"units": "degree", "long_name": "cage ahead of pure rolling"}
         played["cage_lead"] = (("row", "time"), of_rows, about)

@@ -116,13 +116,15 @@ def _doubtful_weight(loads: HubLoads, bearing: Bearing | None) -> list[str]:
         ]
     rating = bearing.static_load_rating if bearing is not None else None
     weight = f"the rotor weighs {_plain(-lift / 1e3)} kN"
-    if rating and lift < 0.0 and not _WEIGHTS[0] <= rating / -lift <= _WEIGHTS[1]:
+    lightest, heaviest = _WEIGHTS
+    if rating and lift < 0.0 and not lightest <= rating / -lift <= heaviest:
         return [
             f"{weight}, which is 1/{_plain(rating / -lift)} of the bearing's static load rating "
             f"C0, and main bearings have 1/{_WEIGHTS[0]:g} to 1/{_WEIGHTS[1]:g}; are the forces in "
             "another unit?"
         ]
-    if not rating and lift < 0.0 and not _ROTORS[0] <= -lift <= _ROTORS[1]:
+    lightest_rotor, heaviest_rotor = _ROTORS
+    if not rating and lift < 0.0 and not lightest_rotor <= -lift <= heaviest_rotor:
         return [f"{weight}, and rotors weigh 5 to 10,000 kN; are the forces in another unit?"]
     return []
 

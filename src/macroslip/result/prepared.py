@@ -65,10 +65,12 @@ class Prepared:
         start = self.edges[0]
         inside = (motion.time > start) & (motion.time < self.end)
         time = np.concatenate([[start], motion.time[inside], [self.end]])
-        speed = np.abs(model.orbit_ratio * np.interp(time, motion.time, motion.shaft_speed))
+        shaft_speed = np.interp(time, motion.time, motion.shaft_speed)
+        speed = np.abs(model.orbit_ratio * shaft_speed)
         power = model.drag * speed**3 * self.case.bearing.pitch_radius
         rollers = self.case.bearing.rows * self.case.bearing.rollers_per_row
-        return rollers * float(np.trapezoid(power, time)) / (self.end - start)
+        energy = float(np.trapezoid(power, time))
+        return rollers * energy / (self.end - start)
 
     def notes(self, tables: TableReport) -> dict[str, Any]:
         """Attributes on films out of range, contacts cut off at the roller's ends, and tables."""
@@ -175,9 +177,10 @@ def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> 
     known = np.union1d(time, [end])
     if case.window.start is not None:
         # Orbits are counted from the start of the window, not of the history.
-        start = float(merged_times(np.array([case.window.start]), known)[0])
+        (start,) = merged_times(np.array([case.window.start]), known).tolist()
         late = time > start
-        speed = np.concatenate([[np.interp(start, time, speed)], speed[late]])
+        first_speed = np.interp(start, time, speed)
+        speed = np.concatenate([[first_speed], speed[late]])
         time = np.concatenate([[start], time[late]])
     completed = merged_times(orbit_times(time, speed, orbit_ratio), known)
     completed = completed[completed <= end]

@@ -28,7 +28,8 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     InputError as `macroslip.rating.roller_load_history`.
     """
     loads, roller_load, _ = _load_history(case)
-    chosen = np.flatnonzero((loads.time >= start) & (loads.time <= end))[::_EVERY]
+    is_inside = (loads.time >= start) & (loads.time <= end)
+    chosen = np.flatnonzero(is_inside)[::_EVERY]
     return loads.time[chosen], np.moveaxis(roller_load[..., chosen], -1, 0)
 
 

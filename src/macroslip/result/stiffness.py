@@ -88,7 +88,9 @@ def ring_stiffness(cases: Mapping[str, Case]) -> xr.Dataset:
     [6.01, 7.55, 0.53]
     """
     points = [point for name, case in cases.items() for point in _points(name, case)]
-    stacked = {key: np.array([point[key] for point in points]) for key in points[0]}
+    stacked = {}
+    for key in points[0]:
+        stacked[key] = np.array([point[key] for point in points])
     over = ("point", "load", "motion")
     about = "change of the load on the inner ring with its motion, at the bearing's centre"
     return xr.Dataset(
@@ -179,7 +181,9 @@ def _about(ring: RingGeometry, force: FloatArray, name: str) -> dict[str, Any]:
     # Tilts about the centre leave a self-aligning bearing's approaches as they are.
     stiffness[:3, :3] = 0.5 * (mean + mean.T)  # exactly symmetric, in spite of rounding
     eigenvalues = np.linalg.eigvalsh(tangents)
-    held = bool((eigenvalues[:, 0] > _HELD * eigenvalues[:, -1]).all())
+    softest = eigenvalues[:, 0]
+    stiffest = eigenvalues[:, -1]
+    held = bool((softest > _HELD * stiffest).all())
     largest = np.abs(mean).max()
     variation = float(np.abs(tangents - mean).max() / largest) if largest > 0.0 else math.nan
     return {

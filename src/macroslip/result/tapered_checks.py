@@ -49,7 +49,9 @@ def check_preload(bearing: TaperedBearing, ring: TaperedRing) -> None:
     """
     if bearing.preload <= 0.0:
         return
-    alone = tapered_balance(ring, np.zeros(1), np.zeros((1, 3)), np.zeros((1, 2)))
+    no_force = np.zeros((1, 3))
+    no_moment = np.zeros((1, 2))
+    alone = tapered_balance(ring, np.zeros(1), no_force, no_moment)
     load = float(alone.outer_load.max())
     limit = static_roller_load(bearing)
     if load > limit:

@@ -128,7 +128,8 @@ def _film_coefficient(
     boundary = contact.lubricant.boundary_friction * state.asperity_share
     film = (state.friction_coefficient - boundary) / (1.0 - state.asperity_share)
     spline = RectBivariateSpline(np.log(loads), np.log(parts), film)
-    part = np.clip(sliding / max(sliding.flat[fastest], LEAST_SPEED), parts[0], 1.0)
+    fastest_speed = max(sliding.flat[fastest], LEAST_SPEED)
+    part = np.clip(sliding / fastest_speed, parts[0], 1.0)
     carried = np.clip(load, loads[0], loads[-1])
     return spline.ev(np.log(carried), np.log(np.broadcast_to(part, load.shape)))
 

@@ -65,17 +65,21 @@ def reversal_rate(
     900.0
     """
     inside = _within(time, force, start, end)
-    signs = np.sign(inside[np.abs(inside) > dead_band])
+    beyond = inside[np.abs(inside) > dead_band]
+    signs = np.sign(beyond)
     reversals = np.count_nonzero(np.diff(signs))
     return _hourly(float(reversals), start, end)
 
 
 def _within(time: np.ndarray, values: np.ndarray, start: float, end: float) -> np.ndarray:
     """Values at the times inside a window, and at its ends."""
-    inside = time[(time > start) & (time < end)]
-    return np.interp(np.concatenate([[start], inside, [end]]), time, values)
+    is_inside = (time > start) & (time < end)
+    times = np.concatenate([[start], time[is_inside], [end]])
+    return np.interp(times, time, values)
 
 
 def _hourly(total: float, start: float, end: float) -> float:
     """A total of a window from `start` to `end` [s] an hour."""
-    return total * HOUR / (end - start) if end > start else 0.0
+    if end <= start:
+        return 0.0
+    return total * HOUR / (end - start)

@@ -84,7 +84,8 @@ def ring_motion(
         sample = int(elastic.max(axis=1).argmax())
         _refuse(largest, highest_load, f"{loads.source}, t = {time[sample]:g} s", bearing)
         return motion, largest
-    force = np.column_stack([np.interp(time, loads.time, component) for component in loads.force.T])
+    components = [np.interp(time, loads.time, component) for component in loads.force.T]
+    force = np.column_stack(components)
     if more is not None:
         force += more
     displacement = np.empty_like(force)
@@ -94,12 +95,14 @@ def ring_motion(
     # In pieces, so that an interrupt need not wait for the end of a long history.
     for start in range(0, time.size, _SAMPLES_AT_A_TIME):
         piece = slice(start, start + _SAMPLES_AT_A_TIME)
-        displacement[piece], unbalanced[piece] = balance_series(ring, angle[piece], force[piece])
-        load, sample_in_piece = largest_load(ring, angle[piece], displacement[piece])
+        angles = angle[piece]
+        displacement[piece], unbalanced[piece] = balance_series(ring, angles, force[piece])
+        load, sample_in_piece = largest_load(ring, angles, displacement[piece])
         if load > largest:
             largest = load
             sample = start + sample_in_piece
-    excess = unbalanced - _BALANCE_TOLERANCE * np.linalg.norm(force, axis=1) - _NEGLIGIBLE_FORCE
+    allowed = _BALANCE_TOLERANCE * np.linalg.norm(force, axis=1)
+    excess = unbalanced - allowed - _NEGLIGIBLE_FORCE
     worst = int(np.argmax(excess))
     if not excess[worst] <= 0.0:
         raise MacroslipError(
@@ -141,7 +144,8 @@ def elastic_loads(
     It is given at the samples of a motion.
     """
     if isinstance(loads, RollerLoads):
-        return ring.stiffness * np.maximum(_given_approach(loads, ring, motion), 0.0) ** 1.5
+        approach = np.maximum(_given_approach(loads, ring, motion), 0.0)
+        return ring.stiffness * approach**1.5
     return roller_loads(ring, motion.shaft_angle, motion.displacement)
 
 
@@ -155,13 +159,13 @@ def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[
     motions = []
     for roller in range(start.size):
         angle = start[roller] + ring.orbit_ratio * motion.shaft_angle
-        cosine, sine = np.cos(angle), np.sin(angle)
-        reach = approach[:, roller] / ring.cos_contact_angle + radial_clearance(ring, cosine, sine)
-        motions.append(
-            motion._replace(
-                displacement=np.column_stack([reach * cosine, reach * sine, np.zeros(sine.size)])
-            )
-        )
+        cosine = np.cos(angle)
+        sine = np.sin(angle)
+        radial_approach = approach[:, roller] / ring.cos_contact_angle
+        reach = radial_approach + radial_clearance(ring, cosine, sine)
+        axial = np.zeros(sine.size)
+        displacement = np.column_stack([reach * cosine, reach * sine, axial])
+        motions.append(motion._replace(displacement=displacement))
     return motions
 
 
@@ -184,8 +188,9 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
         angles = start + ring.orbit_ratio * motion.shaft_angle[k]
         for row in range(2):
             here = slice(row * count, (row + 1) * count)
+            of_row = angles[here]
             near, far = (
-                np.interp(angles[here], loads.angle[i, row], known[i, row], period=full)
+                np.interp(of_row, loads.angle[i, row], known[i, row], period=full)
                 for i in (at, at + 1)
             )
             line[here] = near + part * (far - near)
@@ -204,7 +209,12 @@ def finely_sampled(
         # Copies: the loads are read-only, which would be another type to the compiler and compile
         # everything twice.
         return loads.time.copy(), loads.shaft_speed.copy()
-    spans = zip(loads.time[:-1], loads.time[1:], np.maximum(pieces, 1), strict=True)
-    pieces = [np.linspace(start, end, count, endpoint=False) for start, end, count in spans]
-    time = np.concatenate([*pieces, loads.time[-1:]])
+    starts = loads.time[:-1]
+    ends = loads.time[1:]
+    counts = np.maximum(pieces, 1)
+    samples = [
+        np.linspace(start, end, count, endpoint=False)
+        for start, end, count in zip(starts, ends, counts, strict=True)
+    ]
+    time = np.concatenate([*samples, ends[-1:]])
     return time, np.interp(time, loads.time, loads.shaft_speed)

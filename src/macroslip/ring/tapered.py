@@ -110,7 +110,9 @@ class TaperedBalance(NamedTuple):
 
 def _load_size(ring: TaperedRing, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
     """Size of forces, and of moments as forces at the pitch radius [N], shape (n,)."""
-    return np.linalg.norm(force, axis=1) + np.linalg.norm(moment, axis=1) / ring.pitch_radius
+    forces = np.linalg.norm(force, axis=1)
+    moments = np.linalg.norm(moment, axis=1)
+    return forces + moments / ring.pitch_radius
 
 
 def _arms(
@@ -133,7 +135,8 @@ def _rib_normal(row: TaperedGeometry) -> np.ndarray:
     cosine = math.cos(row.axis_angle)
     radial = row.rib_station * sine - row.rib_radius_on_roller * cosine
     axial = -row.rib_station * cosine - row.rib_radius_on_roller * sine
-    return np.array([*normal, normal[0] * axial - normal[1] * radial])
+    arm = normal[0] * axial - normal[1] * radial
+    return np.array([*normal, arm])
 
 
 def tapered_ring(
@@ -360,4 +363,6 @@ def ring_at_rollers(ring: TaperedRing, displacement: np.ndarray, shaft_angle) ->
 
 def _approaches(radial: float, axial: float, arms: np.ndarray, moved: np.ndarray) -> np.ndarray:
     """Approach of strips without profile under relative motions [m], shape (rollers, k)."""
-    return (radial * moved[:, 0] + axial * moved[:, 1])[:, None] + moved[:, 2:] * arms
+    approach = radial * moved[:, 0] + axial * moved[:, 1]
+    tilted = moved[:, 2:] * arms
+    return approach[:, None] + tilted

@@ -113,9 +113,12 @@ def _resistance_on(laws: PreparedLaws, load, speed) -> tuple[np.ndarray, np.ndar
     push = np.zeros(total.shape)
     for contact, sign in ((laws.inner, 1.0), (laws.outer, -1.0)):
         if contact.rolling is not None:
-            shear = -np.copysign(light_contact(contact.rolling, load, np.abs(speed))[1], speed)
+            _, resistance, _ = light_contact(contact.rolling, load, np.abs(speed))
+            shear = -np.copysign(resistance, speed)
+            # Of pressure's inclination and shear on the roller, by shear.
+            along = 1.0 - 2.0 * contact.rolling.share_1
             total = total + shear
-            push = push + sign * (1.0 - 2.0 * contact.rolling.share_1) * shear
+            push = push + sign * along * shear
     return np.asarray(total), np.asarray(push)
 
 
@@ -138,18 +141,19 @@ def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     """
     r = pair.inner.roller_radius
     sides = np.array([contact.side for contact in pair])
+    along = np.array([contact.along for contact in pair])
+    lateral = np.array([contact.lateral for contact in pair])
     # By θ and δ: ζ_c, the place ζ + δ + k r θ on the raceway, and the arm of the normal force.
-    middle = np.array(
-        [
-            [k * (contact.along * r - 1.0), contact.along]
-            for k, contact in zip(sides, pair, strict=True)
-        ]
-    )
-    middle /= np.array([[contact.lateral] for contact in pair])
+    by_tilt = sides * (along * r - 1.0)
+    middle = np.stack([by_tilt, along], axis=1) / lateral[:, None]
     arm = middle + np.stack([sides * r, np.zeros(2)], axis=1)
-    slope = np.array([[contact.along] for contact in pair]) * (arm + np.array([0.0, 1.0]))
-    conditions = np.stack([slope.sum(axis=0), sides @ (r * slope - arm)])
-    right = np.stack([axial.sum(axis=0), r * np.tensordot(sides, axial, 1)]) / load
+    on_raceway = arm + np.array([0.0, 1.0])
+    slope = along[:, None] * on_raceway
+    by_force = slope.sum(axis=0)
+    by_couple = sides @ (r * slope - arm)
+    conditions = np.stack([by_force, by_couple])
+    couple = r * np.tensordot(sides, axial, 1)
+    right = np.stack([axial.sum(axis=0), couple]) / load
     lies = np.tensordot(np.linalg.inv(conditions), right, 1)
     return lies[0], lies[1], np.tensordot(middle, lies, 1)
 
@@ -221,8 +225,11 @@ class _SlipSearch:
         here = self.slip[going]
         longest = self._longest[going]
         back = turning * self._turning[going] < 0.0
-        most = np.where(back, 0.5 * np.abs(self._taken[going]), longest)
-        change = np.clip(turning / np.maximum(slope, np.abs(turning) / longest), -most, most)
+        half_way = 0.5 * np.abs(self._taken[going])
+        most = np.where(back, half_way, longest)
+        least_slope = np.abs(turning) / longest
+        change = turning / np.maximum(slope, least_slope)
+        change = np.clip(change, -most, most)
         following = here - change
         if iteration >= _BRACKETED:
             following = self._bracketed(going, turning, following)
@@ -240,9 +247,9 @@ class _SlipSearch:
         below = self._below[going]
         above = self._above[going]
         outside = (following <= below) | (following >= above)
-        return np.where(
-            outside & np.isfinite(above - below), below + 0.5 * (above - below), following
-        )
+        width = above - below
+        middle = below + 0.5 * width
+        return np.where(outside & np.isfinite(width), middle, following)
 
 
 def _contacts_at(
@@ -402,12 +409,14 @@ def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = Non
     curvature = 1.0 / geometry.roller_contour_radius(bearing) - bend
     nearer = 1.0 - bend * r
     effective = nearer * (nearer / curvature - r)
+    arm_of_ends = 2.0 * half * nearer
     if play is not None:
-        return Pocket(play, 2.0 * half * nearer, effective)
+        return Pocket(play, arm_of_ends, effective)
     # Without play spars would hold a roller with no arm; rough surfaces leave it some.
     gap = max(gap, bearing.composite_roughness)
     inside = float(np.sqrt(gap / effective))
     if inside * nearer / curvature < half:
         return Pocket(inside, 2.0 * effective * inside, effective)
-    end = (0.5 * gap + 0.5 * curvature * half**2) / (half * nearer)
-    return Pocket(end, 2.0 * half * nearer, effective)
+    # Way and drop of the contour at the roller's end.
+    way = 0.5 * gap + 0.5 * curvature * half**2
+    return Pocket(way / (half * nearer), arm_of_ends, effective)

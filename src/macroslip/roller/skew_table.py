@@ -104,13 +104,14 @@ def skew_table(laws: PreparedLaws, bearing: Bearing, box: Box) -> SkewTable:
     first = max(math.floor(slowest / _SPEED), 1)  # at rest there is no slip, and no equilibrium
     last = max(math.ceil(box.fastest**0.25 / _SPEED), first + 4)
     end = math.ceil(math.asinh(LARGEST_SKEW / _SCALE) / _SKEW)
-    load = axis(math.log(_LIGHTEST), math.log(max(box.load, 4.0 * _LIGHTEST)), _LOAD)
+    heaviest = max(box.load, 4.0 * _LIGHTEST)
+    load = axis(math.log(_LIGHTEST), math.log(heaviest), _LOAD)
     skew = Axis(-end * _SKEW, 1.0 / _SKEW, 2 * end)
     speed = Axis(first * _SPEED, 1.0 / _SPEED, last - first)
     axes = load, speed, skew
-    near, *far = table_gaps(laws.inner, box)
-    cubes = near[1] * _cubes(laws, near[0], bearing, axes)
-    for gap, weight in far:
+    (first_gap, first_weight), *other_gaps = table_gaps(laws.inner, box)
+    cubes = first_weight * _cubes(laws, first_gap, bearing, axes)
+    for gap, weight in other_gaps:
         cubes = cubes + weight * _cubes(laws, gap, bearing, axes)
     return SkewTable(cubes.ravel(), cubes[0].size, load, speed, skew)
 
@@ -125,9 +126,10 @@ def _cubes(
     load, speed, skew = axes
     laws = laws._replace(inner=laws.inner.at_gap(oil_gap), outer=laws.outer.at_gap(oil_gap))
     pair = raceways(laws, bearing, 1)
-    numbers = [
-        (contact_parts(contact.laws), tuple(contact)[2:], contact.laws.rolling) for contact in pair
-    ]
+    numbers = []
+    for contact in pair:
+        geometry = tuple(contact)[2:]
+        numbers.append((contact_parts(contact.laws), geometry, contact.laws.rolling))
     key = table_key("skew", tuple(numbers), load, skew)
     first = round(speed.first / _SPEED)
 
@@ -140,8 +142,11 @@ def _cubes(
             )
             tell(TABLES, len(sheets), speed.cells + 1)
         nodes = np.stack(sheets, axis=1)
-        parts = (nodes[..., part : part + CHANNELS] for part in (0, 4, 8))
-        return np.stack([spline_coefficients(part, 3).ravel() for part in parts])
+        cubes = []
+        for channel in (0, 4, 8):
+            quantities = nodes[..., channel : channel + CHANNELS]
+            cubes.append(spline_coefficients(quantities, 3).ravel())
+        return np.stack(cubes)
 
     return remembered(table_key(key, speed), make)
 
@@ -156,16 +161,19 @@ def _sheet(
     both = np.array([-1.0, 1.0])[:, None]
     states: list[Equilibrium] = []
     for angle in angles:
-        at = equilibrium(pair, laws, loads, -speed, both * angle, states[-1] if states else None)
-        if np.isnan(at.slip).any():
-            worst = loads[np.isnan(at.slip).any(axis=0)].max()
+        start = states[-1] if states else None
+        at = equilibrium(pair, laws, loads, -speed, both * angle, start)
+        unknown = np.isnan(at.slip).any(axis=0)
+        if unknown.any():
+            worst = loads[unknown].max()
             raise MacroslipError(
                 f"no equilibrium of a skewed roller was found at {worst:.4g} N, {speed:.3g} m/s and {1e3 * angle:.3g} mrad. "
                 "This is a defect of the solver; please report it with the bearing and the oil."
             )
         states.append(at)
-    quantities = np.stack([_scaled(state, states[0], loads, speed) for state in states], axis=2)
-    return np.concatenate([quantities[0, :, :0:-1], quantities[1]], axis=1)
+    quantities = [_scaled(state, states[0], loads, speed) for state in states]
+    negative, positive = np.stack(quantities, axis=2)
+    return np.concatenate([negative[:, :0:-1], positive], axis=1)
 
 
 def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: float) -> np.ndarray:
@@ -174,11 +182,14 @@ def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: flo
     per_power = 1.0 / (load * speed)[:, None]
     added = (at.power - straight.power) * per_power
     rough = (at.asperity_power - straight.asperity_power) * per_power
+    slip = (at.slip - straight.slip) / speed
+    inner_moment = at.moments[..., 0] * per_moment
+    unused = np.zeros_like(at.slip)
     return np.stack(
         [
             at.moment * per_moment, added[..., 0], added[..., 1], at.axial / load,
-            at.tilt, at.moments[..., 0] * per_moment, at.push / load, at.shift,
-            (at.slip - straight.slip) / speed, rough[..., 0], rough[..., 1], np.zeros_like(at.slip),
+            at.tilt, inner_moment, at.push / load, at.shift,
+            slip, rough[..., 0], rough[..., 1], unused,
         ],
         axis=-1,
     )  # fmt: skip
@@ -190,8 +201,10 @@ def _at(table, part, load, speed, coordinate):
     j, u, _ = cell_of(table.skew, coordinate)
     inner = CHANNELS * (table.skew.cells + 3)
     outer = inner * (table.speed.cells + 3)
-    start = part * table.more + load[0] * outer + speed[0] * inner + CHANNELS * j
-    value, _, _, _ = splines_in_cube(table.tables, start, (outer, inner), (load[1], speed[1], u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    row, t = load
+    column, s = speed
+    start = part * table.more + row * outer + column * inner + CHANNELS * j
+    value, _, _, _ = splines_in_cube(table.tables, start, (outer, inner), (t, s, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     return value
 
 
@@ -201,21 +214,24 @@ def raceway_push(table, load, ring_speed):
 
     It presses the roller on a spar beside weight and drag.
     """
-    row = cell_of(table.load, math.log(load))
-    column = cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed))))
-    return -math.copysign(load, ring_speed) * _at(table, 1, row, column, 0.0)[2]
+    i, t, _ = cell_of(table.load, math.log(load))
+    k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed))))
+    _, _, push, _ = _at(table, 1, (i, t), (k, s), 0.0)
+    return -math.copysign(load, ring_speed) * push
 
 
 @jit_inline
 def _arm(guide, coordinate):
     """Moment by which a spar straightens a roller over its force [m], at a coordinate of skew."""
-    return min(guide.effective_radius * _SCALE * math.sinh(coordinate), 0.5 * guide.arm)
+    skew = _SCALE * math.sinh(coordinate)
+    return min(guide.effective_radius * skew, 0.5 * guide.arm)
 
 
 @jit_inline
 def _left(table, guide, row, column, way, press, coordinate):
     """Moment that drives the roller on at a coordinate of skew, over Q^(4/3) [N m/N^(4/3)]."""
-    return way * _at(table, 0, row, column, way * coordinate)[0] - press * _arm(guide, coordinate)
+    moment, _, _, _ = _at(table, 0, row, column, way * coordinate)
+    return way * moment - press * _arm(guide, coordinate)
 
 
 @jit_inline
@@ -278,14 +294,18 @@ def turned(table, guide, load, ring_speed, push):
     column = (k, s)
     heavy = load ** (4.0 / 3.0)
     press = abs(push) / heavy
-    first = _at(table, 0, row, column, 0.0)
-    way = math.copysign(1.0, first[0])
-    coordinate, stops = _rest(table, guide, row, column, way, press, way * first[0])
-    value = _at(table, 0, row, column, way * coordinate)
-    other = _at(table, 1, row, column, way * coordinate)
-    change = _at(table, 2, row, column, way * coordinate)
+    straight_moment, _, _, _ = _at(table, 0, row, column, 0.0)
+    way = math.copysign(1.0, straight_moment)
+    coordinate, stops = _rest(table, guide, row, column, way, press, way * straight_moment)
+    at = way * coordinate
+    # As `_scaled` has them: moment, powers and force; tilt, moment, push and shift; changes.
+    forces = _at(table, 0, row, column, at)
+    stance = _at(table, 1, row, column, at)
+    changes = _at(table, 2, row, column, at)
+    moment = forces[0]
+    inner_moment = stance[1]
     angle = way * _SCALE * math.sinh(coordinate)
-    residual = heavy * (value[0] - way * press * _arm(guide, coordinate))
+    residual = heavy * (moment - way * press * _arm(guide, coordinate))
     held = residual if stops else 0.0
     left = 0.0 if stops else abs(residual)
     # Straight, nothing is added, not even by rounding.
@@ -296,15 +316,15 @@ def turned(table, guide, load, ring_speed, push):
     axial = 0.0
     if coordinate > 0.0:
         power = load * size
-        axial = guide.side * load * value[3]
-        tilt = guide.side * other[0]
-        shift = guide.side * other[3]
-        slip = -ring_speed * change[0]
+        axial = guide.side * load * forces[3]
+        tilt = guide.side * stance[0]
+        shift = guide.side * stance[3]
+        slip = -ring_speed * changes[0]
     mirror = -guide.side * math.copysign(1.0, ring_speed)
     return Turned(
-        mirror * angle, mirror * held, power * value[1], power * value[2], axial, tilt,
-        mirror * heavy * other[1], mirror * heavy * (value[0] - other[1]), left,
-        shift, slip, power * change[1], power * change[2],
+        mirror * angle, mirror * held, power * forces[1], power * forces[2], axial, tilt,
+        mirror * heavy * inner_moment, mirror * heavy * (moment - inner_moment), left,
+        shift, slip, power * changes[1], power * changes[2],
     )  # fmt: skip
 
 

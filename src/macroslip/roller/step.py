@@ -93,8 +93,10 @@ def write_stage(row, k, body, at, forces, slip, power):
         Frictional power of the contacts with inner raceway, outer raceway and cage [W].
     """
     row.pure_speed = at.ring_speed
-    row.inner_slip[k] = row.outer_slip[k] = slip
-    row.inner_speed[k] = row.outer_speed[k] = at.ring_speed
+    row.inner_slip[k] = slip
+    row.outer_slip[k] = slip
+    row.inner_speed[k] = at.ring_speed
+    row.outer_speed[k] = at.ring_speed
     row.cage_speed[k] = at.ring_speed - slip
     row.inner_load[k] = at.inner_load
     row.outer_load[k] = at.outer_load
@@ -111,8 +113,10 @@ def write_stage(row, k, body, at, forces, slip, power):
     row.rib_power[k] = forces.rib_power
     row.rib_rough[k] = forces.rib_rough
     speed = at.ring_speed
-    inner = raceway_power(body.inner, slip, speed, forces.inner, forces.lag[0], forces.skew[0])
-    outer = raceway_power(body.outer, slip, speed, forces.outer, forces.lag[1], forces.skew[1])
+    lag = forces.lag
+    skew = forces.skew
+    inner = raceway_power(body.inner, slip, speed, forces.inner, lag[0], skew[0])
+    outer = raceway_power(body.outer, slip, speed, forces.outer, lag[1], skew[1])
     row.lag_power[k, 0] = inner.curvature
     row.lag_power[k, 1] = outer.curvature
     row.skew_power[k, 0] = inner.contact_spin

@@ -23,7 +23,8 @@ def _forces(table, guides, ring, body, angle, speed, roller_load, forces):
             continue
         loads = roller_load[k]
         turn = ring.orbit_ratio * angle[k]
-        turn_cosine, turn_sine = math.cos(turn), math.sin(turn)
+        turn_cosine = math.cos(turn)
+        turn_sine = math.sin(turn)
         for j in range(loads.size):
             if loads[j] == 0.0:
                 continue

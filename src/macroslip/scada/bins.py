@@ -67,7 +67,8 @@ class JointShares:
         shape = (centres.size, number.max() - first + 1)
         counts = np.zeros(shape)
         np.add.at(counts, (row, number[turning] - first), 1.0)
-        idle = np.bincount(number[~turning] - first, minlength=shape[1]).astype(float)
+        idle_bins = number[~turning] - first
+        idle = np.bincount(idle_bins, minlength=shape[1]).astype(float)
         span = f"{used.index[0]:%Y-%m-%d} to {used.index[-1]:%Y-%m-%d}"
         return cls(
             source=f"{scada.description.turbine or 'turbine'}, {span}",

@@ -99,7 +99,8 @@ def _stuck(
     A rotor that stands may keep its temperature, and a controller holds rated speed and power for
     days of storm: equal values are normal there.
     """
-    gap = np.concatenate([[True], np.diff(time) > 1.5 * described.time.step])
+    longest = 1.5 * described.time.step
+    gap = np.concatenate([[True], np.diff(time) > longest])
     rated = {"rotor_speed": described.rated.rotor_speed, "power": described.rated.power}
     stuck = np.zeros(time.size, dtype=bool)
     for name, column in values.items():

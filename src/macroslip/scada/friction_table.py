@@ -216,7 +216,8 @@ class FrictionTable:
         exponent = np.interp(held, exponents.index.to_numpy(float), exponents.to_numpy(float))
         # Towards standstill no law of powers holds, and the exponent may be negative.
         ratio = np.maximum(speed / np.exp(log_case), SLOWEST)
-        return np.exp((1.0 - part) * lower + part * upper) * ratio**exponent
+        log_power = (1.0 - part) * lower + part * upper
+        return np.exp(log_power) * ratio**exponent
 
     def power(
         self, supply: str, wind_speed: ArrayLike, shaft_speed: ArrayLike, temperature: ArrayLike
@@ -259,4 +260,7 @@ def read_entries(path: str | PathLike[str]) -> pd.DataFrame:
 def _headings() -> dict[str, str]:
     """Headings of a CSV table by column: a table of temperatures is in degC."""
     units = {name: unit for name, (unit, _) in COLUMNS.items()} | {"temperature": "degC"}
-    return {name: name if unit == "1" else f"{name} [{unit}]" for name, unit in units.items()}
+    headings = {}
+    for name, unit in units.items():
+        headings[name] = name if unit == "1" else f"{name} [{unit}]"
+    return headings

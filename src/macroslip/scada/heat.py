@@ -240,7 +240,8 @@ def _marks(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
         if fit.values.get(name, 0.0) < 0.0
     ]
     mean_heat = float(fit.heat[analysed.reference & analysed.turning].mean())
-    if abs(fit.values["drift"]) > MOST_DRIFT * abs(mean_heat - fit.values["drift"]):
+    drift = fit.values["drift"]
+    if abs(drift) > MOST_DRIFT * abs(mean_heat - drift):
         marks.append(
             f"{of}: a heat of {fit.values['drift']:.2g} K/h goes with nothing, beside "
             f"{mean_heat:.2g} K/h in the mean while turning."

@@ -104,7 +104,8 @@ def fit_heat(balance: Balance, model: HeatModel, reference: BoolArray) -> HeatFi
     """
     names, columns = _columns(balance, model)
     # Columns of one size: sums of squares of watts and kelvins differ by ten powers of ten.
-    scale = np.maximum(np.sqrt(np.mean(columns[:, reference] ** 2, axis=1)), 1e-300)
+    mean_square = np.mean(columns[:, reference] ** 2, axis=1)
+    scale = np.maximum(np.sqrt(mean_square), 1e-300)
     design = (columns / scale[:, None]).T
     target = balance.rate
     solved = np.linalg.lstsq(design[reference], target[reference], rcond=None)[0]
@@ -132,7 +133,8 @@ def _columns(balance: Balance, model: HeatModel) -> tuple[Sequence[str], FloatAr
     sources = [balance.windows.mean(values) for values in model.sources.values()]
     excess = [-values for values in balance.excess.values()]
     names = ["drift", *model.sources, *balance.excess]
-    return names, np.stack([np.ones(len(balance.windows)), *sources, *excess])
+    constant = np.ones(len(balance.windows))
+    return names, np.stack([constant, *sources, *excess])
 
 
 def _constants(names: Sequence[str], solved: FloatArray) -> dict[str, FloatArray]:
@@ -153,7 +155,8 @@ def _bootstrap(design: FloatArray, target: FloatArray, blocks: NDArray[np.int64]
     number = int(block.max()) + 1
     squares = np.zeros((number, design.shape[1], design.shape[1]))
     products = np.zeros((number, design.shape[1]))
-    np.add.at(squares, block, design[:, :, None] * design[:, None, :])
+    outer_products = design[:, :, None] * design[:, None, :]
+    np.add.at(squares, block, outer_products)
     np.add.at(products, block, design * target[:, None])
     random = np.random.default_rng(SEED)
     drawn = random.integers(0, number, (SAMPLES, number))

@@ -53,13 +53,17 @@ def index_over(
         windows=("measured", "size"), measured=("measured", "sum"), expected=("expected", "sum")
     )
     ratio = sums["measured"] / sums["expected"]
-    table["off"] = table["measured"] - ratio.reindex(table["start"]).to_numpy() * table["expected"]
-    squares = (table["off"] ** 2).groupby(table["start"]).sum()
+    ratio_of_period = ratio.reindex(table["start"]).to_numpy()
+    table["off"] = table["measured"] - ratio_of_period * table["expected"]
+    square = table["off"] ** 2
+    squares = square.groupby(table["start"]).sum()
     freedom = np.maximum(sums["windows"] - 1, 1)
-    error = np.sqrt(squares * sums["windows"] / freedom) / sums["expected"]
-    index = pd.DataFrame({"windows": sums["windows"], "r": ratio, "error": error})
-    index = index[(sums["windows"] >= least) & (sums["expected"] > 0.0)]
-    return index.reset_index()
+    windows = sums["windows"]
+    scatter = np.sqrt(squares * windows / freedom)
+    error = scatter / sums["expected"]
+    index = pd.DataFrame({"windows": windows, "r": ratio, "error": error})
+    is_known = (windows >= least) & (sums["expected"] > 0.0)
+    return index[is_known].reset_index()
 
 
 def cusum(index: FloatArray) -> FloatArray:

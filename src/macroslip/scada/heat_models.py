@@ -110,7 +110,9 @@ def _handbooks(
     # Speeds lie closer towards standstill, where the torques bend.
     speeds = max(float(speed.max()), 1e-6) * np.linspace(0.0, 1.0, _SPEEDS) ** 2
     speeds[0] = 1e-3 * speeds[1]
-    kelvin = np.arange(np.floor(oil.min()), np.ceil(oil.max()) + _KELVIN, _KELVIN)
+    coldest = np.floor(oil.min())
+    warmest = np.ceil(oil.max())
+    kelvin = np.arange(coldest, warmest + _KELVIN, _KELVIN)
     formulas = {SKF: skf_torque, PALMGREN: palmgren_torque}
     tables = {name: np.empty((kelvin.size, winds.size, _SPEEDS)) for name in formulas}
     for number, temperature in enumerate(kelvin):

@@ -69,7 +69,9 @@ def _normalised(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> li
 def _wrong_medians(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> list[InputError]:
     problems = []
     for name, (low, high) in _MEDIANS.items():
-        known = values[name][np.isfinite(values[name])] if name in values else np.empty(0)
+        known = np.empty(0)
+        if name in values:
+            known = values[name][np.isfinite(values[name])]
         if name in values and not known.size:
             problems.append(
                 InputError(f"'{columns[name].column}' has no numbers", where=f"columns.{name}")
@@ -120,7 +122,8 @@ def _same_sensors(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> 
         if name not in values:
             continue
         both = np.isfinite(bearing) & np.isfinite(values[name])
-        if both.any() and np.mean(np.abs(bearing[both] - values[name][both]) < 1e-6) > _SAME:
+        difference = np.abs(bearing[both] - values[name][both])
+        if both.any() and np.mean(difference < 1e-6) > _SAME:
             problems.append(
                 InputError(
                     f"'{columns['bearing_temperature'].column}' and '{columns[name].column}' have "

@@ -169,9 +169,10 @@ def _record(description: ScadaDescription, folder: Path) -> _Record:
             else:
                 times.append(utc_times(piece[clock.column], clock, str(path)))
             count += len(piece)
-            part = {
-                name: column.si(_numbers(piece[column.column])) for name, column in measured.items()
-            }
+            part = {}
+            for name, column in measured.items():
+                numbers = _numbers(piece[column.column])
+                part[name] = column.si(numbers)
             if status is not None:
                 part["status"] = piece[status.column].map(_label).to_numpy(dtype=object)
             parts.append(pd.DataFrame(part))
@@ -182,15 +183,18 @@ def _record(description: ScadaDescription, folder: Path) -> _Record:
             allowed=", ".join(sorted(others)[:_LISTED]),
         )
     whole = pd.concat(parts, ignore_index=True)
-    return _Record(
-        Times(
-            times[0].utc.append([part.utc for part in times[1:]]),
-            np.concatenate([part.is_repeated for part in times]),
-            all(part.has_offset for part in times),
-        ),
-        {name: whole[name].to_numpy(dtype=float) for name in measured},
-        whole["status"].to_numpy(dtype=object) if status else None,
-    )
+    values = {name: whole[name].to_numpy(dtype=float) for name in measured}
+    states = whole["status"].to_numpy(dtype=object) if status else None
+    return _Record(_joined(times), values, states)
+
+
+def _joined(times: list[Times]) -> Times:
+    """Times of pieces of a record, one after the other."""
+    first, *others = times
+    utc = first.utc.append([part.utc for part in others])
+    is_repeated = np.concatenate([part.is_repeated for part in times])
+    has_offset = all(part.has_offset for part in times)
+    return Times(utc, is_repeated, has_offset)
 
 
 def _label(value: object) -> str:
@@ -227,7 +231,8 @@ def _order(
     if description.time.assume == CONSECUTIVE:
         notes.append("The files have no time: their rows are taken to follow one another.")
     gone = np.any(list(fates.values()), axis=0)
-    months = np.where(utc.isna(), "", np.asarray(utc.strftime("%Y-%m"), dtype=object))
+    month_texts = np.asarray(utc.strftime("%Y-%m"), dtype=object)
+    months = np.where(utc.isna(), "", month_texts)
     return order[~gone[order]], _counted(months, fates), notes
 
 
@@ -246,7 +251,8 @@ def _repeated_hours(
     """Rows in an hour that a record without zone shows twice, shape (rows,) of the files."""
     values = np.column_stack([column[order] for column in record.columns.values()])
     differs = np.zeros(order.size, dtype=bool)
-    differs[1:] = later[1:] & np.any(values[1:] != values[:-1], axis=1)
+    has_changed = np.any(values[1:] != values[:-1], axis=1)
+    differs[1:] = later[1:] & has_changed
     repeated = np.zeros(len(record.times.utc), dtype=bool)
     repeated[order] = hours_shown_twice(record.times.utc[order], differs, step)
     return repeated
@@ -260,11 +266,15 @@ def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) 
     sorted_out["kept"] = kept
     sorted_out["jump"] = kept & data["jump"].to_numpy()
     table = [*fates, *_counted(months, sorted_out)]
-    steps = pd.date_range(data.index[0], data.index[-1], freq=pd.Timedelta(seconds=step))
+    first = data.index[0]
+    last = data.index[-1]
+    steps = pd.date_range(first, last, freq=pd.Timedelta(seconds=step))
     expected = pd.Series(steps.strftime("%Y-%m")).value_counts()
     present = pd.Series(months).value_counts()
     absent = expected.sub(present, fill_value=0).clip(lower=0)
-    table += [(str(month), "absent", int(count)) for month, count in absent.items() if count > 0]
+    for month, count in absent.items():
+        if count > 0:
+            table.append((str(month), "absent", int(count)))
     frame = pd.DataFrame(table, columns=["month", "filter", "rows"])
     frame["filter"] = pd.Categorical(frame["filter"], FATES, ordered=True)
     return frame.sort_values(["month", "filter"], ignore_index=True)

@@ -187,7 +187,9 @@ def _operation(random: np.random.Generator, rows: int) -> tuple[FloatArray, Floa
     """Wind [m/s], speed of the rotor [rad/s] and power [W] of every row."""
     weather = _correlated(random, rows, _WEATHER_ROWS)
     gusts = _correlated(random, rows, _GUST_ROWS)
-    both = np.sqrt(_WEATHER) * weather + np.sqrt(1.0 - _WEATHER) * gusts
+    slow = np.sqrt(_WEATHER) * weather
+    fast = np.sqrt(1.0 - _WEATHER) * gusts
+    both = slow + fast
     scale, shape = _WIND
     wind = weibull_min.ppf(norm.cdf(both), shape, scale=scale)
     speed = np.clip(_SPEED_PER_WIND * wind, _LEAST_SPEED, RATED_SPEED)
@@ -207,8 +209,10 @@ def _air(
 ) -> tuple[FloatArray, FloatArray]:
     """Temperatures outside and in the nacelle [K]."""
     hours = np.arange(time.size) * _STEP / HOUR
-    of_year = -7.5 * np.cos(2.0 * np.pi * (hours / 24.0 - 20.0) / 365.0)
-    of_day = -3.0 * np.cos(2.0 * np.pi * (hours - 3.0) / 24.0)
+    since_coldest_day = hours / 24.0 - 20.0
+    since_coldest_hour = hours - 3.0
+    of_year = -7.5 * np.cos(2.0 * np.pi * since_coldest_day / 365.0)
+    of_day = -3.0 * np.cos(2.0 * np.pi * since_coldest_hour / 24.0)
     weather = 2.5 * _smoothed(_correlated(random, time.size, 3.0 * _ROWS_A_DAY))
     ambient = ZERO_CELSIUS + 11.0 + of_year + of_day + weather
     rise = _smoothed(7.0 + 5.0 * np.maximum(power, 0.0) / RATED_POWER)
@@ -218,7 +222,9 @@ def _air(
 def _smoothed(values: FloatArray) -> FloatArray:
     """The values with a delay of two hours (first order)."""
     kept = np.exp(-1.0 / _LAG_ROWS)
-    return lfilter([1.0 - kept], [1.0, -kept], values, zi=[kept * values[0]])[0]
+    start = [kept * values[0]]
+    smoothed, _ = lfilter([1.0 - kept], [1.0, -kept], values, zi=start)
+    return smoothed
 
 
 def _bearing(
@@ -244,7 +250,8 @@ def _bearing(
     known, inverse = np.unique(np.clip(grid, low, high), return_inverse=True)
     powers = [friction.power(truth.supply, wind, speed, kelvin) for kelvin in known]
     seals = truth.seal_torque * speed
-    heats = per_heat * (factor[:, None] * np.stack(powers, axis=1)[:, inverse] + seals[:, None])
+    powers_of_oils = np.stack(powers, axis=1)[:, inverse]
+    heats = per_heat * (factor[:, None] * powers_of_oils + seals[:, None])
     slopes = np.diff(heats, axis=1) / _CELL
     to_nacelle = truth.to_nacelle * (1.0 + truth.fan * wind)
     loss = to_nacelle + truth.to_ambient

@@ -37,7 +37,8 @@ def files_of(patterns: Sequence[str], folder: Path) -> list[Path]:
         path = Path(pattern)
         start = Path(path.anchor) if path.is_absolute() else folder
         name = str(path.relative_to(path.anchor)) if path.is_absolute() else pattern
-        paths = sorted(start.glob(name)) if re.search(r"[*?\[]", name) else [start / name]
+        is_pattern = re.search(r"[*?\[]", name)
+        paths = sorted(start.glob(name)) if is_pattern else [start / name]
         if not paths or not all(file.is_file() for file in paths):
             raise InputError(
                 f"there is no file {pattern!r} in '{folder}'",

@@ -41,7 +41,8 @@ class Windows:
         """
         inside = np.asarray(values, dtype=float)[self.rows]
         ends = 0.5 * (inside[:, 0] + inside[:, -1])
-        return (ends + inside[:, 1:-1].sum(axis=1)) / self.steps
+        between = inside[:, 1:-1].sum(axis=1)
+        return (ends + between) / self.steps
 
     def rate(self, values: ArrayLike) -> FloatArray:
         """Change of a value from the first to the last row of each window, per hour.
@@ -53,7 +54,9 @@ class Windows:
         """
         known = np.asarray(values, dtype=float)
         hours = self.steps * self.step / HOUR
-        return (known[self.first + self.steps] - known[self.first]) / hours
+        before = known[self.first]
+        after = known[self.first + self.steps]
+        return (after - before) / hours
 
     def at(self, chosen: BoolArray) -> Windows:
         """Those that are chosen."""
@@ -93,7 +96,8 @@ def unbroken_windows(
     later = np.diff(time.as_unit("ns").asi8) / 1e9
     is_next = np.abs(later - step) < 0.5 * step
     follows = is_next & ~np.asarray(jump, dtype=bool)[1:]
-    joined = np.r_[False, follows & usable[1:] & usable[:-1]]
+    is_joined = follows & usable[1:] & usable[:-1]
+    joined = np.r_[False, is_joined]
     stretch = np.cumsum(~joined)
     # Number of a row within its stretch.
     starts = np.flatnonzero(~joined)
@@ -101,5 +105,6 @@ def unbroken_windows(
     begins = usable & (inside % steps == 0)
     candidates = np.flatnonzero(begins)
     candidates = candidates[candidates + steps < usable.size]
-    whole = stretch[candidates + steps] == stretch[candidates]
+    stretch_of_end = stretch[candidates + steps]
+    whole = stretch_of_end == stretch[candidates]
     return Windows(candidates[whole], steps, step)

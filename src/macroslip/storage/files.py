@@ -100,7 +100,8 @@ def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
 
     Those that do not exist are passed over.
     """
-    if path.exists() and any(source.exists() and path.samefile(source) for source in inputs):
+    existing = [source for source in inputs if source.exists()]
+    if path.exists() and any(path.samefile(source) for source in existing):
         fault = "this is a file that the output is made from"
         raise InputError(fault, where=str(path), remedy="Choose another name; it would be lost.")
 
@@ -115,7 +116,8 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
     where = str(path)
     check_no_zero_byte(where)
     check_not_input(path, inputs)
-    if path.name in STUDY_FILES and any((folder / name).exists() for name in (MANIFEST, DATABASE)):
+    is_study = any((folder / name).exists() for name in (MANIFEST, DATABASE))
+    if path.name in STUDY_FILES and is_study:
         fault = f"{path.name} is a file of the study in this folder"
         raise InputError(fault, where=where, remedy="Choose another name; the study would be lost.")
     if path.is_dir():

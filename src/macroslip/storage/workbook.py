@@ -178,4 +178,5 @@ def number_or_nan(cell: Any) -> float | None:
     """
     if cell is None:
         return math.nan
-    return float(cell) if isinstance(cell, int | float) and not isinstance(cell, bool) else None
+    is_number = isinstance(cell, int | float) and not isinstance(cell, bool)
+    return float(cell) if is_number else None

@@ -35,7 +35,8 @@ def study_at_balance(
     known.
     """
     loads = study.loads.loads
-    shares = study.weights.of(loads) if study.weights else [1.0 / len(loads)] * len(loads)
+    count = len(loads)
+    shares = study.weights.of(loads) if study.weights else [1.0 / count] * count
     weights = dict(zip((load.name for load in loads), shares, strict=True))
     cases = {
         run.group: study.case_of(run)[0]
@@ -80,5 +81,6 @@ def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> di
                 f"the friction power of the bearing under the loads {run.load.name} is not known, "
                 "because the run failed: give the base case a temperature in place of balance"
             )
-        powers[run.group] = powers.get(run.group, 0.0) + weights[run.load.name] * power
+        known = powers.get(run.group, 0.0)
+        powers[run.group] = known + weights[run.load.name] * power
     return powers

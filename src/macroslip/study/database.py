@@ -212,13 +212,15 @@ def _decoded(content: bytes) -> str:
 
 def _crc(texts: Sequence[str], numbers: Sequence[float] = ()) -> int:
     """Checksum of a row, which detects changes on the disk."""
-    return zlib.crc32("\0".join(texts).encode() + struct.pack(f"<{len(numbers)}d", *numbers))
+    packed = struct.pack(f"<{len(numbers)}d", *numbers)
+    return zlib.crc32("\0".join(texts).encode() + packed)
 
 
 def _is_sound(row: Sequence[Any]) -> bool:
     """True if a row of results is as it was recorded."""
     texts = row[: len(_TEXT_COLUMNS)]
-    numbers = [math.nan if number is None else number for number in row[len(_TEXT_COLUMNS) : -1]]
+    stored = row[len(_TEXT_COLUMNS) : -1]
+    numbers = [math.nan if number is None else number for number in stored]
     try:
         return _crc(texts, numbers) == row[-1]
     except (TypeError, struct.error):  # a text in place of a number, or the other way round
@@ -246,7 +248,8 @@ def read_runs(directory: Path) -> pd.DataFrame:
         for rows in iter(lambda: cursor.fetchmany(_BATCH), []):
             if any(_crc(row[:2]) != row[2] for row in rows):
                 raise InputError("the list of runs is damaged", where=str(path), remedy=REMEDY)
-            labels = pd.DataFrame([{"run": row[0], **json.loads(row[1])} for row in rows])
+            records = [{"run": run, **json.loads(texts)} for run, texts, *_ in rows]
+            labels = pd.DataFrame(records)
             summary = pd.DataFrame(list(map(_line, rows)), columns=[*TEXTS, *NUMBERS])
             summary = summary.astype(dict.fromkeys(NUMBERS, float))
             frames.append(pd.concat([labels, summary], axis=1))

@@ -67,7 +67,8 @@ def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.
         )
         if min(half.size for half in halves) >= 2:
             effect[p] = halves[0].mean() - halves[1].mean()
-            error[p] = np.sqrt(sum(half.var(ddof=1) / half.size for half in halves))
+            variances = [half.var(ddof=1) / half.size for half in halves]
+            error[p] = np.sqrt(sum(variances))
     return effect, error
 
 

@@ -55,7 +55,8 @@ def estimate_study(study: Study) -> StudyEstimate:
 
     estimates: list[_RunEstimate] = []
     problems: list[str] = []
-    chosen = {round(part * (len(study) - 1) / (_TRIED - 1)) for part in range(_TRIED)}
+    last = len(study) - 1
+    chosen = {round(part * last / (_TRIED - 1)) for part in range(_TRIED)}
     for number, run in enumerate(study.runs()):
         if number not in chosen:
             continue
@@ -89,7 +90,9 @@ def _mean(values: list[float]) -> float:
 def _estimate_run(case: Case) -> _RunEstimate:
     """Time and size of a whole run, from the first parts of it."""
     loads = case.loads
-    end = loads.end if case.window.end is None else min(case.window.end, loads.end)
+    end = loads.end
+    if case.window.end is not None:
+        end = min(case.window.end, end)
     length = end - loads.start
     stretch = min(_STRETCH, length)
     half_seconds, half_bytes = _measured(case, 0.5 * stretch)
@@ -108,7 +111,9 @@ def _measured(case: Case, length: float) -> tuple[float, int]:
     from macroslip.result.simulate import simulate
 
     loads = case.loads
-    end = min(max(loads.start + length, float(loads.time[1])), loads.end)  # at least two samples
+    second_sample = float(loads.time[1])
+    end = max(loads.start + length, second_sample)
+    end = min(end, loads.end)
     traces = Traces(step=case.traces.step) if case.traces else None
     part = replace(case, loads=loads.window(None, end), window=Window(), traces=traces)
     started = time.perf_counter()

@@ -59,7 +59,10 @@ def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
         all_orbits = YEAR * weighted(counted.orbits / counted.seconds, weight)
         # Thresholds that some orbits exceed and some do not, and one more at either end.
         most = all_orbits[..., None] * (1.0 - 1e-12)
-        some = [((rate > 0.0) & (rate < most)).any(axis=(0, 1)) for rate in rates]
+        some = []
+        for rate in rates:
+            is_between = (rate > 0.0) & (rate < most)
+            some.append(is_between.any(axis=(0, 1)))
     kept = _span(some[0] | some[1])
     energy_orbits, power_orbits = (rate[..., kept] for rate in rates)
     over_bins = ("group", "bin")

@@ -33,9 +33,11 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     ['row', 'energy [J]']
     """
     part = dataset[list(names)]
-    part = part.assign({name: variable.broadcast_like(part) for name, variable in part.items()})
+    broadcast = {name: variable.broadcast_like(part) for name, variable in part.items()}
+    part = part.assign(broadcast)
     frame = part.reset_coords().to_dataframe().reset_index()
-    frame = frame.loc[:, [name for name in (*part.coords, *names) if name in frame]]
+    columns = [name for name in (*part.coords, *names) if name in frame]
+    frame = frame.loc[:, columns]
     units = {name: variable.attrs.get("units", "1") for name, variable in part.variables.items()}
     frame.columns = [
         name if units.get(name, "1") == "1" else f"{name} [{units[name]}]" for name in frame

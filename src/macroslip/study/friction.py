@@ -123,7 +123,8 @@ def _check_loads(study: xr.Dataset, where: str) -> None:
     """Refuse loads that are steady or short: they have too little torque in weak wind."""
     steady = study.damage_equivalent_load_10.values < _STEADY * study.equivalent_load.values
     if steady.any():
-        names = ", ".join(np.unique(study.loads.values[steady].astype(str))[:5])
+        steady_loads = study.loads.values[steady].astype(str)
+        names = ", ".join(np.unique(steady_loads)[:5])
         raise InputError(
             f"the loads of {names} do not vary: at 6 m/s steady mean loads have 0.82 of the torque "
             "that they have in turbulence, because the downwind load zone closes there",

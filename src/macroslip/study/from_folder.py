@@ -132,7 +132,9 @@ def study_of_folder(folder: Path, study: Path) -> FolderStudy:
         start=max(starts),
         table=json.dumps(table.name),
     )
-    labels = [{name: float(row[name]) for name in names[1:]} for row in rows]
+    labels = []
+    for row in rows:
+        labels.append({name: float(row[name]) for name in names[1:]})
     return FolderStudy({study: text, table: _csv(names, rows)}, labels, remarks)
 
 

@@ -54,4 +54,5 @@ def _variations(study: xr.Dataset) -> dict[str, Any]:
 
 def _sampled(variations: dict[str, Any]) -> dict[str, Any]:
     """Ranges of the sample by key."""
-    return (variations.get("sample") or {}).get("ranges") or {}
+    sample = variations.get("sample") or {}
+    return sample.get("ranges") or {}

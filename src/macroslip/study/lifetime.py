@@ -107,7 +107,8 @@ def percentiles(
     data: dict[str, Any] = {
         name: (dims, array[name].values, dict(variable.attrs)) for name, variable in wanted.items()
     }
-    data["runs"] = (dims[:2], bins.means(power.values)[1], described("1", "runs of the quantiles"))
+    _, runs, _ = bins.means(power.values)
+    data["runs"] = (dims[:2], runs, described("1", "runs of the quantiles"))
     coordinates = {
         "row": study.row,
         "quantile": ("quantile", list(quantiles), described("1", "share of runs below")),
@@ -198,7 +199,8 @@ def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     years = aggregation.years
     bins = aggregation.bins(study)
     dims = (*_PLACES, "slip_sign", "film_regime")
-    largest = np.zeros((len(bins.groups), *(study.sizes[dim] for dim in _PLACES)))
+    places = [study.sizes[dim] for dim in _PLACES]
+    largest = np.zeros((len(bins.groups), *places))
 
     def rates() -> Any:
         for case, group in enumerate(bins.group):
@@ -238,8 +240,10 @@ def _area(study: xr.Dataset) -> xr.DataArray:
     if "case" not in area.dims:
         return area
     values = area.values
-    known = np.flatnonzero(np.isfinite(values).all(axis=tuple(range(1, values.ndim))))
-    if not known.size or np.ptp(values[known], axis=0).max() > 1e-12 * values[known].max():
+    other_axes = tuple(range(1, values.ndim))
+    known = np.flatnonzero(np.isfinite(values).all(axis=other_axes))
+    of_known = values[known]
+    if not known.size or np.ptp(of_known, axis=0).max() > 1e-12 * of_known.max():
         remedy = "Select the cases of one bearing first: study.isel(case=study.bearing == 'name')."
         raise InputError("the bearings of the study have raceways of different size", remedy=remedy)
     return area.isel(case=int(known[0]), drop=True)

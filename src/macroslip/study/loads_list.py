@@ -229,7 +229,10 @@ def _bundled(names: Sequence[str]) -> list[Load]:
             f"there is no bundled case '{safe_text(wrong[0])}'",
             allowed=f"{', '.join(sets)}, or {', '.join(known)}",
         )
-    chosen = list(dict.fromkeys(case for name in names for case in sets.get(name, [name])))
+    chosen = []
+    for name in names:
+        chosen += sets.get(name, [name])
+    chosen = list(dict.fromkeys(chosen))
     return [Load(name, labels) for name, labels in zip(chosen, bundled_labels(chosen), strict=True)]
 
 
@@ -275,7 +278,8 @@ def _from_table(path: Path, sheet: str = "") -> list[Load]:
         if empty := [name for name, value in row.items() if value is None]:
             remedy = "Fill it, or remove the column."
             raise InputError(f"row {number} has no {', '.join(empty)}", where=where, remedy=remedy)
-        if odd := [name for name, value in row.items() if not isinstance(value, (str, int, float))]:
+        odd = [name for name, value in row.items() if not isinstance(value, (str, int, float))]
+        if odd:
             fault = f"row {number} has {row[odd[0]]!r} in column {odd[0]}"
             raise InputError(fault, where=where, allowed="numbers, text, true and false")
         if row["file"] in names:

@@ -75,7 +75,8 @@ class RunsOverTemperature:
         """
         if LABEL not in study.coords:
             check_varied(0)
-        at = kelvin(study[LABEL].values.astype(float), study[LABEL].attrs.get("units", "K"))
+        label = study[LABEL]
+        at = kelvin(label.values.astype(float), label.attrs.get("units", "K"))
         names = [name for name in labels_over(study) if name not in _OF_A_RUN]
         labels = study[names].reset_coords()[names].to_dataframe() if names else None
         number = (
@@ -220,7 +221,8 @@ class RunsOverTemperature:
             for row in outcome
         ]
         kept = self.first_runs.drop_vars([LABEL, *self.study.data_vars])
-        kept = kept.drop_vars([n for n in kept.coords if not set(kept[n].dims) <= {"case", "row"}])
+        foreign = [name for name in kept.coords if not set(kept[name].dims) <= {"case", "row"}]
+        kept = kept.drop_vars(foreign)
         coordinates = {
             "outcome": ("case", np.array(worst, dtype=object), dict(self.study.outcome.attrs)),
             "case": ("case", np.arange(len(worst)), dict(self.study["case"].attrs)),
@@ -366,7 +368,9 @@ def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]
     high = temperatures[-1]
     lasting = shares.lasting
     margin = MOST_BEYOND if shares.is_measured else 1e-6
-    outside = (shares.temperatures < low - margin) | (shares.temperatures > high + margin)
+    is_colder = shares.temperatures < low - margin
+    is_warmer = shares.temperatures > high + margin
+    outside = is_colder | is_warmer
     most = _SHARE_OUTSIDE if shares.is_measured else 0.0
     if lasting[outside].sum() > most:
         used = shares.temperatures[lasting > 0.0]
@@ -377,7 +381,8 @@ def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]
             allowed=f"runs that span it{f', or up to {MOST_BEYOND:g} K less' if shares.is_measured else ''}",
             remedy=_REMEDY,
         )
-    held = lasting[(shares.temperatures < low) | (shares.temperatures > high)].sum()
+    is_held = (shares.temperatures < low) | (shares.temperatures > high)
+    held = lasting[is_held].sum()
     if not held > 0.0:
         return []
     return [

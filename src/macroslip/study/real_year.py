@@ -139,7 +139,9 @@ def real_year(
     notes += designs(years["real"])[1]
     bins = aggregation.bins(collapsed["real"])
     of_bins = bins.probabilities(aggregation.weights)[np.isfinite(bins.centres)]
-    share_at_wind = [measured.of_wind(speed, bins.width)[:-1] for speed in joint.wind.tolist()]
+    share_at_wind = []
+    for speed in joint.wind.tolist():
+        share_at_wind.append(measured.of_wind(speed, bins.width)[:-1])
     rates = _rates(runs, joint.oil_temperatures, bins, years["real"])
     names = design_names(years["real"])
     return RealYear(
@@ -170,7 +172,8 @@ def _weighting(study: xr.Dataset) -> Weighting:
 
 def _centres(study: xr.Dataset, weighting: Weighting) -> np.ndarray:
     """Middles of the bins of wind speed of a study's production [m/s]."""
-    speeds = study[weighting.field].values.astype(float)[events_of_runs(study) == ""]
+    is_wind = events_of_runs(study) == ""
+    speeds = study[weighting.field].values.astype(float)[is_wind]
     if not speeds.size:
         raise InputError("the study has no runs of production, only events", where="--study")
     return np.unique(bin_centres(speeds, weighting.width))
@@ -189,7 +192,8 @@ def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> 
             if quantity not in columns["real"]:
                 continue
             line = {"design": names[group], "quantity": quantity, "unit": column.unit}
-            line |= {name: float(frame.loc[group, quantity]) for name, frame in columns.items()}
+            for name, frame in columns.items():
+                line[name] = float(frame.loc[group, quantity])
             line["seeds [%]"] = 100.0 * seeds[quantity][group] if quantity in seeds else np.nan
             line["factor"] = factors.get(quantity, np.nan)
             lines.append(line)
@@ -213,12 +217,14 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
         mean, runs, spread = bins.spreads(values)
         several = runs > 1
         with np.errstate(invalid="ignore", divide="ignore"):
-            variance = np.where(several, share**2 * spread / (runs - 1.0), 0.0)
+            of_bins = share**2 * spread / (runs - 1.0)
+            variance = np.where(several, of_bins, 0.0)
             total = np.nansum(share * mean, axis=1)
             relative = np.sqrt(variance.sum(axis=1)) / total
         worse = total.argmax(axis=1)
         chosen = relative[np.arange(worse.size), worse]
-        errors[name] = np.where(several.any(axis=(1, 2)), chosen, np.nan)
+        is_known = several.any(axis=(1, 2))
+        errors[name] = np.where(is_known, chosen, np.nan)
     return errors
 
 
@@ -271,10 +277,12 @@ def _rates(
     """
     windy = np.isfinite(bins.centres)
     lengths = runs.study["window_length"].values[runs.runs[:, 0]]
-    power = bins.means(runs.values("energy_mean", at) / lengths[:, None, None])[0]
+    power_of_runs = runs.values("energy_mean", at) / lengths[:, None, None]
+    power, _, _ = bins.means(power_of_runs)
     rates = {"energy": power.sum(axis=-1)[:, windy]}
     if "wear_rate" not in runs.study:
         return {**rates, "wear": np.full(rates["energy"].shape, np.nan)}
     by_row = bins.means(runs.values("wear_rate", at))[0][:, windy]
     worse = real["wear"].sum("bin").transpose("group", "row").values.argmax(axis=1)
-    return {**rates, "wear": np.stack([by_row[k, ..., row] for k, row in enumerate(worse)])}
+    wear = [by_row[k, ..., row] for k, row in enumerate(worse)]
+    return {**rates, "wear": np.stack(wear)}

@@ -189,7 +189,8 @@ class Session:
         """
         now = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
         first, *others = text.splitlines() or [""]
-        lines = [f"{now} {safe_text(first)}", *(f"    {safe_text(other)}" for other in others)]
+        lines = [f"{now} {safe_text(first)}"]
+        lines += [f"    {safe_text(other)}" for other in others]
         # A full disk is reported where results are stored.
         with (
             contextlib.suppress(OSError),
@@ -291,7 +292,8 @@ class Session:
 
     def _tasks(self, count: int, threads: int | None) -> list[dict[str, Any]]:
         """At most so many tasks, first those that are to be handed out again."""
-        tasks = [self._again.popleft() for _ in range(min(count, len(self._again)))]
+        repeated = min(count, len(self._again))
+        tasks = [self._again.popleft() for _ in range(repeated)]
         for run in itertools.islice(self._runs, count - len(tasks)):
             self._open[run.name] = run
             tasks.append(self._task(run, threads))

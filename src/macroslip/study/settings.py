@@ -94,7 +94,9 @@ class Setting:
     def written(cls, key: str, value: Any) -> Setting:
         """A setting from text of a case file: `0.2 mm` becomes number and unit."""
         match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
-        return cls(key, value) if match is None else cls(key, float(match["number"]), match["unit"])
+        if match is None:
+            return cls(key, value)
+        return cls(key, float(match["number"]), match["unit"])
 
     @property
     def text(self) -> Any:
@@ -438,7 +440,8 @@ class Sample:
         intervals: dict[str, Any] = dict(
             self.ranges
         )  # `with_ranges_of` has filled in those that were left open
-        positions = kind(len(self.ranges), rng=np.random.default_rng(self.seed)).random(self.count)
+        generator = kind(len(self.ranges), rng=np.random.default_rng(self.seed))
+        positions = generator.random(self.count)
         return [
             [
                 # Twelve digits are more than the accuracy of any parameter, and the same on every

@@ -73,7 +73,8 @@ class Run:
         parameters = sorted(
             (setting.key, setting.text) for setting in self.settings if setting.key != but
         )
-        return hashlib.sha256(json.dumps([labels, parameters]).encode()).hexdigest()[:32]
+        text = json.dumps([labels, parameters])
+        return hashlib.sha256(text.encode()).hexdigest()[:32]
 
     @property
     def labels(self) -> dict[str, Any]:
@@ -572,7 +573,9 @@ def _event_lengths(
         with contextlib.suppress(InputError):
             record = read_loads(loads.source, load_path(loads, load, folder), cut)
             start = record.start if base.window.start is None else base.window.start
-            end = record.end if base.window.end is None else min(base.window.end, record.end)
+            end = record.end
+            if base.window.end is not None:
+                end = min(base.window.end, end)
             lengths.setdefault(load.event, []).append(end - start)
     return {event: sum(known) / len(known) for event, known in lengths.items()}
 

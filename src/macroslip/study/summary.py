@@ -188,7 +188,8 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
 
 def damage_values(result: xr.Dataset) -> dict[str, xr.DataArray]:
     """Numbers of damage of each row, of the criteria; NaN without details of the contacts."""
-    unknown = xr.DataArray(np.full(result.sizes["row"], np.nan), {"row": result.row}, "row")
+    nothing = np.full(result.sizes["row"], np.nan)
+    unknown = xr.DataArray(nothing, {"row": result.row}, "row")
     if "surface_work" not in result:
         return {yearly.run_name: unknown for yearly in YEARLY}
     criteria = damage(result)

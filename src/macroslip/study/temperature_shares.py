@@ -43,7 +43,8 @@ class TemperatureShares:
         known = np.flatnonzero(of_bins > 0.0)
         by_wind = {}
         for number, centre in enumerate(joint.wind.tolist()):
-            nearest = known[np.argmin(np.abs(joint.wind[known] - joint.wind[number]))]
+            distance = np.abs(joint.wind[known] - joint.wind[number])
+            nearest = known[np.argmin(distance)]
             by_wind[centre] = np.append(joint.turning[nearest] / of_bins[nearest], 0.0)
         at_mean = np.zeros(temperatures.size)
         at_mean[-1] = 1.0

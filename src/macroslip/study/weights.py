@@ -339,7 +339,8 @@ class Weighting:
         [0.308, 0.308, 0.384]
         """
         bins = self._bins(loads, {})
-        shares = (bins.probabilities(self.year) / np.bincount(bins.bin))[bins.bin]
+        share_of_run = bins.probabilities(self.year) / np.bincount(bins.bin)
+        shares = share_of_run[bins.bin]
         if shares.sum() <= 0.0:
             raise InputError(
                 "no load history has any weight",
@@ -424,7 +425,8 @@ class Bins:
         names = list(dict.fromkeys(named[~calm].tolist()))
         bins = np.empty(named.size, dtype=int)
         bins[calm] = bin_of_value
-        bins[~calm] = [centres.size + names.index(event) for event in named[~calm]]
+        numbers = [names.index(event) for event in named[~calm]]
+        bins[~calm] = centres.size + np.array(numbers, dtype=int)
         return cls(
             centres=np.concatenate([centres, np.full(len(names), np.nan)]),
             width=width,
@@ -543,7 +545,9 @@ class Binning(Bins):
             else:
                 left_out[cell] += 1
         with np.errstate(invalid="ignore"):
-            return total / used.reshape(*shape, *[1] * (total.ndim - 2)), used, left_out
+            inner = [1] * (total.ndim - 2)
+            means = total / used.reshape(*shape, *inner)
+            return means, used, left_out
 
     def spreads(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Mean ⟨x⟩ of the values of each row of rollers in each cell, runs, and ⟨x²⟩ − ⟨x⟩².
@@ -553,7 +557,8 @@ class Binning(Bins):
         """
         mean, runs, _ = self.means(values)
         square, _, _ = self.means(values**2)
-        return mean, runs[:, :, None], np.maximum(square - mean**2, 0.0)
+        variance = np.maximum(square - mean**2, 0.0)
+        return mean, runs[:, :, None], variance
 
 
 def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:

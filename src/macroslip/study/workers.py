@@ -130,7 +130,8 @@ class Processes:
 
     def __exit__(self, *error: object) -> None:
         """End every process at once, in the middle of its run if need be."""
-        seats = [*self._idle, *(seat for seat, _ in self._under_way.values())]
+        busy = [seat for seat, _ in self._under_way.values()]
+        seats = [*self._idle, *busy]
         for seat in seats:
             seat.kill()
         for seat in seats:
@@ -337,7 +338,9 @@ class Dask:
 
     def free_places(self) -> int:
         """Fills a window of two tasks for each thread of all workers that are there."""
-        return max(max(_AHEAD * self._look(), _AHEAD) - len(self._under_way), 0) * self._bundle()
+        wanted = max(_AHEAD * self._look(), _AHEAD)
+        missing = max(wanted - len(self._under_way), 0)
+        return missing * self._bundle()
 
     def submit(self, tasks: list[Task]) -> None:
         """Send runs, several together where they are short."""

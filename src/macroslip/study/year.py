@@ -146,7 +146,8 @@ def _criteria(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, 
     dims = ("group", "bin", "row")
     for name, (variable, units, about) in LARGEST.items():
         if variable in study:
-            largest = np.full((len(bins.groups), share.size, study.sizes["row"]), np.nan)
+            shape = (len(bins.groups), share.size, study.sizes["row"])
+            largest = np.full(shape, np.nan)
             np.fmax.at(largest, (bins.group, bins.bin), _by_row(study, variable))
             data[name] = (dims, largest, described(units, about))
     for name, (variable, units, about) in SUMS.items():
@@ -243,9 +244,10 @@ def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[s
         units = label.attrs.get("units", "1")
         unit = "" if units in ("", "1") else f" {units}"
         values = label.values.ravel().tolist()
-        texts = [
-            f"{value:.{digits}g}" if isinstance(value, float) else str(value) for value in values
-        ]
+        texts = []
+        for value in values:
+            is_number = isinstance(value, float)
+            texts.append(f"{value:.{digits}g}" if is_number else str(value))
         if name in ("bearing", "lubricant"):
             texts = file_names(texts)
         if label.dims == ("group",) and len(set(texts)) > 1:
@@ -253,7 +255,10 @@ def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[s
             # one value says it by its name.
             if "nan" in texts and _follows_model(dataset, texts):
                 continue
-            head = "" if name in CHOICES else f"{str(name).rpartition('.')[2].replace('_', ' ')} "
+            head = ""
+            if name not in CHOICES:
+                _, _, last_key = str(name).rpartition(".")
+                head = f"{last_key.replace('_', ' ')} "
             parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
     if not parts:
         return [""] * dataset.sizes["group"]
@@ -262,10 +267,13 @@ def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[s
 
 def _follows_model(dataset: xr.Dataset | xr.DataArray, texts: list[str]) -> bool:
     """True if every model of the groups has one text only."""
-    models = dataset.coords["model"].values.ravel().tolist() if "model" in dataset.coords else []
+    if "model" not in dataset.coords:
+        return False
+    models = dataset.coords["model"].values.ravel().tolist()
     if len(models) != len(texts):
         return False
-    return len(set(zip(models, texts, strict=True))) == len(set(models))
+    pairs = set(zip(models, texts, strict=True))
+    return len(pairs) == len(set(models))
 
 
 def file_names(paths: list[str]) -> list[str]:
@@ -276,7 +284,10 @@ def file_names(paths: list[str]) -> list[str]:
     >>> file_names(["../own.yaml", "skf-240-600-bc"]), file_names(["a/own.yaml", "b/own.yaml"])
     (['own', 'skf-240-600-bc'], ['a/own.yaml', 'b/own.yaml'])
     """
-    short = [path.replace("\\", "/").rpartition("/")[2].removesuffix(".yaml") for path in paths]
+    short = []
+    for path in paths:
+        _, _, name = path.replace("\\", "/").rpartition("/")
+        short.append(name.removesuffix(".yaml"))
     return short if len(set(short)) == len(set(paths)) else paths
 
 
@@ -293,12 +304,17 @@ def coverage(annual: xr.Dataset) -> str:
         return (
             "The study has no weights: all its cases count alike, as if a year consisted of them."
         )
-    covered = f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year"
+    percent = 100.0 * hours.sum() * 3600.0 / YEAR
+    covered = f"The cases cover {percent:.0f} % of a year"
     if "event" not in annual.coords:
         return f"{covered}, {hours.sum():.0f} h of wind speeds."
     event = annual.event.values.astype(str)
-    idle = [name for name, own in zip(event, hours, strict=True) if name and own == 0.0]
-    nothing = f"; {', '.join(idle)} count{'s' if len(idle) == 1 else ''} nothing" if idle else ""
+    is_event = event != ""
+    idle = event[is_event & (hours == 0.0)].tolist()
+    nothing = ""
+    if idle:
+        verb = "counts" if len(idle) == 1 else "count"
+        nothing = f"; {', '.join(idle)} {verb} nothing"
     assumed = ", whose supervisor is assumed" if set(event) & set(EVENTS) else ""
-    windy = f"{hours[event == ''].sum():.0f} h of wind speeds"
-    return f"{covered}: {windy} and {hours[event != ''].sum():.3g} h of events{assumed}{nothing}."
+    windy = f"{hours[~is_event].sum():.0f} h of wind speeds"
+    return f"{covered}: {windy} and {hours[is_event].sum():.3g} h of events{assumed}{nothing}."

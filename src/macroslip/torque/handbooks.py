@@ -239,20 +239,16 @@ def palmgren_torque(
     )
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     flow = case.viscosity * case.speed
-    viscous = (
-        viscous_factor
-        * case.mean_diameter**3
-        * np.where(flow < SLOW, 160e-7, 1e-7 * np.cbrt(flow) ** 2)
-    )
+    by_flow = np.where(flow < SLOW, 160e-7, 1e-7 * np.cbrt(flow) ** 2)
+    viscous = viscous_factor * case.mean_diameter**3 * by_flow
     radial = case.radial_load
     thrust = case.axial_load / factor_e
     # Where thrust > radial this quotient is not used; without load it is 0/0.
-    share = np.divide(
-        thrust, radial, out=np.zeros(np.broadcast(thrust, radial).shape), where=radial > 0
-    )
-    driving = np.where(
-        thrust > radial, 1.6 * thrust, radial * (1 + 0.6 * np.minimum(share, 1.0) ** 3)
-    )
+    share = np.zeros(np.broadcast(thrust, radial).shape)
+    np.divide(thrust, radial, out=share, where=radial > 0)
+    share = np.minimum(share, 1.0)
+    mostly_radial = radial * (1 + 0.6 * share**3)
+    driving = np.where(thrust > radial, 1.6 * thrust, mostly_radial)
     static = radial + factor_y0 * case.axial_load
     load = scale * (static / rating) ** exponent * driving * case.mean_diameter
     viscous, load = np.broadcast_arrays(viscous * _NEWTON_METRE, load * _NEWTON_METRE)
@@ -385,14 +381,16 @@ def skf_torque(
         drag = _oil_bath_drag(case, bath)
     rolling = _skf_rolling(case, rolling_constants, starvation)
     sliding = _skf_sliding(case, sliding_constants, FILM_FRICTION[oil])
-    parts = np.broadcast_arrays(
+    rolling, sliding, drag = np.broadcast_arrays(
         rolling * _NEWTON_METRE, sliding * _NEWTON_METRE, drag * _NEWTON_METRE
     )
     low, high = VISCOSITY_RANGE
-    note = f"viscosity is {case.viscosity:.4g} mm2/s; the model is stated for {low:g} to {high:g} mm2/s"
-    return SkfTorque(
-        *(part[()] for part in parts), out_of_range=() if low <= case.viscosity <= high else (note,)
-    )
+    notes = []
+    if not low <= case.viscosity <= high:
+        notes.append(
+            f"viscosity is {case.viscosity:.4g} mm2/s; the model is stated for {low:g} to {high:g} mm2/s"
+        )
+    return SkfTorque(rolling[()], sliding[()], drag[()], tuple(notes))
 
 
 def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> FloatArray:
@@ -402,11 +400,11 @@ def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> Float
     radial = case.radial_load
     axial = case.axial_load
     flow = case.viscosity * case.speed
-    least = np.minimum(
-        r1 * d_m**1.85 * (radial + r2 * axial) ** 0.54,
-        r3 * d_m**2.3 * (radial + r4 * axial) ** 0.31,
-    )
-    heating = 1 / (1 + 1.84e-9 * (case.speed * d_m) ** 1.28 * case.viscosity**0.64)
+    elliptic = r1 * d_m**1.85 * (radial + r2 * axial) ** 0.54
+    linear = r3 * d_m**2.3 * (radial + r4 * axial) ** 0.31
+    least = np.minimum(elliptic, linear)
+    sheared = 1.84e-9 * (case.speed * d_m) ** 1.28 * case.viscosity**0.64
+    heating = 1 / (1 + sheared)
     filled = replenishment(
         case.viscosity * 1e-6, case.speed * math.pi / 30.0, case.bore * 1e-3, case.outside * 1e-3,
         constant=starvation, type_factor=TYPE_FACTOR,
@@ -422,10 +420,12 @@ def _skf_sliding(case: _Operation, constants: tuple, film: float) -> FloatArray:
     axial = case.axial_load
     flow = case.speed * case.viscosity
     elliptic = s1 * d_m**0.25 * np.cbrt(radial**4 + s2 * axial**4)
-    least = np.minimum(elliptic, s3 * d_m**0.94 * np.cbrt(radial**3 + s4 * axial**3))
+    linear = s3 * d_m**0.94 * np.cbrt(radial**3 + s4 * axial**3)
+    least = np.minimum(elliptic, linear)
     boundary = np.exp(-2.6e-8 * flow**1.4 * d_m)
     touching = np.where(case.speed > 0, BOUNDARY_FRICTION, STARTING_FRICTION)
-    return least * (boundary * touching + (1 - boundary) * film)
+    friction = boundary * touching + (1 - boundary) * film
+    return least * friction
 
 
 def _oil_bath_drag(case: _Operation, bath: OilBath) -> FloatArray:
@@ -448,15 +448,19 @@ def _oil_bath_drag(case: _Operation, bath: OilBath) -> FloatArray:
     spread = (case.outside + case.bore) / (case.outside - case.bore)
     if bath.level == 0.0:
         return np.zeros_like(case.speed)
-    angle = 2 * math.acos(max(-1.0, 1 - bath.level * 1e3 / (0.6 * d_m)))
+    level = bath.level * 1e3
+    cosine = 1 - level / (0.6 * d_m)
+    angle = 2 * math.acos(max(-1.0, cosine))
     immersion = math.sin(angle / 2) if angle <= math.pi else 1.0
     span = 5 * ROLLER_FACTOR * case.width / d_m
     shape = 2.789e-10 * span**3 - 2.786e-4 * span**2 + 0.0195 * span + 0.6439
     roll = ROLLER_FACTOR * TYPE_FACTOR * spread * 1e-12
     churning = 4 * bath.drag_variable * roll * shape * case.width * d_m**4 * case.speed**2
-    surface = 0.36 * d_m**2 * (angle - math.sin(angle)) * 0.05 * TYPE_FACTOR * spread
+    segment = angle - math.sin(angle)
+    surface = 0.36 * d_m**2 * segment * 0.05 * TYPE_FACTOR * spread
     # n² (n …)^(−1.379) written as one power of n, which vanishes at standstill.
-    number = d_m**2 * immersion / min(case.viscosity, VISCOSITY_RANGE[1])
+    viscosity = min(case.viscosity, VISCOSITY_RANGE[1])
+    number = d_m**2 * immersion / viscosity
     entrance = 1.093e-7 * d_m**3 * number**-1.379 * surface * case.speed**0.621
     return churning + entrance
 

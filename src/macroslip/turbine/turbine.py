@@ -142,7 +142,8 @@ class Turbine(Record):
                 continue
             origin = self.provenance[key]
             about = quantities(type(self))[key].about
-            meaning = f"{about[0].upper()}{about[1:]}: {TAGS[origin.tag]}; {origin.note}"
+            head = f"{about[0].upper()}{about[1:]}"
+            meaning = f"{head}: {TAGS[origin.tag]}; {origin.note}"
             lines += [*_wrapped(f"  # {meaning}."), f"  {key}: {origin.written}"]
         return "\n".join(lines) + "\n"
 

@@ -85,13 +85,16 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
         lag_in = at.pull_inner - at.turning_inner
         lag_out = at.pull_outer - at.turning_outer
         cage = cages[position.cage].y[FIRST + k]
+        off_axis = cage[4] * at.cosine + cage[5] * at.sine
+        shaft_torque = position.inner_radius * at.turning_inner + pitch * lag_in
         flows[0] -= span * (pitch * at.pull_inner - arm * at.turning_inner)
         flows[1] += span * (pitch * at.pull_outer + arm * at.turning_outer)
         flows[2] -= span * pitch * at.tangential
-        flows[4] += span * at.push * (cage[4] * at.cosine + cage[5] * at.sine)
-        flows[5] -= span * shaft_speed * (position.inner_radius * at.turning_inner + pitch * lag_in)
+        flows[4] += span * at.push * off_axis
+        flows[5] -= span * shaft_speed * shaft_torque
         flows[6] -= span * at.tangential * orbital
-        loss = at.turning_inner * own[0] - lag_in * (shaft_speed * pitch - orbital)
+        passing = shaft_speed * pitch - orbital
+        loss = at.turning_inner * own[0] - lag_in * passing
         loss += at.turning_outer * own[1] - lag_out * orbital
         flows[8] += span * loss
         flows[9] += span * at.friction * at.sliding
@@ -101,11 +104,12 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
         turning = cage[0] + 0.5 * shaft_speed * bearing.inner_radius
         drag = bearing.guide_friction * math.tanh(turning / GUIDE_SPEED)
         ring = bearing.land_turns * shaft_speed * pitch
-        sheared = bearing.land_drag * (turning - ring)
+        past = turning - ring
+        sheared = bearing.land_drag * past
         flows[3] -= span * pitch * (drag + sheared)
         flows[5] -= span * sheared * ring
         flows[7] -= span * bearing.cage_weight * cage[3]
-        flows[10] += span * (drag * turning + sheared * (turning - ring))
+        flows[10] += span * (drag * turning + sheared * past)
         if bearing.translates:
             push, n_x, n_y, _, _ = guide_force(
                 bearing.radial_play, cage[4], cage[5], cage[2], cage[3]
@@ -144,7 +148,9 @@ class Books:
         if not part.bearing.size:
             return
         flows = part.bearing["flows"]
-        lost = flows[:, FLOWS.index("raceway_loss")] + flows[:, FLOWS.index("friction_loss")]
+        raceway_loss = flows[:, FLOWS.index("raceway_loss")]
+        friction_loss = flows[:, FLOWS.index("friction_loss")]
+        lost = raceway_loss + friction_loss
         self.driven -= float(np.minimum(lost, 0.0).sum())
         sums = self._sum + np.cumsum(flows, axis=0)
         self._sum = sums[-1]
@@ -155,9 +161,8 @@ class Books:
     def momentum_residual(self) -> np.ndarray:
         """Change of angular momentum since the first time less all impulses [N m s], shape (m,)."""
         held = self.stocks[:, STOCKS.index("momentum")]
-        impulse = self.flows[
-            :, [k for k, name in enumerate(FLOWS) if name.endswith("_impulse")]
-        ].sum(axis=1)
+        impulses = [k for k, name in enumerate(FLOWS) if name.endswith("_impulse")]
+        impulse = self.flows[:, impulses].sum(axis=1)
         return (held - held[0]) - (impulse - impulse[0])
 
     def energy_residual(self) -> np.ndarray:
@@ -166,17 +171,17 @@ class Books:
         Work into pockets and supports holds what they store and what they dissipate.
         """
         kinetic = self.stocks[:, STOCKS.index("kinetic_energy")]
-        flow = self.flows[:, [FLOWS.index(name) for name in _ENERGY_SIGNS]] @ np.array(
-            list(_ENERGY_SIGNS.values())
-        )
+        columns = [FLOWS.index(name) for name in _ENERGY_SIGNS]
+        signs = np.array(list(_ENERGY_SIGNS.values()))
+        flow = self.flows[:, columns] @ signs
         return (kinetic - kinetic[0]) - (flow - flow[0])
 
     def pocket_loss(self) -> np.ndarray:
         """Energy dissipated by impacts, squeeze films and radial stop since the first time [J]."""
         stored = self.stocks[:, STOCKS.index("elastic_energy")]
-        work = (
-            self.flows[:, FLOWS.index("pocket_work")] + self.flows[:, FLOWS.index("support_work")]
-        )
+        pocket_work = self.flows[:, FLOWS.index("pocket_work")]
+        support_work = self.flows[:, FLOWS.index("support_work")]
+        work = pocket_work + support_work
         return (work - work[0]) - (stored - stored[0])
 
 
@@ -196,14 +201,15 @@ def _stocks(bearing: WholeBearing, part: Part, rows: np.ndarray) -> np.ndarray:
     turning = cages[..., 0] + 0.5 * shaft_speed * bearing.inner_radius
     pitch = bearing.pitch_radius
     mass = bearing.roller_mass
-    momentum = mass * pitch * (orbital + 0.5 * bearing.lever * spinning).sum(axis=1)
-    kinetic = 0.5 * mass * (orbital**2 + 0.5 * spinning**2).sum(axis=1)
-    kinetic += (
-        0.5 * bearing.cage_mass * (turning**2 + cages[..., 2] ** 2 + cages[..., 3] ** 2).sum(axis=1)
-    )
+    of_rollers = orbital + 0.5 * bearing.lever * spinning
+    momentum = mass * pitch * of_rollers.sum(axis=1)
+    momentum = momentum + bearing.cage_mass * pitch * turning.sum(axis=1)
+    roller_squares = orbital**2 + 0.5 * spinning**2
+    cage_squares = turning**2 + cages[..., 2] ** 2 + cages[..., 3] ** 2
+    kinetic = 0.5 * mass * roller_squares.sum(axis=1)
+    kinetic += 0.5 * bearing.cage_mass * cage_squares.sum(axis=1)
     elastic = elastic_energy(bearing.pocket, part.offset[rows]).sum(axis=1)
     if bearing.translates:
-        elastic += guide_energy(bearing.radial_play, cages[..., 4], cages[..., 5]).sum(axis=1)
-    return np.stack(
-        [momentum + bearing.cage_mass * pitch * turning.sum(axis=1), kinetic, elastic], axis=-1
-    )
+        of_stop = guide_energy(bearing.radial_play, cages[..., 4], cages[..., 5])
+        elastic += of_stop.sum(axis=1)
+    return np.stack([momentum, kinetic, elastic], axis=-1)

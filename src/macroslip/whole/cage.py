@@ -223,7 +223,8 @@ class Cage:
         InputError
             If rollers, play and spars need more than the circumference.
         """
-        spacing = 2.0 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
+        half_pitch = math.pi / bearing.rollers_per_row
+        spacing = 2.0 * bearing.pitch_radius * math.sin(half_pitch)
         if self.gap >= spacing - bearing.roller_diameter:
             raise InputError(
                 f"the gap is {self.gap * 1e3:.4g} mm, and {bearing.rollers_per_row} rollers a row leave "

@@ -140,7 +140,8 @@ def whole_bearing(
     positions["row"] = np.repeat(np.arange(len(names)), count)
     positions["cage"] = positions["row"] if cages > 1 else 0
     positions["angle"] = np.concatenate([initial_angles(row, count) for row in names])
-    positions["cosine"], positions["sine"] = np.cos(positions["angle"]), np.sin(positions["angle"])
+    positions["cosine"] = np.cos(positions["angle"])
+    positions["sine"] = np.sin(positions["angle"])
     positions["inner_radius"] = inner_radii(
         bearing, cage.diameter_deviations(len(names), count).ravel()
     )
@@ -176,7 +177,8 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
     # Rollers run through their play beside the motion of the rings: ahead as fast as they fall
     # through it, and behind up to twice as fast, where oil brakes them too.
     fall = math.sqrt(2.0 * GRAVITY * bearing.radial_play)
-    box = box._replace(slowest=max(box.slowest - 2.0 * fall, 0.0), fastest=box.fastest + fall)
+    slowest = max(box.slowest - 2.0 * fall, 0.0)
+    box = box._replace(slowest=slowest, fastest=box.fastest + fall)
     rollers, report = rollers_with_tables(
         bearing.models, box, max(pocket.half_gap, pocket.least_film)
     )

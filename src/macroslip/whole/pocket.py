@@ -148,8 +148,10 @@ def squeeze_resistance(pocket, film):
     if pocket.oil_gap < FLOODED_GAP:
         over = pocket.oil_gap / film
         way = math.sqrt(over - 1.0)
-        filled = 2.0 / math.pi * (math.atan(way) + way / over - 2.0 * way / (over * over))
-        by_film = by_film * filled - 8.0 / math.pi * resistance * way / (over * over * film)
+        square = over * over
+        filled = 2.0 / math.pi * (math.atan(way) + way / over - 2.0 * way / square)
+        by_filling = 8.0 / math.pi * resistance * way / (square * film)
+        by_film = by_film * filled - by_filling
         resistance *= filled
     return resistance, by_film
 
@@ -231,7 +233,8 @@ def pocket_force(pocket, offset, speed):
 
 def elastic_energy(pocket: Pocket, offset: np.ndarray) -> np.ndarray:
     """Energy stored in the spars ⅖ K δ^2.5 [J], of offsets [m] of any shape."""
-    return 0.4 * pocket.stiffness * np.maximum(np.abs(offset) - pocket.half_gap, 0.0) ** 2.5
+    depth = np.maximum(np.abs(offset) - pocket.half_gap, 0.0)
+    return 0.4 * pocket.stiffness * depth**2.5
 
 
 @jit_inline
@@ -266,7 +269,8 @@ def guide_force(play, a, b, p, q):
     depth = distance - play
     if depth <= 0.0 or distance == 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
-    n_x, n_y = a / distance, b / distance
+    n_x = a / distance
+    n_y = b / distance
     push = STIFFNESS * depth + DAMPING * (p * n_x + q * n_y)
     if push <= 0.0:
         return 0.0, n_x, n_y, 0.0, 0.0
@@ -275,4 +279,5 @@ def guide_force(play, a, b, p, q):
 
 def guide_energy(play: float, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Elastic energy of the stop [J] of cages that have left the axis by (a, b) [m]."""
-    return 0.5 * STIFFNESS * np.maximum(np.hypot(a, b) - play, 0.0) ** 2
+    depth = np.maximum(np.hypot(a, b) - play, 0.0)
+    return 0.5 * STIFFNESS * depth**2

@@ -247,28 +247,27 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     bearing = assembly.bearing[0]
     body = assembly.bodies[0]
     fastest = np.abs(motion.shaft_speed).max()
-    scale = max(
-        float(fastest * bearing["orbit_ratio"] * bearing["outer_radius"]), tuning.LEAST_SPEED
-    )
+    pure_speed = float(fastest * bearing["orbit_ratio"] * bearing["outer_radius"])
+    scale = max(pure_speed, tuning.LEAST_SPEED)
     dry = bearing["pocket"]["film"] == 0.0
     if not body["microslip"]:
         tolerance *= tuning.GRIPPED_DRY if dry else tuning.GRIPPED
     limits = np.zeros(1, LIMITS)
-    limits["allowed_speed"] = (
-        tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
-    )
+    ringing = tuning.RINGING if dry else 1.0
+    limits["allowed_speed"] = tuning.SPEED_SHARE * ringing * tolerance * scale
     limits["power"] = tuning.POWER_SHARE * tolerance
     limits["force"] = tuning.FORCE_SHARE * tolerance
     limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
-    limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
+    duration = end - float(motion.time[0])
+    limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * duration)
     limits["longest_interval"] = tuning.LONGEST_INTERVAL
     # What slopes leave out goes with the square of their reach.
     finer = min(1.0, math.sqrt(tolerance / 2e-4))
     limits["cage_reach"] = tuning.CAGE_REACH * finer
     limits["slip_reach"] = tuning.SLIP_REACH * finer
-    limits["slowest"] = (
-        max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 4
-    )
+    # Axes of tables are of w^(1/4).
+    first_nodes = [float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")]
+    limits["slowest"] = max(first_nodes) ** 4
     return limits
 
 
@@ -290,11 +289,13 @@ def _guess(y, k, step, span, lost):
     loses `lost` [m/s] with the shaft's.
     """
     rate = SLOPE if k == 0 else FIRST_RATE
+    star = y[STAR]
+    guess = y[FIRST + k]
     for i in range(y.shape[1]):
-        y[STAR, i] = y[STATE, i] + span * y[FIRST_RATE, i]
-    y[STAR, 0] -= lost
+        star[i] = y[STATE, i] + span * y[FIRST_RATE, i]
+    star[0] -= lost
     for i in range(y.shape[1]):
-        y[FIRST + k, i] = y[STAR, i] + step * y[rate, i]
+        guess[i] = star[i] + step * y[rate, i]
 
 
 @jit_inline
@@ -346,9 +347,9 @@ def _write_stage(assembly, k, time, weight, space, row):
         rolling[2] = shear_cage * at.sliding
         rough[0] = rough_in
         rough[1] = rough_out
-        rough[2] = (
-            linear.cage.rough * abs(at.push) / linear.cage.load if linear.cage.load > 0.0 else 0.0
-        )
+        rough[2] = 0.0
+        if linear.cage.load > 0.0:
+            rough[2] = linear.cage.rough * abs(at.push) / linear.cage.load
         step.lag_power[k, 0] = inner.curvature
         step.lag_power[k, 1] = outer.curvature
         step.skew_power[k, 0] = inner.contact_spin
@@ -363,13 +364,19 @@ def _keep_rate(step, k, space):
     conditions = space.conditions[k]
     for j in range(rollers.size):
         y = rollers[j].y
+        own = y[FIRST + k]
+        star = y[STAR]
+        rate = y[FIRST_RATE + k]
         for i in range(2):
-            y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
-        y[FIRST_RATE + k, 2] = conditions[j].pocket_speed
+            rate[i] = (own[i] - star[i]) / step
+        rate[2] = conditions[j].pocket_speed
     for c in range(cages.size):
         y = cages[c].y
+        own = y[FIRST + k]
+        star = y[STAR]
+        rate = y[FIRST_RATE + k]
         for i in range(6):
-            y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
+            rate[i] = (own[i] - star[i]) / step
 
 
 @jit_inline
@@ -392,8 +399,9 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
     for j in range(space.rollers.size):
         copy_linearisation(space.numbers, j, 1, 0)
     schedules = space.schedules
+    evaluates_all = limits.extrapolates == 0 or h == 0.0
     for j in range(schedules.size):
-        schedules[j].fresh = limits.extrapolates == 0 or schedules[j].interval < h or h == 0.0
+        schedules[j].fresh = evaluates_all or schedules[j].interval < h
     worst = 0.0
     solved = True
     for k in range(stages):
@@ -404,13 +412,11 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
             span = k * (1.0 - GAMMA) * h
             change = now.shaft_speed - start.shaft_speed
             for j in range(schedules.size):
-                _guess(
-                    space.rollers[j].y, k, step, span, assembly.positions[j].inner_radius * change
-                )
+                lost = assembly.positions[j].inner_radius * change
+                _guess(space.rollers[j].y, k, step, span, lost)
             for c in range(space.cages.size):
-                _guess(
-                    space.cages[c].y, k, step, span, 0.5 * assembly.bearing[0].inner_radius * change
-                )
+                lost = 0.5 * assembly.bearing[0].inner_radius * change
+                _guess(space.cages[c].y, k, step, span, lost)
             locate(
                 assembly,
                 now,
@@ -420,25 +426,27 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
                 space.conditions[k],
                 whole.turn[k],
             )
-            residual = solve_stage(
-                assembly,
-                Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach, limits.slip_reach),
-                k,
-                space,
+            stage = Stage(
+                step, time, now.shaft_speed, tolerance, limits.cage_reach, limits.slip_reach
             )
+            residual = solve_stage(assembly, stage, k, space)
             solved = residual <= tolerance
             worst = max(worst, residual) if solved else residual
             if solved:
                 _keep_rate(step, k, space)
                 whole.shaft_speed[k] = now.shaft_speed
-                _write_stage(assembly, k, time, h * (1.0 - GAMMA if k == 0 else GAMMA), space, row)
+                part = 1.0 - GAMMA if k == 0 else GAMMA
+                _write_stage(assembly, k, time, h * part, space, row)
     return worst, solved
 
 
 @jit_inline
 def _off(y, i):
     """Error of the rate of an unknown."""
-    return _ERROR[0] * y[SLOPE, i] + _ERROR[1] * y[FIRST_RATE, i] + _ERROR[2] * y[LAST_RATE, i]
+    start = _ERROR[0] * y[SLOPE, i]
+    first = _ERROR[1] * y[FIRST_RATE, i]
+    last = _ERROR[2] * y[LAST_RATE, i]
+    return start + first + last
 
 
 @jit_inline
@@ -456,12 +464,14 @@ def _step_error(assembly, limits, h, space):
         residual = blocks[j].residual
         for i in range(2):
             residual[i] = bearing.roller_mass / GAMMA * _off(y, i)
-        worst = max(worst, abs(h * _off(y, 2)) / (allowed * tuning.PLACE_TIME))
+        offset_error = abs(h * _off(y, 2))
+        worst = max(worst, offset_error / (allowed * tuning.PLACE_TIME))
     for c in range(cages.size):
         y = cages[c].y
         residual = borders[c].residual
         for i in range(3):
-            residual[i] = bearing.cage_mass / GAMMA * _off(y, 0 if i == 0 else i + 1)
+            speed = 0 if i == 0 else i + 1
+            residual[i] = bearing.cage_mass / GAMMA * _off(y, speed)
     size = 3 if bearing.translates else 1
     solve(assembly.positions, size, blocks, borders)
     for j in range(rollers.size):
@@ -485,7 +495,9 @@ def _contact_off(known, linear, law, mass, limits, span, power_scale):
     slip = linear.slip
     turning, pull = raceway_from(known, load, speed, slip)
     off = max(abs(turning - linear.turning), abs(pull - linear.pull))
-    drift = off / (mass / max(span, 1e-9) + max(linear.turning_by_slip, linear.pull_by_slip, 0.0))
+    inertia = mass / max(span, 1e-9)
+    stiffest = max(linear.turning_by_slip, linear.pull_by_slip, 0.0)
+    drift = off / (inertia + stiffest)
     shear = shear_from(known, load, speed, slip)
     guess, rolling_guess, _ = extrapolated_power(
         known, law, turning, pull, shear, load, speed, slip
@@ -498,10 +510,10 @@ def _contact_off(known, linear, law, mass, limits, span, power_scale):
     for k in range(3):
         wrong += guess[k] - friction[k]
         power += abs(friction[k])
-    change = abs(load - known.load) / (tuning.LOAD_CHANGE * max(load, known.load) + 1e-9)
-    worst = max(
-        drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12)
-    )
+    allowed_change = tuning.LOAD_CHANGE * max(load, known.load) + 1e-9
+    change = abs(load - known.load) / allowed_change
+    allowed_power = limits.power * (power + power_scale) + 1e-12
+    worst = max(drift / limits.allowed_speed, abs(wrong) / allowed_power)
     return max(worst, change * change)
 
 
@@ -518,8 +530,10 @@ def _refresh(assembly, limits, time, space, power_scale):
     known = space.linearisations[1]
     for j in range(schedules.size):
         schedule = schedules[j]
-        schedule.due = schedule.fresh or time - known[j].when >= schedule.interval
-        schedule.marked = schedule.due and (not schedule.fresh or linearisations[j].when != time)
+        is_old = time - known[j].when >= schedule.interval
+        is_of_now = schedule.fresh and linearisations[j].when == time
+        schedule.due = schedule.fresh or is_old
+        schedule.marked = schedule.due and not is_of_now
     # The last stage as a sum, as stages are numbered elsewhere: for a constant all of it would be
     # compiled once more.
     space.memory[0].evaluations += evaluate_marked(
@@ -545,13 +559,12 @@ def _refresh(assembly, limits, time, space, power_scale):
     for j in range(schedules.size):
         schedule = schedules[j]
         if good and schedule.due:
-            factor = tuning.INTERVAL_SAFETY / math.sqrt(max(schedule.ratio, 1e-4))
-            factor = (
-                max(tuning.INTERVAL_PART, min(factor, tuning.INTERVAL_GROWTH))
-                if schedule.ratio <= tuning.FAR_OFF
-                else 0.0
-            )
-            schedule.interval = min(limits.longest_interval, (time - known[j].when) * factor)
+            factor = 0.0
+            if schedule.ratio <= tuning.FAR_OFF:
+                factor = tuning.INTERVAL_SAFETY / math.sqrt(max(schedule.ratio, 1e-4))
+                factor = max(tuning.INTERVAL_PART, min(factor, tuning.INTERVAL_GROWTH))
+            interval = (time - known[j].when) * factor
+            schedule.interval = min(limits.longest_interval, interval)
     return good
 
 
@@ -584,7 +597,8 @@ def _impact_step(bearing, rollers):
         speed = y[SLOPE, 2]
         depth = abs(offset) - pocket.half_gap
         if depth > 0.0 and offset * speed > 0.0:
-            deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
+            energy = 1.25 * bearing.roller_mass * speed * speed
+            deepest = (energy / pocket.stiffness) ** 0.4
             if depth < tuning.BEGUN * deepest:
                 shortest = min(shortest, tuning.IMPACT_PART * deepest / abs(speed))
     return shortest
@@ -600,7 +614,11 @@ def _cut(bearing, rollers, step, left):
     dry = bearing.pocket.film == 0.0
     if dry:
         step = min(step, _impact_step(bearing, rollers))
-    h = left if step >= 0.95 * left else (0.5 * left if step > 0.6 * left else step)
+    h = step
+    if step >= 0.95 * left:
+        h = left
+    elif step > 0.6 * left:
+        h = 0.5 * left
     if dry:
         part = _touch_ahead(bearing.pocket, rollers, h)
         if part * h > 2e-5 and part < 0.98:
@@ -609,22 +627,26 @@ def _cut(bearing, rollers, step, left):
 
 
 @jit_inline
+def _contact_speed(ring_speed, slip):
+    """Speed w of a contact, as the tables have it [m/s]."""
+    return math.sqrt(ring_speed * ring_speed + 0.25 * slip * slip)
+
+
+@jit_inline
 def _leaves_tables(assembly, limits, space):
     """True if a roller ends the step in a state outside its tables."""
     body = assembly.bodies[0]
     conditions = space.conditions[1]
     rollers = space.rollers
+    highest = body.highest_speed + 2.0 * REST_SPEED
     for j in range(conditions.size):
         at = conditions[j]
         own = rollers[j].y[LAST]
         if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
             return True
-        inner = math.sqrt(at.inner_speed * at.inner_speed + 0.25 * own[0] * own[0])
-        outer = math.sqrt(at.outer_speed * at.outer_speed + 0.25 * own[1] * own[1])
-        if (
-            max(inner, outer) > body.highest_speed + 2.0 * REST_SPEED
-            or min(inner, outer) < limits.slowest
-        ):
+        inner = _contact_speed(at.inner_speed, own[0])
+        outer = _contact_speed(at.outer_speed, own[1])
+        if max(inner, outer) > highest or min(inner, outer) < limits.slowest:
             return True
     return False
 
@@ -646,11 +668,13 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     for i in range(whole.flows.size):
         whole.flows[i] = 0.0
     for k in range(last + 1):
-        add_flows(assembly, whole.shaft_speed[k], k, row[0].weight[k], space, whole.flows)
+        span = row[0].weight[k]
+        add_flows(assembly, whole.shaft_speed[k], k, span, space, whole.flows)
     for c in range(bearing.cages):
         whole.torque[c] = 0.0
+        cage = cages[c].y[FIRST + last]
         for i in range(6):
-            whole.cages[c, i] = cages[c].y[FIRST + last, i]
+            whole.cages[c, i] = cage[i]
     for j in range(row.size):
         step = row[j]
         at = conditions[j]
@@ -667,20 +691,20 @@ def _write_end(assembly, start, end, space, row, whole, offset):
             step.power_before[i] = step.power[0, i] if begins else own.power[i]
             own.power[i] = step.power[last, i]
         offset[j] = own.y[FIRST + last, 2]
-        cage = cages[positions[j].cage].y[FIRST + last]
-        step.ahead = (
-            offset[j] + cage[1] - cage[4] * at.sine + cage[5] * at.cosine
-        ) / bearing.pitch_radius
-        whole.torque[positions[j].cage] -= bearing.pitch_radius * (
-            at.push + bearing.lever * at.friction
-        )
+        c = positions[j].cage
+        cage = cages[c].y[FIRST + last]
+        ahead = offset[j] + cage[1] - cage[4] * at.sine + cage[5] * at.cosine
+        step.ahead = ahead / bearing.pitch_radius
+        force = at.push + bearing.lever * at.friction
+        whole.torque[c] -= bearing.pitch_radius * force
 
 
 @jit_inline
 def _take_over(y):
     """Make the last stage of a roller or cage its state."""
     for i in range(y.shape[1]):
-        y[STATE, i], y[SLOPE, i] = y[LAST, i], y[LAST_RATE, i]
+        y[STATE, i] = y[LAST, i]
+        y[SLOPE, i] = y[LAST_RATE, i]
 
 
 @jit_inline
@@ -693,8 +717,10 @@ def _advance(end, space, row):
     numbers = space.numbers
     memory.steps += 1
     for j in range(row.size):
+        step = row[j]
         for k in range(2):
-            memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
+            power = step.power[k, 0] + step.power[k, 1]
+            memory.spent += step.weight[k] * power
         if schedules[j].due:
             copy_linearisation(numbers, j, 0, 1)
         _take_over(rollers[j].y)
@@ -748,13 +774,15 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         stop = stops[memory.next_stop]
         start = Clock(memory.time, memory.interval, memory.shaft_speed)
         left = stop - memory.time
-        h = _cut(assembly.bearing[0], space.rollers, min(memory.step, limits.longest_step), left)
+        longest = min(memory.step, limits.longest_step)
+        h = _cut(assembly.bearing[0], space.rollers, longest, left)
         if h < left and h <= 4e-16 * abs(start.time) + 1e-300:
             status = STEP_TOO_SMALL
             break
         time = stop if h == left else start.time + h
         interval = _interval_of(motion, time, start.interval)
-        end = Clock(time, interval, instant(motion, interval, time).shaft_speed)
+        now = instant(motion, interval, time)
+        end = Clock(time, interval, now.shaft_speed)
         if memory.begun == 0:
             end = start
         row = steps[rows]
@@ -774,10 +802,12 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         factor = tuning.SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
         if error > 1.0:
             memory.rejections += 1
-            memory.step = h * (max(tuning.LEAST_PART, factor) if solved else tuning.UNSOLVED_PART)
+            part = max(tuning.LEAST_PART, factor) if solved else tuning.UNSOLVED_PART
+            memory.step = h * part
             memory.failed = 1
             continue
-        power_scale = max(memory.spent, 0.0) / (end.time - motion.time[0]) / (2 * row.size)
+        mean_power = max(memory.spent, 0.0) / (end.time - motion.time[0])
+        power_scale = mean_power / (2 * row.size)
         if not _refresh(assembly, limits, end.time, space, power_scale):
             memory.rejections += 1
             memory.step = h

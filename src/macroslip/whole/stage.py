@@ -174,7 +174,8 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
     shaft_speed = stage.shaft_speed
     v_in = own[0]
     v_out = own[1]
-    cage_turn = (cage[0] + 0.5 * shaft_speed * bearing.inner_radius) / bearing.pitch_radius
+    cage_speed = cage[0] + 0.5 * shaft_speed * bearing.inner_radius
+    cage_turn = cage_speed / bearing.pitch_radius
     off_axis = cage[4] * at.cosine + cage[5] * at.sine
     speed = (
         0.5 * (v_in - v_out)
@@ -187,7 +188,8 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
     own[2] = star[2] + stage.step * speed
     push, by_offset, by_speed = pocket_force(bearing.pocket, own[2], speed)
     # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
-    sliding = 0.5 * (v_in + v_out + at.ring) + bearing.lever * bearing.pitch_radius * cage_turn
+    spinning = 0.5 * (v_in + v_out + at.ring)
+    sliding = spinning + bearing.lever * bearing.pitch_radius * cage_turn
     friction, by_sliding, by_push = cage_from(contact, linear.cage, push, sliding, stage.cage_reach)
     at.friction = friction
     at.push = push
@@ -499,8 +501,7 @@ def _assemble(assembly, stage, k, size, space):
     present = FIRST + k
     _place_cages(stage, k, cages)
     for c in range(cages.size):
-        y = cages[c].y
-        _begin_cage(bearing, stage, y[present], y[STAR], borders[c])
+        _begin_cage(bearing, stage, cages[c].y[present], cages[c].y[STAR], borders[c])
     memory = space.memory[0]
     memory.evaluations += _raceway_forces(
         assembly, stage, k, conditions, rollers, space.schedules, linearisations
@@ -524,11 +525,9 @@ def _assemble(assembly, stage, k, size, space):
         residual_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
         block.residual[0] = residual_in
         block.residual[1] = residual_out
-        size_in = abs(residual_in)
-        size_out = abs(residual_out)
-        worst = max(worst, size_in, size_out)
+        worst = max(worst, abs(residual_in), abs(residual_out))
         # `max` may ignore a NaN.
-        finite = finite and size_in + size_out < math.inf
+        finite = finite and abs(residual_in) + abs(residual_out) < math.inf
         _write_block(inertia, at, linear, met, block)
         _add_to_border(bearing, stage, at, met, block, borders[c])
     for c in range(cages.size):

@@ -174,7 +174,8 @@ def locate(assembly, now, which, rollers, cages, conditions, turn):
     for c in range(bearing.cages):
         cage = cages[c].y[which]
         turn[c] = bearing.orbit_ratio * now.shaft_angle + cage[1] / pitch
-        turn_cosine, turn_sine = math.cos(turn[c]), math.sin(turn[c])
+        turn_cosine = math.cos(turn[c])
+        turn_sine = math.sin(turn[c])
         a = cage[4]
         b = cage[5]
         for j in range(conditions.size):
@@ -186,10 +187,12 @@ def locate(assembly, now, which, rollers, cages, conditions, turn):
             own = rollers[j].y[which]
             cosine = position.cosine * turn_cosine - position.sine * turn_sine
             sine = position.sine * turn_cosine + position.cosine * turn_sine
-            at.cosine, at.sine = cosine, sine
+            at.cosine = cosine
+            at.sine = sine
             ahead = (own[2] - a * sine + b * cosine) / pitch
             half = 1.0 - 0.5 * ahead * ahead
-            x, y = cosine * half - sine * ahead, sine * half + cosine * ahead
+            x = cosine * half - sine * ahead
+            y = sine * half + cosine * ahead
             ring = now.shaft_speed * position.inner_radius
             orbit = 0.5 * (own[0] - own[1] + ring) / pitch
             loads = roller_loads(body, tables, x, y, now, orbit, at.log_film_balance)

@@ -243,7 +243,8 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     slenderness = SLENDERNESS.drawn(rng)
     diameter = 0.1 * pitch
     for _ in range(30):
-        count = np.pi / np.arcsin(np.minimum(spacing * diameter / pitch, 1.0))
+        sine = np.minimum(spacing * diameter / pitch, 1.0)
+        count = np.pi / np.arcsin(sine)
         projected = 44e6 * page.rows * count * np.cos(alpha)
         room = 1.0 - diameter * np.cos(alpha) / pitch
         diameter = np.sqrt(rating / (projected * slenderness * room))
@@ -284,7 +285,8 @@ def _load_centre(drawn: Mapping[str, NDArray]) -> FloatArray:
     )
     alpha = drawn["outer_angle"] - beta
     apex = drawn["pitch_radius"] / np.sin(alpha)
-    return apex / (np.cos(beta) * np.cos(drawn["outer_angle"])) - apex * np.cos(alpha)
+    cosines = np.cos(beta) * np.cos(drawn["outer_angle"])
+    return apex / cosines - apex * np.cos(alpha)
 
 
 def _row_offset(
@@ -310,7 +312,8 @@ def _fitting(page: TaperedPage, drawn: dict[str, FloatArray]) -> dict[str, Float
     radius = drawn["pitch_radius"]
     cosine = np.cos(drawn["outer_angle"])
     reach = 0.5 * length * cosine
-    spacing = 2.0 * radius * np.sin(np.pi / drawn["rollers_per_row"]) / diameter
+    half_pitch = np.pi / drawn["rollers_per_row"]
+    spacing = 2.0 * radius * np.sin(half_pitch) / diameter
     passed = {
         "roller length over diameter": within(length / diameter, SLENDERNESS),
         # Rounding the number of rollers shifts their spacing by up to half a roller.

@@ -67,7 +67,8 @@ class TaperedGeometry:
         the side away from the apex.
         """
         slant = self.apex_distance / math.cos(self.half_cone_angle)
-        return slant / math.cos(self.outer_angle) - self.apex_distance * math.cos(self.axis_angle)
+        along_axis = self.apex_distance * math.cos(self.axis_angle)
+        return slant / math.cos(self.outer_angle) - along_axis
 
     @property
     def rib_share(self) -> float:
@@ -247,10 +248,12 @@ def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
     end = apex + bearing.roller_length / 2.0
     sphere = bearing.rib_sphere_ratio * end
     centre = end - sphere
-    lift = math.asin((centre * math.sin(beta) - bearing.rib_contact_height) / sphere)
+    lift_height = centre * math.sin(beta) - bearing.rib_contact_height
+    lift = math.asin(lift_height / sphere)
     epsilon = beta + lift
     on_roller = sphere * math.sin(epsilon)
     station = centre + sphere * math.cos(epsilon) - apex
+    rib_radius = bearing.pitch_radius + station * math.sin(alpha) - on_roller * math.cos(alpha)
     return TaperedGeometry(
         outer_angle=bearing.outer_angle,
         axis_angle=alpha,
@@ -268,5 +271,5 @@ def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
         rib_contact_height=bearing.rib_contact_height,
         rib_radius_on_roller=on_roller,
         rib_station=station,
-        rib_radius=bearing.pitch_radius + station * math.sin(alpha) - on_roller * math.cos(alpha),
+        rib_radius=rib_radius,
     )

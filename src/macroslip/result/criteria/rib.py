@@ -48,7 +48,8 @@ def _years(variables: Mapping[str, np.ndarray]) -> float:
     if "rib_wear_time" not in variables:
         return math.nan
     times = variables["rib_wear_time"]
-    return float(times[:, times.shape[1] // 2].min()) / YEAR
+    middle = times.shape[1] // 2
+    return float(times[:, middle].min()) / YEAR
 
 
 def _wear_rate(_: xr.Dataset, result: xr.Dataset) -> xr.DataArray | None:

@@ -73,9 +73,11 @@ def _variables(evaluation: Evaluation) -> Variables:
             depths[r] = math.nan
             continue
         worn = _grown(evaluation, row, work[r], on_roller[r])
-        times[r] = np.stack([worn.work_at(depth) for depth in wear.DEPTHS], axis=-1)
+        works = [worn.work_at(depth) for depth in wear.DEPTHS]
+        times[r] = np.stack(works, axis=-1)
         for a, age in enumerate(AGES):
-            slices = worn.depth_at(middle * age * YEAR).reshape(len(SURFACES), STATIONS, _SLICES)
+            depth = worn.depth_at(middle * age * YEAR)
+            slices = depth.reshape(len(SURFACES), STATIONS, _SLICES)
             depths[r, :, a] = slices.mean(axis=-1)
     return {
         "asperity_work_rate": rate,
@@ -101,7 +103,8 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
     """
     bearing = evaluation.bearing
     width = bearing.roller_length / (_SLICES * STATIONS)
-    along = (np.arange(_SLICES * STATIONS) + 0.5) * width - 0.5 * bearing.roller_length
+    from_end = (np.arange(_SLICES * STATIONS) + 0.5) * width
+    along = from_end - 0.5 * bearing.roller_length
     curvatures = (geometry.inner_curvatures(bearing), geometry.outer_curvatures(bearing))
     result = evaluation.result.sel(row=row)
     laws = evaluation.run_input.models[row].laws
@@ -212,7 +215,8 @@ def _years(variables: Mapping[str, np.ndarray]) -> float:
     if "wear_time" not in variables:
         return math.nan
     times = variables["wear_time"][:, :, _COMPARED]
-    return float(np.nanmin(times[..., times.shape[-1] // 2], initial=math.inf)) / YEAR
+    middle = times.shape[-1] // 2
+    return float(np.nanmin(times[..., middle], initial=math.inf)) / YEAR
 
 
 def _missing(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
