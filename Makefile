@@ -11,7 +11,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Kernels are compiled once, before workers and the processes that tests start would each compile them.
 WARM := $(BIN)/macroslip doctor --warm
 
-.PHONY: reproduce reproduce-all validate test check test-fast test-lowest test-deep release lint docs bench clean
+.PHONY: reproduce reproduce-all validate test check test-fast test-lowest test-deep release lint types docs bench clean
 
 reproduce: $(VENV)/.figures  ## the paper's study: report.html, figures and summary.json in results/
 	$(BIN)/python -m paper -o results
@@ -29,15 +29,16 @@ test: $(VENV)/.ready  ## what a contributor runs: the package's own tests, and o
 	$(PYTEST) -m "not deep and not check" $(ARGS)
 
 check: $(VENV)/.ready  ## all else that has to hold: documentation, paper, validation, benchmarks, golden numbers, lowest versions, release
-	@echo "stage 1 of 4: tests of documentation, paper, validation, benchmarks and golden numbers"
-	@$(WARM) >/dev/null
+	@echo "stage 1 of 5: types on the other systems, while kernels are compiled"
+	@$(WARM) >/dev/null & warming=$$!; $(MAKE) --no-print-directory types && wait $$warming
+	@echo "stage 2 of 5: tests of documentation, paper, validation, benchmarks and golden numbers, and second examples"
 	$(PYTEST) -m "check and not deep" $(ARGS)
-	@echo "stage 2 of 4: speed beside the last state"
+	@echo "stage 3 of 5: speed beside the last state"
 	$(BIN)/python -m benchmarks.pair
-	@echo "stage 3 of 4: the lowest versions"
+	@echo "stage 4 of 5: the lowest versions"
 	$(BIN)/python .ci/lowest >.lowest.txt
 	$(MAKE) test-lowest
-	@echo "stage 4 of 4: the release"
+	@echo "stage 5 of 5: the release"
 	$(MAKE) release
 
 release:  ## what a user installs: wheel and sdist, in fresh environments
@@ -53,14 +54,17 @@ test-lowest:  ## input, a computed case and results with the lowest versions tha
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
 	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing src/macroslip/result/simulate.py
 
-lint: $(VENV)/.lint  ## format, lint, types on all three systems, workflows and Dockerfile
+lint: $(VENV)/.lint  ## format, lint, types on this system, workflows and Dockerfile
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
-	printf '%s\n' Linux Windows Darwin | xargs -P 3 -I@ $(BIN)/pyright --pythonplatform @
+	$(BIN)/pyright
 	$(BIN)/zizmor --offline --quiet .github
 	$(BIN)/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
 	$(BIN)/check-jsonschema --builtin-schema vendor.github-issue-forms .github/ISSUE_TEMPLATE/[!c]*.yml
 	@if [ -x $(BIN)/hadolint ]; then $(BIN)/hadolint Dockerfile; else echo "hadolint has no wheel for this system: the Dockerfile is not checked"; fi
+
+types: $(VENV)/.lint  ## types on the other two of three systems
+	printf '%s\n' Linux Windows Darwin | grep -vx "$$(uname -s)" | xargs -P 2 -I@ $(BIN)/pyright --pythonplatform @
 
 docs: $(VENV)/.ready  ## the documentation site in build/docs; warnings are errors
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs

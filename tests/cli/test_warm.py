@@ -2,10 +2,14 @@
 
 import pytest
 
+from macroslip.bearing.kinds import read_bearing
+from macroslip.case.case import Case
 from macroslip.case.case_file import read_case
 from macroslip.case.parts import BackwardEuler, ExplicitEuler
 from macroslip.contact import table
 from macroslip.contact.mechanisms import Laws
+from macroslip.loads import BearingLoads, Drivetrain
+from macroslip.result.rating import with_rating
 from macroslip.result.simulate import simulate
 from macroslip.roller import skew_table
 from macroslip.storage import tables
@@ -24,7 +28,8 @@ def warmed(tmp_path_factory):
 
     path = tmp_path_factory.mktemp("warm") / "case.yaml"
     path.write_text(
-        "loads: {bundled: 14B, start: 60 s, end: 62 s}\nrollers: [0]\n"
+        "loads: {main_bearing: {force: [0 N, -60 kN, 40 kN], shaft_speed: 20 rpm, duration: 2 s}}\n"
+        "rollers: [0]\n"
         "temperature: 37 degC\nlaws: {model: physical, skew: quasi-static}\n"
         f"integrator: {{tolerance: {COARSE.tolerance}}}\n"
     )
@@ -66,6 +71,21 @@ def test_nor_by_other_integrators(warmed, integrator):
     case = replace(read_case(warmed), laws=Laws.paper(), integrator=integrator, temperature=None)
     with heard_by(lambda *told: heard.append(told)):
         simulate(case)
+    assert [told for told in heard if told[0] == COMPILING] == []
+
+
+def test_nor_for_a_tapered_bearing(warmed):
+    heard = []
+    case = Case(
+        loads=BearingLoads.constant([0.0, -60e3, 30e3], 1.2, 10.0),
+        bearing=read_bearing("tdo-main-bearing"),
+        drivetrain=Drivetrain(mount="alone"),
+        oil_supply="flooded",
+        rollers=[3],
+        integrator=COARSE,
+    )
+    with heard_by(lambda *told: heard.append(told)):
+        with_rating(simulate(case), case)
     assert [told for told in heard if told[0] == COMPILING] == []
 
 
