@@ -22,8 +22,9 @@ def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]
 
     Examples
     --------
-    >>> from macroslip import BearingLoads, Case, progress_bar, simulate
-    >>> case = Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 0.0, 1.0), rollers=[0])
+    >>> from macroslip import BearingLoads, Case, Laws, progress_bar, simulate
+    >>> loads = BearingLoads.constant([0.0, -300e3, 0.0], 0.0, 1.0)
+    >>> case = Case(loads=loads, laws=Laws.paper(), rollers=[0])
     >>> with progress_bar() as progress:
     ...     result = simulate(case, progress=progress)
     >>> result.status.values.tolist()

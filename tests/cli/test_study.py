@@ -156,7 +156,7 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
     """Ctrl-C in a terminal goes to all processes of the command, its workers included."""
     (folder / "study.yaml").write_text(
         "loads: {bundled: [14B]}\ncase: {rollers: [0, 7], oil_supply: flooded, loads: {end: 60 s}}\n"
-        "variations: {sample: {count: 20, seed: 1, ranges: {drivetrain.tilt: {low: 3, high: 7, unit: deg}}}}\n"
+        "variations: {sample: {count: 10, seed: 1, ranges: {drivetrain.tilt: {low: 3, high: 7, unit: deg}}}}\n"
     )
     # Where the tests run in the background, interrupts are ignored unless that is undone.
     main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
@@ -181,7 +181,7 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
     computed, unchanged = map(
         int, re.search(r"(\d+) computed, (\d+) unchanged, 0 failed", done.stdout).groups()
     )
-    assert computed + unchanged == 20 and unchanged >= 1
+    assert computed + unchanged == 10 and unchanged >= 1
 
 
 def test_a_study_of_a_folder(study, macroslip):

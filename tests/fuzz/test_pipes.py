@@ -1,10 +1,11 @@
 """A pipe in place of any file that a command is given: refused at once, never waited for."""
 
 import os
-import subprocess
-import sys
 
 import pytest
+from typer.testing import CliRunner
+
+from macroslip.cli.commands import app
 
 COMMANDS = {
     "case": ("run", "pipe", "-o", "out.nc"),
@@ -20,18 +21,16 @@ COMMANDS = {
 
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are a thing of Unix")
+@pytest.mark.timeout(60)
 @pytest.mark.parametrize("name", COMMANDS)
-def test_refused(tmp_path, name):
+def test_refused(tmp_path, monkeypatch, name):
     for pipe in ("pipe", "pipe.csv"):
         os.mkfifo(tmp_path / pipe)
     (tmp_path / "fine.yaml").write_text("loads: {bundled: 14B}\n", encoding="utf-8")
     (tmp_path / "case.yaml").write_text("loads: {file: pipe.csv}\n", encoding="utf-8")
     (tmp_path / "study.yaml").write_text("loads: {table: pipe.csv}\n", encoding="utf-8")
-    command = [sys.executable, "-c", "from macroslip.cli import main; main()", *COMMANDS[name]]
-    done = subprocess.run(
-        command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
-    )
-    assert done.returncode == 2 and "it is a pipe, a socket or a device, not a file" in " ".join(
-        done.stderr.split()
-    )
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, COMMANDS[name])
+    assert done.exit_code == 2
+    assert "it is a pipe, a socket or a device, not a file" in " ".join(done.stderr.split())
     assert len(list(tmp_path.iterdir())) == 5

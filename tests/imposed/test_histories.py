@@ -106,7 +106,7 @@ def test_threads_change_no_bit(turbulent, laws):
 
 @both
 def test_results_do_not_depend_on_the_size_of_buffers(laws):
-    roller = rollers(models(laws))["downwind"]
+    roller = rollers(models(laws), tolerance=COARSE.tolerance)["downwind"]
     motion = motion_of(
         np.linspace(0.0, 6.0, 121),
         RATED * (1.0 + 0.01 * np.sin(np.arange(121.0))),
@@ -137,7 +137,7 @@ def test_too_fast_a_ring_leaves_the_tables():
 
 
 def test_steps_follow_one_another_and_end_at_every_stop():
-    roller = rollers(models(Laws.physical()))["downwind"]
+    roller = rollers(models(Laws.physical()), tolerance=COARSE.tolerance)["downwind"]
     motion, stops = (
         motion_of(np.linspace(0.0, 5.0, 101), RATED, (0.0, -2.2e-4, 0.0)),
         [0.333, 1.0, 2.02, 5.0],
@@ -225,18 +225,21 @@ def test_energy_at_the_default_tolerance_where_the_shaft_stops_or_turns_back(nam
 
 @pytest.mark.parametrize("period", [6.0, 13.0])
 @pytest.mark.parametrize("thrust", [0.0, 100e3])
-def test_shaft_reversal_with_microslip(period, thrust):
+@pytest.mark.parametrize(
+    "tolerances", [(2e-4, 5e-5), (2e-3, 5e-4)], ids=["default", "coarse tables"]
+)
+def test_shaft_reversal_with_microslip(period, thrust, tolerances):
     """A gripped roller's slip passes zero with the shaft's speed; there is no ratio of the two there."""
     loads = history(lambda t: 2.0 * np.sin(2.0 * np.pi * t / period), (0.0, -300e3, thrust))
-    default, tight = (
-        run(loads, tolerance, [7], laws=Laws.physical(), window=START) for tolerance in (2e-4, 5e-5)
+    result, tight = (
+        run(loads, tolerance, [7], laws=Laws.physical(), window=START) for tolerance in tolerances
     )
-    assert (default.status == Status.COMPLETED).all() and (tight.status == Status.COMPLETED).all()
-    energy, exact = default.energy.sum("interface"), tight.energy.sum("interface")
+    assert (result.status == Status.COMPLETED).all() and (tight.status == Status.COMPLETED).all()
+    energy, exact = result.energy.sum("interface"), tight.energy.sum("interface")
     assert float(abs(energy / exact - 1).max()) < 2e-3
-    peak, highest = default.peak_power.max("interface"), tight.peak_power.max("interface")
+    peak, highest = result.peak_power.max("interface"), tight.peak_power.max("interface")
     assert peak.size and float(abs(peak / highest - 1).max()) < 0.02
-    assert default.min_spin_ratio.isnull().all() and tight.min_spin_ratio.isnull().all()
+    assert result.min_spin_ratio.isnull().all() and tight.min_spin_ratio.isnull().all()
 
 
 @both

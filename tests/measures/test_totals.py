@@ -29,6 +29,7 @@ from macroslip.measures.totals import (
 )
 from macroslip.roller.step import STEP
 from tests.one_roller import RATED, limits_of, models, motion_of, rollers, walk
+from tests.quick import COARSE
 
 EDGES = np.array([0.5, 2.0, 7.9, 14.6])
 WIDTH = 2.0 * math.pi / SECTORS
@@ -41,7 +42,7 @@ LATE = float(np.nextafter(4.9, 10.0))
 def walked():
     """A roller with all mechanisms through two and a half orbits with load zones: model, roller, motion and steps."""
     made = models(Laws.physical())
-    roller = rollers(made)["downwind"]
+    roller = rollers(made, tolerance=COARSE.tolerance)["downwind"]
     motion = motion_of(
         np.linspace(0.0, 16.0, 321),
         RATED * (1.0 + 0.01 * np.sin(np.arange(321.0))),

@@ -12,6 +12,7 @@ from macroslip.report.answer import RowSlip, answer, row_sentence
 from macroslip.result.damage import lines
 from macroslip.result.orbit import in_window
 from macroslip.result.rating import with_rating
+from tests.quick import COARSE
 
 
 def traced(spin, load, *, failed=0):
@@ -186,7 +187,12 @@ def check(result):
 
 
 def computed(loads, **options):
-    case = Case(loads=loads, traces=Traces(step=0.05), **{"rollers": [0, 14]} | options)
+    case = Case(
+        loads=loads,
+        traces=Traces(step=0.05),
+        integrator=COARSE,
+        **{"rollers": [0, 14]} | options,
+    )
     return with_rating(simulate(case), case)
 
 

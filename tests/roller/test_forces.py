@@ -55,13 +55,13 @@ def paper():
 
 @pytest.fixture(scope="module")
 def physical():
-    return rollers(models(Laws.physical()))
+    return rollers(models(Laws.physical()), tolerance=COARSE.tolerance)
 
 
 @pytest.fixture(scope="module")
 def dry():
     """All mechanisms but rolling resistance: no oil beside the contacts."""
-    return rollers(models(Laws.physical().but(rolling="none")))
+    return rollers(models(Laws.physical().but(rolling="none")), tolerance=COARSE.tolerance)
 
 
 def now(speed=0.0, displacement=(0.0, 0.0, 0.0), shaft_angle=0.0):

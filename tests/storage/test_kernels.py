@@ -41,9 +41,7 @@ class Copy:
 
     def __init__(self, folder: Path):
         source = Path(macroslip.__file__).parent
-        shutil.copytree(
-            source, folder / "src" / "macroslip", ignore=shutil.ignore_patterns("__pycache__")
-        )
+        shutil.copytree(source, folder / "src" / "macroslip")
         (folder / "src/macroslip/contact/kernels.py").write_text(KERNELS, encoding="utf-8")
         self.caches = folder / "caches" / "macroslip"
         self._environment = os.environ | {

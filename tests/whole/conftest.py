@@ -82,6 +82,7 @@ def run(bearing, lubricant):
         *,
         rollers=28,
         tolerance=2e-4,
+        table_tolerance=None,
         start=None,
         change=None,
         outputs=11,
@@ -110,7 +111,8 @@ def run(bearing, lubricant):
         begin = pure_rolling(prepared, cage)
         if start:
             begin = start(begin)
-        times, box = np.linspace(0.0, span, outputs), box_for(prepared, motion, tolerance)
+        times = np.linspace(0.0, span, outputs)
+        box = box_for(prepared, motion, table_tolerance or tolerance)
         for _ in range(4):
             assembly, _ = with_tables(prepared, box)
             run = gather(

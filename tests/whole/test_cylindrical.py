@@ -20,6 +20,7 @@ from macroslip import (
     InputError,
     Laws,
     Lubricant,
+    Radau,
     Window,
     read_study,
     simulate,
@@ -120,6 +121,7 @@ def test_a_land_alone_brings_the_cage_to_its_ring_as_petroff_says(ring, turns):
             speed=slow,
             cage=loose,
             laws=Laws.paper(),
+            integrator=Radau(),
             oil_supply=None,
             drag=False,
             gravity=False,
@@ -320,6 +322,7 @@ def test_line_contacts_run_in_both_dynamics_and_agree_where_rollers_are_gripped(
         "laws": laws,
         "oil_supply": "flooded" if laws.asks_for_oil else None,
         "window": Window(start=0.2),
+        "integrator": COARSE if laws.asks_for_oil else Radau(),
     }
     free = simulate(case((0.0, -50e3, 0.0), 0.4, **given))
     assert free.status.max() == 0 and "books_warning" not in free.attrs

@@ -17,6 +17,7 @@ from macroslip.result.skew import skewing
 from macroslip.roller.model import with_tables
 from macroslip.roller.skew import equilibrium, pocket, raceways
 from macroslip.whole.cage import Cage
+from tests.quick import COARSE
 from tests.whole.conftest import losses_of_closed_books
 
 pytestmark = pytest.mark.slow
@@ -33,6 +34,7 @@ def case(laws=SKEWED, **changes):
         "traces": Traces(step=0.1),
         "contact_details": False,
         "rating": False,
+        "integrator": COARSE,
     }
     return Case(loads=LOADS, laws=laws, **given | changes)
 
