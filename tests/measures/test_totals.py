@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from macroslip import Laws
 from macroslip.constants import SECTORS
+from macroslip.measures import details as sampling
 from macroslip.measures.along import contacts_of
 from macroslip.measures.details import ContactSampler, new_details
 from macroslip.measures.maps import spread
@@ -23,6 +24,7 @@ from macroslip.measures.totals import (
     SPIN_RATIO_SPEED,
     book,
     law_times,
+    loaded_contacts,
     new_totals,
     orbit_at,
     vertex,
@@ -283,6 +285,28 @@ def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch)
         np.testing.assert_allclose(details.extreme[:, :2, k], every.extreme[:, :2, k], rtol=0.1)
     assert (details.extreme[:, :2, :3] <= every.extreme[:, :2, :3] * (1 + 1e-9)).all()
     assert (details.extreme[:, :2, 3] >= every.extreme[:, :2, 3] * (1 - 1e-9)).all()
+
+
+def test_films_at_looks_are_those_of_the_law(walked, monkeypatch):
+    """Samples look films and shares of asperities up in tables; the laws give them without."""
+    taken = []
+    spread_samples = sampling._spread_samples
+
+    def spread_and_keep(samples, *others):
+        spread_samples(samples, *others)
+        taken.append(samples.copy())
+
+    monkeypatch.setattr(sampling, "_spread_samples", spread_and_keep)
+    looked(walked)
+    samples = np.concatenate(taken)
+    contacts = loaded_contacts(samples["at"], walked[0].laws)
+    for i, (law, load, entrainment) in enumerate(contacts):
+        loaded = load > 0.0
+        state = load[loaded], entrainment[loaded]
+        film = law.film_thickness(*state)
+        np.testing.assert_allclose(samples["film"][loaded, i], film, rtol=1e-4)
+        share = law.asperity_share(*state, film)
+        np.testing.assert_allclose(samples["share"][loaded, i], share, atol=1e-3)
 
 
 def test_energy_between_two_looks_lies_as_at_both_of_them():

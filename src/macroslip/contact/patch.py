@@ -34,6 +34,7 @@ from macroslip.contact.traction import (
     Fluid,
     chord_stress,
 )
+from macroslip.elementary import exponential, logarithm
 
 if TYPE_CHECKING:
     from macroslip.contact.laws import PreparedContact
@@ -130,9 +131,9 @@ def film_node(chords, film):
 
     For `chord_stress_at`, once for all chords of a contact.
     """
-    logarithm = math.log(film)
-    cell, position = _node(chords.shape[1], (logarithm - chords.lowest_film) / chords.film_spacing)
-    return FilmNode(film, logarithm, cell, position)
+    log_film = logarithm(film)
+    cell, position = _node(chords.shape[1], (log_film - chords.lowest_film) / chords.film_spacing)
+    return FilmNode(film, log_film, cell, position)
 
 
 @jit_inline
@@ -170,12 +171,12 @@ def chord_stress_at(chords, node, pressure, slip):
             else fluid.characteristic
         )
         ahead = log_eta
-    log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
+    log_slip = logarithm(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
     j, u = _node(slips, log_slip / chords.slip_spacing)
     start = (i * films + node.cell) * slips + j
     value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.position, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     # Below the first slip of the table stress is in proportion to slip.
-    stress = unit * math.exp(
+    stress = unit * exponential(
         value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0)
     )
     # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ,

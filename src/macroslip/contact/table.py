@@ -32,6 +32,9 @@ from macroslip.storage.waiting import TABLES, tell
 _LOAD_SPACING = 0.46
 _RATIO_SPACING = 0.06
 _SPEED_SPACING = 0.018
+#: Factors on these and other distances of the tables for tight and for loose tolerances.
+FINEST = 0.5
+COARSEST = 2.0
 #: Share of the pressure exponent of the middle by which loads are stretched.
 _STRETCH = 0.6
 #: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller
@@ -112,11 +115,10 @@ def table_box(
     turns = float(ring_speeds.min()) * float(ring_speeds.max()) <= 0.0
     slowest = 0.0 if turns else float(speeds.min())
     load = 2.0 ** math.ceil(math.log2(1.02 * highest_load + 100.0))
-    # In steps of √2 between a half and 2.
+    # In steps of √2.
     spacing = (tolerance / 2e-4) ** 0.25
     steps = round(2.0 * math.log2(spacing))
-    steps = min(max(steps, -2), 2)
-    fineness = 2.0 ** (0.5 * steps)
+    fineness = min(max(2.0 ** (0.5 * steps), FINEST), COARSEST)
     # A roller at rest has w = 1.12 u2; one that still runs forward when the ring runs back 1.41 u2.
     margin = 1.45 if turns else 1.15
     return Box(load, slowest, round(margin * fastest, 12), fineness)

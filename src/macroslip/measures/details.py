@@ -17,14 +17,16 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature
+from macroslip.contact.look_up import in_plane, log_speed
 from macroslip.contact.patch import fine_power, patch_power
 from macroslip.contact.strips import PreparedStrips
+from macroslip.elementary import exponential, logarithm
 from macroslip.measures.along import STATIONS, power_along
 from macroslip.measures.along_line import STRIP, line_power_along, strips_along
 from macroslip.measures.extremes import EXTREMES, heat_entries, raise_extremes, sample_cage
 from macroslip.measures.maps import MAPS, PER_ANGLE, spread
 from macroslip.measures.samples import MEMORY, SAMPLE, begin, choose
-from macroslip.measures.totals import RACEWAYS, Batch, loaded_contacts
+from macroslip.measures.totals import RACEWAYS, Batch
 from macroslip.ring.orbit import angle_at
 from macroslip.roller.step import STEP
 
@@ -108,6 +110,24 @@ def _power_along(maps, interface, contact, state, sample, passes, strips, along)
     return power_along(maps, interface, contact, state, sample, passes, along)
 
 
+@jit_inline
+def _look_up_films(body, tables, sample):
+    """Look up the films, and the asperities' shares of the load, of the loaded contacts of a sample."""
+    at = sample.at
+    planes = (body.inner.film, body.outer.film, body.cage.film)
+    loads = (at.inner_load, at.outer_load, abs(at.cage_load))
+    speeds = (
+        at.inner_speed - 0.5 * at.inner_slip,
+        at.outer_speed - 0.5 * at.outer_slip,
+        0.5 * at.cage_speed,
+    )
+    for i in range(3):
+        if loads[i] > 0.0:
+            value, _, _ = in_plane(planes[i], tables, logarithm(loads[i]), log_speed(speeds[i]))
+            sample.film[i] = exponential(value[0])
+            sample.share[i] = value[1]
+
+
 @jit
 def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extreme, entry_extreme):
     """Spread the energies of samples and raise the extremes.
@@ -120,6 +140,7 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
         sample = samples[n]
         at = sample.at
         span = sample.time - sample.since
+        _look_up_films(body, tables, sample)
         states = (
             (at.inner_load, at.inner_speed, at.inner_slip),
             (at.outer_load, at.outer_speed, at.outer_slip),
@@ -234,13 +255,6 @@ class ContactSampler:
 
     def _sample(self, samples: np.ndarray) -> None:
         """Sample the contacts."""
-        for i, (law, load, entrainment) in enumerate(loaded_contacts(samples["at"], self._laws)):
-            loaded = load > 0.0
-            film = law.film_thickness(load[loaded], entrainment[loaded])
-            samples["film"][loaded, i] = film
-            samples["share"][loaded, i] = law.asperity_share(
-                load[loaded], entrainment[loaded], film
-            )
         lines = samples["lines"]
         lines[...] = 0.0
         for i, name in enumerate(RACEWAYS):

@@ -19,6 +19,7 @@ from macroslip.contact.look_up import PLANE, REST_SPEED, TRACTION
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.strips import strips_of
 from macroslip.contact.table import (
+    COARSEST,
     Box,
     TableErrors,
     Tables,
@@ -46,7 +47,7 @@ CONTACT = np.dtype(
     [
         ("traction", TRACTION),  # table of a raceway's traction
         ("oil", PLANE),  # table of a raceway's oil, or of friction and oil at the cage
-        ("film", PLANE),  # table of ln h and the asperities' share, with the closed form
+        ("film", PLANE),  # table of ln h and the asperities' share
         # Of the paper's closed form, as in `macroslip.contact.closed_form.BarusCrook`.
         ("conductance", "f8"),  # [N^(1/3) s]
         ("pressure_exponent", "f8"),  # [N^(−1/3)]
@@ -346,10 +347,12 @@ def _write_contact(
     record["boundary_friction"] = contact.boundary_friction
     record["full_slip"] = contact.full_slip
     slowest = _SLOWEST * box.fastest
+    # With the closed form every evaluation looks the film up. Elsewhere samples of contacts do, for
+    # which the spacing of the coarsest tables serves at any tolerance: ln h is good to 1e-4.
+    film_box = box if contact.closed_form is not None else box._replace(fineness=COARSEST)
+    films = partial(film_values, contact)
+    write_plane(record["film"], tables, films, _LIGHTEST, REST_SPEED, film_box)
     if contact.closed_form is not None:
-        write_plane(
-            record["film"], tables, partial(film_values, contact), _LIGHTEST, REST_SPEED, box
-        )
         for name in ("conductance", "pressure_exponent", "heating"):
             record[name] = getattr(contact.closed_form, name)
     elif contact.name != "cage":
