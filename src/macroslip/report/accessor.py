@@ -55,7 +55,9 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
             where=str(path),
             remedy="Name what macroslip run wrote.",
         )
-    files = sorted(path.glob("*.nc")) if path.is_dir() else [path]
+    files = [path]
+    if path.is_dir():
+        files = sorted(path.glob("*.nc"))
     if not files:
         raise InputError(
             "the folder holds no netCDF file",
@@ -154,7 +156,8 @@ class Macroslip:
             if "books_warning" in self._result.attrs
             else ""
         )
-        return f"<{self._result.attrs.get('title', 'result')}: {rows}{warning}>"
+        title = self._result.attrs.get("title", "result")
+        return f"<{title}: {rows}{warning}>"
 
     def _repr_html_(self) -> str:
         headings = [
@@ -193,7 +196,8 @@ class Plot:
         with program_style():
             axes = figure.subplots(rows, columns, subplot_kw={"projection": projection})
             if "oil" in self._result.attrs:
-                model = f"model {self._result.attrs['model']}, {self._result.attrs['oil']}"
+                attributes = self._result.attrs
+                model = f"model {attributes['model']}, {attributes['oil']}"
                 figure.suptitle(model, fontsize=SMALL)
         return axes
 
@@ -218,15 +222,19 @@ class Plot:
     def _row(self, row: str | None, first: str = "downwind") -> str:
         if row:
             return row
-        return first if first in self._result.row else str(self._result.row[0].item())
+        if first in self._result.row:
+            return first
+        return str(self._result.row[0].item())
 
     def energy(self, *, axes: Axes | None = None) -> Axes:
         """Energy of a mean roller of each row, by interface."""
-        return self._drawn(axes, draw.plot_energy_by_interface, self._result.energy, legend={})
+        energy = self._result.energy
+        return self._drawn(axes, draw.plot_energy_by_interface, energy, legend={})
 
     def rollers(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Energy of every roller of a row, downwind by default, over the mean of the row."""
-        return self._drawn(axes, draw.plot_roller_spread, self._result.energy, self._row(row))
+        energy = self._result.energy
+        return self._drawn(axes, draw.plot_roller_spread, energy, self._row(row))
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
         """Share of orbits whose largest power exceeds a value, for both rows."""
@@ -236,7 +244,9 @@ class Plot:
         self, row: str | None = None, roller: int | None = None, *, axes: Axes | None = None
     ) -> Axes:
         """Spin of a roller and in pure rolling, by default of the upwind row. Needs traces."""
-        number = int(self._result.roller[0]) if roller is None else roller
+        number = roller
+        if number is None:
+            number = int(self._result.roller[0])
         row = self._row(row, "upwind")
         return self._drawn(axes, draw.plot_spin_over_time, self._result, row, number)
 
@@ -244,7 +254,8 @@ class Plot:
         """Roller load over angle and time. Needs traces that begin with the loads."""
         from macroslip.result.orbit import load_zone
 
-        return self._drawn(axes, draw.plot_load_zone, load_zone(self._result), self._row(row))
+        load = load_zone(self._result)
+        return self._drawn(axes, draw.plot_load_zone, load, self._row(row))
 
     def orbit(self, row: str | None = None, *, axes: PolarAxes | None = None) -> PolarAxes:
         """Dissipated energy over the orbit, looking downwind; own axes must be polar.

@@ -77,7 +77,9 @@ def row_slip(result: xr.Dataset, row: str) -> RowSlip:
     """Load and slip of a row, from the rating and the traces as far as the result has them."""
     of_row = result.sel(row=row)
     loaded = known(of_row.get("loaded_share"))
-    lowest = known(of_row.min_spin_ratio.min()) if "min_spin_ratio" in of_row else None
+    lowest = None
+    if "min_spin_ratio" in of_row:
+        lowest = known(of_row.min_spin_ratio.min())
     if "spin" not in of_row or not in_window(of_row).sizes["time"]:
         return RowSlip(row, loaded, lowest, None, None)
     traces = in_window(of_row)
@@ -86,7 +88,8 @@ def row_slip(result: xr.Dataset, row: str) -> RowSlip:
         loaded = known((load > 0.0).mean())
     rolling = abs(traces.spin_pure)
     # Where the shaft hardly turns, a roller at rest is no sign of slip.
-    turns = (rolling > 0.0) & (rolling >= _SLOW * rolling.max())
+    slowest = _SLOW * rolling.max()
+    turns = (rolling > 0.0) & (rolling >= slowest)
     ratio = traces.spin / traces.spin_pure.where(turns)
     pressed = ratio.where(load > 0.0)
     idle = ratio.where(load <= 0.0)
@@ -96,11 +99,12 @@ def row_slip(result: xr.Dataset, row: str) -> RowSlip:
         without_load = (float(low), float(high))
         if pressed.min() < idle.min():
             lowest = float(idle.min())
-    length = float(traces.time[-1] - traces.time[0])
-    is_part = traces.time[-1] < _TRACED * result.attrs["window_end"]
-    return RowSlip(
-        row, loaded, lowest, known(pressed.mean()), without_load, length if is_part else None
-    )
+    start = traces.time[0]
+    end = traces.time[-1]
+    traced = None
+    if end < _TRACED * result.attrs["window_end"]:
+        traced = float(end - start)
+    return RowSlip(row, loaded, lowest, known(pressed.mean()), without_load, traced)
 
 
 def row_sentence(slip: RowSlip) -> str:
@@ -113,9 +117,13 @@ def row_sentence(slip: RowSlip) -> str:
     >>> row_sentence(RowSlip("upwind", 0.0007, 0.1, 0.78, (0.12, 0.28)))
     'Upwind row: loaded 0.07 % of the time; its rollers turn at 12 to 28 % of rolling speed: it skids.'
     """
-    name = "The rollers" if slip.row == "single" else f"{slip.row.capitalize()} row"
+    name = "The rollers"
+    if slip.row != "single":
+        name = f"{slip.row.capitalize()} row"
     parts = [part for part in (_load(slip.loaded), _turning(slip)) if part]
-    traced = "" if slip.traced is None else f" (speeds in the {slip.traced:.0f} s that are traced)"
+    traced = ""
+    if slip.traced is not None:
+        traced = f" (speeds in the {slip.traced:.0f} s that are traced)"
     return f"{name}: {'; '.join(parts)}{traced}."
 
 
@@ -126,7 +134,9 @@ def _load(share: float | None) -> str:
         return "never loaded"
     if share > 0.9995:
         return "loaded all the time"
-    percent = f"{100.0 * share:.1f}" if share > 0.99 else number(100.0 * share, 2)
+    percent = number(100.0 * share, 2)
+    if share > 0.99:
+        percent = f"{100.0 * share:.1f}"
     return f"loaded {percent} % of the time"
 
 
@@ -136,19 +146,24 @@ def _turning(slip: RowSlip) -> str:
     if hardly_loaded and slip.without_load is not None:
         low, high = (number(100.0 * ratio, 2) for ratio in slip.without_load)
         skids = ": it skids" if slip.without_load[1] < _SKIDS else ""
-        speeds = low if low == high else f"{low} to {high}"
+        speeds = low
+        if high != low:
+            speeds = f"{low} to {high}"
         return f"its rollers turn at {speeds} % of rolling speed{skids}"
     if slip.under_load is None:
         return _slowest(slip.lowest)
     below = 100.0 * (1.0 - slip.under_load)
     digits = 1 if abs(below) < 1.0 else 2
-    off = f"{number(abs(below), digits)} % {'below' if below >= 0.0 else 'above'}"
+    direction = "below" if below >= 0.0 else "above"
+    off = f"{number(abs(below), digits)} % {direction}"
     speed = f"{off} rolling speed in the mean"
     if abs(below) < 100.0 * _ROLLS:
         speed = f"at rolling speed ({off} it in the mean)"
     if slip.without_load is None:
         return f"its rollers turn {speed}"
-    lowest = slip.without_load[0] if slip.lowest is None else slip.lowest
+    lowest = slip.lowest
+    if lowest is None:
+        lowest = slip.without_load[0]
     return f"loaded rollers turn {speed}, between load zones they {_slowing(lowest)}"
 
 
@@ -170,7 +185,8 @@ def _slowing(lowest: float) -> str:
     percent = number(100.0 * abs(lowest), 2)
     if lowest < 0.0:
         return f"even turn backwards, at up to {percent} % of it"
-    return f"{'keep' if lowest > 1.0 - _ROLLS else 'slow down to'} {percent} % of it"
+    how = "keep" if lowest > 1.0 - _ROLLS else "slow down to"
+    return f"{how} {percent} % of it"
 
 
 def _films(result: xr.Dataset) -> list[str]:
@@ -187,11 +203,16 @@ def _films(result: xr.Dataset) -> list[str]:
     worst = mixed.where(mixed == mixed.max(), drop=True).isel(row=0, raceway=0)
     least = None
     if result.sizes["orbit"]:
-        least = known(result.min_film_ratio.sel(interface=result.raceway.values).min())
+        ratios = result.min_film_ratio.sel(interface=result.raceway.values)
+        least = known(ratios.min())
     if worst == 0.0:
-        orbits = "" if least is None else f", {number(least, 2)} at least in complete orbits"
+        orbits = ""
+        if least is not None:
+            orbits = f", {number(least, 2)} at least in complete orbits"
         return [f"Loaded contacts run on a full film (Λ above {_FULL_FILM:g}{orbits})."]
-    thinnest = "" if least is None else f", and at least {number(least, 2)} in complete orbits"
+    thinnest = ""
+    if least is not None:
+        thinnest = f", and at least {number(least, 2)} in complete orbits"
     where = f"the {worst.raceway.item()} raceway"
     if result.sizes["row"] > 1:
         where = f"{where} of the {worst.row.item()} row"
@@ -203,7 +224,10 @@ def _films(result: xr.Dataset) -> list[str]:
 
 def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
     """The criterion nearest to its reference, or furthest beyond, and others beyond theirs."""
-    shown = [line for line in criteria if line["in answer"] and np.isfinite(line["ratio"])]
+    shown = []
+    for line in criteria:
+        if line["in answer"] and np.isfinite(line["ratio"]):
+            shown.append(line)
     judged = sorted(shown, key=lambda line: -line["ratio"])
     if not judged:
         return []
@@ -240,8 +264,10 @@ def _times(line: Mapping[str, Any]) -> str:
     'the reference is 0.031 of it'
     """
     ratio = line["ratio"]
-    times = f"{number(ratio, 2)} {'times' if ratio > 1.0 else 'of'}"
+    word = "times" if ratio > 1.0 else "of"
+    times = f"{number(ratio, 2)} {word}"
     if line["ratio"] < 1e-3:
         times = "less than a thousandth of"
-    is_direct = math.isclose(line["ratio"], line["value"] / line["reference"])
+    value_over_reference = line["value"] / line["reference"]
+    is_direct = math.isclose(ratio, value_over_reference)
     return f"{times} the reference" if is_direct else f"the reference is {times} it"

@@ -82,8 +82,10 @@ def _inner_raceway(bearing: Bearing, distance: FloatArray) -> FloatArray:
     """Distance of the inner raceway from the axis [mm] at distances from the mid-plane [mm]."""
     contour = _MILLI * geometry.inner_raceway_contour_radius(bearing)
     reach = contour - 0.5 * _MILLI * bearing.roller_diameter
-    along = _MILLI * bearing.row_offset + reach * math.sin(bearing.contact_angle)
-    across = _MILLI * bearing.pitch_radius + reach * math.cos(bearing.contact_angle)
+    offset = _MILLI * bearing.row_offset
+    pitch = _MILLI * bearing.pitch_radius
+    along = offset + reach * math.sin(bearing.contact_angle)
+    across = pitch + reach * math.cos(bearing.contact_angle)
     height_square = contour**2 - (distance - along) ** 2
     return across - np.sqrt(np.maximum(height_square, 0.0))
 
@@ -162,8 +164,10 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
         style = {"arrowstyle": "<->", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
         axes.annotate("", end, start, arrowprops=style, zorder=5)
     for key, side, height, to in labels:
-        text = f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})"
-        style = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": 9}
+        provenance = bearing.provenance[key]
+        text = f"{key} = {bearing.written(key)} ({provenance.tag})"
+        alignment = "left" if side > 0 else "right"
+        style = {"ha": alignment, "va": "center", "fontsize": 9}
         line = {"arrowstyle": "-", "color": "#777777", "lw": 0.6}
         at = (1.25 * side * half, height)
         axes.annotate(text, to, at, arrowprops=line, zorder=6, **style)

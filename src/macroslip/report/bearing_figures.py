@@ -71,7 +71,8 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
     of_row = 1e3 * energy.sel(row=row)
     width = 360.0 / of_row.sizes["angle"]
     angles = of_row.angle.values
-    theta = np.radians(np.append(angles, angles[0] + 360.0))
+    closed_angles = np.append(angles, angles[0] + 360.0)
+    theta = np.radians(closed_angles)
     for interface in of_row.interface.values.tolist():
         values = of_row.sel(interface=interface).values
         total = width * values.sum()
@@ -122,7 +123,8 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
         return finish(axes, _ANGLE, "film thickness [µm]", f"{row} row, never touched")
     log_ticks(axes)
     # Rollers without load have no film but play.
-    axes.set_ylim(top=min(axes.get_ylim()[1], 300.0))
+    _, highest = axes.get_ylim()
+    axes.set_ylim(top=min(highest, 300.0))
     per_metre = orbit.film_parameter / orbit.film_thickness
     scale = 1e-6 * float(per_metre.median())
 
@@ -145,7 +147,9 @@ def plot_load_zone(axes: Axes, load: xr.DataArray, row: str) -> Axes:
     Takes the array of `macroslip.result.orbit.load_zone` [N].
     """
     of_row = 1e-3 * load.sel(row=row)
-    extent = (float(of_row.time[0]), float(of_row.time[-1]), 0.0, 360.0)
+    start = float(of_row.time[0])
+    end = float(of_row.time[-1])
+    extent = (start, end, 0.0, 360.0)
     _heat_map(axes, of_row.values.T, extent, "roller load [kN]", least=1e-3)
     axes.set_yticks(_QUARTERS)
     return _framed(finish(axes, "time [s]", "angle from the bottom [°]", f"{row} row"))
@@ -172,7 +176,9 @@ def plot_bearing(
     radius = geometry.roller_radius(bearing)
     pitch = bearing.pitch_radius
     outer = geometry.outer_contact_radius(bearing)
-    most = max(float(still.roller_load.max()), 1.0) if longest is None else longest
+    most = longest
+    if most is None:
+        most = max(float(still.roller_load.max()), 1.0)
     reach = 1.4 * outer
     rollers = []
     for k, row in enumerate(still.row.values.tolist()):
@@ -184,7 +190,8 @@ def plot_bearing(
         x = -np.sin(angle)
         y = -np.cos(angle)
         inner_end = np.full(angle.size, 1.06 * outer)
-        outer_end = inner_end + 0.3 * outer * of_row.roller_load.values / most
+        load_share = of_row.roller_load.values / most
+        outer_end = inner_end + 0.3 * outer * load_share
         spokes = np.stack([inner_end, outer_end])
         axes.plot(
             centre + spokes * x,
@@ -229,7 +236,8 @@ def plot_roller_spread(axes: Axes, energy: xr.DataArray, row: str) -> Axes:
     numbers = total.roller.values
     style = {**ROW[row], "linestyle": "none"}
     axes.plot(numbers, total.values / mean, markersize=5, **style)
-    axes.set_xticks(numbers[:: max(1, numbers.size // 7)])
+    between_ticks = max(1, numbers.size // 7)
+    axes.set_xticks(numbers[::between_ticks])
     axes.margins(y=0.25)
     axes.ticklabel_format(axis="y", useOffset=False)
     title = f"{row} row, mean {three_digits(mean)} J"
@@ -255,8 +263,10 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
         axes.errorbar(
             x, mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3
         )
-        _values_above(axes, x, mean, [f"{value:.3g}" for value in mean], 5)
-    axes.set_xticks(np.arange(share.sizes["interface"]), share.interface.values.tolist())
+        labels = [f"{value:.3g}" for value in mean]
+        _values_above(axes, x, mean, labels, 5)
+    interfaces = share.interface.values.tolist()
+    axes.set_xticks(np.arange(len(interfaces)), interfaces)
     axes.set_ylim(0.0, 118.0)
     return finish(axes, "interface", "share of loaded time [%]")
 
@@ -270,14 +280,14 @@ def plot_energy_by_interface(axes: Axes, energy: xr.DataArray) -> Axes:
         values = energy.sel(row=row).mean("roller").values
         axes.bar(x, values, width, **style)
         some = values > 0.0
-        _values_above(
-            axes, x[some], values[some], [three_digits(value) for value in values[some]], 2
-        )
+        labels = [three_digits(value) for value in values[some]]
+        _values_above(axes, x[some], values[some], labels, 2)
     if np.nanmax(energy.values, initial=0.0) > 0.0:
         axes.set_yscale("log")
         axes.margins(y=0.12)
-    axes.set_xticks(np.arange(energy.sizes["interface"]), energy.interface.values.tolist())
-    axes.set_xlim(-0.6, energy.sizes["interface"] - 0.4)
+    interfaces = energy.interface.values.tolist()
+    axes.set_xticks(np.arange(len(interfaces)), interfaces)
+    axes.set_xlim(-0.6, len(interfaces) - 0.4)
     return finish(axes, "interface", "energy of a roller [J]")
 
 
@@ -289,7 +299,8 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
     from matplotlib.ticker import LogFormatter
 
     for row in result.row.values.tolist():
-        largest = result.peak_power.sel(row=row).max("interface", skipna=False)
+        of_interfaces = result.peak_power.sel(row=row)
+        largest = of_interfaces.max("interface", skipna=False)
         peak = np.sort(largest.values.ravel())
         peak = peak[np.isfinite(peak)]
         if peak.size:
@@ -306,17 +317,18 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
 
 def _line_of(row: str) -> dict[str, Any]:
     """Colour and dashes of a row, without its marker."""
-    return {key: ROW[row][key] for key in ("color", "linestyle")}
+    style = ROW[row]
+    return {"color": style["color"], "linestyle": style["linestyle"]}
 
 
 def plot_by_mechanism(axes: Axes, energy: xr.DataArray) -> Axes:
     """Energy of a mean roller of each row by mechanism, from `mechanism_energy` [J]."""
     mean = energy.mean("roller").sum("interface")
     for x, width, row, style in _row_bars(mean, "mechanism"):
-        axes.barh(x, mean.sel(row=row).values, width, **style)
-    axes.set_yticks(
-        np.arange(mean.sizes["mechanism"]), [str(name) for name in mean.mechanism.values]
-    )
+        values = mean.sel(row=row).values
+        axes.barh(x, values, width, **style)
+    mechanisms = [str(name) for name in mean.mechanism.values]
+    axes.set_yticks(np.arange(len(mechanisms)), mechanisms)
     return finish(axes, "energy of a roller [J]", "mechanism")
 
 
@@ -350,10 +362,12 @@ def plot_spin_over_time(axes: Axes, result: xr.Dataset, row: str, roller: int) -
         linewidth=1.2,
         label="pure rolling",
     )
-    axes.plot(time, abs(of_roller.spin.values), color=BLUE, linewidth=1.6, label="roller")
+    spin = abs(of_roller.spin.values)
+    axes.plot(time, spin, color=BLUE, linewidth=1.6, label="roller")
     axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False, fontsize=SMALL)
-    return finish(axes, "time [s]", "spin speed |ω| [rad/s]", f"roller {roller} of the {row} row")
+    title = f"roller {roller} of the {row} row"
+    return finish(axes, "time [s]", "spin speed |ω| [rad/s]", title)
 
 
 def raceways(values: xr.DataArray) -> dict[str, xr.DataArray]:
@@ -390,12 +404,14 @@ def plot_map(
     """
     # Angles count from +X0, which is a quarter of a turn past the bottom; the bottom is in the
     # middle of the map.
-    from_top = (np.degrees(values.angle.values) + 270.0) % 360.0
+    degrees = np.degrees(values.angle.values)
+    from_top = (degrees + 270.0) % 360.0
     order = np.argsort(from_top)
     along = 1e3 * values.station.values
     half = 0.5 * (along[1] - along[0])
     extent = (-180.0, 180.0, along[0] - half, along[-1] + half)
-    shown = values.transpose("station", "angle").values[:, order]
+    by_station = values.transpose("station", "angle").values
+    shown = by_station[:, order]
     _heat_map(axes, shown, extent, units, least=1e-30, difference=difference)
     axes.set_xticks([-180, -90, 0, 90, 180])
     return _framed(finish(axes, "angle from the bottom [°]", _ALONG, title))
@@ -417,28 +433,30 @@ def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str
         Row and raceway.
     """
     values = amounts.transpose("film_class", "slip_class").values
-    shares = 100.0 * values / max(values.sum(), 1e-300)
-    shown = np.log10(np.maximum(shares, _LEAST_SHARE) / _LEAST_SHARE)
-    image = axes.pcolormesh(
-        shown, cmap="Blues", vmin=0.0, vmax=np.log10(100.0 / _LEAST_SHARE), edgecolors="white"
-    )
+    total = max(values.sum(), 1e-300)
+    shares = 100.0 * values / total
+    drawn_shares = np.maximum(shares, _LEAST_SHARE)
+    shown = np.log10(drawn_shares / _LEAST_SHARE)
+    decades = np.log10(100.0 / _LEAST_SHARE)
+    image = axes.pcolormesh(shown, cmap="Blues", vmin=0.0, vmax=decades, edgecolors="white")
     for (film, slip), share in np.ndenumerate(shares):
         if share >= 10.0 * _LEAST_SHARE:
             colour = "white" if share > 10.0 else BLACK
+            text = f"{share:.0f}" if share >= 9.5 else f"{share:.1f}"
             axes.text(
                 slip + 0.5,
                 film + 0.5,
-                f"{share:.0f}" if share >= 9.5 else f"{share:.1f}",
+                text,
                 ha="center",
                 va="center",
                 fontsize=SMALL,
                 color=colour,
             )
     image.set_rasterized(True)
-    axes.set_xticks(
-        range(1, len(SLIP_EDGES) + 1), [f"{edge:g}" for edge in SLIP_EDGES], rotation=60
-    )
-    axes.set_yticks(range(1, len(FILM_EDGES) + 1), [f"{edge:g}" for edge in FILM_EDGES])
+    slip_labels = [f"{edge:g}" for edge in SLIP_EDGES]
+    film_labels = [f"{edge:g}" for edge in FILM_EDGES]
+    axes.set_xticks(range(1, len(slip_labels) + 1), slip_labels, rotation=60)
+    axes.set_yticks(range(1, len(film_labels) + 1), film_labels)
     label = "slide-roll ratio, ring − roller [1]"
     return _framed(finish(axes, label, "Λ [1]", f"{title} [% of {units}]"))
 
@@ -464,7 +482,8 @@ def plot_load_duration(axes: Axes, result: xr.Dataset) -> Axes:
     """Share of time in which each load of the bearing exceeds a value, from its rating."""
     middle = 1e-3 * result.load_class_middle.values
     for load in result["load"].values.tolist():
-        falling = result.time_share.sel(load=load).values[::-1]
+        of_load = result.time_share.sel(load=load)
+        falling = of_load.values[::-1]
         exceeded = np.cumsum(falling)[::-1]
         axes.plot(100.0 * exceeded, middle, label=load, linewidth=1.6, **_LOADS[load])
     axes.set_xlim(0.0, 101.0)
@@ -486,14 +505,16 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
         drawstyle="steps-mid",
     )
     axes.set_rscale("log")
-    axes.set_rlim(1e-1, max(10.0, 2.0 * float(values.max())))
+    farthest = 2.0 * float(values.max())
+    axes.set_rlim(1e-1, max(10.0, farthest))
     # Looking downwind +X0 is on the left, and φ runs clockwise.
     return _round(axes, "W", ["left", "top", "right", "bottom"], f"{row} row [N]")
 
 
 def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
     """Residuals of a whole bearing's balances over time, over all that has passed through."""
-    impulse = float(abs(result.book_inner_impulse).max()) or 1.0
+    largest_impulse = float(abs(result.book_inner_impulse).max())
+    impulse = largest_impulse or 1.0
     raceway_loss = float(abs(result.book_raceway_loss[-1]))
     pocket_loss = float(abs(result.pocket_loss[-1]))
     spent = raceway_loss + pocket_loss or 1.0
@@ -531,7 +552,8 @@ def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
     Takes the dataset of `macroslip.result.damage.damage`. A criterion that is passed lies right of
     1.
     """
-    known = damage.isel(criterion=np.flatnonzero(damage.value.notnull()))
+    is_known = damage.value.notnull()
+    known = damage.isel(criterion=np.flatnonzero(is_known))
     ratio = np.clip(known.ratio.values, _LEAST_RATIO, None)
     factor = known.factor.values
     axes.axvline(1.0, color=BLACK, linewidth=1.0)
@@ -587,15 +609,20 @@ def plot_criteria_side_by_side(
         name: {line["title"]: line for line in lines if np.isfinite(line["ratio"])}
         for name, lines in by_name.items()
     }
-    titles = list(dict.fromkeys(title for lines in judged.values() for title in lines))
+    titles_of_all = [title for lines in judged.values() for title in lines]
+    titles = list(dict.fromkeys(titles_of_all))
     axes.axvline(1.0, color=BLACK, linewidth=1.0)
     axes.set_xscale("log")
     gap = 0.5 / max(len(judged), 1)
     for k, (name, lines) in enumerate(judged.items()):
         heights = [-titles.index(title) - gap * k for title in lines]
-        ratio = np.clip([line["ratio"] for line in lines.values()], _LEAST_RATIO, None)
-        factor = np.array([line["factor"] for line in lines.values()])
-        bars = [ratio - ratio / factor, ratio * factor - ratio]
+        ratios = [line["ratio"] for line in lines.values()]
+        factors = [line["factor"] for line in lines.values()]
+        ratio = np.clip(ratios, _LEAST_RATIO, None)
+        factor = np.array(factors)
+        below = ratio - ratio / factor
+        above = ratio * factor - ratio
+        bars = [below, above]
         colour = f"C{k % 10}"
         axes.errorbar(
             ratio, heights, xerr=bars, color=colour, marker="o", linestyle="", capsize=3, label=name
@@ -612,8 +639,9 @@ def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
     depth = 1e6 * damage.worn_depth.sel(row=row)
     for name in depth.surface.values.tolist():
         style = INTERFACE.get(name, {"color": GREEN, "linestyle": "-."})
+        last = depth.age.size - 1
         for k, age in enumerate(depth.age.values):
-            label = name if k == depth.age.size - 1 else None
+            label = name if k == last else None
             axes.plot(
                 1e3 * depth.station,
                 depth.sel(surface=name, age=age),
@@ -665,7 +693,8 @@ def _heat_map(
     least: float,
     difference: bool = False,
 ) -> None:
-    most = max(float(np.nanmax(abs(values), initial=0.0)), least)
+    largest = float(np.nanmax(abs(values), initial=0.0))
+    most = max(largest, least)
     image = axes.imshow(
         values,
         origin="lower",
@@ -685,7 +714,8 @@ def plot_skew_over_orbit(axes: Axes, result: xr.Dataset) -> Axes:
 
     Takes a result with `skew_by_position` [rad] and `skew_power_by_position` [W].
     """
-    angle = (np.degrees(result.position.values) + 90.0) % 360.0
+    position = np.degrees(result.position.values)
+    angle = (position + 90.0) % 360.0
     order = np.argsort(angle)
     power = axes.twinx()
     for row in result.row.values.tolist():

@@ -54,10 +54,12 @@ def quantise(values: NDArray, low: float, high: float) -> bytes:
     [np.uint16(0), np.uint16(32767), np.uint16(65534), np.uint16(65535)]
     """
     span = high - low or 1.0
-    inside = np.clip(np.nan_to_num(values, nan=low), low, high)
+    known = np.nan_to_num(values, nan=low)
+    inside = np.clip(known, low, high)
     codes = np.round((inside - low) / span * _TOP)
     codes = np.where(values > low, np.maximum(codes, 1), codes)
-    return np.where(np.isnan(values), MISSING, codes).astype("<u2").tobytes()
+    codes = np.where(np.isnan(values), MISSING, codes)
+    return codes.astype("<u2").tobytes()
 
 
 def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
@@ -69,21 +71,25 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
 
     time = scene.time.values
     powers = scene.power.transpose("row", "roller", "time").values
-    power = np.nan_to_num(powers, nan=-1.0).max(axis=(0, 1))
+    known_powers = np.nan_to_num(powers, nan=-1.0)
+    power = known_powers.max(axis=(0, 1))
     quantities = [
         _quantity(scene[quantity.name], quantity)
         for quantity in QUANTITIES
         if quantity.name in scene
     ]
-    ramp = colormaps["cividis"](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
+    shades = np.linspace(0.0, 1.0, _COLOURS)
+    ramp = colormaps["cividis"](shades)[:, :3]
+    duration = time[-1] - time[0]
+    largest = int(np.argmax(power))
     return {
         "rows": scene.row.values.tolist(),
         "rollers": scene.roller.values.tolist(),
         "start": float(time[0]),
-        "step": float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 0.0,
+        "step": float(duration / (time.size - 1)) if time.size > 1 else 0.0,
         "count": int(time.size),
         # A little before the largest power.
-        "first": max(0, int(np.argmax(power)) - power.size // 60),
+        "first": max(0, largest - power.size // 60),
         "angle": np.round(scene.angle.values, 3).tolist(),
         "travelled": _text(scene.travelled.values.astype("<f4").tobytes()),
         "radii": {
@@ -100,15 +106,19 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
 
 def _quantity(values: xr.DataArray, quantity: Quantity) -> dict[str, Any]:
     """Heading, unit, range and codes of a quantity."""
-    shown = quantity.factor * values.transpose("row", "roller", "time").values.astype(float)
+    by_roller = values.transpose("row", "roller", "time").values
+    shown = quantity.factor * by_roller.astype(float)
     finite = shown[np.isfinite(shown)]
     if quantity.logarithmic:
         low = np.log10(LEAST_POWER)
-        high = np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0)))
+        largest = finite.max(initial=0.0)
+        high = np.log10(max(2.0 * LEAST_POWER, largest))
         with np.errstate(divide="ignore"):
-            shown = np.log10(np.where(shown <= 0.0, LEAST_POWER, shown))
+            known = np.where(shown <= 0.0, LEAST_POWER, shown)
+            shown = np.log10(known)
     elif quantity.signed:
-        high = max(1e-6, np.abs(finite).max(initial=0.0))
+        largest = np.abs(finite).max(initial=0.0)
+        high = max(1e-6, largest)
         low = -high
     else:
         low = 0.0
@@ -129,17 +139,16 @@ def _text(content: bytes) -> str:
 
 def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     """Offsets of the rollers in their pockets, enlarged so that pockets do not meet."""
-    offsets = 1e3 * scene.pocket_offset.transpose("row", "roller", "time").values.astype(float)
+    by_roller = scene.pocket_offset.transpose("row", "roller", "time").values
+    offsets = 1e3 * by_roller.astype(float)
     reach = float(np.nanmax(np.abs(offsets), initial=1e-6))
-    free = 1e3 * (
-        2.0 * np.pi * bearing.pitch_radius / bearing.rollers_per_row - bearing.roller_diameter
-    )
+    between_rollers = 2.0 * np.pi * bearing.pitch_radius / bearing.rollers_per_row
+    free = 1e3 * (between_rollers - bearing.roller_diameter)
+    names = [quantity.name for quantity in QUANTITIES if quantity.name in scene]
     return {
         "reach": reach,
         "enlarged": float(min(_ENLARGED, 0.35 * free / reach)),
         "codes": _text(quantise(offsets, -reach, reach)),
         "lead": _text(scene.cage_lead.values.astype("<f4").tobytes()),
-        "force": [quantity.name for quantity in QUANTITIES if quantity.name in scene].index(
-            "cage_force"
-        ),
+        "force": names.index("cage_force"),
     }

@@ -111,7 +111,9 @@ def compare(
 def _opened(result: xr.Dataset | str | Path) -> xr.Dataset:
     if isinstance(result, xr.Dataset):
         return result
-    return open_study(result) if is_study(Path(result)) else open_result(result)
+    if is_study(Path(result)):
+        return open_study(result)
+    return open_result(result)
 
 
 def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
@@ -121,9 +123,11 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
         for name, result in results.items()
     }
     differ = {}
-    for key in dict.fromkeys(itertools.chain(*inputs.values())):
+    all_keys = itertools.chain(*inputs.values())
+    for key in dict.fromkeys(all_keys):
         values = {name: of_result.get(key, "–") for name, of_result in inputs.items()}
-        if len(set(map(repr, values.values()))) > 1:
+        written = set(map(repr, values.values()))
+        if len(written) > 1:
             differ[key] = values
     numbers = {name: _numbers(result) for name, result in results.items()}
     first, *others = results
@@ -154,7 +158,8 @@ def _written(leaf: Any) -> Any:
     if not isinstance(leaf, Mapping):
         return leaf
     unit = leaf.get("unit", "1")
-    return leaf["value"] if unit == "1" else with_unit(leaf["value"], unit)
+    value = leaf["value"]
+    return value if unit == "1" else with_unit(value, unit)
 
 
 def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list[str]:
@@ -177,7 +182,8 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
             "The windows differ, because orbits or loads do; energies are compared by the hour."
         )
     notes += _between_kinds(results)
-    if len({tuple(result.roller.values.tolist()) for result in results.values()}) > 1:
+    rollers = {tuple(result.roller.values.tolist()) for result in results.values()}
+    if len(rollers) > 1:
         notes.append("The results have different rollers; the mean is over those that each has.")
     failed = []
     for name, result in results.items():
@@ -192,7 +198,8 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
         for name, result in results.items()
         for sentence in doubtful_result(result)
     ]
-    estimates, values = max(map(estimated_values, results.values()))
+    counts = map(estimated_values, results.values())
+    estimates, values = max(counts)
     if estimates:
         notes.append(
             f"Up to {estimates} of {values} values of bearing and lubricant are engineering "
@@ -210,7 +217,8 @@ def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
     peak = result[peak_name]
     numbers = {(ENERGY, "J/h"): float(energy.sum(skipna=False))}
     for row in result.row.values.tolist():
-        spin = result.min_spin_ratio.sel(row=row).min(skipna=False)
+        spins = result.min_spin_ratio.sel(row=row)
+        spin = spins.min(skipna=False)
         numbers |= {
             (f"energy of a mean roller, {row}", "J/h"): float(energy.sel(row=row)),
             (f"largest power, {row}", "W"): float(peak.sel(row=row).max(skipna=False)),
@@ -227,9 +235,9 @@ def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
 def _differences_of_pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray | None:
     """Differences of power [J/h] in pieces of the same time; None for different orbits."""
     pair = (first, other)
-    if any("orbit_energy" not in result or result.sizes["orbit"] < 4 for result in pair):
+    if any(not _has_pieces(result) for result in pair):
         return None
-    checksums = {stored_settings(result).get("loads", {}).get("sha256") for result in pair}
+    checksums = {_checksum_of_loads(result) for result in pair}
     times, other_times = (
         np.append(result.orbit_start.values, result.orbit_end.values[-1]) for result in pair
     )
@@ -254,13 +262,25 @@ def _differences_of_pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray |
     return 3600.0 * differences / seconds
 
 
+def _has_pieces(result: xr.Dataset) -> bool:
+    """True if a result has enough complete orbits for pieces of its window."""
+    return "orbit_energy" in result and result.sizes["orbit"] >= 4
+
+
+def _checksum_of_loads(result: xr.Dataset) -> str | None:
+    """SHA-256 of the loads of a result; None if they come from no file."""
+    loads = stored_settings(result).get("loads", {})
+    return loads.get("sha256")
+
+
 def _half_range(variance: float, freedom: int, base: float) -> float:
     """Half of the 95 % range of a mean [% of the base]; NaN if not known or the base is 0."""
     from scipy.stats import t
 
     if not freedom or not base:
         return np.nan
-    half = 100.0 * t.ppf(0.975, freedom) * np.sqrt(variance)
+    error = np.sqrt(variance)
+    half = 100.0 * t.ppf(0.975, freedom) * error
     return float(half / abs(base))
 
 
@@ -294,7 +314,8 @@ def _table(
             high = change + half
             rows.append((quantity, units, design, value, change, low, high))
     table = pd.DataFrame(rows, columns=list(COLUMNS))
-    table.attrs = {**about, "ranking": " ".join(ranking_sentences(table))}
+    ranking = " ".join(ranking_sentences(table))
+    table.attrs = {**about, "ranking": ranking}
     return table
 
 
@@ -393,14 +414,19 @@ def _parts(study: xr.Dataset, labels: Sequence[str]) -> dict[str, xr.Dataset]:
         str(name): ("case", one_value) for name in binned(study, None).groups if name not in labels
     }
     study = study.assign_coords(pooled)
-    return {name: study.isel(case=np.flatnonzero(design == name)) for name in names}
+    parts = {}
+    for name in names:
+        cases = np.flatnonzero(design == name)
+        parts[name] = study.isel(case=cases)
+    return parts
 
 
 def _design_notes(
     years: Mapping[str, xr.Dataset], parts: Mapping[str, xr.Dataset], pooled: Sequence[str]
 ) -> list[str]:
     """Sentences on limits of the comparison of designs; a design has several values of `pooled`."""
-    notes = [coverage(next(iter(years.values())))]
+    any_year = next(iter(years.values()))
+    notes = [coverage(any_year)]
     if pooled:
         notes.append(
             f"The designs also have several values of {', '.join(pooled)}, which are pooled."
@@ -416,8 +442,10 @@ def _design_notes(
     names_by_keys: dict[frozenset[str], list[str]] = {}
     for name, part in parts.items():
         if "key" in part.coords and all(part.key.values.astype(str)):
-            names_by_keys.setdefault(frozenset(part.key.values.tolist()), []).append(name)
-    same = [" and ".join(names) for names in names_by_keys.values() if len(names) > 1]
+            keys = frozenset(part.key.values.tolist())
+            names_by_keys.setdefault(keys, []).append(name)
+    alike = [names for names in names_by_keys.values() if len(names) > 1]
+    same = [" and ".join(names) for names in alike]
     if same:
         notes.append(
             f"{'; '.join(same)} differ in nothing but their names: "
@@ -442,7 +470,8 @@ def _year_numbers(annual: xr.Dataset) -> dict[tuple[str, str], float]:
         numbers[f"energy of a mean roller, {row}", "J/year"] = float(energy)
     for name in LIVES:
         if name in annual:
-            numbers[name.replace("_", " "), "h"] = float(annual[name][0])
+            words = name.replace("_", " ")
+            numbers[words, "h"] = float(annual[name][0])
     return numbers
 
 
@@ -463,9 +492,12 @@ def _pooled_variance(
     differences: pd.Series, bin_of_loads: Mapping[str, int], share: np.ndarray
 ) -> tuple[float, int]:
     """Variance of the mean difference over a year by scatter in bins; degrees of freedom."""
-    pieces = differences.groupby([bin_of_loads[str(name)] for name in differences.index])
+    bins = [bin_of_loads[str(name)] for name in differences.index]
+    pieces = differences.groupby(bins)
     size = pieces.size()
     several = size > 1
     weight = share[size.index.to_numpy(dtype=int)]
-    variance = (weight**2 * pieces.var() / size)[several].sum()
-    return float(variance), int((size - 1)[several].sum())
+    variance_of_mean = pieces.var() / size
+    variance = (weight**2 * variance_of_mean)[several].sum()
+    freedom = (size - 1)[several].sum()
+    return float(variance), int(freedom)

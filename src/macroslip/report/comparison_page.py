@@ -48,7 +48,8 @@ def comparison_page(
     numbers, criteria, inputs = comparison_tables(comparison)
     bodies = {"side": text.shown(numbers)}
     if criteria.rows:
-        bodies["damage"] = text.criteria(criteria, _criteria_pictures(comparison))
+        pictures = _criteria_pictures(comparison)
+        bodies["damage"] = text.criteria(criteria, pictures)
     if inputs.rows:
         bodies["inputs"] = text.shown(inputs)
     maps, have_differences = _maps(results)
@@ -68,7 +69,8 @@ def comparison_page(
 def _listed(names: list[str]) -> str:
     """Names as a list in a sentence."""
     *others, last = names
-    return " and ".join(filter(None, (", ".join(others), last)))
+    most = ", ".join(others)
+    return " and ".join(filter(None, (most, last)))
 
 
 def _criteria_pictures(comparison: pd.DataFrame) -> list[Picture]:
@@ -76,7 +78,8 @@ def _criteria_pictures(comparison: pd.DataFrame) -> list[Picture]:
     by_name = comparison.attrs["criteria"]
     count = len({line["title"] for lines in by_name.values() for line in lines})
     about = "Criteria of damage of every result: value over reference with what it is known to"
-    height = 0.9 + count * (0.25 + 0.1 * len(by_name))
+    height_of_criterion = 0.25 + 0.1 * len(by_name)
+    height = 0.9 + count * height_of_criterion
     return [picture(draw.plot_criteria_side_by_side, about, by_name, height=height, legend="above")]
 
 
@@ -121,7 +124,8 @@ def _maps(results: Mapping[str, xr.Dataset]) -> tuple[list[Picture], bool]:
     for name, result in results.items():
         if "surface_energy" in result:
             hours = window_length(result) / HOUR
-            density = energy_density(result) / (hours * result.sizes["roller"])
+            roller_hours = hours * result.sizes["roller"]
+            density = energy_density(result) / roller_hours
             rates[name] = draw.raceways(density)
     if len(rates) < 2:
         return [], False
@@ -134,7 +138,8 @@ def _maps(results: Mapping[str, xr.Dataset]) -> tuple[list[Picture], bool]:
             # Rollers of another length have other stations.
             if name != first and np.allclose(start.station, maps[raceway].station):
                 # Angles of different maps may differ in the last bit.
-                differences[raceway, f"{name} − {first}"] = maps[raceway] - start.values
+                difference = maps[raceway] - start.values
+                differences[raceway, f"{name} − {first}"] = difference
     drawn = _drawn_maps(values) | _drawn_maps(differences, difference=True)
     pictures = []
     for raceway in rates[first]:
@@ -151,16 +156,17 @@ def _drawn_maps(
         for (raceway, name), values in maps.items()
     }
     plot = functools.partial(draw.plot_map, difference=difference)
-    return dict(zip(maps, compared(plot, panels, width=3.2, height=2.6), strict=True))
+    pictures = compared(plot, panels, width=3.2, height=2.6)
+    return dict(zip(maps, pictures, strict=True))
 
 
 def _plot_exceeded(axes: Axes, curves: Mapping[str, np.ndarray], label: str) -> Axes:
     """Share of orbits that exceed a value, a curve for each result's falling values."""
     for k, (name, values) in enumerate(curves.items()):
-        share = 100.0 * (np.arange(values.size) + 1.0) / values.size
-        axes.plot(
-            values, share, label=name, color=f"C{k % 10}", linestyle=("-", "--", ":", "-.")[k % 4]
-        )
+        count = np.arange(values.size) + 1.0
+        share = 100.0 * count / values.size
+        dashes = ("-", "--", ":", "-.")[k % 4]
+        axes.plot(values, share, label=name, color=f"C{k % 10}", linestyle=dashes)
     log_ticks(log_ticks(axes), "x")
     return finish(axes, label, "orbits above it [%]")
 
@@ -176,11 +182,13 @@ def comparison_tables(comparison: pd.DataFrame) -> list[Table]:
     for name in names[1:]:
         headings += [name, "difference [%]"]
     inputs = comparison.attrs["inputs"]
-    shown = [
-        (key, *(_short(values[name]) for name in names))
-        for key, values in itertools.islice(inputs.items(), _MOST_INPUTS)
-    ]
-    more = f"; the first {_MOST_INPUTS} of {len(inputs)}" if len(inputs) > _MOST_INPUTS else ""
+    shown = []
+    for key, values in itertools.islice(inputs.items(), _MOST_INPUTS):
+        cells = [_short(values[name]) for name in names]
+        shown.append((key, *cells))
+    more = ""
+    if len(inputs) > _MOST_INPUTS:
+        more = f"; the first {_MOST_INPUTS} of {len(inputs)}"
     return [
         Table(headings, rows, _RANGE if has_ranges else "Headline numbers"),
         _criteria_table(comparison.attrs.get("criteria", {})),
@@ -193,12 +201,15 @@ def _criteria_table(by_name: Mapping[str, list[dict[str, Any]]]) -> Table:
     cells: dict[str, dict[str, str]] = {}
     for name, lines in by_name.items():
         for line in lines:
-            ratio = f" ({number(line['ratio'], 2)})" if np.isfinite(line["ratio"]) else ""
-            value = f"{usual_units(line['value'], line['unit'])}{ratio}"
+            ratio = ""
+            if np.isfinite(line["ratio"]):
+                ratio = f" ({number(line['ratio'], 2)})"
+            value = usual_units(line["value"], line["unit"]) + ratio
             cells.setdefault(line["title"], {})[name] = value
     rows = []
     for title, of in cells.items():
-        rows.append((title, *(of.get(name, "–") for name in by_name)))
+        values = [of.get(name, "–") for name in by_name]
+        rows.append((title, *values))
     caption = "Criteria of damage; in brackets: value over reference"
     return Table(("criterion", *by_name), rows, caption)
 
@@ -206,21 +217,30 @@ def _criteria_table(by_name: Mapping[str, list[dict[str, Any]]]) -> Table:
 def _line(quantity: str, designs: pd.DataFrame) -> tuple[str, ...]:
     """A quantity of every design, and its difference from the first."""
     largest = designs["value"].abs().max()
-    factor, units = scaled(largest, designs["units"].iloc[0])
+    units_of_quantity = designs["units"].iloc[0]
+    factor, units = scaled(largest, units_of_quantity)
+    is_life = quantity.endswith("life")
     cells = []
     for value, change, low, high in designs[
         ["value", "difference [%]", "low [%]", "high [%]"]
     ].itertuples(index=False):
-        cells.append(years(value) if quantity.endswith("life") else number(factor * value))
-        interval = f" ({low:.3g} to {high:.3g})" if np.isfinite(low) else ""
-        cells.append(f"{round(change, 9):+.3g}{interval}" if np.isfinite(change) else "–")
+        cells.append(years(value) if is_life else number(factor * value))
+        interval = ""
+        if np.isfinite(low):
+            interval = f" ({low:.3g} to {high:.3g})"
+        difference = "–"
+        if np.isfinite(change):
+            difference = f"{round(change, 9):+.3g}{interval}"
+        cells.append(difference)
     # The first design has no difference; lives have their unit beside them.
-    heading = quantity if quantity.endswith("life") else f"{quantity} [{units}]"
+    heading = quantity if is_life else f"{quantity} [{units}]"
     return (heading, cells[0], *cells[2:])
 
 
 def _short(value: object) -> str:
-    text = number(value, 6) if isinstance(value, float) else str(value)
+    text = str(value)
+    if isinstance(value, float):
+        text = number(value, 6)
     if len(text) <= _LENGTH:
         return text
     return f"{text[: _LENGTH - 1]}…"

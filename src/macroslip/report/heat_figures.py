@@ -81,12 +81,15 @@ def plot_residuals(axes: Axes, heat: BearingHeat, over: str) -> Axes:
     chosen = heat.windows["reference"].to_numpy()
     if over != "temperature":
         chosen = chosen & heat.windows["turning"].to_numpy()
-    values = factor * heat.windows[column].to_numpy()[chosen] + offset
+    of_windows = heat.windows[column].to_numpy()
+    values = factor * of_windows[chosen] + offset
     bins = width * np.round(values / width)
     for fit in shown_fits(heat):
         groups = pd.Series(fit.residuals[chosen]).groupby(bins)
-        means = groups.mean().where(groups.size() >= _LEAST).dropna()
-        axes.plot(means.index, means, label=fit.model.name, markersize=4, **MODEL[fit.model.name])
+        is_filled = groups.size() >= _LEAST
+        means = groups.mean().where(is_filled).dropna()
+        name = fit.model.name
+        axes.plot(means.index, means, label=name, markersize=4, **MODEL[name])
     axes.axhline(0.0, color=BLACK, linewidth=0.8)
     return finish(axes, label, "mean residual [K/h]")
 
@@ -110,7 +113,8 @@ def plot_index(axes: Axes, heat: BearingHeat, column: str = "r") -> Axes:
     _plot_index_column(axes, heat, "week", column, markersize=3)
     axes.axhline(1.0, color=BLACK, linewidth=0.8)
     # A model that expects hardly any heat in some week would flatten all others.
-    axes.set_ylim(*np.clip(axes.get_ylim(), *_SHOWN_INDEX))
+    shown = np.clip(axes.get_ylim(), *_SHOWN_INDEX)
+    axes.set_ylim(*shown)
     _dates(axes)
     label = "heat over expected heat [-]" if column == "r" else "index over the sibling's [-]"
     return finish(axes, "", label)
@@ -120,7 +124,8 @@ def plot_cusum(axes: Axes, heat: BearingHeat, column: str = "cusum") -> Axes:
     """Cumulative sum of the daily index above 1.10, a line a model; as `plot_index`."""
     days = _plot_index_column(axes, heat, "day", column, marker="")
     axes.axhline(FLAGGED, color=BLACK, linewidth=0.8)
-    highest = min(float(days[column].max()), 6.0 * FLAGGED)
+    largest = float(days[column].max())
+    highest = min(largest, 6.0 * FLAGGED)
     axes.set_ylim(0.0, max(1.5 * FLAGGED, highest))
     _dates(axes)
     return finish(axes, "", "cumulative sum [-]")

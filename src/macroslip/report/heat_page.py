@@ -50,7 +50,8 @@ def heat_page(heat: BearingHeat, description: ScadaDescription, study: str) -> s
         HTML.
     """
     text = words(_TEMPLATE)
-    has_sibling = bool(heat.index["r_sibling"].notna().any())
+    over_sibling = heat.index["r_sibling"]
+    has_sibling = bool(over_sibling.notna().any())
     bodies = {
         "fits": text.fits(fit_table(heat)),
         "residuals": text.residuals(_residual_pictures(heat)),
@@ -127,7 +128,8 @@ def block_scatter(heat: BearingHeat, rival: HeatFit) -> float:
     inside = heat.windows["reference"].to_numpy()
     more = (rival.residuals**2 - heat.chosen.residuals**2)[inside]
     block_of_window = heat.windows["block"].to_numpy()[inside]
-    blocks = pd.Series(more).groupby(block_of_window).sum().to_numpy()
+    by_block = pd.Series(more).groupby(block_of_window)
+    blocks = by_block.sum().to_numpy()
     error = blocks.std(ddof=1) / np.sqrt(blocks.size)
     return float(blocks.mean() / error)
 
@@ -135,7 +137,8 @@ def block_scatter(heat: BearingHeat, rival: HeatFit) -> float:
 def _constants(fit: HeatFit) -> str:
     values = fit.values
     errors = fit.errors
-    loss = sum(values[name] for name in ("to_nacelle", "to_ambient") if name in values)
+    losses = [values[name] for name in ("to_nacelle", "to_ambient") if name in values]
+    loss = sum(losses)
     return (
         f"Heat capacity {1e-6 * values['capacity']:.2f} ± {1e-6 * errors['capacity']:.2f} MJ/K, "
         f"loss {loss:.3f} per hour, torque of seals {values['seal_torque']:.0f} ± "
@@ -153,7 +156,8 @@ def _capacity(fit: HeatFit, description: ScadaDescription) -> str:
         )
     masses = known.range or (known.mass, known.mass)
     low, high = (1e-6 * SPECIFIC_HEAT * mass for mass in masses)
-    inside = low <= 1e-6 * fit.values["capacity"] <= high
+    fitted = 1e-6 * fit.values["capacity"]
+    inside = low <= fitted <= high
     return (
         f" The given mass of steel has {low:.2f} to {high:.2f} MJ/K: the fitted capacity lies "
         f"{'inside' if inside else 'outside, so that this supply of oil is unlikely'}."
@@ -190,7 +194,9 @@ def _flags(heat: BearingHeat) -> str:
         if flag is not None
         else f"its cumulative sum stays below {FLAGGED:g}"
     )
-    spread = f", by months {months.min():.2f} to {months.max():.2f}" if len(months) else ""
+    spread = ""
+    if len(months):
+        spread = f", by months {months.min():.2f} to {months.max():.2f}"
     over = ""
     if bool(days["r_sibling"].notna().any()):
         flag = first_flag(days, "cusum_sibling")
@@ -203,7 +209,8 @@ def _flags(heat: BearingHeat) -> str:
 def _index_of_chosen(heat: BearingHeat, period: str) -> pd.DataFrame:
     """Index of the chosen model by `day`, `week` or `month`."""
     rows = heat.index_by(period)
-    return rows.loc[rows["model"] == heat.chosen.model.name]
+    is_chosen = rows["model"] == heat.chosen.model.name
+    return rows.loc[is_chosen]
 
 
 def fit_table(heat: BearingHeat) -> Table:
@@ -211,9 +218,11 @@ def fit_table(heat: BearingHeat) -> Table:
     rows = []
     for fit in sorted(heat.fits, key=lambda fit: fit.residual):
         for position, (name, value) in enumerate(fit.values.items()):
-            factor, unit = _SHOWN.get(name, (1.0, PARAMETERS[name][0]))
-            head = (fit.model.title, f"{fit.residual:.4f}") if position == 0 else ("", "–")
-            constant = PARAMETERS[name][1]
+            unit_of_fit, constant = PARAMETERS[name]
+            factor, unit = _SHOWN.get(name, (1.0, unit_of_fit))
+            head = ("", "–")
+            if position == 0:
+                head = (fit.model.title, f"{fit.residual:.4f}")
             error = factor * fit.errors[name]
             shown = (number(factor * value, 3), number(error, 2))
             rows.append((*head, constant, *shown, unit))

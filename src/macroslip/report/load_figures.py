@@ -24,7 +24,8 @@ def plot_bearing_load(axes: Axes, loads: BearingLoads) -> Axes:
     """Radial load and thrust on the main bearing [kN] over time."""
     radial = loads.radial_load / 1e3
     axes.plot(loads.time, radial, color=BLUE, linewidth=0.8, label="radial load")
-    axes.plot(loads.time, loads.axial_load / 1e3, color=ORANGE, linewidth=0.8, label="thrust")
+    thrust = loads.axial_load / 1e3
+    axes.plot(loads.time, thrust, color=ORANGE, linewidth=0.8, label="thrust")
     axes.legend(frameon=False, fontsize=9, loc="upper right")
     return finish(axes, "time [s]", "load [kN]", "load on the main bearing")
 
@@ -55,7 +56,8 @@ def plot_spectrum(axes: Axes, loads: BearingLoads) -> Axes:
     from scipy.signal import welch
 
     step = float(np.median(np.diff(loads.time)))
-    piece = min(loads.time.size, max(8, round(_SPECTRUM_PIECE / step)))
+    samples = round(_SPECTRUM_PIECE / step)
+    piece = min(loads.time.size, max(8, samples))
     for values, color, name in (
         (loads.radial_load, BLUE, "radial load"),
         (loads.axial_load, ORANGE, "thrust"),
@@ -107,7 +109,8 @@ def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
     plot_shaft_speed(axes[1], loads)
     plot_direction(axes[2], loads)
     plot_spectrum(axes[3], loads)
-    plot_empty_row(axes[4], time, carried, float(np.mean(carried <= 0.0)))
+    share_empty = float(np.mean(carried <= 0.0))
+    plot_empty_row(axes[4], time, carried, share_empty)
     radial = loads.radial_load / 1e3
     exceeded = np.sort(radial)[::-1]
     percent = np.linspace(0.0, 100.0, exceeded.size)

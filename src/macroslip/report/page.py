@@ -36,8 +36,10 @@ class Table:
     @property
     def numeric(self) -> list[bool]:
         """True for each column whose cells are all numbers, or dashes for these."""
-        columns = list(zip(*self.rows, strict=True)) or [()] * len(self.headings)
-        return [bool(cells) and all(map(_NUMBER.match, cells)) for cells in columns]
+        columns = list(zip(*self.rows, strict=True))
+        if not columns:
+            return [False] * len(self.headings)
+        return [all(map(_NUMBER.match, cells)) for cells in columns]
 
 
 @dataclass(frozen=True, slots=True)

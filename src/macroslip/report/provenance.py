@@ -24,7 +24,8 @@ _DOI = re.compile(r"doi:\s*(10\.\S+?)[.;,)]?(?=\s|$)")
 def provenance_section(datasets: Mapping[str, xr.Dataset]) -> Section:
     """The section on the origin of every number of a page, of results or studies by name."""
     settings = {name: stored_settings(dataset) for name, dataset in datasets.items()}
-    sources = sorted({dataset.attrs.get("source", "not given") for dataset in datasets.values()})
+    programs = {dataset.attrs.get("source", "not given") for dataset in datasets.values()}
+    sources = sorted(programs)
     program = [("computed by", ", ".join(sources))]
     program += [
         (f"this page: {key}", str(value)) for key, value in machine().items() if value is not None
@@ -72,7 +73,8 @@ def _input_tables(settings_by_name: Mapping[str, Mapping[str, Any]], part: str) 
         }
         value = settings.get(part) if part else further
         if isinstance(value, dict) and value:
-            names_by_content.setdefault(json.dumps(value, ensure_ascii=False), []).append(name)
+            content = json.dumps(value, ensure_ascii=False)
+            names_by_content.setdefault(content, []).append(name)
     tables = []
     for text, names in names_by_content.items():
         title = (part.capitalize() or "Further input") + (
@@ -102,7 +104,8 @@ def _entry(key: str, entry: Any) -> tuple[str, str, str, str]:
     if not isinstance(entry, dict):
         return key, str(entry), "", ""
     tag = str(entry.get("tag", ""))
-    value = with_unit(entry.get("value"), str(entry.get("unit", "")))
+    unit = str(entry.get("unit", ""))
+    value = with_unit(entry.get("value"), unit)
     return key, value, TAGS.get(tag, tag), str(entry.get("note", ""))
 
 
@@ -124,7 +127,8 @@ def _loads(settings_by_name: Mapping[str, Mapping[str, Any]]) -> Table:
 
 def _text(value: Any) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{key} {_text(entry)}" for key, entry in value.items())
+        entries = [f"{key} {_text(entry)}" for key, entry in value.items()]
+        return ", ".join(entries)
     return "none" if value is None else with_unit(value, "1")
 
 
@@ -158,9 +162,13 @@ def bibtex(citations: Iterable[str]) -> str:
         entry = next((work for mark, work in known.items() if mark in citation), None)
         if entry is None:
             doi = _DOI.search(citation)
-            fields = {"note": citation.strip()} | ({"doi": doi.group(1)} if doi else {})
-            key = "_".join(re.findall(r"[A-Za-z]{2,}|a(?= )", citation.lower())[:3]) or "work"
-            key = key if key not in keys else f"{key}_{len(keys)}"
+            fields = {"note": citation.strip()}
+            if doi:
+                fields["doi"] = doi.group(1)
+            words_of_key = re.findall(r"[A-Za-z]{2,}|a(?= )", citation.lower())[:3]
+            key = "_".join(words_of_key) or "work"
+            if key in keys:
+                key = f"{key}_{len(keys)}"
             keys.add(key)
             entry = _bibtex_entry("misc", key, fields)
         entries.append(entry)
@@ -172,5 +180,8 @@ def _bibtex_entry(kind: str, key: str, fields: dict[str, str]) -> str:
     for name, value in fields.items():
         # Braces of an unknown text would end the field.
         closed = value.count("{") == value.count("}")
-        lines.append(f"  {name} = {{{value if closed else re.sub('[{}]', '', value)}}}")
-    return f"@{kind}{{{key},\n" + ",\n".join(lines) + "\n}"
+        if not closed:
+            value = re.sub("[{}]", "", value)
+        lines.append(f"  {name} = {{{value}}}")
+    content = ",\n".join(lines)
+    return f"@{kind}{{{key},\n{content}\n}}"

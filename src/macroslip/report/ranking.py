@@ -33,11 +33,13 @@ def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
     known = energies.loc[is_known].sort_values("value", kind="stable")
     if len(known) < 2:
         return [f"The designs cannot be ranked: the energy of {unknown} is not known."]
-    if known["value"].iloc[0] == known["value"].iloc[-1]:
+    values = known["value"]
+    if values.iloc[0] == values.iloc[-1]:
         return ["All dissipate the same energy."]
     if len(known) > _MOST_NAMED + 1:
         shown = pd.concat([known[:_MOST_NAMED], known[-1:]])
-        between = f"; {len(known) - len(shown)} others between them"
+        hidden = len(known) - len(shown)
+        between = f"; {hidden} others between them"
     else:
         shown = known
         between = ""
@@ -45,7 +47,8 @@ def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
     if unknown:
         sentences.append(f"The energy of {unknown} is not known.")
     first = energies["design"].iloc[0]
-    sentences += _differences(first, shown[shown["design"] != first])
+    others = shown[shown["design"] != first]
+    sentences += _differences(first, others)
     best = shown["design"].iloc[0]
     worse = [
         f"{quantity} ({other})"
@@ -54,7 +57,8 @@ def ranking_sentences(comparison: pd.DataFrame) -> list[str]:
         and (other := _better_design(str(quantity), of_quantity, best))
     ]
     if worse:
-        sentences.append(f"Others are more than 5 % better than {best} in: {'; '.join(worse)}.")
+        listed = "; ".join(worse)
+        sentences.append(f"Others are more than 5 % better than {best} in: {listed}.")
     return sentences
 
 
@@ -77,12 +81,13 @@ def _better_design(quantity: str, numbers: pd.DataFrame, best: str) -> str:
 def _order(ranked: pd.DataFrame) -> str:
     """The best design with its energy, and the excess of the others."""
     best = ranked.iloc[0]
-    factor, units = scaled(best["value"], best["units"])
-    parts = [f"{best['design']} dissipates least, {factor * best['value']:.4g} {units} ({ENERGY})"]
+    least = best["value"]
+    factor, units = scaled(least, best["units"])
+    parts = [f"{best['design']} dissipates least, {factor * least:.4g} {units} ({ENERGY})"]
     others = ranked[1:]
     for design, value in zip(others["design"], others["value"], strict=True):
-        if best["value"] > 0.0:
-            percent = 100.0 * (value / best["value"] - 1.0)
+        if least > 0.0:
+            percent = 100.0 * (value / least - 1.0)
             parts.append(f"{design} {percent:.3g} % more")
         else:
             factor, units = scaled(value, best["units"])

@@ -70,8 +70,10 @@ def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
     real = shown["real"].to_numpy() / fixed
     cooler = shown["oil_cooler"].to_numpy() / fixed
     warmer = shown["oil_warmer"].to_numpy() / fixed
-    down = np.abs(real - np.minimum(cooler, warmer))
-    up = np.abs(np.maximum(cooler, warmer) - real)
+    lowest = np.minimum(cooler, warmer)
+    highest = np.maximum(cooler, warmer)
+    down = np.abs(real - lowest)
+    up = np.abs(highest - real)
     axes.errorbar(
         positions,
         real,

@@ -33,7 +33,8 @@ def verdict(real_year: RealYear) -> list[str]:
     How much the mean temperature decides, and how much the place of the sensor.
     """
     table = real_year.table
-    first = table[table["design"] == table["design"].iloc[0]]
+    first_design = table["design"].iloc[0]
+    first = table[table["design"] == first_design]
     of = first.set_index("quantity")
     temperatures = (
         f"The oil is at {real_year.mean_production:.1f} °C in the mean while the rotor turns, "
@@ -64,7 +65,8 @@ def real_year_page(real_year: RealYear) -> str:
     text = words(_TEMPLATE)
     designs = list(dict.fromkeys(real_year.table["design"]))
     first = designs[0]
-    of_first = real_year.bins[real_year.bins["design"] == first]
+    bins = real_year.bins
+    of_first = bins[bins["design"] == first]
     bodies = {
         "numbers": text.numbers(_table(real_year.table)),
         "where": text.where(_maps(of_first), _coarse(of_first)),
@@ -78,7 +80,9 @@ def real_year_page(real_year: RealYear) -> str:
             *_maps(of_first)[2:],
         ],
     )
-    of_designs = f"; {len(designs)} designs, pictures of {first}" if len(designs) > 1 else ""
+    of_designs = ""
+    if len(designs) > 1:
+        of_designs = f"; {len(designs)} designs, pictures of {first}"
     subtitle = f"{real_year.source}{of_designs}."
     return render("A real year", subtitle, opening, sections(_TEMPLATE, bodies))
 
@@ -100,7 +104,8 @@ def _maps(bins: pd.DataFrame) -> list[Picture]:
 
 
 def _is_known(turning: pd.DataFrame, column: str) -> bool:
-    return bool(np.nansum(turning[column].to_numpy()) > 0.0)
+    values = turning[column].to_numpy()
+    return bool(np.nansum(values) > 0.0)
 
 
 def _table(table: pd.DataFrame) -> Table:
@@ -111,7 +116,9 @@ def _table(table: pd.DataFrame) -> Table:
         name = DESIGN_COLUMNS[line["quantity"]].meaning
         factor, units = scaled(line["fixed"], line["unit"])
         unit = f" [{units}]" if units != "1" else ""
-        head = f"{line['design']}: {name}{unit}" if several else f"{name}{unit}"
+        head = f"{name}{unit}"
+        if several:
+            head = f"{line['design']}: {head}"
         amounts = {key: factor * line[key] for key in _AMOUNTS}
         keys = ("real", "at_mean", "fixed", "real_over_fixed", "oil_cooler", "oil_warmer")
         numbers = line | amounts
@@ -128,9 +135,11 @@ def _coarse(bins: pd.DataFrame) -> Table:
     columns = [column for column in _SHARED if _is_known(turning, column)]
     sums = turning.groupby("wind_speed [m/s]")[columns].sum()
     of_winds = np.array(sums, dtype=float)
-    rows = [
-        (f"{wind:g}", *(number(value, 3) for value in line))
-        for wind, line in zip(sums.index, 100.0 * of_winds / of_winds.sum(axis=0), strict=True)
-    ]
-    headings = ("wind speed [m/s]", *(f"{_SHARED[column]} [%]" for column in columns))
+    percent = 100.0 * of_winds / of_winds.sum(axis=0)
+    rows = []
+    for wind, shares in zip(sums.index, percent, strict=True):
+        cells = [number(share, 3) for share in shares]
+        rows.append((f"{wind:g}", *cells))
+    headings_of_shares = [f"{_SHARED[column]} [%]" for column in columns]
+    headings = ("wind speed [m/s]", *headings_of_shares)
     return Table(headings, rows, "Shares of production")

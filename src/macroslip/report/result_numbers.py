@@ -56,12 +56,14 @@ def _of_row(row: xr.Dataset) -> dict[str, Any]:
     share = None
     if total:
         interface = str(by_interface.idxmax().item())
-        share = 100.0 * float(by_interface.max()) / total
+        largest = float(by_interface.max())
+        share = 100.0 * largest / total
     peaks = row.get("peak_power", unknown)
     largest_peaks = row.get("window_peak_power", peaks)
     spin_ratios = row.get("min_spin_ratio", unknown)
     outside = 100.0 * row.get("outside_film_range", unknown)
-    at_raceways = outside.sel(interface=outside.interface.isin(["inner", "outer"]))
+    is_raceway = outside.interface.isin(["inner", "outer"])
+    at_raceways = outside.sel(interface=is_raceway)
     return {
         "name": row.row.item(),
         "energy": total,
@@ -82,7 +84,9 @@ def _of_row(row: xr.Dataset) -> dict[str, Any]:
 
 def known(value: xr.DataArray | None) -> float | None:
     """A number; None where it is missing or not finite."""
-    return float(value) if value is not None and bool(np.isfinite(value)) else None
+    if value is None or not np.isfinite(value):
+        return None
+    return float(value)
 
 
 def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
@@ -124,7 +128,8 @@ def failures(name: str, result: xr.Dataset) -> list[dict[str, Any]]:
     """Rollers of a result that failed, with the time and the cause."""
     if "end_time" not in result:
         return []
-    failed = np.argwhere(result.status.transpose("row", "roller").values != Status.COMPLETED)
+    status = result.status.transpose("row", "roller").values
+    failed = np.argwhere(status != Status.COMPLETED)
     ends = (result.isel(row=row, roller=roller) for row, roller in failed)
     return [
         {
@@ -161,7 +166,8 @@ def overview_table(results: Mapping[str, xr.Dataset]) -> Table:
 
 def is_whole(result: xr.Dataset) -> bool:
     """True if orbit and spin were computed together."""
-    return result.attrs.get("dynamics") == "whole-bearing" and "momentum_residual" in result
+    is_solved_together = result.attrs.get("dynamics") == "whole-bearing"
+    return is_solved_together and "momentum_residual" in result
 
 
 def counterpart(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> str | None:
@@ -220,7 +226,8 @@ def pocket_table(result: xr.Dataset) -> Table:
     span = window_length(result)
     largest = result.largest_pocket_force.max("roller")
     mean = result.pocket_impulse.mean("roller") / span
-    contact = 100.0 * result.pocket_contact_time.mean("roller") / span
+    contact_time = result.pocket_contact_time.mean("roller")
+    contact = 100.0 * contact_time / span
     rows = []
     for row, side in itertools.product(result.row.values, result.side.values):
         spar = {"row": row, "side": side}
@@ -361,7 +368,12 @@ def usual_units(value: float, unit: str) -> str:
     )
     scaled = value * scale
     if name == " J/mm²" and scaled >= 1e3:
-        scaled, name = (1e-6 * scaled, " MJ/mm²") if scaled >= 1e6 else (1e-3 * scaled, " kJ/mm²")
+        factor = 1e-3
+        name = " kJ/mm²"
+        if scaled >= 1e6:
+            factor = 1e-6
+            name = " MJ/mm²"
+        scaled = factor * scaled
     return f"{float(f'{scaled:.2g}'):g}{name}"
 
 
@@ -372,7 +384,9 @@ def criteria_table(lines: Sequence[Mapping[str, Any]]) -> Table:
         value = usual_units(line["value"], line["unit"])
         reference = usual_units(line["reference"], line["unit"])
         has_reference = np.isfinite(line["reference"])
-        ratio = "< 0.001" if 0.0 < line["ratio"] < 1e-3 else number(line["ratio"], 2)
+        ratio = number(line["ratio"], 2)
+        if 0.0 < line["ratio"] < 1e-3:
+            ratio = "< 0.001"
         rows.append(
             (
                 line["title"],
@@ -413,7 +427,8 @@ def by_raceway(values: xr.DataArray) -> list[tuple[str, str, float]]:
 
 def surface_shares(density: xr.DataArray) -> list[dict[str, Any]]:
     """Parts of the energy with slip < 0 and with Λ < 1 [%], for each row that dissipates energy."""
-    total = density.sum([dim for dim in density.dims if dim != "row"])
+    other_dims = [dim for dim in density.dims if dim != "row"]
+    total = density.sum(other_dims)
     shares = 100.0 * density / total.where(total > 0.0)
     return [
         {
@@ -427,7 +442,8 @@ def surface_shares(density: xr.DataArray) -> list[dict[str, Any]]:
 
 def least_film_ratios(orbit: xr.Dataset) -> list[tuple[str, str, float]]:
     """Row, raceway and least median Λ over the orbit, where there is a film."""
-    least = orbit.film_parameter.sel(quantile=0.5, interface=["inner", "outer"]).min("angle")
+    median = orbit.film_parameter.sel(quantile=0.5, interface=["inner", "outer"])
+    least = median.min("angle")
     return [
         (row, interface, float(least.sel(row=row, interface=interface)))
         for row, interface in itertools.product(least.row.values, least.interface.values)
