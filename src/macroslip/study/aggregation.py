@@ -43,8 +43,9 @@ class Aggregation:
 
     def bins(self, study: xr.Dataset) -> Binning:
         """Runs by group and bin, as `macroslip.study.weights.binned`; one bin without weights."""
-        field = None if self.weights is None else self.field
-        return binned(study, field, self.width, self.by)
+        if self.weights is None:
+            return binned(study, None, self.width, self.by)
+        return binned(study, self.field, self.width, self.by)
 
 
 def aggregation_in_use(
@@ -58,5 +59,7 @@ def aggregation_in_use(
     if stored is None:
         alike = wind is None and "wind_speed" not in study.coords
         return Aggregation(wind, years, None if alike else "wind_speed")
-    weights = replace(stored.year, wind=wind) if wind else stored.year
+    weights = stored.year
+    if wind:
+        weights = replace(weights, wind=wind)
     return Aggregation(weights, years, stored.field, stored.width)

@@ -36,8 +36,11 @@ def study_at_balance(
     """
     loads = study.loads.loads
     count = len(loads)
-    shares = study.weights.of(loads) if study.weights else [1.0 / count] * count
-    weights = dict(zip((load.name for load in loads), shares, strict=True))
+    shares = [1.0 / count] * count
+    if study.weights:
+        shares = study.weights.of(loads)
+    names = [load.name for load in loads]
+    weights = dict(zip(names, shares, strict=True))
     cases = {
         run.group: study.case_of(run)[0]
         for run in {run.group: run for run in study.runs()}.values()
@@ -57,6 +60,7 @@ def study_at_balance(
             else at
             for group, (at, settled) in next_temperatures.items()
         }
+        trial_temperatures = {group: round(at, _DIGITS) for group, at in chosen.items()}
         trial = replace(
             study,
             case={**study.case, "rating": False, "traces": "none"},
@@ -64,23 +68,24 @@ def study_at_balance(
             cycles=False,
             heat=None,
             weights=None,
-            temperatures={group: round(at, _DIGITS) for group, at in chosen.items()},
+            temperatures=trial_temperatures,
         )
         compute(trial, directory)
-        for group, power in _mean_powers(trial, directory, weights).items():
-            known[group][chosen[group]] = power
+        powers = _mean_powers(trial, directory, weights)
+        for group, power in powers.items():
+            temperature = chosen[group]
+            known[group][temperature] = power
 
 
 def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> dict[str, float]:
     powers: dict[str, float] = {}
-    for run, power in zip(
-        study.runs(), open_study(directory).friction_power.values.tolist(), strict=True
-    ):
+    powers_of_runs = open_study(directory).friction_power.values.tolist()
+    for run, power in zip(study.runs(), powers_of_runs, strict=True):
         if not np.isfinite(power):
             raise MacroslipError(
                 f"the friction power of the bearing under the loads {run.load.name} is not known, "
                 "because the run failed: give the base case a temperature in place of balance"
             )
-        known = powers.get(run.group, 0.0)
-        powers[run.group] = known + weights[run.load.name] * power
+        weight = weights[run.load.name]
+        powers[run.group] = powers.get(run.group, 0.0) + weight * power
     return powers

@@ -179,9 +179,12 @@ class Database:
             for entry in entries:
                 if "detail" in entry and "outcome" in entry:
                     self._db.execute(_INSERT_RESULT, _row(entry))
-                failure = entry if entry.get("outcome") == Outcome.FAILED else {}
-                ending = (failure.get("outcome"), failure.get("reason"))
-                self._db.execute(update, (entry.get("key"), *ending, entry["run"]))
+                outcome = None
+                reason = None
+                if entry.get("outcome") == Outcome.FAILED:
+                    outcome = entry["outcome"]
+                    reason = entry.get("reason")
+                self._db.execute(update, (entry.get("key"), outcome, reason, entry["run"]))
 
 
 def damaged_database(directory: Path, error: sqlite3.DatabaseError) -> InputError:
@@ -200,7 +203,8 @@ def _row(entry: Mapping[str, Any]) -> tuple[Any, ...]:
     """Row of the table of results."""
     texts = [str(entry[name]) for name in _TEXT_COLUMNS]
     # Adding nothing makes a negative zero positive, as the database keeps it.
-    numbers = [float(entry["values"][name]) + 0.0 for name in NUMBERS]
+    values = entry["values"]
+    numbers = [float(values[name]) + 0.0 for name in NUMBERS]
     written = (None if math.isnan(number) else number for number in numbers)
     return (*texts, *written, _crc(texts, numbers))
 
@@ -213,16 +217,18 @@ def _decoded(content: bytes) -> str:
 def _crc(texts: Sequence[str], numbers: Sequence[float] = ()) -> int:
     """Checksum of a row, which detects changes on the disk."""
     packed = struct.pack(f"<{len(numbers)}d", *numbers)
-    return zlib.crc32("\0".join(texts).encode() + packed)
+    content = "\0".join(texts).encode()
+    return zlib.crc32(content + packed)
 
 
 def _is_sound(row: Sequence[Any]) -> bool:
     """True if a row of results is as it was recorded."""
-    texts = row[: len(_TEXT_COLUMNS)]
-    stored = row[len(_TEXT_COLUMNS) : -1]
-    numbers = [math.nan if number is None else number for number in stored]
+    *entries, checksum = row
+    count = len(_TEXT_COLUMNS)
+    texts = entries[:count]
+    numbers = [math.nan if number is None else number for number in entries[count:]]
     try:
-        return _crc(texts, numbers) == row[-1]
+        return _crc(texts, numbers) == checksum
     except (TypeError, struct.error):  # a text in place of a number, or the other way round
         return False
 
@@ -238,7 +244,8 @@ def read_runs(directory: Path) -> pd.DataFrame:
     if not path.exists():
         raise InputError("the database is not there", where=str(path), remedy=_GONE)
     frames = []
-    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as db:
+    address = f"{path.absolute().as_uri()}?mode=ro"
+    with closing(sqlite3.connect(address, uri=True)) as db:
         db.text_factory = _decoded
         if _columns(db) != _COLUMNS:
             raise other_version(directory, "with other numbers")
@@ -250,9 +257,11 @@ def read_runs(directory: Path) -> pd.DataFrame:
                 raise InputError("the list of runs is damaged", where=str(path), remedy=REMEDY)
             records = [{"run": run, **json.loads(texts)} for run, texts, *_ in rows]
             labels = pd.DataFrame(records)
-            summary = pd.DataFrame(list(map(_line, rows)), columns=[*TEXTS, *NUMBERS])
+            lines = [_line(row) for row in rows]
+            summary = pd.DataFrame(lines, columns=[*TEXTS, *NUMBERS])
             summary = summary.astype(dict.fromkeys(NUMBERS, float))
-            frames.append(pd.concat([labels, summary], axis=1))
+            together = pd.concat([labels, summary], axis=1)
+            frames.append(together)
     if not frames:
         raise InputError("its list of runs is empty", where=str(path), remedy=_NO_RUNS)
     return pd.concat(frames, ignore_index=True)
@@ -267,7 +276,8 @@ def _line(row: tuple[Any, ...]) -> tuple[Any, ...]:
     if result[0] is None:
         return (*TEXTS.values(), *nothing)
     if not _is_sound(result):
-        return (*(TEXTS | {"reason": "its row in the database is damaged"}).values(), *nothing)
+        texts = TEXTS | {"reason": "its row in the database is damaged"}
+        return (*texts.values(), *nothing)
     key, outcome, reason, detail, layout, *numbers, _ = result
     return (outcome, reason, key, detail, layout, *numbers)
 
@@ -278,15 +288,21 @@ def write_summary(directory: Path, units: dict[str, str]) -> None:
     import pyarrow.parquet as pq
 
     runs = read_runs(directory)
-    absent = set(AXIAL_SIGNS).difference(rows_with_numbers(runs))
-    runs = runs.drop(columns=[f"{name}_{row}" for name in ROW_VARIABLES for row in absent])
+    rows = rows_with_numbers(runs)
+    absent = [row for row in AXIAL_SIGNS if row not in rows]
+    without_rows = [f"{name}_{row}" for name in ROW_VARIABLES for row in absent]
+    runs = runs.drop(columns=without_rows)
     for name, column in runs.items():
         # Words beside numbers make all of a column text.
-        if column.map(lambda value: isinstance(value, str)).any():
+        is_text = column.map(lambda value: isinstance(value, str))
+        if is_text.any():
             runs[name] = column.map(str, na_action="ignore")
     table = pa.Table.from_pandas(runs, preserve_index=False)
     units = units | NUMBERS
-    fields = [field.with_metadata({"units": units.get(field.name, "1")}) for field in table.schema]
+    fields = []
+    for field in table.schema:
+        unit = units.get(field.name, "1")
+        fields.append(field.with_metadata({"units": unit}))
     table = table.cast(pa.schema(fields))
     buffer = io.BytesIO()
     pq.write_table(table, buffer, compression="zstd", write_page_checksum=True)

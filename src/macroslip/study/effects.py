@@ -39,7 +39,8 @@ def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray
     outcomes = np.asarray(results, float)
     ranks, chance = np.full((2, points.shape[1]), np.nan)
     if outcomes.size >= 3 and np.ptp(outcomes) > 0.0:
-        for p in np.flatnonzero(np.ptp(points, axis=0) > 0.0):
+        varied = np.ptp(points, axis=0) > 0.0
+        for p in np.flatnonzero(varied):
             ranks[p], chance[p] = spearmanr(points[:, p], outcomes)
     return ranks, chance
 
@@ -61,13 +62,12 @@ def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.
     outcomes = np.asarray(results, float)
     effect, error = np.full((2, points.shape[1]), np.nan)
     for p, coordinate in enumerate(points.T):
-        halves = (
-            outcomes[coordinate > np.median(coordinate)],
-            outcomes[coordinate <= np.median(coordinate)],
-        )
-        if min(half.size for half in halves) >= 2:
-            effect[p] = halves[0].mean() - halves[1].mean()
-            variances = [half.var(ddof=1) / half.size for half in halves]
+        middle = np.median(coordinate)
+        upper = outcomes[coordinate > middle]
+        lower = outcomes[coordinate <= middle]
+        if min(upper.size, lower.size) >= 2:
+            effect[p] = upper.mean() - lower.mean()
+            variances = [half.var(ddof=1) / half.size for half in (upper, lower)]
             error[p] = np.sqrt(sum(variances))
     return effect, error
 
@@ -92,15 +92,15 @@ def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.D
         raise InputError(
             "the study has no sample", allowed="studies with variations: {sample: ...}"
         )
-    annual = year(study, replace(aggregation, by=()))
+    every_design = replace(aggregation, by=())
+    annual = year(study, every_design)
     table, _ = designs(annual)
     labels = [name for name in labels_over(annual, "group") if name not in names]
     table["_block"] = table.groupby(labels, dropna=False, sort=False).ngroup()
-    quantities = [
-        name
-        for name in DESIGN_UNITS
-        if name in table and np.isfinite(table[name].to_numpy()).sum() >= _FEWEST
-    ]
+    quantities = []
+    for name in DESIGN_UNITS:
+        if name in table and np.isfinite(table[name].to_numpy()).sum() >= _FEWEST:
+            quantities.append(name)
     shape = len(quantities), len(names)
     effect, error, ranks, chance = np.full((4, *shape), np.nan)
     spread = np.full((shape[0], len(QUANTILES)), np.nan)
@@ -108,7 +108,8 @@ def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.D
         known = table[np.isfinite(table[name])]
         values = known[names].to_numpy(dtype=float)
         mean = known.groupby("_block")[name].transform("mean")
-        relative = (known[name] / mean.where(mean != 0.0)).fillna(1.0).to_numpy()
+        over_mean = known[name] / mean.where(mean != 0.0)
+        relative = over_mean.fillna(1.0).to_numpy()
         effect[q], error[q] = main_effects(values, relative)
         ranks[q], chance[q] = rank_correlations(values, relative)
         spread[q] = np.quantile(known[name], QUANTILES)

@@ -72,13 +72,16 @@ def estimate_study(study: Study) -> StudyEstimate:
         except InputError as problem:
             problems.append(str(problem))
     runs = len(study)
-    others = _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
+    others = _RECORD_BYTES
+    if study.cycles:
+        others += _CYCLES_BYTES
+    bytes_of_result = _mean([run.bytes for run in estimates])
     return StudyEstimate(
         runs=runs,
         looked_at=len(estimates),
         simulated_seconds=_mean([run.length for run in estimates]),
         seconds=runs * _mean([run.seconds for run in estimates]),
-        bytes=runs * (_mean([run.bytes for run in estimates]) + others),
+        bytes=runs * (bytes_of_result + others),
         problems=tuple(problems),
     )
 
@@ -97,12 +100,10 @@ def _estimate_run(case: Case) -> _RunEstimate:
     stretch = min(_STRETCH, length)
     half_seconds, half_bytes = _measured(case, 0.5 * stretch)
     seconds, size = _measured(case, stretch)
-    more = (length - stretch) / (0.5 * stretch)
-    return _RunEstimate(
-        length,
-        seconds + more * max(seconds - half_seconds, 0.0),
-        size + more * max(size - half_bytes, 0),
-    )
+    further = (length - stretch) / (0.5 * stretch)
+    further_seconds = further * max(seconds - half_seconds, 0.0)
+    further_bytes = further * max(size - half_bytes, 0)
+    return _RunEstimate(length, seconds + further_seconds, size + further_bytes)
 
 
 def _measured(case: Case, length: float) -> tuple[float, int]:
@@ -114,8 +115,11 @@ def _measured(case: Case, length: float) -> tuple[float, int]:
     second_sample = float(loads.time[1])
     end = max(loads.start + length, second_sample)
     end = min(end, loads.end)
-    traces = Traces(step=case.traces.step) if case.traces else None
+    traces = None
+    if case.traces:
+        traces = Traces(step=case.traces.step)
     part = replace(case, loads=loads.window(None, end), window=Window(), traces=traces)
     started = time.perf_counter()
     result = with_rating(simulate(part, threads=1), part)
-    return time.perf_counter() - started, len(to_bytes(result))
+    seconds = time.perf_counter() - started
+    return seconds, len(to_bytes(result))

@@ -53,10 +53,12 @@ def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     counted = _counted(study, bins)
     weight = bins.probabilities(aggregation.weights)
     with np.errstate(invalid="ignore", divide="ignore"):
-        rates = [
-            YEAR * weighted(above / counted.seconds[..., None], weight) for above in counted.above
-        ]
-        all_orbits = YEAR * weighted(counted.orbits / counted.seconds, weight)
+        rates = []
+        for above in counted.above:
+            per_second = above / counted.seconds[..., None]
+            rates.append(YEAR * weighted(per_second, weight))
+        orbits_per_second = counted.orbits / counted.seconds
+        all_orbits = YEAR * weighted(orbits_per_second, weight)
         # Thresholds that some orbits exceed and some do not, and one more at either end.
         most = all_orbits[..., None] * (1.0 - 1e-12)
         some = []
@@ -64,7 +66,7 @@ def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
             is_between = (rate > 0.0) & (rate < most)
             some.append(is_between.any(axis=(0, 1)))
     kept = _span(some[0] | some[1])
-    energy_orbits, power_orbits = (rate[..., kept] for rate in rates)
+    energy_orbits, power_orbits = [rate[..., kept] for rate in rates]
     over_bins = ("group", "bin")
     over_thresholds = ("group", "row", "threshold")
     about_energy = described("1/year", "orbits whose energy exceeds it")
@@ -107,12 +109,15 @@ def _counted(study: xr.Dataset, bins: Binning) -> _Counted:
         left_out=np.zeros(cells),
     )
     for case in range(study.sizes["case"]):
-        cell = (bins.group[case], bins.bin[case])
-        is_event = bool(bins.events[bins.bin[case]])
+        group = bins.group[case]
+        number = bins.bin[case]
+        cell = (group, number)
+        is_event = bool(bins.events[number])
         is_known = np.isfinite(study.energy_mean.values[case]).all()
         if is_known and (is_event or study.orbits.values[case] > 0):
             counted.used[cell] += 1
-            _count_run(counted, cell, study.isel(case=case), is_event)
+            run = study.isel(case=case)
+            _count_run(counted, cell, run, is_event)
         else:
             counted.left_out[cell] += 1
     return counted
@@ -121,21 +126,27 @@ def _counted(study: xr.Dataset, bins: Binning) -> _Counted:
 def _count_run(counted: _Counted, cell: tuple[int, int], run: xr.Dataset, is_event: bool) -> None:
     """Add the orbits of one run, and the time that they took."""
     dims = ("row", "roller", "orbit")
-    energy = run.orbit_energy.sum("interface", skipna=False).transpose(*dims).values
-    power = run.peak_power.max("interface", skipna=False).transpose(*dims).values
+    energies = run.orbit_energy.sum("interface", skipna=False)
+    energy = energies.transpose(*dims).values
+    powers = run.peak_power.max("interface", skipna=False)
+    power = powers.transpose(*dims).values
     length = (run.orbit_end - run.orbit_start).values
     for row, present in enumerate(np.isfinite(energy)):
         number = present.sum()
+        cell_of_row = (*cell, row)
         for above, values in zip(counted.above, (energy, power), strict=True):
             ordered = np.sort(values[row][present])
-            above[(*cell, row)] += number - np.searchsorted(ordered, THRESHOLDS, side="right")
-        counted.orbits[(*cell, row)] += number
+            not_above = np.searchsorted(ordered, THRESHOLDS, side="right")
+            above[cell_of_row] += number - not_above
+        counted.orbits[cell_of_row] += number
         if is_event:
             # It has all of its record for the orbits that it completes, which may be none.
-            seconds = float(run.window_length) * max(present.any(axis=-1).sum(), 1)
+            most_orbits = max(present.any(axis=-1).sum(), 1)
+            seconds = float(run.window_length) * most_orbits
         else:
-            seconds = np.broadcast_to(length, present.shape)[present].sum()
-        counted.seconds[(*cell, row)] += seconds
+            lengths = np.broadcast_to(length, present.shape)
+            seconds = lengths[present].sum()
+        counted.seconds[cell_of_row] += seconds
 
 
 def load_spectrum(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
@@ -154,14 +165,15 @@ def load_spectrum(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     years = aggregation.years
     bins = aggregation.bins(study)
     lengths = study.loads_length.values
-    rates = (
-        study.load_cycles.isel(case=case).values / lengths[case]
-        for case in range(study.sizes["case"])
-    )
+    rates = []
+    for case, length in enumerate(lengths):
+        cycles_of_run = study.load_cycles.isel(case=case).values
+        rates.append(cycles_of_run / length)
     mean_rates, _, _ = bins.means(rates)
     probabilities = bins.probabilities(aggregation.weights)
     cycles = years * YEAR * weighted(mean_rates, probabilities)
-    kept = _span(np.nan_to_num(cycles).any(axis=(0, 1)))
+    is_counted = np.nan_to_num(cycles).any(axis=(0, 1))
+    kept = _span(is_counted)
     about = described("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(
         {"cycles": (("group", "component", "load_range"), cycles[..., kept], about)},
@@ -175,4 +187,6 @@ def _span(some: np.ndarray) -> slice:
     indices = np.flatnonzero(some).tolist()
     if not indices:
         return slice(0, 1)
-    return slice(max(indices[0] - 1, 0), indices[-1] + 2)
+    first = max(indices[0] - 1, 0)
+    end = indices[-1] + 2
+    return slice(first, end)

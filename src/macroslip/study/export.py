@@ -38,10 +38,13 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     frame = part.reset_coords().to_dataframe().reset_index()
     columns = [name for name in (*part.coords, *names) if name in frame]
     frame = frame.loc[:, columns]
-    units = {name: variable.attrs.get("units", "1") for name, variable in part.variables.items()}
-    frame.columns = [
-        name if units.get(name, "1") == "1" else f"{name} [{units[name]}]" for name in frame
-    ]
+    headings = []
+    for name in frame:
+        unit = "1"
+        if name in part.variables:
+            unit = part.variables[name].attrs.get("units", "1")
+        headings.append(name if unit == "1" else f"{name} [{unit}]")
+    frame.columns = headings
     return frame
 
 
@@ -52,39 +55,47 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
     sample, `effects`; with them also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where
     results keep its variables, and, if the study counts cycles, `cycles`.
     """
-    summary = study.drop_vars(
-        [
-            name
-            for name, variable in study.variables.items()
-            if not set(variable.dims) <= {"case", "row"}
-        ]
-    )
-    by_row = [name for name, variable in summary.data_vars.items() if "row" in variable.dims]
-    frames = {
-        "cases": as_table(
-            summary, [*by_row, *(name for name in summary.data_vars if name not in by_row)]
-        )
-    }
+    foreign = []
+    for name, variable in study.variables.items():
+        if not set(variable.dims) <= {"case", "row"}:
+            foreign.append(name)
+    summary = study.drop_vars(foreign)
+    by_row = []
+    of_case = []
+    for name, variable in summary.data_vars.items():
+        if "row" in variable.dims:
+            by_row.append(name)
+        else:
+            of_case.append(name)
+    frames = {"cases": as_table(summary, [*by_row, *of_case])}
     failed = incomplete_runs(summary)
-    frames["failures"] = failed.drop_vars([*failed.data_vars, "row"]).to_dataframe().reset_index()
+    without_numbers = failed.drop_vars([*failed.data_vars, "row"])
+    frames["failures"] = without_numbers.to_dataframe().reset_index()
     frames["worst"] = as_table(worst(study), by_row)
     spread = percentiles(study, aggregation)
-    frames["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
+    quantities = [name for name in spread.data_vars if name != "runs"]
+    frames["percentiles"] = as_table(spread, quantities)
     whole = year(study, aggregation)
-    ranked = designs(whole)[0].dropna(axis="columns", how="all")
-    frames["designs"] = ranked.rename(
-        columns={name: f"{name} [{unit}]" for name, unit in DESIGN_UNITS.items() if unit != "1"}
-    )
+    table_of_designs, _ = designs(whole)
+    ranked = table_of_designs.dropna(axis="columns", how="all")
+    headings = {}
+    for name, unit in DESIGN_UNITS.items():
+        if unit != "1":
+            headings[name] = f"{name} [{unit}]"
+    frames["designs"] = ranked.rename(columns=headings)
     if sampled_parameters(study):
         drivers = effects(study, aggregation)
-        frames["effects"] = as_table(
-            drivers, [name for name, variable in drivers.items() if "parameter" in variable.dims]
-        )
+        by_parameter = []
+        for name, variable in drivers.items():
+            if "parameter" in variable.dims:
+                by_parameter.append(name)
+        frames["effects"] = as_table(drivers, by_parameter)
     if aggregation.weights is None:
         return frames
     by_bin = ["hours", "runs", "energy", "per_hour", *LARGEST, *SUMS]
     frames["year"] = as_table(whole, [name for name in by_bin if name in whole])
-    frames["lives"] = as_table(whole, [*LIVES, *(f"damage_equivalent_load_{m}" for m in EXPONENTS)])
+    loads = [f"damage_equivalent_load_{exponent}" for exponent in EXPONENTS]
+    frames["lives"] = as_table(whole, [*LIVES, *loads])
     life = lifetime_energy(study, aggregation)
     frames["lifetime"] = as_table(life, ["lifetime_energy", "covered"])
     frames["bins"] = as_table(life, ["power", "bin_energy", "probability", "runs", "left_out"])
@@ -92,7 +103,8 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
         curves = exceedance(study, aggregation)
         frames["exceedance"] = as_table(curves, ["energy_orbits", "power_orbits"])
     if "load_cycles" in study:
-        frames["cycles"] = as_table(load_spectrum(study, aggregation), ["cycles"])
+        spectrum = load_spectrum(study, aggregation)
+        frames["cycles"] = as_table(spectrum, ["cycles"])
     return frames
 
 
@@ -115,7 +127,8 @@ def write_tables(frames: dict[str, pd.DataFrame], folder: Path, form: str) -> li
     for name, frame in frames.items():
         path = folder / f"{name}.{form}"
         if form == "csv":
-            content = frame.map(harmless).to_csv(index=False, lineterminator="\n").encode()
+            text = frame.map(harmless).to_csv(index=False, lineterminator="\n")
+            content = text.encode()
         else:
             buffer = io.BytesIO()
             frame.to_parquet(buffer, index=False)

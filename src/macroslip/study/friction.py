@@ -64,7 +64,8 @@ def friction_table(directory: str | PathLike[str]) -> FrictionTable:
     study = open_study(directory)
     where = str(directory)
     _check_labels(study, where)
-    production = study.isel(case=np.flatnonzero(events_of_runs(study) == ""))
+    is_production = events_of_runs(study) == ""
+    production = study.isel(case=np.flatnonzero(is_production))
     _check_loads(production, where)
     settings = _first_settings(directory)
     if settings["laws"]["rolling"] == "none":
@@ -77,13 +78,18 @@ def friction_table(directory: str | PathLike[str]) -> FrictionTable:
     entries = _entries(production, settings)
     exponents, exponent_notes = speed_exponents(entries["supply"].unique())
     loads, load_notes = _mean_loads(study, directory)
-    records = None if loads is None else _study(study, directory)
+    bearing = None
+    lubricant = None
+    if loads is not None:
+        records = _study(study, directory)
+        bearing = next(iter(records.bearings.values()))
+        lubricant = next(iter(records.lubricants.values()))
     return FrictionTable(
         entries,
         exponents,
         loads,
-        bearing=None if records is None else next(iter(records.bearings.values())),
-        lubricant=None if records is None else next(iter(records.lubricants.values())),
+        bearing=bearing,
+        lubricant=lubricant,
         source=where,
         notes=(*exponent_notes, *load_notes),
     )
@@ -121,7 +127,8 @@ def _check_labels(study: xr.Dataset, where: str) -> None:
 
 def _check_loads(study: xr.Dataset, where: str) -> None:
     """Refuse loads that are steady or short: they have too little torque in weak wind."""
-    steady = study.damage_equivalent_load_10.values < _STEADY * study.equivalent_load.values
+    range_of_loads = study.damage_equivalent_load_10.values
+    steady = range_of_loads < _STEADY * study.equivalent_load.values
     if steady.any():
         steady_loads = study.loads.values[steady].astype(str)
         names = ", ".join(np.unique(steady_loads)[:5])
@@ -144,11 +151,10 @@ def _check_loads(study: xr.Dataset, where: str) -> None:
 def _entries(study: xr.Dataset, settings: dict) -> pd.DataFrame:
     """Torque by supply, wind and temperature."""
     count = study.sizes["case"]
-    supply = (
-        study[SUPPLY].values.astype(str)
-        if SUPPLY in study.coords
-        else np.full(count, str(settings.get("oil_supply") or SKF))
-    )
+    if SUPPLY in study.coords:
+        supply = study[SUPPLY].values.astype(str)
+    else:
+        supply = np.full(count, str(settings.get("oil_supply") or SKF))
     oil = study[OIL].values.astype(float)
     if study[OIL].attrs.get("units") == "degC":
         oil = oil + ZERO_CELSIUS
@@ -166,27 +172,29 @@ def _entries(study: xr.Dataset, settings: dict) -> pd.DataFrame:
     )
     by = ["supply", "wind_speed", "temperature"]
     # A mean with a failed run is not known.
-    means = runs.groupby(by, sort=False)[["shaft_speed", "torque"]].agg(
-        lambda column: column.mean(skipna=False)
-    )
+    by_cell = runs.groupby(by, sort=False)[["shaft_speed", "torque"]]
+    means = by_cell.agg(lambda column: column.mean(skipna=False))
     return means.reset_index()
 
 
 def _study(study: xr.Dataset, directory: Path) -> Study:
     """The study as its file has it; relative paths start beside its folder."""
-    return study_of(json.loads(study.attrs["study"]), directory.absolute().parent)
+    content = json.loads(study.attrs["study"])
+    return study_of(content, directory.absolute().parent)
 
 
 def _mean_loads(study: xr.Dataset, directory: Path) -> tuple[pd.DataFrame | None, tuple[str, ...]]:
     """Mean radial and axial load [N] by wind speed, or a sentence on why they are missing."""
     try:
-        table = pd.DataFrame(_loads_of_histories(_study(study, directory)))
+        histories = _loads_of_histories(_study(study, directory))
+        table = pd.DataFrame(histories)
     except InputError as problem:
         return None, (
             "The loads of the study cannot be read again, so that the formulas of handbooks are "
             f"left out ({problem.fault}).",
         )
-    return pd.DataFrame(table.groupby("wind_speed").mean().reset_index()), ()
+    means = table.groupby("wind_speed").mean().reset_index()
+    return pd.DataFrame(means), ()
 
 
 def _loads_of_histories(study: Study) -> Iterator[dict[str, float]]:
@@ -197,7 +205,8 @@ def _loads_of_histories(study: Study) -> Iterator[dict[str, float]]:
             continue
         read.add(run.load.name)
         case, cut = study.case_of(run)
-        history = read_loads(study.loads.source, study.path_of(run.load), cut)
+        path = study.path_of(run.load)
+        history = read_loads(study.loads.source, path, cut)
         loads = replace(case, loads=history).bearing_loads
         yield {
             "wind_speed": float(run.load.fields[WIND]),

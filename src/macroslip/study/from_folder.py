@@ -88,13 +88,14 @@ def study_of_folder(folder: Path, study: Path) -> FolderStudy:
                 loads = loads_from_channels(channels, speed_needed=True)
                 mean = mean_wind_speed(channels)
         except (InputError, OSError, UnicodeEncodeError) as problem:
-            reason = problem.fault if isinstance(problem, InputError) else str(problem)
+            reason = str(problem)
+            if isinstance(problem, InputError):
+                reason = problem.fault
             remarks.append(f"{safe_text(name)} is left out: {safe_text(reason)}")
             continue
         starts.append(float(loads["time"][0]))
-        row: dict[str, str | float] = {
-            "file": Path(os.path.relpath(path.resolve(), study.resolve().parent)).as_posix()
-        }
+        path_from_study = os.path.relpath(path.resolve(), study.resolve().parent)
+        row: dict[str, str | float] = {"file": Path(path_from_study).as_posix()}
         wind = _number(_WIND, name)
         if wind is not None and mean is not None and abs(wind - mean) > _SAME_WIND * mean:
             remarks.append(
@@ -123,7 +124,9 @@ def study_of_folder(folder: Path, study: Path) -> FolderStudy:
             allowed="output of OpenFAST with the channels of ElastoDyn for loads at the hub",
             remedy=f"{remarks[0]}." if remarks else "Check the path.",
         )
-    names = ["file", "wind_speed"] + (["seed"] if all("seed" in row for row in rows) else [])
+    names = ["file", "wind_speed"]
+    if all("seed" in row for row in rows):
+        names.append("seed")
     table = study.with_name(f"{study.stem}-loads.csv")
     text = _TEXT.format(
         folder=safe_text(folder.resolve().name),
@@ -140,8 +143,13 @@ def study_of_folder(folder: Path, study: Path) -> FolderStudy:
 
 def _number(pattern: re.Pattern[str], name: str) -> float | None:
     """The last number that a pattern finds in a path, None without one."""
-    texts = [text for match in pattern.finditer(name) for text in match.groups() if text]
-    return float(texts[-1].lower().replace("p", ".")) if texts else None
+    texts = []
+    for match in pattern.finditer(name):
+        texts += [text for text in match.groups() if text]
+    if not texts:
+        return None
+    number = texts[-1].lower().replace("p", ".")
+    return float(number)
 
 
 def _csv(names: Sequence[str], rows: Sequence[Mapping[str, str | float]]) -> str:

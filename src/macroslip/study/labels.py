@@ -19,7 +19,11 @@ def stored_study(study: xr.Dataset) -> dict[str, Any]:
 
 def labels_over(dataset: xr.Dataset | xr.DataArray, dim: str = "case") -> list[str]:
     """Names of the coordinates over one dimension alone, `case` or `group`."""
-    return [str(name) for name, coordinate in dataset.coords.items() if coordinate.dims == (dim,)]
+    names = []
+    for name, coordinate in dataset.coords.items():
+        if coordinate.dims == (dim,):
+            names.append(str(name))
+    return names
 
 
 def events_of_runs(study: xr.Dataset) -> np.ndarray:
@@ -31,7 +35,8 @@ def events_of_runs(study: xr.Dataset) -> np.ndarray:
 
 def sampled_parameters(study: xr.Dataset) -> list[str]:
     """Keys that the study file samples, in `open_study`'s dataset."""
-    return [str(key) for key in _sampled(_variations(study)) if key in study.coords]
+    sampled = _sampled(_variations(study))
+    return [str(key) for key in sampled if key in study.coords]
 
 
 def is_parameter(study: xr.Dataset, label: str) -> bool:

@@ -88,25 +88,24 @@ def percentiles(
         "power": power.assign_attrs(described("W", "energy dissipated by a roller per time"))
     } | {name: study[name].transpose("case", "row") for name in names}
     shape = len(bins.groups), bins.centres.size, study.sizes["row"]
-    cells = [np.repeat(numbers, shape[2]) for numbers in (bins.group, bins.bin)]
-    frame = xr.Dataset(
-        {name: ("run", variable.values.ravel()) for name, variable in wanted.items()}
-    ).to_dataframe()
-    table = frame.groupby([*cells, np.tile(np.arange(shape[2]), study.sizes["case"])]).quantile(
-        list(quantiles)
-    )
+    count = shape[-1]
+    group_of_value = np.repeat(bins.group, count)
+    bin_of_value = np.repeat(bins.bin, count)
+    row_of_value = np.tile(np.arange(count), study.sizes["case"])
+    values_of_runs = {}
+    for name, variable in wanted.items():
+        values_of_runs[name] = ("run", variable.values.ravel())
+    frame = xr.Dataset(values_of_runs).to_dataframe()
+    by_cell = frame.groupby([group_of_value, bin_of_value, row_of_value])
+    table = by_cell.quantile(list(quantiles))
     # A cell without runs has no line.
-    every = [*map(range, shape), list(quantiles)]
     dims = ("group", "bin", "row", "quantile")
-    array = (
-        table.rename_axis(index=dims)
-        .to_xarray()
-        .reindex(dict(zip(dims, every, strict=True)))
-        .transpose(*dims)
-    )
-    data: dict[str, Any] = {
-        name: (dims, array[name].values, dict(variable.attrs)) for name, variable in wanted.items()
-    }
+    every = [*map(range, shape), list(quantiles)]
+    every_cell = dict(zip(dims, every, strict=True))
+    array = table.rename_axis(index=dims).to_xarray().reindex(every_cell).transpose(*dims)
+    data: dict[str, Any] = {}
+    for name, variable in wanted.items():
+        data[name] = (dims, array[name].values, dict(variable.attrs))
     _, runs, _ = bins.means(power.values)
     data["runs"] = (dims[:2], runs, described("1", "runs of the quantiles"))
     coordinates = {
@@ -155,25 +154,23 @@ def worst(
         )
     if count < 1:
         raise InputError(f"the count is {count}", allowed="a whole number above 0")
-    summary = study.drop_vars(
-        [
-            name
-            for name, candidate in study.variables.items()
-            if not set(candidate.dims) <= {"case", "row"}
-        ]
-    )
+    foreign = []
+    for name, candidate in study.variables.items():
+        if not set(candidate.dims) <= {"case", "row"}:
+            foreign.append(name)
+    summary = study.drop_vars(foreign)
     values = study[variable].transpose("case", "row").values
     finite = np.flatnonzero(np.isfinite(values))
-    order = finite[np.argsort((1 if smallest else -1) * values.ravel()[finite], kind="stable")][
-        :count
-    ]
+    sign = 1 if smallest else -1
+    ranked = np.argsort(sign * values.ravel()[finite], kind="stable")
+    order = finite[ranked][:count]
     cases, rows = np.unravel_index(order, values.shape)
-    selected = summary.isel(
-        case=xr.DataArray(cases, dims="rank"), row=xr.DataArray(rows, dims="rank")
-    )
-    return selected.assign_coords(
-        rank=("rank", np.arange(1, order.size + 1), described("1", f"rank by {variable}"))
-    )
+    case_of_rank = xr.DataArray(cases, dims="rank")
+    row_of_rank = xr.DataArray(rows, dims="rank")
+    selected = summary.isel(case=case_of_rank, row=row_of_rank)
+    ranks = np.arange(1, order.size + 1)
+    about = described("1", f"rank by {variable}")
+    return selected.assign_coords(rank=("rank", ranks, about))
 
 
 def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
@@ -211,12 +208,14 @@ def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
                 largest[group] = np.maximum(largest[group], density)
             yield energy / float(result.window_length)
 
-    energies = (
-        years * YEAR * weighted(bins.means(rates())[0], bins.probabilities(aggregation.weights))
-    )
+    mean_rates, _, _ = bins.means(rates())
+    share = bins.probabilities(aggregation.weights)
+    energies = years * YEAR * weighted(mean_rates, share)
     inner = study.raceway.values.tolist().index("inner")
-    energies[:, :, inner] = energies[:, :, inner].mean(axis=2, keepdims=True)
-    largest[:, :, inner] = largest[:, :, inner].max(axis=2, keepdims=True)
+    at_inner = energies[:, :, inner]
+    energies[:, :, inner] = at_inner.mean(axis=2, keepdims=True)
+    density_at_inner = largest[:, :, inner]
+    largest[:, :, inner] = density_at_inner.max(axis=2, keepdims=True)
     about = described("J", f"energy at each place of a raceway in {years:g} years")
     return xr.Dataset(
         {
@@ -241,7 +240,8 @@ def _area(study: xr.Dataset) -> xr.DataArray:
         return area
     values = area.values
     other_axes = tuple(range(1, values.ndim))
-    known = np.flatnonzero(np.isfinite(values).all(axis=other_axes))
+    is_known = np.isfinite(values).all(axis=other_axes)
+    known = np.flatnonzero(is_known)
     of_known = values[known]
     if not known.size or np.ptp(of_known, axis=0).max() > 1e-12 * of_known.max():
         remedy = "Select the cases of one bearing first: study.isel(case=study.bearing == 'name')."

@@ -86,16 +86,22 @@ class Pattern:
                     f"'**' in the pattern '{self.text}' is not the whole name of a folder",
                     remedy="Write runs/**/*.outb for the folders under runs, or a single *.",
                 )
-            glob = "*" if match else piece if piece in _WILDCARDS else piece.replace("[", "[[]")
+            glob = piece.replace("[", "[[]")
+            if match:
+                glob = "*"
+            elif piece in _WILDCARDS:
+                glob = piece
             # Fields beside each other are one wildcard: ** has a meaning of its own.
-            self._glob += "" if glob == "*" and self._glob.endswith("*") else glob
+            if glob != "*" or not self._glob.endswith("*"):
+                self._glob += glob
             if match is None:
                 self._expression += _WILDCARDS.get(piece) or re.escape(piece)
             elif match[1] in self.kinds:
                 self._expression += f"(?P={match[1]})"
             else:
-                form, self.kinds[match[1]] = _KINDS[match[2] or ""]
-                self._expression += f"(?P<{match[1]}>{form})"
+                name = match[1]
+                form, self.kinds[name] = _KINDS[match[2] or ""]
+                self._expression += f"(?P<{name}>{form})"
 
     def fields_of(self, path: str) -> dict[str, Any] | None:
         """Values of the fields in a path with forward slashes; None if it does not fit."""
@@ -127,14 +133,13 @@ class Pattern:
             base = base / names[0]
             start = start / names[0]
             names = names[1:]
-        paths = sorted(
-            (base / path.relative_to(start)).as_posix()
-            for path in start.glob("/".join(names))
-            if path.is_file()
-        )
+        paths = []
+        for path in start.glob("/".join(names)):
+            if path.is_file():
+                paths.append((base / path.relative_to(start)).as_posix())
         fitting = []
         others = []
-        for name in paths:
+        for name in sorted(paths):
             fields = self.fields_of(name)
             if fields is None:
                 others.append(name)
@@ -183,8 +188,10 @@ def load_list(
     elif table:
         loads = _from_table(folder / table, sheet or "")
     else:
-        loads, remarks = _from_patterns([Pattern(text) for text in files or ()], folder)
-    names = list(dict.fromkeys(name for load in loads for name in load.fields))
+        patterns = [Pattern(text) for text in files or ()]
+        loads, remarks = _from_patterns(patterns, folder)
+    names_of_loads = [name for load in loads for name in load.fields]
+    names = list(dict.fromkeys(names_of_loads))
     for name in names:
         if name in RESERVED or not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             allowed = f"letters, digits and _, and none of {', '.join(RESERVED)}"
@@ -207,7 +214,8 @@ def load_list(
     units = units or {}
     if unknown := [name for name in units if name not in names]:
         fault = f"units names {', '.join(unknown)}"
-        raise InputError(fault, allowed=f"fields: {', '.join(names) or 'there are none'}")
+        known = ", ".join(names) or "there are none"
+        raise InputError(fault, allowed=f"fields: {known}")
     return LoadList(
         source,
         loads,
@@ -233,7 +241,8 @@ def _bundled(names: Sequence[str]) -> list[Load]:
     for name in names:
         chosen += sets.get(name, [name])
     chosen = list(dict.fromkeys(chosen))
-    return [Load(name, labels) for name, labels in zip(chosen, bundled_labels(chosen), strict=True)]
+    labels_of_cases = bundled_labels(chosen)
+    return [Load(name, labels) for name, labels in zip(chosen, labels_of_cases, strict=True)]
 
 
 def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load], list[str]]:
@@ -280,7 +289,8 @@ def _from_table(path: Path, sheet: str = "") -> list[Load]:
             raise InputError(f"row {number} has no {', '.join(empty)}", where=where, remedy=remedy)
         odd = [name for name, value in row.items() if not isinstance(value, (str, int, float))]
         if odd:
-            fault = f"row {number} has {row[odd[0]]!r} in column {odd[0]}"
+            column = odd[0]
+            fault = f"row {number} has {row[column]!r} in column {column}"
             raise InputError(fault, where=where, allowed="numbers, text, true and false")
         if row["file"] in names:
             fault = f"the file {safe_text(row['file'])} is listed twice"
@@ -324,6 +334,6 @@ def _rows_of_sheet(path: Path, sheet: str) -> tuple[list[str], list[dict[str, An
             column = [float(cell) if type(cell) is int else cell for cell in column]
         if name is not None:
             columns[str(name).strip()] = column
-    return list(columns), [
-        dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)
-    ]
+    names = list(columns)
+    rows = zip(*columns.values(), strict=True)
+    return names, [dict(zip(names, row, strict=True)) for row in rows]

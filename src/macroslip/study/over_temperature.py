@@ -76,17 +76,20 @@ class RunsOverTemperature:
         if LABEL not in study.coords:
             check_varied(0)
         label = study[LABEL]
-        at = kelvin(label.values.astype(float), label.attrs.get("units", "K"))
+        unit = label.attrs.get("units", "K")
+        at = kelvin(label.values.astype(float), unit)
         names = [name for name in labels_over(study) if name not in _OF_A_RUN]
-        labels = study[names].reset_coords()[names].to_dataframe() if names else None
-        number = (
-            np.zeros(at.size, dtype=int)
-            if labels is None
-            else labels.groupby(names, sort=False, dropna=False).ngroup().to_numpy()
-        )
+        number = np.zeros(at.size, dtype=int)
+        if names:
+            labels = study[names].reset_coords()[names].to_dataframe()
+            designs = labels.groupby(names, sort=False, dropna=False)
+            number = designs.ngroup().to_numpy()
         temperatures = np.unique(np.round(at, 6))
-        series = [np.flatnonzero(number == k) for k in range(number.max() + 1)]
-        ordered = [runs[np.argsort(at[runs], kind="stable")] for runs in series]
+        ordered = []
+        for k in range(number.max() + 1):
+            series = np.flatnonzero(number == k)
+            rising = np.argsort(at[series], kind="stable")
+            ordered.append(series[rising])
         whole = all(
             runs.size == temperatures.size and np.allclose(at[runs], temperatures, atol=1e-5)
             for runs in ordered
@@ -104,7 +107,8 @@ class RunsOverTemperature:
     @cached_property
     def first_runs(self) -> xr.Dataset:
         """The run of each series at its lowest temperature."""
-        return self.study.isel(case=self.runs[:, 0])
+        first = self.runs[:, 0]
+        return self.study.isel(case=first)
 
     def values(self, name: str, at: np.ndarray) -> np.ndarray:
         """A variable over (case) or (case, row) of each series at temperatures.
@@ -123,10 +127,11 @@ class RunsOverTemperature:
         """
         variable = self.study[name].transpose("case", ...).values.astype(float)
         known = np.moveaxis(variable[self.runs], 1, 0)
-        held = np.clip(at, self.temperatures[0], self.temperatures[-1])
-        of_series = interpolated(
-            self.temperatures, known, held, by_factors=name.startswith(_BY_FACTORS)
-        )
+        coldest = self.temperatures[0]
+        warmest = self.temperatures[-1]
+        held = np.clip(at, coldest, warmest)
+        by_factors = name.startswith(_BY_FACTORS)
+        of_series = interpolated(self.temperatures, known, held, by_factors=by_factors)
         return np.moveaxis(of_series, 0, 1)
 
     def balance(self, loss: LossOfHeat, field: str, width: float) -> dict[float, float]:
@@ -158,7 +163,8 @@ class RunsOverTemperature:
         temperatures = {}
         for centre in np.unique(centres[is_wind]).tolist():
             inside = is_wind & (centres == centre)
-            powers = self.study["friction_power"].values[self.runs[inside]].mean(axis=0)
+            of_series = self.study["friction_power"].values[self.runs[inside]]
+            powers = of_series.mean(axis=0)
             temperatures[centre] = self._balance_of(powers, loss, f"{centre:g}")
         return temperatures
 
@@ -167,7 +173,8 @@ class RunsOverTemperature:
 
         def excess(at: float) -> float:
             known = interpolated(self.temperatures, powers, np.array([at]), by_factors=True)
-            return float(known[0]) - loss.conductance * (at - loss.ambient)
+            lost = loss.conductance * (at - loss.ambient)
+            return float(known[0]) - lost
 
         low = float(self.temperatures[0])
         high = float(self.temperatures[-1])
@@ -214,14 +221,18 @@ class RunsOverTemperature:
                 continue
             values = self.values(str(name), at)
             dims = ("case", "row") if values.ndim == 3 else ("case",)
-            data[name] = (dims, _mean(str(name), values, share), dict(variable.attrs))
+            means = _mean(str(name), values, share)
+            data[name] = (dims, means, dict(variable.attrs))
         outcome = self.study["outcome"].values.astype(str)[self.runs]
-        worst = [
-            next((status for status in row if status != "completed"), "completed")
-            for row in outcome
-        ]
+        worst = []
+        for outcomes in outcome:
+            failures = outcomes[outcomes != "completed"]
+            worst.append(failures[0] if failures.size else "completed")
         kept = self.first_runs.drop_vars([LABEL, *self.study.data_vars])
-        foreign = [name for name in kept.coords if not set(kept[name].dims) <= {"case", "row"}]
+        foreign = []
+        for name, coordinate in kept.coords.items():
+            if not set(coordinate.dims) <= {"case", "row"}:
+                foreign.append(name)
         kept = kept.drop_vars(foreign)
         coordinates = {
             "outcome": ("case", np.array(worst, dtype=object), dict(self.study.outcome.attrs)),
@@ -231,7 +242,8 @@ class RunsOverTemperature:
             empty = np.full(len(worst), "", dtype=object)
             coordinates["key"] = ("case", empty, dict(self.study["key"].attrs))
         content = stored_study(self.study)
-        (content.get("variations") or {}).get("grid", {}).pop(LABEL, None)
+        variations = content.get("variations") or {}
+        variations.get("grid", {}).pop(LABEL, None)
         attributes = {"study": json.dumps(content), MIXED: 1}
         return kept.assign_coords(coordinates).assign(data).assign_attrs(attributes)
 
@@ -239,12 +251,12 @@ class RunsOverTemperature:
         """Share of the time of each series at each temperature, shape (series, temperatures)."""
         first = self.first_runs
         centres = bin_centres(first[field].values, width)
-        return np.array(
-            [
-                shares.of_event(event) if event else shares.of_wind(centre, width)
-                for event, centre in zip(events_of_runs(first), centres, strict=True)
-            ]
-        )
+        events = events_of_runs(first)
+        rows = []
+        for event, centre in zip(events, centres, strict=True):
+            row = shares.of_event(event) if event else shares.of_wind(centre, width)
+            rows.append(row)
+        return np.array(rows)
 
 
 _ALLOWED = (
@@ -305,9 +317,11 @@ def interpolated(
     flat = known.reshape(known.shape[0], -1)
     result = np.full((at.size, flat.shape[1]), np.nan)
     complete = np.isfinite(flat).all(axis=0)
-    logarithmic = complete & (flat > 0.0).all(axis=0) & by_factors
+    is_positive = (flat > 0.0).all(axis=0)
+    logarithmic = complete & is_positive & by_factors
     if logarithmic.any():
-        cubic = PchipInterpolator(temperatures, np.log(flat[:, logarithmic]), axis=0)
+        logarithms = np.log(flat[:, logarithmic])
+        cubic = PchipInterpolator(temperatures, logarithms, axis=0)
         result[:, logarithmic] = np.exp(cubic(at))
     for column in np.flatnonzero(complete & ~logarithmic):
         result[:, column] = np.interp(at, temperatures, flat[:, column])
@@ -316,11 +330,14 @@ def interpolated(
 
 def _mean(name: str, values: np.ndarray, share: np.ndarray) -> np.ndarray:
     """Mean of values (series, temperatures, ...) by the share of time; extremes as such."""
-    weight = share.reshape(share.shape + (1,) * (values.ndim - 2))
+    inner_axes = (1,) * (values.ndim - 2)
+    weight = share.reshape(share.shape + inner_axes)
     if name in _LARGEST:
-        return np.where(weight > 0.0, values, -np.inf).max(axis=1)
+        used = np.where(weight > 0.0, values, -np.inf)
+        return used.max(axis=1)
     if name in _LEAST:
-        return np.where(weight > 0.0, values, np.inf).min(axis=1)
+        used = np.where(weight > 0.0, values, np.inf)
+        return used.min(axis=1)
     if name in LIVES:
         with np.errstate(divide="ignore"):
             return 1.0 / (weight / values).sum(axis=1)
@@ -344,16 +361,19 @@ def weighted_study(study: xr.Dataset) -> xr.Dataset:
 
 def _at_balance(study: xr.Dataset, weighting: Weighting, loss: LossOfHeat) -> xr.Dataset:
     """The study with each bin of each design at the temperature of its own balance of heat."""
-    designs = binned(study.drop_vars(LABEL, errors="ignore"), weighting.field, weighting.width)
+    at_one_temperature = study.drop_vars(LABEL, errors="ignore")
+    designs = binned(at_one_temperature, weighting.field, weighting.width)
     means = []
     for number in range(len(designs.groups)):
-        runs = RunsOverTemperature.of(study.isel(case=np.flatnonzero(designs.group == number)))
+        runs_of_design = np.flatnonzero(designs.group == number)
+        runs = RunsOverTemperature.of(study.isel(case=runs_of_design))
         by_wind = runs.balance(loss, weighting.field, weighting.width)
         shares = weighting.at_each_wind(by_wind)
         means.append(runs.mean(shares, weighting.field, weighting.width))
     together = xr.concat(means, "case", combine_attrs="override")
     number_of_case = np.arange(together.sizes["case"])
-    return together.assign_coords(case=("case", number_of_case, dict(study["case"].attrs)))
+    attributes = dict(study["case"].attrs)
+    return together.assign_coords(case=("case", number_of_case, attributes))
 
 
 def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]:

@@ -29,7 +29,8 @@ class Progress:
     @property
     def rate(self) -> float:
         """Runs computed a second; those that were there already do not count."""
-        return (self.computed + self.failed) / max(self.seconds, 1e-9)
+        done = self.computed + self.failed
+        return done / max(self.seconds, 1e-9)
 
     @property
     def line(self) -> str:
@@ -39,7 +40,8 @@ class Progress:
         if self.done == self.total:
             left = "nothing"
         elif self.rate > 0.0:
-            left = duration((self.total - self.done) / self.rate)
+            runs_left = self.total - self.done
+            left = duration(runs_left / self.rate)
         return f"{self.done} of {self.total} done ({counts}), {self.rate:.3g} a second, {left} left"
 
 
@@ -57,4 +59,5 @@ def duration(seconds: float) -> str:
         count, remainder = divmod(remainder, size)
         if count or parts:
             parts.append(f"{count} {name}")
-    return " ".join(part for part in parts[:2] if not part.startswith("0 "))
+    largest = [part for part in parts[:2] if not part.startswith("0 ")]
+    return " ".join(largest)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import uuid
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -73,34 +73,35 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
 
 def incomplete_runs(study: xr.Dataset) -> xr.Dataset:
     """Runs that failed, were not computed, or have rollers that failed."""
-    return study.isel(case=np.flatnonzero(study.outcome.values != str(Outcome.COMPLETED)))
+    is_incomplete = study.outcome.values != str(Outcome.COMPLETED)
+    return study.isel(case=np.flatnonzero(is_incomplete))
 
 
 def _dataset(directory: Path, manifest: Mapping[str, Any], runs: pd.DataFrame) -> xr.Dataset:
     labels = {"run": ("1", "name of the run")} | manifest["labels"]
     labels |= {name: ("1", f"{name} of the run") for name in ("outcome", "reason", "key")}
-    coordinates = {
-        name: ("case", _column(runs, name), described(*about)) for name, about in labels.items()
-    }
+    coordinates = {}
+    for name, about in labels.items():
+        coordinates[name] = ("case", _column(runs, name), described(*about))
     rows = rows_with_numbers(runs)
-    summary = {
-        name: (
-            ("case", "row"),
-            np.stack([_column(runs, f"{name}_{row}") for row in rows], axis=1),
-            described(*about),
-        )
-        for name, about in ROW_VARIABLES.items()
-    } | {
-        name: ("case", _column(runs, name), described(*about))
-        for name, about in CASE_VARIABLES.items()
-    }
+    summary = {}
+    for name, about in ROW_VARIABLES.items():
+        of_rows = [_column(runs, f"{name}_{row}") for row in rows]
+        summary[name] = (("case", "row"), np.stack(of_rows, axis=1), described(*about))
+    for name, about in CASE_VARIABLES.items():
+        summary[name] = ("case", _column(runs, name), described(*about))
     variables, more, attributes = _of_results(directory, runs)
     number = ("case", np.arange(len(runs)), described("1", "number of the run in its study"))
-    about = {"title": manifest["title"], "source": manifest["source"], **attributes}
+    of_study = {
+        "title": manifest["title"],
+        "source": manifest["source"],
+        **attributes,
+        "study": json.dumps(manifest["study"], ensure_ascii=False),
+    }
     return xr.Dataset(
         summary | variables,
         {"case": number, "row": list(rows)} | coordinates | more,
-        about | {"study": json.dumps(manifest["study"], ensure_ascii=False)},
+        of_study,
     )
 
 
@@ -130,12 +131,13 @@ def _column(runs: pd.DataFrame, name: str) -> np.ndarray:
 
     Anything else as text, empty for none.
     """
-    column = runs[name] if name in runs else pd.Series([""] * len(runs))
+    if name not in runs:
+        return np.full(len(runs), "", dtype=object)
+    column = runs[name]
     if column.dtype.kind in "iufb":
         return column.to_numpy()
-    codes, texts = pd.factorize(
-        column.where(column.notna(), "").astype(str)
-    )  # equal texts are one object
+    known = column.where(column.notna(), "")
+    codes, texts = pd.factorize(known.astype(str))  # equal texts are one object
     return np.asarray(texts, dtype=object)[codes]
 
 
@@ -145,29 +147,31 @@ def _of_results(
     """Variables, coordinates and attributes of the results, opened as far as listing needs."""
     keys = _column(runs, "key")
     checksums = _column(runs, "detail")
-    kinds, texts = pd.factorize(np.where(checksums != "", _column(runs, "layout"), np.array(None)))
+    layouts_of_runs = np.where(checksums != "", _column(runs, "layout"), np.array(None))
+    kinds, texts = pd.factorize(layouts_of_runs)
     if not len(texts):
         return {}, {}, {}
     layouts = [json.loads(text) for text in texts]
     # The last result of each kind shows what variables there are.
-    last = {
-        layout["variables"]: np.flatnonzero(kinds == kind)[-1]
-        for kind, layout in enumerate(layouts)
-    }
+    last = {}
+    for kind, layout in enumerate(layouts):
+        of_kind = np.flatnonzero(kinds == kind)
+        last[layout["variables"]] = of_kind[-1]
     examples = [read_result(directory, keys[number], checksums[number]) for number in last.values()]
-    numbers = [tuple(layout.get("rollers", range(layout["sizes"]["roller"]))) for layout in layouts]
+    numbers = [_roller_numbers(layout) for layout in layouts]
     rollers = tuple(sorted(set().union(*numbers)))
-    sizes = {
-        name: max(layout["sizes"].get(name, 0) for layout in layouts)
-        for name in set().union(*(layout["sizes"] for layout in layouts))
-    }
+    sizes: dict[str, int] = {}
+    for layout in layouts:
+        for name, size in layout["sizes"].items():
+            sizes[name] = max(sizes.get(name, 0), size)
     sizes["roller"] = len(rollers)
     shared = _Shared(uuid.uuid4().hex, directory, keys, checksums, numbers, kinds, rollers, sizes)
     variables = {}
     coordinates = {}
-    for name, variable in {
-        name: variable for example in examples for name, variable in example.variables.items()
-    }.items():
+    all_variables: dict[Hashable, xr.Variable] = {}
+    for example in examples:
+        all_variables.update(example.variables)
+    for name, variable in all_variables.items():
         if (name,) == variable.dims and name not in _RAGGED:  # the same in all results
             if name != "roller":
                 coordinates[name] = (name, variable.values, variable.attrs)
@@ -177,16 +181,23 @@ def _of_results(
         lazy = indexing.LazilyIndexedArray(_Stacked(shared, str(name), variable.dims))
         dims = ("case", *(_RAGGED.get(str(dim), str(dim)) for dim in variable.dims))
         is_coordinate = any(name in example.coords for example in examples)
-        (coordinates if is_coordinate else variables)[name] = xr.Variable(
-            dims, lazy, variable.attrs
-        )
+        shown = coordinates if is_coordinate else variables
+        shown[name] = xr.Variable(dims, lazy, variable.attrs)
     example = examples[0]
     coordinates["roller"] = ("roller", np.array(rollers), example.roller.attrs)
     coordinates["orbit"] = ("orbit", np.arange(sizes["orbit"]), example.orbit.attrs)
-    attributes = {
-        name: example.attrs[name] for name in ("citations", "model") if name in example.attrs
-    }
+    attributes = {}
+    for name in ("citations", "model"):
+        if name in example.attrs:
+            attributes[name] = example.attrs[name]
     return variables, coordinates, attributes
+
+
+def _roller_numbers(layout: Mapping[str, Any]) -> tuple[int, ...]:
+    """Numbers of the rollers of a result; all from 0 where the layout names none."""
+    if "rollers" in layout:
+        return tuple(layout["rollers"])
+    return tuple(range(layout["sizes"]["roller"]))
 
 
 @dataclass(frozen=True)
@@ -222,9 +233,11 @@ class _Stacked(BackendArray):
     def _values(self, key: tuple[Any, ...]) -> np.ndarray:
         numbers = np.arange(self.shape[0])[key[0]]
         inner = key[1:]
-        parts = [_cut(self._whole(int(number)), inner) for number in np.atleast_1d(numbers)]
+        wholes = (self._whole(int(number)) for number in np.atleast_1d(numbers))
+        parts = [_cut(whole, inner) for whole in wholes]
         if not parts:
-            return _cut(np.empty(self.shape[1:]), inner)[None][:0]
+            nothing = _cut(np.empty(self.shape[1:]), inner)
+            return nothing[None][:0]
         return np.stack(parts) if np.ndim(numbers) else parts[0]
 
     def _whole(self, number: int) -> np.ndarray:
@@ -232,25 +245,26 @@ class _Stacked(BackendArray):
         shared = self._shared
         if shared.kinds[number] < 0:
             return whole
-        rollers = shared.layouts[shared.kinds[number]]
-        variables = _result(
-            shared.opened, shared.directory, shared.keys[number], shared.checksums[number]
-        ).variables
+        kind = shared.kinds[number]
+        rollers = shared.layouts[kind]
+        key = shared.keys[number]
+        result = _result(shared.opened, shared.directory, key, shared.checksums[number])
+        variables = result.variables
         if self._name in variables:
             values = variables[self._name].transpose(*self._dims).values
-            indices = [
-                np.searchsorted(shared.rollers, rollers) if dim == "roller" else np.arange(size)
-                for dim, size in zip(self._dims, values.shape, strict=True)
-            ]
+            indices = [np.arange(size) for size in values.shape]
+            if "roller" in self._dims:
+                axis = self._dims.index("roller")
+                indices[axis] = np.searchsorted(shared.rollers, rollers)
             whole[np.ix_(*indices)] = values
         return whole
 
 
 def _cut(whole: np.ndarray, inner: tuple[Any, ...]) -> np.ndarray:
-    for axis, index in reversed(
-        list(enumerate(inner))
-    ):  # from the last, as a number takes its axis away
-        whole = whole[(slice(None),) * axis + (index,)]
+    # From the last, as a number takes its axis away.
+    for axis, index in reversed(list(enumerate(inner))):
+        axes_before = (slice(None),) * axis
+        whole = whole[(*axes_before, index)]
     return whole
 
 

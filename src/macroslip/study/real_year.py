@@ -63,7 +63,8 @@ class RealYear:
 
     def ratio(self, quantity: str, over: str = "fixed", design: int = 0) -> float:
         """Real value of a quantity over that at 35 degC, or `over` another column of the table."""
-        of = self.table[self.table["quantity"] == quantity].iloc[design]
+        of_quantity = self.table["quantity"] == quantity
+        of = self.table[of_quantity].iloc[design]
         return float(of["real"] / of[over])
 
 
@@ -115,16 +116,17 @@ def real_year(
         _check_length(scada)
     weighting = _weighting(study)
     runs = RunsOverTemperature.of(study)
-    joint = JointShares.of(scada, _centres(study, weighting), weighting.width)
+    centres = _centres(study, weighting)
+    joint = JointShares.of(scada, centres, weighting.width)
     measured = TemperatureShares.measured(joint)
     notes = [*scada.notes, *check_span(measured, runs.temperatures)]
     winds = wind or BinProbabilities(joint.wind_shares())
-    aggregation = Aggregation(
-        Year(winds, weighting.events or {}), 1.0, weighting.field, weighting.width
-    )
+    of_year = Year(winds, weighting.events or {})
+    aggregation = Aggregation(of_year, 1.0, weighting.field, weighting.width)
     mean = joint.mean_turning + joint.oil_offset
     standing = joint.mean_idle + joint.oil_offset
-    standing = standing if np.isfinite(standing) else mean
+    if not np.isfinite(standing):
+        standing = mean
     cases = {
         "real": measured,
         "at_mean": measured.at(mean, standing),
@@ -132,21 +134,27 @@ def real_year(
         "oil_cooler": measured.warmer(-OFFSET),
         "oil_warmer": measured.warmer(OFFSET),
     }
-    collapsed = {
-        name: runs.mean(shares, weighting.field, weighting.width) for name, shares in cases.items()
-    }
+    collapsed = {}
+    for name, shares in cases.items():
+        collapsed[name] = runs.mean(shares, weighting.field, weighting.width)
     years = {name: year(means, aggregation) for name, means in collapsed.items()}
-    notes += designs(years["real"])[1]
+    real = years["real"]
+    _, notes_of_designs = designs(real)
+    notes += notes_of_designs
     bins = aggregation.bins(collapsed["real"])
-    of_bins = bins.probabilities(aggregation.weights)[np.isfinite(bins.centres)]
+    is_wind = np.isfinite(bins.centres)
+    of_bins = bins.probabilities(aggregation.weights)[is_wind]
     share_at_wind = []
     for speed in joint.wind.tolist():
-        share_at_wind.append(measured.of_wind(speed, bins.width)[:-1])
-    rates = _rates(runs, joint.oil_temperatures, bins, years["real"])
-    names = design_names(years["real"])
+        shares_of_wind = measured.of_wind(speed, bins.width)
+        share_at_wind.append(shares_of_wind[:-1])
+    joint_share = of_bins[:, None] * np.array(share_at_wind)
+    rates = _rates(runs, joint.oil_temperatures, bins, real)
+    names = design_names(real)
+    seeds = _seeds(collapsed["real"], aggregation)
     return RealYear(
-        table=_table(years, _seeds(collapsed["real"], aggregation)),
-        bins=_bins(rates, joint, of_bins[:, None] * np.array(share_at_wind), names),
+        table=_table(years, seeds),
+        bins=_bins(rates, joint, joint_share, names),
         notes=tuple(notes),
         source=joint.source,
         mean_production=mean - ZERO_CELSIUS,
@@ -167,13 +175,16 @@ def _check_length(scada: Scada) -> None:
 def _weighting(study: xr.Dataset) -> Weighting:
     """Field, width and events of the study's weights; those by default where it has none."""
     stored = stored_weighting(study)
-    return stored if stored is not None else Weighting(scale=1.0, shape=2.0)
+    if stored is None:
+        return Weighting(scale=1.0, shape=2.0)
+    return stored
 
 
 def _centres(study: xr.Dataset, weighting: Weighting) -> np.ndarray:
     """Middles of the bins of wind speed of a study's production [m/s]."""
     is_wind = events_of_runs(study) == ""
-    speeds = study[weighting.field].values.astype(float)[is_wind]
+    labels = study[weighting.field].values.astype(float)
+    speeds = labels[is_wind]
     if not speeds.size:
         raise InputError("the study has no runs of production, only events", where="--study")
     return np.unique(bin_centres(speeds, weighting.width))
@@ -181,11 +192,14 @@ def _centres(study: xr.Dataset, weighting: Weighting) -> np.ndarray:
 
 def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> pd.DataFrame:
     """Numbers of the years side by side."""
-    columns = {name: designs(annual)[0] for name, annual in years.items()}
+    columns = {}
+    for name, annual in years.items():
+        columns[name], _ = designs(annual)
     names = design_names(years["real"])
-    factors = {
-        yearly.name: criterion.factor for criterion in CRITERIA for yearly in criterion.yearly
-    }
+    factors = {}
+    for criterion in CRITERIA:
+        for yearly in criterion.yearly:
+            factors[yearly.name] = criterion.factor
     lines = []
     for group in columns["real"].index:
         for quantity, column in DESIGN_COLUMNS.items():
@@ -194,7 +208,10 @@ def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> 
             line = {"design": names[group], "quantity": quantity, "unit": column.unit}
             for name, frame in columns.items():
                 line[name] = float(frame.loc[group, quantity])
-            line["seeds [%]"] = 100.0 * seeds[quantity][group] if quantity in seeds else np.nan
+            scatter = np.nan
+            if quantity in seeds:
+                scatter = 100.0 * seeds[quantity][group]
+            line["seeds [%]"] = scatter
             line["factor"] = factors.get(quantity, np.nan)
             lines.append(line)
     table = pd.DataFrame(lines)
@@ -208,9 +225,12 @@ def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> 
 def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]:
     """Relative standard error of a year by the scatter of runs that share a bin, by group."""
     bins = aggregation.bins(study)
-    share = bins.probabilities(aggregation.weights)[None, :, None]
+    probabilities = bins.probabilities(aggregation.weights)
+    share = probabilities[None, :, None]
     powers = {"energy": study.energy_mean / study.window_length}
-    powers |= {name: study[of_run] for name, of_run in _RATES.items() if of_run in study}
+    for name, of_run in _RATES.items():
+        if of_run in study:
+            powers[name] = study[of_run]
     errors: dict[str, np.ndarray] = {}
     for name, rate in powers.items():
         values = rate.transpose("case", "row").values
@@ -222,7 +242,8 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
             total = np.nansum(share * mean, axis=1)
             relative = np.sqrt(variance.sum(axis=1)) / total
         worse = total.argmax(axis=1)
-        chosen = relative[np.arange(worse.size), worse]
+        groups = np.arange(worse.size)
+        chosen = relative[groups, worse]
         is_known = several.any(axis=(1, 2))
         errors[name] = np.where(is_known, chosen, np.nan)
     return errors
@@ -243,9 +264,12 @@ def _bins(
     names : list of str
         Names of the designs.
     """
-    winds, at = np.meshgrid(joint.wind, joint.oil_temperatures - ZERO_CELSIUS, indexing="ij")
+    celsius = joint.oil_temperatures - ZERO_CELSIUS
+    winds, at = np.meshgrid(joint.wind, celsius, indexing="ij")
     parts = []
     for group, name in enumerate(names):
+        energy = share * rates["energy"][group]
+        wear = share * rates["wear"][group]
         produced = {
             "design": name,
             "state": "turning",
@@ -253,8 +277,8 @@ def _bins(
             "oil_temperature [degC]": at.ravel(),
             "share": share.ravel(),
             "hours [h]": HOURS_A_YEAR * share.ravel(),
-            "energy [J]": YEAR * (share * rates["energy"][group]).ravel(),
-            "wear [m]": YEAR * (share * rates["wear"][group]).ravel(),
+            "energy [J]": YEAR * energy.ravel(),
+            "wear [m]": YEAR * wear.ravel(),
         }
         stood = {
             "design": name,
@@ -276,13 +300,17 @@ def _rates(
     Shape (designs, winds, temperatures).
     """
     windy = np.isfinite(bins.centres)
-    lengths = runs.study["window_length"].values[runs.runs[:, 0]]
+    first_runs = runs.runs[:, 0]
+    lengths = runs.study["window_length"].values[first_runs]
     power_of_runs = runs.values("energy_mean", at) / lengths[:, None, None]
     power, _, _ = bins.means(power_of_runs)
     rates = {"energy": power.sum(axis=-1)[:, windy]}
     if "wear_rate" not in runs.study:
-        return {**rates, "wear": np.full(rates["energy"].shape, np.nan)}
-    by_row = bins.means(runs.values("wear_rate", at))[0][:, windy]
-    worse = real["wear"].sum("bin").transpose("group", "row").values.argmax(axis=1)
+        unknown = np.full(rates["energy"].shape, np.nan)
+        return {**rates, "wear": unknown}
+    wear_of_bins, _, _ = bins.means(runs.values("wear_rate", at))
+    by_row = wear_of_bins[:, windy]
+    wear_of_year = real["wear"].sum("bin").transpose("group", "row")
+    worse = wear_of_year.values.argmax(axis=1)
     wear = [by_row[k, ..., row] for k, row in enumerate(worse)]
     return {**rates, "wear": np.stack(wear)}

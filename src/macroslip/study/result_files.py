@@ -43,28 +43,29 @@ def to_bytes(result: xr.Dataset) -> bytes:
     that need them become floats. A dimension of length zero would be taken for one that can grow,
     so such variables are described in an attribute.
     """
-    large = {
-        name: variable.astype(float)
-        for name, variable in result.data_vars.items()
-        if variable.dtype.kind in "iu"
-        and variable.size
-        and np.abs(variable.values.astype(float)).max() >= 2**31
-    }
-    empty = {
-        str(name): [
-            variable.dims,
-            variable.shape,
-            variable.dtype.str,
-            variable.attrs,
-            name in result.coords,
-        ]
-        for name, variable in result.variables.items()
-        if variable.size == 0
-    }
+    large = {}
+    empty = {}
+    for name, variable in result.data_vars.items():
+        if _is_beyond_32_bits(variable):
+            large[name] = variable.astype(float)
+    for name, variable in result.variables.items():
+        if variable.size == 0:
+            kind = variable.dtype.str
+            is_coordinate = name in result.coords
+            entry = [variable.dims, variable.shape, kind, variable.attrs, is_coordinate]
+            empty[str(name)] = entry
     stored = result.assign(large).drop_vars(list(empty))
     if empty:
         stored = stored.assign_attrs({_EMPTY: json.dumps(empty)})
     return bytes(stored.to_netcdf(engine="scipy", format="NETCDF3_64BIT"))
+
+
+def _is_beyond_32_bits(variable: xr.DataArray) -> bool:
+    """True if whole numbers of a variable do not fit 32 bits."""
+    if variable.dtype.kind not in "iu" or not variable.size:
+        return False
+    sizes = np.abs(variable.values.astype(float))
+    return bool(sizes.max() >= 2**31)
 
 
 def from_bytes(content: bytes) -> xr.Dataset:
@@ -90,10 +91,11 @@ def layout(result: xr.Dataset) -> str:
     `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and
     `variables`, a hash of names, dimensions and types.
     """
-    variables = sorted(
-        (str(name), *map(str, variable.dims), variable.dtype.str)
-        for name, variable in result.variables.items()
-    )
+    variables = []
+    for name, variable in result.variables.items():
+        dims = map(str, variable.dims)
+        variables.append((str(name), *dims, variable.dtype.str))
+    variables.sort()
     described: dict[str, Any] = {
         "sizes": {str(name): size for name, size in result.sizes.items()},
         "variables": checksum(json.dumps(variables).encode())[:16],

@@ -148,7 +148,8 @@ def run_study(
             with session.opened():
                 with session.workers(workers, scheduler, threads) as (pool, each):
                     session.go(pool, each, strict)
-                write_summary(directory, {name: units for name, (units, _) in study.labels.items()})
+                units = {name: unit for name, (unit, _) in study.labels.items()}
+                write_summary(directory, units)
         except (OSError, sqlite3.OperationalError) as error:
             where = getattr(error, "filename", None) or directory
             why = getattr(error, "strerror", None) or error
@@ -214,16 +215,19 @@ class Session:
                 self.note(f"{left} unfinished files of an earlier run removed")
             self._setup = store.write_manifest(self.directory, self._manifest())
             with contextlib.closing(Database(self.directory)) as self.database:
-                damaged = self.database.begin((run.name, run.labels) for run in study.runs())
+                names_and_labels = ((run.name, run.labels) for run in study.runs())
+                damaged = self.database.begin(names_and_labels)
                 if damaged:
                     fault = f"{damaged} rows of the database are damaged"
                     self.note(f"{fault}; their runs are computed again")
                 self.note(f"{self.database.results()} results are there already")
                 yield
             how = "stopped at the first failure" if self.ended.stopped else "ended"
-            self.note(f"{how}: {self._progress.line}, in {duration(self._progress.seconds)}")
+            lasted = duration(self._progress.seconds)
+            self.note(f"{how}: {self._progress.line}, in {lasted}")
         except BaseException as error:
-            self.note(f"broken off after {self._progress.line}: {type(error).__name__}: {error}")
+            kind = type(error).__name__
+            self.note(f"broken off after {self._progress.line}: {kind}: {error}")
             with contextlib.suppress(OSError):
                 store.remove_unfinished(self.directory)
             raise
@@ -260,13 +264,17 @@ class Session:
         elif workers is not None:
             self.note(f"runs are computed by {workers} processes of this machine")
             with Processes(min(workers, len(self.study)), self.note) as pool:
-                yield pool, threads or max(1, usable_processors() // workers)
+                each = threads or max(1, usable_processors() // workers)
+                yield pool, each
         else:
             threads = threads or usable_processors()
             base, _ = self.study.case_of()
             rollers = base.bearing.rows * len(base.roller_numbers)
-            is_small = base.dynamics == WHOLE_BEARING or rollers <= _FEW_ROLLERS * threads
-            runs = min(threads, len(self.study)) if is_small else 1
+            is_whole = base.dynamics == WHOLE_BEARING
+            is_small = is_whole or rollers <= _FEW_ROLLERS * threads
+            runs = 1
+            if is_small:
+                runs = min(threads, len(self.study))
             each = threads // runs
             self.note(f"runs are computed in this process, {runs} at once with {each} threads each")
             with ThisProcess(runs) as pool:
@@ -294,7 +302,8 @@ class Session:
         """At most so many tasks, first those that are to be handed out again."""
         repeated = min(count, len(self._again))
         tasks = [self._again.popleft() for _ in range(repeated)]
-        for run in itertools.islice(self._runs, count - len(tasks)):
+        missing = count - len(tasks)
+        for run in itertools.islice(self._runs, missing):
             self._open[run.name] = run
             tasks.append(self._task(run, threads))
         return tasks
@@ -324,12 +333,14 @@ class Session:
             elif result.get("found") and not self._is_recorded(result):
                 self._again.append(task | {"again": True})
             else:
-                entries.append((self._open.pop(result["run"]), result))
+                run = self._open.pop(result["run"])
+                entries.append((run, result))
         return entries
 
     def _release(self, key: str) -> None:
         """End the claim on a key, and hand out the runs that waited for it."""
-        claim_path(case_path(self.directory, key), self._id).unlink(missing_ok=True)
+        claim = claim_path(case_path(self.directory, key), self._id)
+        claim.unlink(missing_ok=True)
         self._again.extend(self._waiting.pop(key, []))
 
     def _check(self, result: dict[str, Any]) -> None:
@@ -346,7 +357,8 @@ class Session:
         known = self.database.checksum(result["key"])
         if known == result["detail"]:
             return True
-        name = self._name(self._open[result["run"]])
+        run = self._open[result["run"]]
+        name = self._name(run)
         state = "is damaged" if known else "was not recorded as done"
         self.note(f"{name}: a stored result {state}; computed again")
         return False
@@ -370,8 +382,11 @@ class Session:
         for _, result in entries:
             if "key" in result:
                 self._release(result["key"])
-        failures = sum(self._count(run, result) for run, result in entries)
-        if self._progress.seconds - self._logged >= _LOG_EVERY:
+        failures = 0
+        for run, result in entries:
+            failures += self._count(run, result)
+        since_logged = self._progress.seconds - self._logged
+        if since_logged >= _LOG_EVERY:
             self._logged = self._progress.seconds
             self.note(self._progress.line)
         if self._report:
@@ -388,7 +403,8 @@ class Session:
         else:
             self._progress.failed += 1
             if len(self.ended.failures) < _TOLD:
-                self.ended.failures.append((run.labels, str(outcome), result["reason"]))
+                failure = (run.labels, str(outcome), result["reason"])
+                self.ended.failures.append(failure)
                 self.ended.failures.sort(key=lambda failure: failure[0]["loads"])
             return True
         return False
@@ -408,7 +424,8 @@ class Session:
             yield f"{name}: {outcome} in {seconds:.2f} s, {result['key'][:12]}"
         else:
             why = " ".join(result["reason"].split())
-            yield f"{name}: {outcome}: {why}\n{result.get('traceback', '')}".rstrip()
+            trace = result.get("traceback", "")
+            yield f"{name}: {outcome}: {why}\n{trace}".rstrip()
 
     def _name(self, run: Run) -> str:
         return ", ".join(

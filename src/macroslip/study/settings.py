@@ -57,7 +57,10 @@ class RecordKinds(NamedTuple):
     @property
     def dimensions(self) -> dict[str, Dimension]:
         """Quantities of all classes by key."""
-        return {key: unit for kind in self.classes for key, unit in dimensions(kind).items()}
+        by_key = {}
+        for kind in self.classes:
+            by_key |= dimensions(kind)
+        return by_key
 
 
 #: Records with values of their own, each of which can be replaced.
@@ -93,7 +96,9 @@ class Setting:
     @classmethod
     def written(cls, key: str, value: Any) -> Setting:
         """A setting from text of a case file: `0.2 mm` becomes number and unit."""
-        match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+        match = None
+        if isinstance(value, str):
+            match = _QUANTITY.fullmatch(value)
         if match is None:
             return cls(key, value)
         return cls(key, float(match["number"]), match["unit"])
@@ -129,11 +134,10 @@ class Setting:
             raise InputError(f"the key '{self.key}' cannot be varied here", remedy=remedy)
         fields = _settable().get(self.key, [])
         if not fields:
-            others = (key for key in _settable() if key.partition(".")[0] not in _ELSEWHERE)
-            records = (
-                f"{noun}.{key}" for noun, record in RECORDS.items() for key in record.dimensions
-            )
-            raise unknown_key(self.key, [*others, *records])
+            keys = [key for key in _settable() if key.partition(".")[0] not in _ELSEWHERE]
+            for noun, record in RECORDS.items():
+                keys += [f"{noun}.{key}" for key in record.dimensions]
+            raise unknown_key(self.key, keys)
         problems = []
         for field in fields:
             try:
@@ -146,7 +150,8 @@ class Setting:
     def _check_against(self, field: Field) -> None:
         form = form_of(field)
         word = word_of(field)
-        if self.unit and not (isinstance(form, Quantity) and form.dimension is not NUMBER):
+        takes_unit = isinstance(form, Quantity) and form.dimension is not NUMBER
+        if self.unit and not takes_unit:
             raise InputError(
                 f"it has the unit '{self.unit}'",
                 allowed="a value without unit",
@@ -160,7 +165,8 @@ class Setting:
         key = _TOGETHER.get(self.key, _field_key(key))
         known = RECORDS[noun].dimensions
         if key not in known:
-            raise unknown_key(self.key, (f"{noun}.{name}" for name in known))
+            known_keys = (f"{noun}.{name}" for name in known)
+            raise unknown_key(self.key, known_keys)
         if not is_finite_number(self.value):
             raise InputError(
                 f"it is {shown(self.value)}",
@@ -169,7 +175,10 @@ class Setting:
         try:
             read_entry(key, self.entry, known[key], Source())
         except InputError as problem:
-            part = f"{problem.where.rpartition('.')[2]} " if problem.where else ""
+            part = ""
+            if problem.where:
+                _, _, name = problem.where.rpartition(".")
+                part = f"{name} "
             raise problem.but(fault=part + problem.fault, where="") from None
 
 
@@ -193,8 +202,9 @@ def with_settings(mapping: Mapping[str, Any], settings: Sequence[Setting]) -> di
             continue
         inner = result
         for name in sections:
+            section = inner.get(name)
             # A section that is absent or switched off by a word begins anew.
-            inner[name] = dict(inner[name]) if isinstance(inner.get(name), Mapping) else {}
+            inner[name] = dict(section) if isinstance(section, Mapping) else {}
             inner = inner[name]
         inner[last] = setting.text
     return result
@@ -215,17 +225,16 @@ def replaced(record: Record, settings: Sequence[Setting]) -> Record:
     noun = "lubricant" if isinstance(record, Lubricant) else "bearing"
     head = f"{noun}."
     own = [setting for setting in settings if setting.key.startswith(head)]
-    entries = {
-        _field_key(setting.key.removeprefix(head)): setting.entry
-        for setting in own
-        if setting.key not in _TOGETHER
-    }
+    entries = {}
+    for setting in own:
+        if setting.key not in _TOGETHER:
+            key = _field_key(setting.key.removeprefix(head))
+            entries[key] = setting.entry
     result = record.with_entries(entries) if entries else record
     for setting in own:
         if setting.key == "lubricant.at":
-            temperature, _ = read_entry(
-                "at", setting.entry, dimensions(type(record))[_TOGETHER[setting.key]], Source()
-            )
+            dimension = dimensions(type(record))[_TOGETHER[setting.key]]
+            temperature, _ = read_entry("at", setting.entry, dimension, Source())
             result = result.at(temperature)
     return result
 
@@ -288,10 +297,14 @@ def template(
     names = {noun: record.name for noun, record in records.items()}
     # The source is named only because a case has to have one; it is not read.
     content = {**with_settings(mapping, settings), **names}
-    content["loads"] = (content.get("loads") or {}) | {"file": "-"}
+    loads = content.get("loads") or {}
+    content["loads"] = loads | {"file": "-"}
     case = build_case(content, source or Source(), folder or Path(), records=records, series=unread)
-    changed = {noun: replaced(getattr(case, noun), settings) for noun in RECORDS}
-    details = case.contact_details and (keep is None or not set(CONTACT_DETAILS).isdisjoint(keep))
+    changed = {}
+    for noun in RECORDS:
+        changed[noun] = replaced(getattr(case, noun), settings)
+    keeps_details = keep is None or not set(CONTACT_DETAILS).isdisjoint(keep)
+    details = case.contact_details and keeps_details
     return replace(case, **changed, contact_details=details), cut
 
 
@@ -309,8 +322,10 @@ def read_loads(source: str, path: str, cut: Mapping[str, Any]) -> HubLoads | Bea
                 remedy = f"Remove loads.{name}; it serves hub loads from files only."
                 raise InputError(fault, where=path, remedy=remedy)
         if source == "bundled":
-            return HubLoads.bundled(path).window(cut.get("start"), cut.get("end"))
-        return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
+            start = cut.get("start")
+            return HubLoads.bundled(path).window(start, cut.get("end"))
+        kind = HubLoads if source == "file" else BearingLoads
+        return kind.read(path, **cut)
     except OSError as error:
         raise InputError(
             f"the file cannot be read ({error.strerror or error})", where=path
@@ -341,9 +356,9 @@ class Range:
     def at(self, position: float) -> float:
         """The value at a position from 0 to 1."""
         if self.scale == "log":
-            return math.exp(
-                math.log(self.low) + position * (math.log(self.high) - math.log(self.low))
-            )
+            low = math.log(self.low)
+            high = math.log(self.high)
+            return math.exp(low + position * (high - low))
         return self.low + position * (self.high - self.low)
 
 
@@ -361,7 +376,8 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
         noun, _, name = key.partition(".")
         known = RECORDS[noun].dimensions
         if _field_key(name) not in known:
-            raise unknown_key(key, (f"{noun}.{entry}" for entry in known))
+            known_keys = (f"{noun}.{entry}" for entry in known)
+            raise unknown_key(key, known_keys)
         return None
     for end in (interval.low, interval.high):
         Setting(key, end, interval.unit).checked()
@@ -390,7 +406,8 @@ class Sample:
     ]
 
     def __post_init__(self) -> None:
-        if self.method == "sobol" and self.count & (self.count - 1):
+        is_power_of_2 = self.count & (self.count - 1) == 0
+        if self.method == "sobol" and not is_power_of_2:
             below = 1 << (self.count.bit_length() - 1)
             allowed = "a power of 2, at which a Sobol sequence is balanced"
             remedy = f"Take {below} or {2 * below}, or latin-hypercube."
@@ -402,8 +419,11 @@ class Sample:
         Raises InputError if a value has no range there, or is a count.
         """
         ranges = dict(self.ranges)
-        for key in (key for key, interval in self.ranges.items() if interval is None):
-            noun, _, name = _field_key(key.replace(".", "/", 1)).partition("/")
+        for key, interval in self.ranges.items():
+            if interval is not None:
+                continue
+            field = _field_key(key.replace(".", "/", 1))
+            noun, _, name = field.partition("/")
             entry = records[noun].provenance.get(name)
             where = f"variations.sample.ranges.{key}"
             if entry is None or entry.range is None:
@@ -418,11 +438,9 @@ class Sample:
                     where=where,
                     remedy=remedy,
                 )
-            ranges[key] = Range(
-                low=entry.range[0],
-                high=entry.range[1],
-                unit="" if entry.unit == "1" else entry.unit,
-            )
+            low, high = entry.range
+            unit = "" if entry.unit == "1" else entry.unit
+            ranges[key] = Range(low=low, high=high, unit=unit)
         return Sample(method=self.method, count=self.count, seed=self.seed, ranges=ranges)
 
     def points(self) -> list[list[Setting]]:
@@ -436,18 +454,18 @@ class Sample:
         """
         from scipy.stats import qmc
 
-        kind = {"latin-hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}[self.method]
-        intervals: dict[str, Any] = dict(
-            self.ranges
-        )  # `with_ranges_of` has filled in those that were left open
-        generator = kind(len(self.ranges), rng=np.random.default_rng(self.seed))
-        positions = generator.random(self.count)
-        return [
-            [
+        kinds = {"latin-hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}
+        # `with_ranges_of` has filled in those that were left open.
+        intervals: dict[str, Any] = dict(self.ranges)
+        random = np.random.default_rng(self.seed)
+        generator = kinds[self.method](len(self.ranges), rng=random)
+        points = []
+        for positions in generator.random(self.count):
+            settings = []
+            for (key, interval), position in zip(intervals.items(), positions, strict=True):
                 # Twelve digits are more than the accuracy of any parameter, and the same on every
                 # machine.
-                Setting(key, float(f"{interval.at(float(position)):.12g}"), interval.unit)
-                for (key, interval), position in zip(intervals.items(), point, strict=True)
-            ]
-            for point in positions
-        ]
+                value = float(f"{interval.at(float(position)):.12g}")
+                settings.append(Setting(key, value, interval.unit))
+            points.append(settings)
+        return points

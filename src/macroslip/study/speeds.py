@@ -49,19 +49,23 @@ def speeds_beside(scada: Scada, study: xr.Dataset | str | PathLike[str]) -> pd.D
             OF_STUDY: study["shaft_speed_mean"].values / RPM,
         }
     )
-    speeds = speeds[events_of_runs(study) == ""]
+    is_wind = events_of_runs(study) == ""
+    speeds = speeds[is_wind]
     turning = scada.turning[scada.kept].to_numpy()
+    wind_of_rows = load_speeds(scada)[turning]
+    rotor_speeds = scada.used_rows["rotor_speed"].to_numpy()[turning]
     measured = pd.DataFrame(
         {
-            WIND: bin_centres(load_speeds(scada)[turning], width),
-            MEASURED: scada.used_rows["rotor_speed"].to_numpy()[turning] / RPM,
+            WIND: bin_centres(wind_of_rows, width),
+            MEASURED: rotor_speeds / RPM,
         }
     )
     groups = measured.groupby(WIND)[MEASURED]
     table = groups.mean().to_frame()
     table[SHARE] = groups.size() / len(measured)
     table[OF_STUDY] = speeds.groupby(WIND)[OF_STUDY].mean()
-    return table.dropna().reset_index().reindex(columns=[WIND, MEASURED, OF_STUDY, SHARE])
+    complete = table.dropna().reset_index()
+    return complete.reindex(columns=[WIND, MEASURED, OF_STUDY, SHARE])
 
 
 def speed_notes(table: pd.DataFrame) -> list[str]:

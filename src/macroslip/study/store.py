@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
 import json
 import os
 import platform
@@ -40,7 +39,8 @@ def write_manifest(directory: Path, manifest: dict[str, Any]) -> str:
 
     Gives its checksum, by which workers verify that they read the same.
     """
-    content = json.dumps({"format": FORMAT, **manifest}, indent=1, ensure_ascii=False).encode()
+    text = json.dumps({"format": FORMAT, **manifest}, indent=1, ensure_ascii=False)
+    content = text.encode()
     write_durably(directory / MANIFEST, content)
     return checksum(content)
 
@@ -115,7 +115,10 @@ def check_folder(directory: Path, *, resume: bool) -> None:
             raise InputError("the folder holds a study already", where=where, remedy=remedy)
         return
     ours = {*_FILES, CASES, BALANCE_RUNS}
-    foreign = sorted(name for name in names if name not in ours and not name.endswith(UNFINISHED))
+    foreign = []
+    for name in sorted(names - ours):
+        if not name.endswith(UNFINISHED):
+            foreign.append(name)
     if foreign:
         remedy = "Name a folder that is new or empty."
         raise InputError(
@@ -125,10 +128,12 @@ def check_folder(directory: Path, *, resume: bool) -> None:
 
 def remove_unfinished(directory: Path) -> int:
     """Remove files that a process had not finished when it ended; gives their number."""
-    unfinished = itertools.chain(
-        directory.glob(f".*{UNFINISHED}"), (directory / CASES).glob(f"*/.*{UNFINISHED}")
-    )
-    return sum(path.unlink(missing_ok=True) is None for path in list(unfinished))
+    in_folder = directory.glob(f".*{UNFINISHED}")
+    in_cases = (directory / CASES).glob(f"*/.*{UNFINISHED}")
+    unfinished = [*in_folder, *in_cases]
+    for path in unfinished:
+        path.unlink(missing_ok=True)
+    return len(unfinished)
 
 
 @contextmanager
@@ -142,7 +147,8 @@ def locked(directory: Path) -> Iterator[None]:
     try:
         lock = FileLock(path, timeout=0).acquire()
     except Timeout:
-        holder = path.read_text(encoding="utf-8", errors="replace")[:200]
+        text = path.read_text(encoding="utf-8", errors="replace")
+        holder = text[:200]
         raise InputError(
             f"another process is at work in this folder ({holder})",
             where=str(directory),

@@ -70,11 +70,14 @@ class Run:
         return self._hash([self.load.name, self.bearing, self.lubricant, self.model], "")
 
     def _hash(self, labels: list[str], but: str) -> str:
-        parameters = sorted(
-            (setting.key, setting.text) for setting in self.settings if setting.key != but
-        )
+        parameters = []
+        for setting in self.settings:
+            if setting.key != but:
+                parameters.append((setting.key, setting.text))
+        parameters.sort()
         text = json.dumps([labels, parameters])
-        return hashlib.sha256(text.encode()).hexdigest()[:32]
+        digest = hashlib.sha256(text.encode()).hexdigest()
+        return digest[:32]
 
     @property
     def labels(self) -> dict[str, Any]:
@@ -133,13 +136,17 @@ class Study:
             "models": self.models,
             "combinations of parameters": self.variations,
         }
-        several = [f"{len(entries)} {noun}" for noun, entries in counts.items() if len(entries) > 1]
+        several = []
+        for noun, entries in counts.items():
+            if len(entries) > 1:
+                several.append(f"{len(entries)} {noun}")
         of = " of " if several else ""
         return f"<study {self.title!r}: {len(self)} runs{of}{', '.join(several)}>"
 
     def __len__(self) -> int:
         """Number of runs."""
-        return math.prod(map(len, self._choices(self.loads.loads)))
+        choices = self._choices(self.loads.loads)
+        return math.prod(map(len, choices))
 
     def _choices(self, loads: Sequence[Load]) -> tuple[Any, ...]:
         return loads, self.bearings, self.lubricants, self.models, self.variations
@@ -158,12 +165,15 @@ class Study:
         """
         # Multiples of the golden ratio are spread evenly over [0, 1), so that neighbours by them
         # lie far apart.
-        order = sorted(range(len(self.loads.loads)), key=lambda number: number * _GOLDEN % 1.0)
-        return self._runs([self.loads.loads[number] for number in order])
+        loads = self.loads.loads
+        order = sorted(range(len(loads)), key=lambda number: number * _GOLDEN % 1.0)
+        return self._runs([loads[number] for number in order])
 
     def _runs(self, loads: Sequence[Load]) -> Iterator[Run]:
-        for load, bearing, lubricant, model, settings in itertools.product(*self._choices(loads)):
-            run = Run(load, bearing, lubricant, model, [*self.models[model], *settings])
+        choices = self._choices(loads)
+        for load, bearing, lubricant, model, settings in itertools.product(*choices):
+            all_settings = [*self.models[model], *settings]
+            run = Run(load, bearing, lubricant, model, all_settings)
             if self.temperatures:
                 temperature = Setting(TEMPERATURE, self.temperatures[run.group], "K")
                 run = replace(run, settings=[*run.settings, temperature])
@@ -175,16 +185,15 @@ class Study:
         Of an event all rollers are computed: what lasts a short time falls on the few places where
         rollers then are.
         """
-        choices = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
-        records = {
-            noun: records_by_name[getattr(run, noun)]
-            if run
-            else next(iter(records_by_name.values()))
-            for noun, records_by_name in choices.items()
-        }
-        case, cut = template(
-            self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder
-        )
+        records = {}
+        for noun in RECORDS:
+            records_by_name = getattr(self, f"{noun}s")
+            if run:
+                records[noun] = records_by_name[getattr(run, noun)]
+            else:
+                records[noun] = next(iter(records_by_name.values()))
+        settings = run.settings if run else []
+        case, cut = template(self.case, settings, records, keep=self.keep, folder=self.folder)
         if run and run.is_event:
             case = replace(case, rollers="all")
         if run and self.temperatures:
@@ -221,19 +230,21 @@ class BaseCase(Form):
 
         None: every key of the section is commented out.
         """
-        loads = (
-            {} if value is None else value.get("loads", {}) if isinstance(value, Mapping) else None
-        )
+        loads = None
+        if value is None:
+            loads = {}
+        elif isinstance(value, Mapping):
+            loads = value.get("loads", {})
         if not isinstance(loads, Mapping):
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         remedy = "The study's own section loads names where the loads come from."
-        problems = [
-            context.location.inside("loads", str(key)).problem(
-                f"the key '{key}' cannot stand here", ", ".join(CUT_KEYS), remedy
-            )
-            for key in loads
-            if key not in CUT_KEYS
-        ]
+        allowed = ", ".join(CUT_KEYS)
+        problems = []
+        for key in loads:
+            if key not in CUT_KEYS:
+                location = context.location.inside("loads", str(key))
+                fault = f"the key '{key}' cannot stand here"
+                problems.append(location.problem(fault, allowed, remedy))
         if problems:
             raise together(problems)
         return dict(value or {})
@@ -253,7 +264,8 @@ class Settings(Form):
         def written(key: str, text: Any) -> Setting:
             return Setting.written(key, text).checked()
 
-        return list(MappingOf(self.about, self.form, Any, written).read(value, context).values())
+        form = MappingOf(self.about, self.form, Any, written)
+        return list(form.read(value, context).values())
 
 
 @dataclass(frozen=True)
@@ -267,13 +279,13 @@ class SettingsList(Form):
         if not isinstance(value, list) or not value:
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         numbered = ((str(number), item) for number, item in enumerate(value))
-        items = read_all(
-            numbered, lambda _, item, inner: Settings(self.about).read(item, inner), context
-        )
+        form = Settings(self.about)
+        items = read_all(numbered, lambda _, item, inner: form.read(item, inner), context)
         units: dict[str, str] = {}
         for setting in itertools.chain(*items):
-            if units.setdefault(setting.key, setting.unit) != setting.unit:
-                both = f"{setting.unit or 'no unit'} and in {units[setting.key] or 'no unit'}"
+            unit = units.setdefault(setting.key, setting.unit)
+            if unit != setting.unit:
+                both = f"{setting.unit or 'no unit'} and in {unit or 'no unit'}"
                 raise InputError(
                     f"{setting.key} is given in {both}", allowed="one unit for all values of a key"
                 )
@@ -291,7 +303,8 @@ class Values(Form):
         if not isinstance(value, list) or not value:
             remedy = "For quantities, without their unit."
             raise InputError(f"values is {shown(value)}", allowed=self.form, remedy=remedy)
-        if len({repr(item) for item in value}) != len(value):
+        different = {repr(item) for item in value}
+        if len(different) != len(value):
             raise InputError(f"a value stands twice in {shown(value)}", allowed="different values")
         return value
 
@@ -463,11 +476,9 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
 
     mapping = values.get("case", {})
     base = attempt("case", lambda: _base(mapping, source, folder))
-    loads = (
-        attempt("loads", lambda: load_list(folder, **asdict(values["loads"])))
-        if "loads" in values
-        else None
-    )
+    loads = None
+    if "loads" in values:
+        loads = attempt("loads", lambda: load_list(folder, **asdict(values["loads"])))
     records = {
         noun: attempt(
             f"{noun}s", lambda noun=noun: _records(RECORDS[noun], values[f"{noun}s"], folder)
@@ -476,7 +487,8 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         if f"{noun}s" in values
     }
     bearings = (records.get("bearing") or {}).values()
-    if len({bearing.rows for bearing in bearings}) > 1:
+    numbers_of_rows = {bearing.rows for bearing in bearings}
+    if len(numbers_of_rows) > 1:
         kinds = sorted({bearing.kind for bearing in bearings})
         problems.append(
             location.inside("bearings").problem(
@@ -489,7 +501,9 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     models = values.get("models") or {"base": []}
     sample = attempt("variations", lambda: _sample(variations.sample, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))
-    heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
+    heat = None
+    if base is not None:
+        heat = attempt("case", lambda: _heat(base, parameters))
     weights = values.get("weights")
     if weights is not None and loads is not None:
         weights = attempt("weights", partial(weights.with_measured_year, loads.loads, folder))
@@ -499,16 +513,17 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         attempt("weights", lambda: weights.check(loads.loads, lengths))
     if problems:
         raise together(problems)
+    grid = variations.grid or {}
     combinations = itertools.product(
-        itertools.product(*(variations.grid or {}).values()),
+        itertools.product(*grid.values()),
         variations.list or [[]],
         sample.points() if sample else [[]],
     )
     # The study names the base case's bearing or lubricant as the file does.
-    own = {
-        noun: {mapping.get(noun) or getattr(base, noun).name: getattr(base, noun)}
-        for noun in RECORDS
-    }
+    own = {}
+    for noun in RECORDS:
+        record = getattr(base, noun)
+        own[noun] = {mapping.get(noun) or record.name: record}
     return Study(
         title=values.get("title", ""),
         folder=folder.absolute(),
@@ -531,14 +546,16 @@ def _content(data: Mapping[str, Any], weights: Weighting | None) -> dict[str, An
     """The study file as plain data, with a measured year as what was read of it."""
     if weights is None or not isinstance(weights.scada, JointShares):
         return dict(data)
-    return {**data, "weights": {**data["weights"], "scada": weights.scada.content()}}
+    of_weights = {**data["weights"], "scada": weights.scada.content()}
+    return {**data, "weights": of_weights}
 
 
 def _check_temperatures(weights: Weighting, variations: Variations) -> None:
     """Check that the runs span the temperatures of the weights."""
     if weights.temperatures is None and weights.balance is None:
         return
-    settings: list[Setting] = (variations.grid or {}).get(LABEL, [])  # pyright: ignore[reportAssignmentType]
+    grid = variations.grid or {}
+    settings: list[Setting] = grid.get(LABEL, [])  # pyright: ignore[reportAssignmentType]
     at = [float(kelvin(np.array(setting.value), setting.unit)) for setting in settings]
     check_varied(len(at))
     if weights.temperatures is not None:
@@ -547,12 +564,13 @@ def _check_temperatures(weights: Weighting, variations: Variations) -> None:
 
 def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Case:
     """The base case, so that a mistake in it is found at once, in its own words and lines."""
-    inner = {
-        keys[1:]: line
-        for keys, line in source.lines.items()
-        if keys[:1] == ("case",) and len(keys) > 1
-    }
-    return template(mapping, [], {}, source=Source(source.file, inner), folder=folder)[0]
+    inner = {}
+    for keys, line in source.lines.items():
+        if keys[:1] == ("case",) and len(keys) > 1:
+            inner[keys[1:]] = line
+    source_of_case = Source(source.file, inner)
+    case, _ = template(mapping, [], {}, source=source_of_case, folder=folder)
+    return case
 
 
 def _event_lengths(
@@ -564,15 +582,18 @@ def _event_lengths(
     """
     if base is None:
         return {}
-    cut = template(mapping, [], {}, folder=folder)[1]
+    _, cut = template(mapping, [], {}, folder=folder)
     lengths: dict[str, list[float]] = {}
     for load in loads.loads:
         rate = weights.year.events.get(load.event)
         if rate is None or rate.in_hours:
             continue
         with contextlib.suppress(InputError):
-            record = read_loads(loads.source, load_path(loads, load, folder), cut)
-            start = record.start if base.window.start is None else base.window.start
+            path = load_path(loads, load, folder)
+            record = read_loads(loads.source, path, cut)
+            start = base.window.start
+            if start is None:
+                start = record.start
             end = record.end
             if base.window.end is not None:
                 end = min(base.window.end, end)
@@ -598,18 +619,20 @@ def _heat(base: Case, parameters: Mapping[str, str] | None) -> Heat | None:
 
 def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]) -> Sample | None:
     """The sample, with the ranges of the study's bearing and lubricant where it takes them."""
-    open_nouns = {
-        key.partition(".")[0]
-        for key, interval in (sample.ranges if sample else {}).items()
-        if interval is None
-    }
+    ranges = sample.ranges if sample else {}
+    open_nouns = set()
+    for key, interval in ranges.items():
+        if interval is None:
+            noun, _, _ = key.partition(".")
+            open_nouns.add(noun)
     if sample is None or not open_nouns:
         return sample
     if base is None:  # faults of the case come first
         return None
     owners = {}
     for noun in open_nouns:
-        known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
+        records_by_name = records.get(noun) or {}
+        known = list(records_by_name.values()) or [getattr(base, noun)]
         if len(known) > 1:
             fault = f"the sample takes ranges from the {noun}'s file, "
             fault += f"and the study has {len(known)} of them"
@@ -621,7 +644,11 @@ def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]
 
 def _records(kind: RecordKinds, names: list[str], folder: Path) -> dict[str, Record]:
     catalogue = kind.catalogue()
-    return {name: kind.read(name if name in catalogue else folder / name) for name in names}
+    records = {}
+    for name in names:
+        path_or_name = name if name in catalogue else folder / name
+        records[name] = kind.read(path_or_name)
+    return records
 
 
 def _parameters(

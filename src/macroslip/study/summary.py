@@ -110,8 +110,12 @@ NUMBERS |= {name: units for name, (units, _) in CASE_VARIABLES.items()}
 
 def rows_with_numbers(runs: pd.DataFrame) -> tuple[str, ...]:
     """Names of the rows of rollers that a table of runs has numbers of; both without any run."""
-    rows = tuple(row for row in AXIAL_SIGNS if np.isfinite(runs[f"failed_rollers_{row}"]).any())
-    return rows or ROWS
+    rows = []
+    for row in AXIAL_SIGNS:
+        failed_rollers = runs[f"failed_rollers_{row}"]
+        if np.isfinite(failed_rollers).any():
+            rows.append(row)
+    return tuple(rows) or ROWS
 
 
 #: Components whose cycles are counted.
@@ -164,11 +168,14 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
     turned = 2.0 * np.pi / orbit_ratio(case.bearing)
     failed = bool((result.status != Status.COMPLETED).any())
     unknown = dict.fromkeys(NUMBERS, math.nan)
-    by_row = {
-        f"{name}_{row}": float(values.sel(row=row))
-        for name, values in values_of_rows.items()
-        for row in result.row.values.tolist()
-    }
+    by_row = {}
+    for name, values in values_of_rows.items():
+        for row in result.row.values.tolist():
+            by_row[f"{name}_{row}"] = float(values.sel(row=row))
+    contact_energy = case.bearing.rollers_per_row * float(mean_orbit.sum(skipna=False))
+    friction_power = math.nan
+    if not failed:
+        friction_power = bearing_friction_power(result)
     return (
         unknown
         | by_row
@@ -177,10 +184,8 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
             "orbits": float(result.sizes["orbit"]),
             "loads_length": loads.duration,
             "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
-            "contact_torque": case.bearing.rollers_per_row
-            * float(mean_orbit.sum(skipna=False))
-            / turned,
-            "friction_power": math.nan if failed else bearing_friction_power(result),
+            "contact_torque": contact_energy / turned,
+            "friction_power": friction_power,
             **rating_values(case),
         }
     )
@@ -246,10 +251,14 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     """
     counts = []
     for series in (loads.radial_load, loads.axial_load):
-        ranges = rainflow_ranges(series) if np.ptp(series) >= RANGE_EDGES[0] else []
+        ranges = []
+        if np.ptp(series) >= RANGE_EDGES[0]:
+            ranges = rainflow_ranges(series)
         in_class, _ = np.histogram(ranges, RANGE_EDGES)
         counts.append(in_class.astype(float))
-    middle = np.sqrt(RANGE_EDGES[1:] * RANGE_EDGES[:-1])
+    lower_edges = RANGE_EDGES[:-1]
+    upper_edges = RANGE_EDGES[1:]
+    middle = np.sqrt(upper_edges * lower_edges)
     about = {"units": "N", "long_name": "range of the cycle, middle of its class"}
     return xr.Dataset(
         {

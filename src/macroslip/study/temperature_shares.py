@@ -38,19 +38,24 @@ class TemperatureShares:
         Events have the temperatures of idle rows where the rotor stands, else the mean one of rows
         in which it turns.
         """
-        temperatures = np.append(joint.oil_temperatures, joint.mean_turning + joint.oil_offset)
+        mean = joint.mean_turning + joint.oil_offset
+        temperatures = np.append(joint.oil_temperatures, mean)
         of_bins = joint.turning.sum(axis=1)
         known = np.flatnonzero(of_bins > 0.0)
         by_wind = {}
-        for number, centre in enumerate(joint.wind.tolist()):
-            distance = np.abs(joint.wind[known] - joint.wind[number])
+        for centre in joint.wind.tolist():
+            distance = np.abs(joint.wind[known] - centre)
             nearest = known[np.argmin(distance)]
-            by_wind[centre] = np.append(joint.turning[nearest] / of_bins[nearest], 0.0)
+            shares = joint.turning[nearest] / of_bins[nearest]
+            by_wind[centre] = np.append(shares, 0.0)
         at_mean = np.zeros(temperatures.size)
         at_mean[-1] = 1.0
         idle = joint.idle.sum()
-        standing = np.append(joint.idle / idle, 0.0) if idle > 0.0 else at_mean
-        lasting = np.append(joint.turning.sum(axis=0) + joint.idle, 0.0)
+        standing = at_mean
+        if idle > 0.0:
+            standing = np.append(joint.idle / idle, 0.0)
+        of_temperatures = joint.turning.sum(axis=0) + joint.idle
+        lasting = np.append(of_temperatures, 0.0)
         return cls(temperatures, by_wind, standing, at_mean, lasting, True)
 
     @classmethod
@@ -66,10 +71,12 @@ class TemperatureShares:
             )
         weight = np.array(likely) / total
         of_bins = np.array(list(by_wind.values()))
-        temperatures = np.append(of_bins, float(weight @ of_bins))
+        mean = float(weight @ of_bins)
+        temperatures = np.append(of_bins, mean)
         unit = np.eye(temperatures.size)
+        at_mean = unit[-1]
         rows = {centre: unit[number] for number, centre in enumerate(by_wind)}
-        return cls(temperatures, rows, unit[-1], unit[-1], np.append(weight, 0.0), False)
+        return cls(temperatures, rows, at_mean, at_mean, np.append(weight, 0.0), False)
 
     def at(self, production: float, standing: float) -> TemperatureShares:
         """A copy with one temperature of production and one of standing [K] at all winds."""
@@ -117,7 +124,9 @@ class ByWind(Form):
         speeds = [_number(speed) for speed in value]
         if not np.isfinite(speeds).all():
             raise self.wrong(list(value))
-        quantity = Quantity(self.about, TEMPERATURE, ZERO_CELSIUS - 60.0, ZERO_CELSIUS + 150.0)
+        coldest = ZERO_CELSIUS - 60.0
+        warmest = ZERO_CELSIUS + 150.0
+        quantity = Quantity(self.about, TEMPERATURE, coldest, warmest)
         oils = [float(quantity.read(at, context) or 0.0) for at in value.values()]
         return dict(zip(speeds, oils, strict=True))
 

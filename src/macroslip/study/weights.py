@@ -145,7 +145,8 @@ class Rate:
 
     def share(self, length: float) -> float:
         """Share of all time, of an event whose record is so long [s]."""
-        return self.number * (3600.0 if self.in_hours else length) / YEAR
+        duration = 3600.0 if self.in_hours else length
+        return self.number * duration / YEAR
 
 
 @dataclass(frozen=True)
@@ -269,7 +270,9 @@ class Weighting:
             )
         if self.scada is not None:
             return
-        if (self.wind is not None and any(flat)) or (self.wind is None and not all(flat)):
+        is_given_twice = self.wind is not None and any(flat)
+        is_missing = self.wind is None and not all(flat)
+        if is_given_twice or is_missing:
             raise InputError(
                 "the wind speeds are given twice"
                 if self.wind
@@ -289,7 +292,9 @@ class Weighting:
             return BinProbabilities(self.scada.wind_shares())
         if self.wind:
             return self.wind.weibull
-        return Weibull(scale=float(self.scale or 0.0), shape=float(self.shape or 0.0))
+        scale = float(self.scale or 0.0)
+        shape = float(self.shape or 0.0)
+        return Weibull(scale=scale, shape=shape)
 
     @property
     def temperatures(self) -> TemperatureShares | None:
@@ -311,7 +316,9 @@ class Weighting:
     @property
     def balance(self) -> LossOfHeat | None:
         """Loss of heat from which the temperature of each bin follows; None where it is given."""
-        return self.temperature.balance if self.temperature is not None else None
+        if self.temperature is None:
+            return None
+        return self.temperature.balance
 
     def with_measured_year(self, loads: Sequence[Load], folder: Path) -> Weighting:
         """A copy with the means of the turbine read and sorted into the bins of the loads.
@@ -322,7 +329,8 @@ class Weighting:
             return self
         centres = self._bins(loads, {}).centres
         measured = Scada.read(folder / self.scada)
-        joint = JointShares.of(measured, centres[np.isfinite(centres)], self.width)
+        winds = centres[np.isfinite(centres)]
+        joint = JointShares.of(measured, winds, self.width)
         return replace(self, scada=joint)
 
     def of(self, loads: Sequence[Load]) -> list[float]:
@@ -339,7 +347,8 @@ class Weighting:
         [0.308, 0.308, 0.384]
         """
         bins = self._bins(loads, {})
-        share_of_run = bins.probabilities(self.year) / np.bincount(bins.bin)
+        runs_of_bins = np.bincount(bins.bin)
+        share_of_run = bins.probabilities(self.year) / runs_of_bins
         shares = share_of_run[bins.bin]
         if shares.sum() <= 0.0:
             raise InputError(
@@ -368,7 +377,9 @@ class Weighting:
         values = []
         for load in loads:
             value = load.fields.get(self.field)
-            number = float(value) if isinstance(value, int | float) else math.nan
+            number = math.nan
+            if isinstance(value, int | float):
+                number = float(value)
             if not load.event and not math.isfinite(number):
                 raise InputError(
                     f"the loads {load.name} have no number as '{self.field}'",
@@ -377,13 +388,16 @@ class Weighting:
                 )
             values.append(number)
         events = [load.event for load in loads]
-        return Bins.of(values, events, self.width, dict.fromkeys(events, 0.0) | dict(lengths))
+        lengths_of_events = dict.fromkeys(events, 0.0) | dict(lengths)
+        return Bins.of(values, events, self.width, lengths_of_events)
 
 
 def stored_weighting(study: xr.Dataset) -> Weighting | None:
     """The weighting in the study file of `open_study`'s dataset; None where there is none."""
     content = stored_study(study).get("weights")
-    return None if content is None else form_from(Weighting).read(content, IN_FILE)
+    if content is None:
+        return None
+    return form_from(Weighting).read(content, IN_FILE)
 
 
 @dataclass(frozen=True)
@@ -420,21 +434,21 @@ class Bins:
         """
         named = np.asarray(events, dtype=object)
         calm = named == ""
-        centres = bin_centres(np.asarray(values, dtype=float)[calm], width)
+        speeds = np.asarray(values, dtype=float)[calm]
+        centres = bin_centres(speeds, width)
         centres, bin_of_value = np.unique(centres, return_inverse=True)
         names = list(dict.fromkeys(named[~calm].tolist()))
         bins = np.empty(named.size, dtype=int)
         bins[calm] = bin_of_value
         numbers = [names.index(event) for event in named[~calm]]
         bins[~calm] = centres.size + np.array(numbers, dtype=int)
+        # An event without a result has no length: any weight above 0 makes what it enters NaN.
+        lengths_of_bins = [0.0] * centres.size + [lengths[name] for name in names]
         return cls(
             centres=np.concatenate([centres, np.full(len(names), np.nan)]),
             width=width,
             events=np.array([""] * centres.size + names, dtype=object),
-            # An event without a result has no length: any weight above 0 makes what it enters NaN.
-            lengths=np.nan_to_num(
-                [0.0] * centres.size + [lengths[name] for name in names], nan=1.0
-            ),
+            lengths=np.nan_to_num(lengths_of_bins, nan=1.0),
             bin=bins,
         )
 
@@ -453,33 +467,32 @@ class Bins:
                 where="weights.events",
                 allowed=", ".join(known) or "none: no loads are events",
             )
-        rates = [year.events.get(name) for name in self.events]
-        shares = np.array(
-            [
-                rate.share(length) if rate else 0.0
-                for rate, length in zip(rates, self.lengths, strict=True)
-            ]
-        )
+        shares = np.zeros(len(self.events))
+        for number, event in enumerate(self.events):
+            rate = year.events.get(event)
+            if rate:
+                shares[number] = rate.share(self.lengths[number])
         if shares.sum() > 1.0:
-            fault = f"the events take {shares.sum() * YEAR / 3600.0:.6g} hours of a year"
+            hours = shares.sum() * YEAR / 3600.0
+            fault = f"the events take {hours:.6g} hours of a year"
             raise InputError(
                 fault, where="weights.events", allowed=f"up to {YEAR / 3600.0:g} hours"
             )
         windy = self.events == ""
-        wind = np.array(
-            [year.wind.probability(float(centre), self.width) for centre in self.centres[windy]]
-        )
+        wind_centres = self.centres[windy]
+        wind = np.array([year.wind.probability(float(at), self.width) for at in wind_centres])
         # What the wind speeds share has to be a probability that sums in floating-point numbers can
         # still tell from 0.
         if wind.size and not wind.sum() > _LEAST:
-            first, last = self.centres[windy][[0, -1]]
+            first, last = wind_centres[[0, -1]]
             raise InputError(
                 f"the wind speeds from {first:g} to {last:g} have no probability at all",
                 where="weights.wind",
                 allowed="a distribution with some of its probability there",
                 remedy="Check scale and shape, and that both have the unit of the label.",
             )
-        shares[windy] = (1.0 - shares.sum()) * wind
+        left = 1.0 - shares.sum()
+        shares[windy] = left * wind
         return shares
 
 
@@ -534,9 +547,8 @@ class Binning(Bins):
         used = np.zeros(shape)
         left_out = np.zeros(shape)
         total = np.zeros(shape)
-        for cell, value in zip(
-            zip(self.group, self.bin, strict=True), map(np.asarray, values), strict=True
-        ):
+        cells = zip(self.group, self.bin, strict=True)
+        for cell, value in zip(cells, map(np.asarray, values), strict=True):
             if total.ndim == 2 and value.ndim:
                 total = np.zeros((*shape, *value.shape))
             if np.isfinite(value).all():
@@ -546,7 +558,8 @@ class Binning(Bins):
                 left_out[cell] += 1
         with np.errstate(invalid="ignore"):
             inner = [1] * (total.ndim - 2)
-            means = total / used.reshape(*shape, *inner)
+            counts = used.reshape(*shape, *inner)
+            means = total / counts
             return means, used, left_out
 
     def spreads(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -567,7 +580,8 @@ def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
     A bin of no weight may be NaN.
     """
     some = probability > 0.0
-    return np.tensordot(probability[some], values[:, some], axes=(0, 1))
+    used = probability[some]
+    return np.tensordot(used, values[:, some], axes=(0, 1))
 
 
 def binned(
@@ -596,7 +610,10 @@ def binned(
         If there is no such label, or the field is no number.
     """
     labels = [name for name in labels_over(study) if name not in _NO_LABELS]
-    for name, option in (*([(field, "field")] if field else []), *((extra, "by") for extra in by)):
+    asked = [(extra, "by") for extra in by]
+    if field:
+        asked = [(field, "field"), *asked]
+    for name, option in asked:
         if name not in labels:
             raise InputError(
                 f"the study has no label '{name}'",
@@ -608,13 +625,16 @@ def binned(
         raise InputError(f"the label '{field}' is not a number", remedy=remedy)
     if not (math.isfinite(width) and width > 0.0):
         raise InputError(f"the width of the bins is {width!r}", allowed="a number above 0")
-    separate = list(
-        dict.fromkeys([*CHOICES, *(name for name in labels if is_parameter(study, name)), *by])
-    )
+    parameters = [name for name in labels if is_parameter(study, name)]
+    separate = list(dict.fromkeys([*CHOICES, *parameters, *by]))
     labels_of_runs = pd.DataFrame({name: study[name].values for name in separate})
     count = study.sizes["case"]
-    events = events_of_runs(study).tolist() if field else [""] * count
-    lengths = study["window_length"].to_series().groupby(events).mean() if any(events) else {}
+    events = [""] * count
+    if field:
+        events = events_of_runs(study).tolist()
+    lengths = {}
+    if any(events):
+        lengths = study["window_length"].to_series().groupby(events).mean()
     if field is None:
         bins = Bins(
             np.array([np.nan]),
@@ -625,14 +645,11 @@ def binned(
         )
     else:
         bins = Bins.of(study[field].values, events, width, lengths)
-    return Binning(
-        **vars(bins),
-        groups=labels_of_runs.drop_duplicates(ignore_index=True),
-        # A parameter that a run leaves as it is in the base case is NaN, and the same in all such
-        # runs.
-        group=labels_of_runs.groupby(separate, sort=False, dropna=False).ngroup().to_numpy(),
-        field=field,
-    )
+    groups = labels_of_runs.drop_duplicates(ignore_index=True)
+    # A parameter that a run leaves as it is in the base case is NaN, and the same in all such runs.
+    by_design = labels_of_runs.groupby(separate, sort=False, dropna=False)
+    group = by_design.ngroup().to_numpy()
+    return Binning(**vars(bins), groups=groups, group=group, field=field)
 
 
 _NO_LABELS = ("case", "run", "loads", "outcome", "reason", "key")

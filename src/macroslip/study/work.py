@@ -62,11 +62,11 @@ def case_key(case: Case, options: Mapping[str, Any]) -> str:
     (64, False)
     """
     inputs = case.as_dict()
-    loads = {name: value for name, value in inputs["loads"].items() if name != "source"}
+    loads = dict(inputs["loads"])
+    loads.pop("source", None)
     content = {"case": inputs | {"loads": loads}, "program": program(), "options": options}
-    return hashlib.sha256(
-        json.dumps(content, sort_keys=True, ensure_ascii=False).encode()
-    ).hexdigest()
+    text = json.dumps(content, sort_keys=True, ensure_ascii=False)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def work(
@@ -95,7 +95,8 @@ def work(
         options = {name: setup[name] for name in ("cycles", "keep")}
         record["key"] = case_key(case, options)
         path = case_path(Path(task["directory"]), record["key"])
-        if not _claimed(claim_path(path, task["session"]), task["run"]):
+        claim = claim_path(path, task["session"])
+        if not _claimed(claim, task["run"]):
             return record | {"waits": True}
         with suppress(OSError):  # what cannot be read is computed again
             if not task["again"] and path.is_file():
@@ -104,7 +105,8 @@ def work(
     except StoreError:
         raise
     except InputError as problem:
-        reason = str(problem).replace(task["load"], without_folders(task["load"]))
+        load = task["load"]
+        reason = str(problem).replace(load, without_folders(load))
         return record | {"outcome": Outcome.FAILED, "reason": reason}
     except MemoryError:
         reason = "not enough memory; use shorter loads, fewer rollers or no traces"
@@ -124,7 +126,8 @@ def work(
         raise StoreError(
             f"{path}: the result cannot be stored ({error.strerror or error})"
         ) from None
-    values["other_seconds"] = time.perf_counter() - started - values["simulate_seconds"]
+    seconds = time.perf_counter() - started
+    values["other_seconds"] = seconds - values["simulate_seconds"]
     reason = _failed_rollers(result)
     return record | {
         "outcome": Outcome.ROLLERS_FAILED if reason else Outcome.COMPLETED, "reason": reason,
@@ -223,9 +226,9 @@ def _computed(
     seconds = time.perf_counter() - started
     values = summary_values(result, case) | {"simulate_seconds": seconds}
     if options["keep"] is not None:
-        result = result.drop_vars(
-            [name for name in result.data_vars if name not in (*options["keep"], *ALWAYS_KEPT)]
-        )
+        kept = (*options["keep"], *ALWAYS_KEPT)
+        others = [name for name in result.data_vars if name not in kept]
+        result = result.drop_vars(others)
     if options["cycles"]:
         result = result.merge(load_cycles(case.bearing_loads))
     return result, values

@@ -95,7 +95,12 @@ class ThisProcess:
             for future, task in self._under_way.items():
                 future.set_result(work_several([task]))
         done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
-        return [(self._under_way.pop(future), future.result()[0]) for future in done]
+        finished = []
+        for future in done:
+            task = self._under_way.pop(future)
+            (result,) = future.result()
+            finished.append((task, result))
+        return finished
 
     def _go_on(self, done: int, total: int) -> None:
         if self._ended.is_set():
@@ -160,12 +165,14 @@ class Processes:
             for future in done:
                 seat, task = self._under_way.pop(future)
                 try:
-                    finished.append((task, future.result()[0]))
+                    (result,) = future.result()
+                    finished.append((task, result))
                     self._idle.append(seat)
                 except BrokenProcessPool:
                     self._idle.append(self._another(seat))
-                    self._deaths[task["run"]] = self._deaths.get(task["run"], 0) + 1
-                    if self._deaths[task["run"]] < _DEATHS:
+                    name = task["run"]
+                    self._deaths[name] = self._deaths.get(name, 0) + 1
+                    if self._deaths[name] < _DEATHS:
                         self.submit([task])
                     else:
                         finished.append((task, _killed(task)))
@@ -192,7 +199,8 @@ class _Seat:
                 1, multiprocessing.get_context("spawn"), _end_with_parent
             )
             self.ready = self.pool.submit(os.getpid)  # starts the process
-        self._process = next(iter(set(multiprocessing.active_children()) - before), None)
+        started = set(multiprocessing.active_children()) - before
+        self._process = next(iter(started), None)
 
     def has_ended_itself(self) -> bool:
         """True if the dead process is known to have ended by its own failure, not by a signal."""
@@ -228,7 +236,10 @@ def _safe_start() -> Iterator[None]:
     finally:
         sys.path[:] = path
         for name, value in before.items():
-            os.environ.pop(name) if value is None else os.environ.update({name: value})
+            if value is None:
+                os.environ.pop(name)
+            else:
+                os.environ[name] = value
 
 
 @contextmanager
@@ -347,7 +358,8 @@ class Dask:
         size = self._bundle()
         for start in range(0, len(tasks), size):
             part = tasks[start : start + size]
-            self._under_way[self._pool.submit(work_several, part)] = part
+            future = self._pool.submit(work_several, part)
+            self._under_way[future] = part
 
     def wait(self) -> Done:
         """Wait until something is done.
@@ -367,7 +379,8 @@ class Dask:
                     raise MacroslipError(_GONE) from None
                 except KilledWorker:
                     if len(tasks) == 1:
-                        finished.append((tasks[0], _killed(tasks[0])))
+                        (task,) = tasks
+                        finished.append((task, _killed(task)))
                     else:  # one of them is the cause
                         self._under_way |= {
                             self._pool.submit(work_several, [task]): [task] for task in tasks

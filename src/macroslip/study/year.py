@@ -96,7 +96,8 @@ def year(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     data["hours"] = ("bin", share * YEAR / 3600.0, described("h", "time in a year"))
     data["covered"] = ((), share.sum(), described("1", "share of the year in the cases"))
     coordinates = bins.coordinates(study) | {"row": study.row}
-    return xr.Dataset(data, coordinates, {"weighted": int(aggregation.weights is not None)})
+    is_weighted = aggregation.weights is not None
+    return xr.Dataset(data, coordinates, {"weighted": int(is_weighted)})
 
 
 def _by_row(study: xr.Dataset, name: str) -> np.ndarray:
@@ -112,7 +113,8 @@ def _in_a_year(rates: np.ndarray, share: np.ndarray) -> np.ndarray:
 
 def _energies(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any]:
     """Energies of a mean roller with their scatter, and numbers of runs."""
-    power = _by_row(study, "energy_mean") / study.window_length.values[:, None]
+    lengths = study.window_length.values
+    power = _by_row(study, "energy_mean") / lengths[:, None]
     _, runs, left_out = bins.means(power)
     mean, runs_of_rows, spread = bins.spreads(power)
     energy = _in_a_year(mean, share)
@@ -123,7 +125,8 @@ def _energies(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, 
         variance = spread / (runs_of_rows - 1.0)
         of_bins = np.where(several, (YEAR * weight) ** 2 * variance, 0.0)
         scatter = np.sqrt(of_bins.sum(axis=1)) / total
-    has_scatter = np.any(several & (weight > 0.0), axis=1)[:, 0]
+    counts = several & (weight > 0.0)
+    has_scatter = np.any(counts, axis=1)[:, 0]
     scatter[~has_scatter] = np.nan
     cells = ("group", "bin")
     about_hour = described("J", "energy of a mean roller in an hour of it")
@@ -190,20 +193,25 @@ def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     notes = []
     missing = []
     seconds = float(annual.covered) * YEAR
-    mean_over = {
-        yearly.name: seconds * yearly.mean_over for yearly in YEARLY if yearly.mean_over is not None
-    }
+    mean_over = {}
+    for yearly in YEARLY:
+        if yearly.mean_over is not None:
+            mean_over[yearly.name] = seconds * yearly.mean_over
     for name, (drawn, _, about) in DESIGN_COLUMNS.items():
-        known = annual[name].where(annual.hours > 0.0) if name in annual else None
+        known = None
+        if name in annual:
+            known = annual[name].where(annual.hours > 0.0)
         if known is None or not bool(known.notnull().any()):
             missing.append(about)
             continue
         if drawn == "largest":
-            table[name] = known.reduce(np.fmax.reduce, ("bin", "row")).values
+            largest = known.reduce(np.fmax.reduce, ("bin", "row"))
+            table[name] = largest.values
             continue
         values = annual[name]
         if name == "entries":  # they are counted by orbits
-            unknown = values.isnull().all("row").all("group") & (annual.hours > 0.0)
+            is_unknown = values.isnull().all("row").all("group")
+            unknown = is_unknown & (annual.hours > 0.0)
             if bool(unknown.any()):
                 hours = float(annual.hours.where(unknown).sum())
                 notes.append(
@@ -212,7 +220,8 @@ def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
                 values = values.where(~unknown, 0.0)
         by_row = values.sum("bin", skipna=False)
         over_rows = by_row.sum if drawn == "sum" else by_row.max
-        table[name] = over_rows("row", skipna=False).values / mean_over.get(name, 1.0)
+        sums = over_rows("row", skipna=False).values
+        table[name] = sums / mean_over.get(name, 1.0)
     for name in LIVES:
         if name in annual and bool(annual[name].notnull().any()):
             table[name] = annual[name].values
@@ -259,7 +268,8 @@ def design_names(dataset: xr.Dataset | xr.DataArray, digits: int = 12) -> list[s
             if name not in CHOICES:
                 _, _, last_key = str(name).rpartition(".")
                 head = f"{last_key.replace('_', ' ')} "
-            parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
+            labels = ["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts]
+            parts.append(labels)
     if not parts:
         return [""] * dataset.sizes["group"]
     return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)]
@@ -304,7 +314,8 @@ def coverage(annual: xr.Dataset) -> str:
         return (
             "The study has no weights: all its cases count alike, as if a year consisted of them."
         )
-    percent = 100.0 * hours.sum() * 3600.0 / YEAR
+    seconds = hours.sum() * 3600.0
+    percent = 100.0 * seconds / YEAR
     covered = f"The cases cover {percent:.0f} % of a year"
     if "event" not in annual.coords:
         return f"{covered}, {hours.sum():.0f} h of wind speeds."
@@ -315,6 +326,10 @@ def coverage(annual: xr.Dataset) -> str:
     if idle:
         verb = "counts" if len(idle) == 1 else "count"
         nothing = f"; {', '.join(idle)} {verb} nothing"
-    assumed = ", whose supervisor is assumed" if set(event) & set(EVENTS) else ""
-    windy = f"{hours[~is_event].sum():.0f} h of wind speeds"
-    return f"{covered}: {windy} and {hours[is_event].sum():.3g} h of events{assumed}{nothing}."
+    assumed = ""
+    if set(event) & set(EVENTS):
+        assumed = ", whose supervisor is assumed"
+    hours_of_wind = hours[~is_event].sum()
+    hours_of_events = hours[is_event].sum()
+    windy = f"{hours_of_wind:.0f} h of wind speeds"
+    return f"{covered}: {windy} and {hours_of_events:.3g} h of events{assumed}{nothing}."
