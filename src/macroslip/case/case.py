@@ -63,9 +63,10 @@ class RollerNumbers(Form):
         is_no_list = isinstance(value, str | bytes | Mapping | Set)
         is_list = isinstance(value, Iterable) and not is_no_list
         numbers = tuple(value) if is_list else ()
-        if not numbers or not all(
+        are_whole = all(
             isinstance(item, Integral) and not isinstance(item, bool) for item in numbers
-        ):
+        )
+        if not numbers or not are_whole:
             raise self.wrong(value)
         return tuple(int(number) for number in numbers)
 
@@ -289,7 +290,8 @@ class Case:
         None where the force on the bearing is given, or where the bearing carries no moment.
         """
         if isinstance(self.loads, HubLoads) and self.bearing.kind == "tapered":
-            return shaft_load(self.loads, self.drivetrain)[1]
+            _, moment = shaft_load(self.loads, self.drivetrain)
+            return moment
         return np.zeros((self.loads.time.size, 2))
 
     @property
@@ -313,11 +315,14 @@ class Case:
         Keys that have no effect are left out. Of the load series there are its source, extent and a
         hash of all its numbers.
         """
-        values = {member.name: _plain(getattr(self, member.name)) for member in fields(self)}
+        values = {}
+        for member in fields(self):
+            values[member.name] = _plain(getattr(self, member.name))
         values["loads"] = _about_loads(self.loads)
         values["oil_supply"] = self.inlet_supply
+        method = type(self.integrator).__name__
         values["laws"] = {"model": self.laws.name} | values["laws"]
-        values["integrator"] = {"method": type(self.integrator).__name__} | values["integrator"]
+        values["integrator"] = {"method": method} | values["integrator"]
         values["forces"] = {name: values.pop(name) for name in ("gravity", "drag")}
         is_whole = self.dynamics == WHOLE_BEARING
         used = {
@@ -329,7 +334,8 @@ class Case:
         return {name: value for name, value in values.items() if used.get(name, True)}
 
     def __repr__(self) -> str:
-        return f"<Case: {', '.join(text for _, text in self._overview())}>"
+        texts = [text for _, text in self._overview()]
+        return f"<Case: {', '.join(texts)}>"
 
     def _repr_html_(self) -> str:
         return html_overview("Case", ["", ""], self._overview())
@@ -338,26 +344,26 @@ class Case:
         loads = self.loads
         start = self.window.start
         end = self.window.end
-        count = (
-            "all rollers"
-            if self.rollers == "all"
-            else f"{len(self.roller_numbers)} rollers of each row"
-        )
-        late = "at the first sample" if loads.event else "after the first orbit"
-        opens = late if start is None else f"at {start:g} s"
+        count = "all rollers"
+        if self.rollers != "all":
+            count = f"{len(self.roller_numbers)} rollers of each row"
+        opens = "at the first sample" if loads.event else "after the first orbit"
+        if start is not None:
+            opens = f"at {start:g} s"
+        closes = loads.end if end is None else end
+        traces = "no traces"
+        if self.traces is not None:
+            traces = f"traces every {self.traces.step:g} s"
         return [
             ("loads", f"{loads.source}, {loads.start:g} s to {loads.end:g} s"),
             ("bearing", self.bearing.name),
             ("lubricant", self.lubricant.name),
             ("laws", f"model {self.laws.name}"),
             ("integrator", type(self.integrator).__name__),
-            ("window", f"window {opens} to {loads.end if end is None else end:g} s"),
+            ("window", f"window {opens} to {closes:g} s"),
             ("rollers", count),
             ("dynamics", self.dynamics),
-            (
-                "traces",
-                "no traces" if self.traces is None else f"traces every {self.traces.step:g} s",
-            ),
+            ("traces", traces),
         ]
 
 
@@ -366,13 +372,17 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (*BEARING_KINDS, Lubricant)):
         return value.as_dict()
     if isinstance(value, Heat):
-        return {key: entry for key, entry in asdict(value).items() if entry is not None}
+        entries = asdict(value)
+        return {key: entry for key, entry in entries.items() if entry is not None}
     if isinstance(value, Drivetrain):
         left_out = [key for key in _RARE_KEYS if getattr(value, key) is None]
-        return {key: entry for key, entry in asdict(value).items() if key not in left_out}
+        entries = asdict(value)
+        return {key: entry for key, entry in entries.items() if key not in left_out}
     if is_dataclass(value) and not isinstance(value, type):
         return asdict(value)
-    return list(value) if isinstance(value, tuple) else value
+    if isinstance(value, tuple):
+        return list(value)
+    return value
 
 
 def _about_loads(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]:
@@ -380,7 +390,8 @@ def _about_loads(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]
     digest = hashlib.sha256()
     for name in ("time", "shaft_speed", "force", "moment", "angle", "load"):
         if hasattr(loads, name):
-            digest.update(getattr(loads, name).tobytes())
+            values = getattr(loads, name)
+            digest.update(values.tobytes())
     about = {
         "kind": type(loads).__name__,
         "source": without_folders(loads.source),
@@ -389,7 +400,9 @@ def _about_loads(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]
         "end": loads.end,
         "sha256": digest.hexdigest(),
     }
-    return about | ({"event": True} if loads.event else {})
+    if loads.event:
+        about["event"] = True
+    return about
 
 
 def _temperature(case: Case) -> Iterator[InputError]:
@@ -427,7 +440,8 @@ def _dynamics(case: Case) -> Iterator[InputError]:
         )
     if case.dynamics == IMPOSED_ORBIT:
         used = (*SKEW_KEYS, "gap") if skews else SKEW_KEYS
-        if replace(case.cage, **{name: getattr(default, name) for name in used}) != default:
+        without = {name: getattr(default, name) for name in used}
+        if replace(case.cage, **without) != default:
             tapered = case.bearing.kind == "tapered"
             never = ", which tapered roller bearings do not have" if tapered else ""
             remedy = "Remove" if tapered else "Set dynamics: whole-bearing, or remove"
@@ -464,7 +478,8 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
     count = case.bearing.rollers_per_row
     numbers = case.roller_numbers
     is_repeated = len(set(numbers)) < len(numbers)
-    if is_repeated or min(numbers) < 0 or max(numbers) >= count:
+    is_outside = min(numbers) < 0 or max(numbers) >= count
+    if is_repeated or is_outside:
         allowed = f"all, or a list of different numbers from 0 to {count - 1}"
         yield InputError(f"rollers is {shown(list(numbers))}", where="rollers", allowed=allowed)
     first = case.loads.start
@@ -479,9 +494,10 @@ def _times_and_rollers(case: Case) -> Iterator[InputError]:
     ):
         start = first if part is None or part.start is None else part.start
         end = last if part is None or part.end is None else part.end
-        within = first - rounding <= start <= end <= latest and start <= last + rounding
-        if not within or (name == "window" and min(end, last) - start <= rounding):
-            fault = (
-                f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s"
-            )
+        is_ordered = first - rounding <= start <= end <= latest
+        within = is_ordered and start <= last + rounding
+        is_empty = name == "window" and min(end, last) - start <= rounding
+        if not within or is_empty:
+            verb = "runs" if name == "window" else "run"
+            fault = f"the {name} {verb} from {start!r} s to {end!r} s"
             yield InputError(fault, where=name, allowed=f"{allowed} {first:g} s to {last:g} s")

@@ -70,13 +70,12 @@ def files_named_in(path: Path) -> list[Path]:
     loads = data.get("loads")
     drivetrain = data.get("drivetrain")
     named = [data.get("bearing"), data.get("lubricant")]
-    named += [drivetrain.get("windio")] if isinstance(drivetrain, Mapping) else []
-    named += (
-        [loads.get(key) for key in ("file", "bearing_file", "roller_loads")]
-        if isinstance(loads, Mapping)
-        else []
-    )
-    return [path.parent / name for name in named if isinstance(name, str) and "\0" not in name]
+    if isinstance(drivetrain, Mapping):
+        named.append(drivetrain.get("windio"))
+    if isinstance(loads, Mapping):
+        named += [loads.get(key) for key in ("file", "bearing_file", "roller_loads")]
+    texts = [name for name in named if isinstance(name, str)]
+    return [path.parent / name for name in texts if "\0" not in name]
 
 
 def names_key(path: Path, key: str) -> bool:
@@ -98,7 +97,8 @@ def bearings_in(path: Path) -> tuple[str, ...]:
 def load_source(path: Path) -> LoadSource:
     """The section `loads` of a valid case file."""
     data, source = _content(path)
-    values, _ = read_fields(Case, {"loads": data["loads"]}, Location(source))
+    content = {"loads": data["loads"]}
+    values, _ = read_fields(Case, content, Location(source))
     return values["loads"]
 
 
@@ -117,7 +117,8 @@ def case_schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "case of macroslip",
     } | json_schema(Case)
-    schema["properties"]["drivetrain"]["properties"]["bearing"]["enum"].append(BOTH)
+    drivetrain = schema["properties"]["drivetrain"]["properties"]
+    drivetrain["bearing"]["enum"].append(BOTH)
     return schema
 
 
@@ -161,7 +162,9 @@ def build_case(
     values, problems = read_fields(Case, data, location)
     problems += unread
     for key, value in values.items():
-        inner = (key, value.key) if isinstance(value, LoadSource) else (key,)
+        inner = (key,)
+        if isinstance(value, LoadSource):
+            inner = (key, value.key)
         try:
             if key in ("bearing", "lubricant"):
                 parts[key] = known.get(key) or _record(key, value, folder)
@@ -173,20 +176,19 @@ def build_case(
                 parts[key] = value
         except InputError as problem:
             problems.append(location.inside(*inner).blamed(problem))
-    wrong = {
-        key for key in fields_of(Case).keys() & data.keys() if key != "forces" and key not in parts
-    }
+    wrong = set()
+    for key in fields_of(Case).keys() & data.keys():
+        if key != "forces" and key not in parts:
+            wrong.add(key)
     case = None
     if "loads" in parts and "bearing" not in wrong:
         try:
             case = Case(**parts)
         except InputError as failure:
-            located = ((part, part.where.split(".")) for part in parts_of(failure))
-            problems += [
-                location.inside(*keys).blamed(part)
-                for part, keys in located
-                if keys[0] not in wrong
-            ]
+            for part in parts_of(failure):
+                keys = part.where.split(".")
+                if keys[0] not in wrong:
+                    problems.append(location.inside(*keys).blamed(part))
     if problems or case is None:
         raise together(problems)
     check_lubricant(case.laws, case.lubricant)
@@ -201,19 +203,25 @@ def _with_windio(
     A file that cannot be used leaves the drivetrain out, and is reported.
     """
     drivetrain = data.get("drivetrain")
-    name = drivetrain.get("windio") if isinstance(drivetrain, Mapping) else None
-    if not isinstance(drivetrain, Mapping) or not isinstance(name, str) or "\0" in name:
+    if not isinstance(drivetrain, Mapping):
+        return data, []
+    name = drivetrain.get("windio")
+    if not isinstance(name, str) or "\0" in name:
         return data, []
     try:
         values = windio_values(folder / name, drivetrain)
     except InputError as problem:
         without = {key: value for key, value in data.items() if key != "drivetrain"}
-        return without, [location.inside("drivetrain", "windio").blamed(problem)]
-    written = {
-        key: f"{value!r} {'rad' if key == 'tilt' else 'm'}" if isinstance(value, float) else value
-        for key, value in values.items()
-    }
-    return {**data, "drivetrain": {**drivetrain, **written}}, []
+        place = location.inside("drivetrain", "windio")
+        return without, [place.blamed(problem)]
+    written = {}
+    for key, value in values.items():
+        written[key] = value
+        if isinstance(value, float):
+            unit = "rad" if key == "tilt" else "m"
+            written[key] = f"{value!r} {unit}"
+    with_values = {**drivetrain, **written}
+    return {**data, "drivetrain": with_values}, []
 
 
 def _record(noun: str, name: str, folder: Path) -> AnyBearing | Lubricant:

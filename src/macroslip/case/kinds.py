@@ -88,7 +88,8 @@ def _of_one_row(case: Case) -> Iterator[InputError]:
 def _no_thrust(loads: BearingLoads) -> Iterator[InputError]:
     """Yield an axial load, which rollers without contact angle do not carry."""
     axial = np.abs(loads.axial_load).max()
-    if axial > _NO_THRUST * np.abs(loads.force).max():
+    largest = np.abs(loads.force).max()
+    if axial > _NO_THRUST * largest:
         yield InputError(
             f"the load has an axial part of up to {axial:.4g} N, "
             "and rollers without contact angle carry none",

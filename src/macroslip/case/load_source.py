@@ -104,7 +104,12 @@ class LoadSource:
     @property
     def cut(self) -> dict[str, Any]:
         """Keys that say how a file is read, as far as they are given [s], [rad/s], [m]."""
-        return {key: getattr(self, key) for key in CUT_KEYS if getattr(self, key) is not None}
+        options = {}
+        for key in CUT_KEYS:
+            value = getattr(self, key)
+            if value is not None:
+                options[key] = value
+        return options
 
     def series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
         """Read or make the loads; relative paths start at `folder`."""
@@ -132,14 +137,16 @@ class LoadSource:
                     f"{' and '.join(cut)} would cut a series, but these loads are constant",
                     remedy=f"Remove them; loads.{key}.duration says how long.",
                 )
-            return (HubLoads if key == "hub" else BearingLoads).constant(**asdict(value))
+            kind = HubLoads if key == "hub" else BearingLoads
+            return kind.constant(**asdict(value))
         if key == "bundled":
             if marks := cut.keys() & {"decimal", "thousands", "sheet"}:
                 raise InputError(
                     f"{' and '.join(sorted(marks))} would say how a table is read",
                     remedy="Remove them; a bundled case needs nothing of the kind.",
                 )
-            return HubLoads.bundled(value).window(cut.get("start"), cut.get("end"))
+            start = cut.get("start")
+            return HubLoads.bundled(value).window(start, cut.get("end"))
         if not (folder / value).exists():
             remedy = f"Relative paths start at {folder.resolve()}."
             raise InputError(f"there is no file '{value}'", remedy=remedy)

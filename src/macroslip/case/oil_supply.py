@@ -135,12 +135,14 @@ def oil_gap(
     float
         The gap [m]. 1 m counts as flooded, and is given without load or motion as well.
     """
-    seconds = np.convolve(np.diff(loads.time), [0.5, 0.5])
-    turned = np.abs(loads.shaft_speed) * seconds
+    steps = np.diff(loads.time)
+    seconds = np.convolve(steps, [0.5, 0.5])
+    shaft_speed = np.abs(loads.shaft_speed)
+    turned = shaft_speed * seconds
     if not turned.any():
         return FLOODED_GAP
     force = np.average(loads.force, axis=0, weights=turned)
-    speed = np.average(np.abs(loads.shaft_speed), weights=turned)
+    speed = np.average(shaft_speed, weights=turned)
     mean_force = tuple(map(float, force))
     return _gap(supply, bearing, oil, laws, mean_force, float(speed))
 
@@ -164,19 +166,20 @@ def _gap(
     if supply == SKF:
         diameters = bearing.bore_diameter, bearing.outside_diameter
         factor = _TYPE_FACTORS[bearing.kind]
-        filled = float(
-            replenishment(oil.viscosity / oil.density, speed, *diameters, type_factor=factor)
-        )
-        inlet = inlet_for_rolling(filled) if filled < 1.0 else math.inf
+        kinematic = oil.viscosity / oil.density
+        filled = float(replenishment(kinematic, speed, *diameters, type_factor=factor))
+        inlet = math.inf
+        if filled < 1.0:
+            inlet = inlet_for_rolling(filled)
     else:
         inlet = inlet_for_film(float(supply))
     load, entrainment = _inner_raceway(bearing, oil, force, speed)
     if not load > 0.0 or math.isinf(inlet):
         return FLOODED_GAP
-    flooded = float(
-        prepare(laws, bearing, oil.supplied(FLOODED_GAP), 1).inner.film_thickness(load, entrainment)
-    )
-    return min(inlet * float(film_factor(inlet)) * flooded, FLOODED_GAP)
+    laws_of_contacts = prepare(laws, bearing, oil.supplied(FLOODED_GAP), 1)
+    flooded = float(laws_of_contacts.inner.film_thickness(load, entrainment))
+    starved = inlet * float(film_factor(inlet)) * flooded
+    return min(starved, FLOODED_GAP)
 
 
 def _inner_raceway(
@@ -205,9 +208,11 @@ def _inner_raceway(
         loads = roller_loads(ring, angle, displacement)[0]
     row = max(loads.reshape(bearing.rows, -1), key=np.sum)
     loaded = row[row > 0.0]
-    return (
-        float(loaded.mean()) if loaded.size else 0.0
-    ), speed * model.orbit_ratio * model.outer_radius
+    load = 0.0
+    if loaded.size:
+        load = float(loaded.mean())
+    entrainment = speed * model.orbit_ratio * model.outer_radius
+    return load, entrainment
 
 
 def supply_note(case: Case) -> str:
@@ -217,4 +222,5 @@ def supply_note(case: Case) -> str:
     gap = case.oil.oil_gap
     if gap >= FLOODED_GAP:
         return f"oil_supply {case.inlet_supply}: flooded inlets"
-    return f"oil_supply {case.inlet_supply}: inlets are full from a gap of {1e6 * gap:.3g} um on"
+    micrometres = 1e6 * gap
+    return f"oil_supply {case.inlet_supply}: inlets are full from a gap of {micrometres:.3g} um on"

@@ -189,4 +189,6 @@ class Heat:
         """
         if self.ring_conductance is None:
             return self.conductance
-        return 1.0 / (1.0 / self.conductance + 0.25 / self.ring_conductance)
+        of_outer_ring = 1.0 / self.conductance
+        between_rings = 0.25 / self.ring_conductance
+        return 1.0 / (of_outer_ring + between_rings)

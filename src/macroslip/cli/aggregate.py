@@ -67,9 +67,11 @@ def aggregate(
         raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
     if xlsx is not None and xlsx.parent == output:
         make_folder(output)
-    check_workbook(xlsx, force=force, inputs=[probabilities] if probabilities else [])
+    inputs = [probabilities] if probabilities else []
+    check_workbook(xlsx, force=force, inputs=inputs)
     study = weighted_study(open_study(directory))
-    stored = aggregation_in_use(study, _weights(weibull, probabilities), years)
+    wind = _weights(weibull, probabilities)
+    stored = aggregation_in_use(study, wind, years)
     aggregation = replace(
         stored,
         field=field or stored.field,
@@ -78,7 +80,7 @@ def aggregate(
     )
     frames = tables(study, aggregation)
     for name in frames:
-        check_not_input(output / f"{name}.{form}", [probabilities] if probabilities else [])
+        check_not_input(output / f"{name}.{form}", inputs)
     written = write_tables(frames, output, form)
     if xlsx is not None:
         from macroslip.report.sheets import ORIGIN, origin_sheet
@@ -87,14 +89,18 @@ def aggregate(
         write_workbook(xlsx, frames | {ORIGIN: origin}, force=force)
         written.append(xlsx)
     if as_json:
-        lifetime = frames["lifetime"].to_dict("records") if "lifetime" in frames else None
-        print_json({"lifetime": lifetime, "written": [str(path) for path in written]})
+        lifetime = None
+        if "lifetime" in frames:
+            lifetime = frames["lifetime"].to_dict("records")
+        names = [str(path) for path in written]
+        print_json({"lifetime": lifetime, "written": names})
         return
     if quiet:
         return
     if "lifetime" in frames:
         _lifetime(frames["lifetime"], years)
-        typer.echo(coverage(year(study, aggregation)))
+        annual = year(study, aggregation)
+        typer.echo(coverage(annual))
     if MIXED in study.attrs:
         typer.echo(f"note: {NOT_MIXED}")
     for path in written:
@@ -117,11 +123,9 @@ def _weights(
     check_regular(probabilities, "Name a CSV table.")
     try:
         of_bins = pd.read_csv(probabilities)
-        return BinProbabilities(
-            dict(
-                zip(of_bins["bin"].astype(float), of_bins["probability"].astype(float), strict=True)
-            )
-        )
+        centres = of_bins["bin"].astype(float)
+        shares = of_bins["probability"].astype(float)
+        return BinProbabilities(dict(zip(centres, shares, strict=True)))
     except InputError:
         raise
     except (OSError, ValueError, KeyError) as error:
@@ -135,18 +139,17 @@ def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
     title = f"energy of a roller in {years:g} years, mean over the row"
     shown = lifetime
     if len(lifetime) > _MOST_LINES:
-        shown = lifetime.sort_values("lifetime_energy [J]", ascending=False, kind="stable").head(
-            _MOST_LINES
-        )
+        ranked = lifetime.sort_values("lifetime_energy [J]", ascending=False, kind="stable")
+        shown = ranked.head(_MOST_LINES)
         title += (
             f"; the {_MOST_LINES} highest of {len(lifetime)}, all of them are in the table lifetime"
         )
-    rows = [
-        [
-            number(value) if name in numbers else safe_text(value)
-            for name, value in zip(shown, line, strict=True)
-        ]
-        for line in shown.itertuples(index=False)
-    ]
+    rows = []
+    for line in shown.itertuples(index=False):
+        cells = []
+        for name, value in zip(shown, line, strict=True):
+            cells.append(number(value) if name in numbers else safe_text(value))
+        rows.append(cells)
     columns = ["r" if name in numbers else "l" for name in shown]
-    print_table(title, list(map(str, shown)), rows, columns)
+    headings = list(map(str, shown))
+    print_table(title, headings, rows, columns)

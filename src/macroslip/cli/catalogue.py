@@ -43,7 +43,10 @@ def si(option: str, text: str | None, dimension: Dimension) -> float | None:
     """The value of an option, in SI."""
     from macroslip.input.units import parse_quantity
 
-    return None if text is None else dimension.to_si(*parse_quantity(text, dimension, option))
+    if text is None:
+        return None
+    value, unit = parse_quantity(text, dimension, option)
+    return dimension.to_si(value, unit)
 
 
 def _write(path: Path, record: Record, force: bool) -> None:
@@ -92,7 +95,8 @@ def _catalogue(noun: str) -> typer.Typer:
     def list(as_json: AsJson = False) -> None:
         records = [_read(noun, name) for name in _names(noun)]
         if as_json:
-            print_json([{"name": record.name, "title": record.title} for record in records])
+            printed = [{"name": record.name, "title": record.title} for record in records]
+            print_json(printed)
             return
         rows = [[record.name, record.title] for record in records]
         print_table(f"{noun}s", ["name", "title"], rows)
@@ -109,12 +113,16 @@ def _catalogue(noun: str) -> typer.Typer:
             typer.echo(record.as_yaml(), nl=False)
         else:
             about = _ABOUT.get(noun)
-            _show(record, _Rows(about.heading, about.rows(record)) if about else None, as_json)
+            more = None
+            if about:
+                more = _Rows(about.heading, about.rows(record))
+            _show(record, more, as_json)
 
     def schema() -> None:
         import json
 
-        typer.echo(json.dumps(_record(noun).json_schema(), indent=2))
+        content = _record(noun).json_schema()
+        typer.echo(json.dumps(content, indent=2))
 
     list.__doc__ = f"List the {noun}s of the catalogue."
     show.__doc__ = f"Show every value of a {noun} and its origin."
@@ -146,16 +154,13 @@ def _show(record: Record, more: _Rows | None, as_json: bool) -> None:
         entries = [dict(zip(names, line, strict=True)) for line in lines]
         print_json(printed | {heading: entries})
         return
-    rows = [
-        [
-            key,
-            with_unit(origin.value, origin.unit),
-            f"{origin.tag}: {TAGS[origin.tag]}",
-            origin.note,
-        ]
-        for key, origin in record.provenance.items()
-    ]
-    title = f"{record.name}: {record.title}" if record.title else record.name
+    rows = []
+    for key, origin in record.provenance.items():
+        value = with_unit(origin.value, origin.unit)
+        rows.append([key, value, f"{origin.tag}: {TAGS[origin.tag]}", origin.note])
+    title = record.name
+    if record.title:
+        title = f"{record.name}: {record.title}"
     print_table(title, ["key", "value", "where it comes from", "note"], rows, "lrll")
     if more:
         typer.echo()
@@ -229,7 +234,9 @@ def _of_bearing(bearing: Bearing | TaperedBearing) -> list[list[str]]:
 def _of_turbine(turbine: Turbine) -> list[list[str]]:
     mount = turbine.mount
     if turbine.mount == "four-point":
-        front = f", {turbine.front} front" if turbine.front else ""
+        front = ""
+        if turbine.front:
+            front = f", {turbine.front} front"
         mount += f"{front}, {turbine.locating} locating, {turbine.simulated} simulated"
     return [
         ["bearing", turbine.bearing, turbine.bearing_choice],
@@ -390,15 +397,18 @@ def _estimate(
     from macroslip.bearing.estimate import MakersPage, estimate_bearing
     from macroslip.bearing.tapered.estimate import TaperedPage, estimate_tapered_bearing
 
-    sizes = [page[key] for key in ("bore", "outside", "width") if page[key] is not None]
+    given = (page["bore"], page["outside"], page["width"])
+    sizes = [length for length in given if length is not None]
     size = ""
     if sizes:
         millimetres = [f"{1e3 * length:g}" for length in sizes]
         size = f", {' x '.join(millimetres)} mm"
     title = f"Estimated from its maker's page{size}"
     if kind is Kind.TAPERED:
-        return estimate_tapered_bearing(TaperedPage(**page), name, title, seed=seed)
-    return estimate_bearing(MakersPage(**page), name, title, seed=seed)
+        tapered_page = TaperedPage(**page)
+        return estimate_tapered_bearing(tapered_page, name, title, seed=seed)
+    makers_page = MakersPage(**page)
+    return estimate_bearing(makers_page, name, title, seed=seed)
 
 
 def _tell_estimate(
@@ -453,8 +463,10 @@ def _numbers(estimate: EstimatedBearing | EstimatedTaperedBearing) -> dict[str, 
         roller = (bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length)
         angle = bearing.outer_angle if bearing.kind == "tapered" else bearing.contact_angle
         pitch = 2 * bearing.pitch_radius
-        ratio = dynamic_load_rating(2, *roller, angle, pitch, kind=bearing.kind) / published
-    known = [type(bearing).read(name) for name in type(bearing).catalogue()]
+        by_iso = dynamic_load_rating(2, *roller, angle, pitch, kind=bearing.kind)
+        ratio = by_iso / published
+    kind = type(bearing)
+    known = [kind.read(name) for name in kind.catalogue()]
     size = ("bore_diameter", "outside_diameter", "width")
     values = {
         key: {"median": origin.value, "unit": origin.unit, "10 to 90 %": [*origin.range]}
@@ -487,7 +499,9 @@ def _init(
 
     path = output or path
     check_new_file(path, force=force)
-    _write(path, Bearing.read(_BASE).replace(name=path.stem, title=f"Started from {_BASE}"), force)
+    base = Bearing.read(_BASE)
+    started = base.replace(name=path.stem, title=f"Started from {_BASE}")
+    _write(path, started, force)
     typer.echo(
         f"written: {path}\nlook at it:  macroslip bearing show {path}\n"
         f"use it:      bearing: {path}, in a case file"

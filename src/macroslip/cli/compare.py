@@ -44,16 +44,16 @@ def compare(
     from macroslip.study.reader import is_study
 
     first = results[0]
-    output = output or (first if first.is_dir() else first.parent) / PAGE
+    folder = first if first.is_dir() else first.parent
+    output = output or folder / PAGE
     inputs = [path for path in results if path.is_file()]
     check_new_file(output, force=force, inputs=inputs)
     check_workbook(xlsx, force=force, inputs=inputs)
     comparison = compared(*results, by=by)
-    curves = (
-        {}
-        if is_study(first)
-        else dict(zip(comparison["design"].unique(), map(open_result, results), strict=True))
-    )
+    curves = {}
+    if not is_study(first):
+        designs = comparison["design"].unique()
+        curves = dict(zip(designs, map(open_result, results), strict=True))
     page = comparison_page(comparison, curves, title=title)
     write_new(output, page, force=force)
     if xlsx is not None:
@@ -61,9 +61,11 @@ def compare(
         from macroslip.study.reader import open_study
 
         datasets = curves or {"study": open_study(first)}
-        write_workbook(xlsx, comparison_sheets(comparison, datasets), force=force)
+        sheets = comparison_sheets(comparison, datasets)
+        write_workbook(xlsx, sheets, force=force)
     if as_json:
-        numbers = comparison.astype(object).where(comparison.notna(), None).to_dict("records")
+        known = comparison.astype(object).where(comparison.notna(), None)
+        numbers = known.to_dict("records")
         print_json({"numbers": numbers, **comparison.attrs, "written": str(output)})
         return
     if quiet:
@@ -72,7 +74,8 @@ def compare(
     print_notes(comparison.attrs["notes"])
     for table in comparison_tables(comparison):
         if table.rows:
-            columns = "l" + "r" * (len(table.headings) - 1)
+            numeric = len(table.headings) - 1
+            columns = "l" + "r" * numeric
             print_table(table.caption, table.headings, table.rows, columns)
             typer.echo()
     typer.echo(comparison.attrs["ranking"])

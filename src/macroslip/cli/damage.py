@@ -65,23 +65,21 @@ def damage(
     if xlsx is not None:
         from macroslip.report.sheets import damage_sheets
 
-        write_workbook(xlsx, damage_sheets(criteria, lines, dataset), force=force)
+        sheets = damage_sheets(criteria, lines, dataset)
+        write_workbook(xlsx, sheets, force=force)
     if as_json:
         named = {name: criteria.attrs[name] for name in ("title", "model", "oil")}
-        print_json(named | {"criteria": lines, "wear": _wear(criteria), "not kept": missing})
+        named |= {"criteria": lines, "wear": _wear(criteria), "not kept": missing}
+        print_json(named)
         return
     print_criteria(lines, missing, title=criteria.attrs["title"])
     if "wear_time" in criteria:
         years = (criteria.wear_time / YEAR).values
-        rows = [
-            [
-                row,
-                surface,
-                *(_range_of_years(line.min(), line.max()) for line in years[i, j]),
-            ]
-            for i, row in enumerate(criteria.row.values.tolist())
-            for j, surface in enumerate(criteria.surface.values.tolist())
-        ]
+        rows = []
+        for i, row in enumerate(criteria.row.values.tolist()):
+            for j, surface in enumerate(criteria.surface.values.tolist()):
+                ranges = [_range_of_years(line.min(), line.max()) for line in years[i, j]]
+                rows.append([row, surface, *ranges])
         smallest_last = criteria.wear_coefficient.values[::-1]
         coefficients = ", ".join(f"{k:.2g}" for k in smallest_last)
         title = f"years of wear at k = {coefficients} m²/N"
@@ -152,16 +150,18 @@ def _threshold(text: str) -> tuple[str, Threshold]:
     name, _, setting = text.partition("=")
     value, _, source = setting.partition(",")
     units = {criterion.name: criterion.unit for criterion in CRITERIA}
-    if name.strip() not in units or not source.strip():
+    key = name.strip()
+    source = source.strip()
+    if key not in units or not source:
         allowed = f"'NAME=VALUE UNIT, SOURCE' with a name of {', '.join(units)}"
         raise InputError(
             f"the threshold '{text}' cannot be read", where="--threshold", allowed=allowed
         )
-    unit = units[name.strip()]
-    known = {unit: Unit(Fraction(1))} | (
-        {f"{unit[0]}/mm2": Unit(Fraction(10**6))} if unit.endswith("/m2") else {}
-    )
+    unit = units[key]
+    known = {unit: Unit(Fraction(1))}
+    if unit.endswith("/m2"):
+        per_square_millimetre = f"{unit[0]}/mm2"
+        known[per_square_millimetre] = Unit(Fraction(10**6))
     dimension = NUMBER if unit == "1" else Dimension(known)
-    return name.strip(), Threshold(
-        dimension.to_si(*parse_quantity(value, dimension, name, "--threshold")), source.strip()
-    )
+    number, unit_given = parse_quantity(value, dimension, name, "--threshold")
+    return key, Threshold(dimension.to_si(number, unit_given), source)

@@ -51,33 +51,35 @@ def doctor(
     if folder:
         sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()]
     lacking = {command: missing_packages(need) for command, need in COMMANDS.items()}
+    megabytes = sum(sizes) / 1e6
+    about_machine = machine()
+    of_machine = {name: value for name, value in about_machine.items() if name in _OF_THE_MACHINE}
+    caches = {
+        "folder": str(folder) if folder else None,
+        "files": len(sizes),
+        "megabytes": megabytes,
+    }
+    commands = []
+    for command, missing in lacking.items():
+        remedy = ""
+        if missing:
+            remedy = f"pip install 'macroslip[{COMMANDS[command].extra}]'"
+        commands.append({"command": command, "missing": missing, "remedy": remedy})
     report = {
         "version": macroslip.__version__,
-        "machine": {name: value for name, value in machine().items() if name in _OF_THE_MACHINE},
-        "caches": {
-            "folder": str(folder) if folder else None,
-            "files": len(sizes),
-            "megabytes": sum(sizes) / 1e6,
-        },
+        "machine": of_machine,
+        "caches": caches,
         "packages": list(_packages()),
-        "commands": [
-            {
-                "command": command,
-                "missing": missing,
-                "remedy": f"pip install 'macroslip[{COMMANDS[command].extra}]'" if missing else "",
-            }
-            for command, missing in lacking.items()
-        ],
+        "commands": commands,
     }
     if as_json:
         print_json(report)
         return
-    rows = [[name, str(report["machine"][name])] for name in _OF_THE_MACHINE]
-    megabytes = sum(sizes) / 1e6
-    stored = f"{folder}, {megabytes:.3g} MB in {len(sizes)} files"
-    rows.append(
-        ["caches", stored if folder else "NO FOLDER CAN BE WRITTEN: every run compiles again"]
-    )
+    rows = [[name, str(of_machine[name])] for name in _OF_THE_MACHINE]
+    stored = "NO FOLDER CAN BE WRITTEN: every run compiles again"
+    if folder:
+        stored = f"{folder}, {megabytes:.3g} MB in {len(sizes)} files"
+    rows.append(["caches", stored])
     print_table(f"macroslip {report['version']}", ["", ""], rows)
     typer.echo()
     rows = [
@@ -86,14 +88,12 @@ def doctor(
     ]
     print_table("packages", ["package", "installed", "wanted"], rows)
     typer.echo()
-    rows = [
-        [
-            command["command"],
-            f"lacks {', '.join(command['missing'])}" if command["missing"] else "ready",
-            command["remedy"],
-        ]
-        for command in report["commands"]
-    ]
+    rows = []
+    for command in commands:
+        state = "ready"
+        if command["missing"]:
+            state = f"lacks {', '.join(command['missing'])}"
+        rows.append([command["command"], state, command["remedy"]])
     print_table("commands that need more", ["command", "", ""], rows)
 
 
@@ -102,7 +102,9 @@ def _warm(case: Path | None, quiet: bool) -> None:
     from macroslip.case.case_file import bearings_in, read_case
     from macroslip.result.warm import compile_all, make_tables
 
-    cases = [read_case(case, bearing=name) for name in bearings_in(case)] if case else []
+    cases = []
+    if case:
+        cases = [read_case(case, bearing=name) for name in bearings_in(case)]
     with command_progress(quiet=quiet):
         compile_all()
         for case_read in cases:
@@ -127,5 +129,8 @@ def _packages() -> Iterator[dict[str, Any]]:
             or (extra and extra[1] not in ("figures", "excel", "cluster", "notebook"))
         ):
             continue
-        bound = parts[2] + (f", for [{extra[1]}]" if extra else "")
-        yield {"package": parts[1], "installed": version_of(parts[1]), "wanted": bound}
+        name = parts[1]
+        bound = parts[2]
+        if extra:
+            bound += f", for [{extra[1]}]"
+        yield {"package": name, "installed": version_of(name), "wanted": bound}

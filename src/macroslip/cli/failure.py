@@ -56,7 +56,8 @@ def command(app: typer.Typer, function: Callable[..., None], name: str | None = 
         except BaseException as error:
             if isinstance(error, KeyboardInterrupt):
                 ignore_interrupts()
-            code, message = _code_and_message(error, quiet=bool(options.get("quiet")))
+            quiet = bool(options.get("quiet"))
+            code, message = _code_and_message(error, quiet=quiet)
             if options.get("as_json"):
                 print_json({"error": message.removeprefix("error: ")})
             to_stderr(message)
@@ -113,11 +114,14 @@ def _is_raised_in(module: str, error: BaseException) -> bool:
 
 def _of_the_system(error: OSError) -> str:
     """Paragraph on an error of the operating system."""
-    where = legible(f"{error.filename}: ", InputError.longest_where) if error.filename else ""
+    where = ""
+    if error.filename:
+        where = legible(f"{error.filename}: ", InputError.longest_where)
     remedy = "Check the path, the rights to it and the free space on the disk."
     if error.errno == errno.ENAMETOOLONG:
         remedy = SHORTER
-    return f"error: {where}{error.strerror or error}. {remedy}"
+    why = error.strerror or error
+    return f"error: {where}{why}. {remedy}"
 
 
 @contextmanager

@@ -79,7 +79,8 @@ def init(
             remedy="--turbine writes a case of that turbine; leave --example out for it.",
         )
     example = example or Example.CASE
-    path = path or Path("own_laws.yaml" if example is Example.LAWS else f"{example}.yaml")
+    name = "own_laws.yaml" if example is Example.LAWS else f"{example}.yaml"
+    path = path or Path(name)
     contents = _contents_of(example, path) if turbine is None else {path: _case_of(turbine)}
     for target in contents:
         check_new_file(target, force=force)
@@ -87,7 +88,8 @@ def init(
         write_new(target, content, force=force)
         typer.echo(f"written:    {target}")
     folder = "" if path.parent == Path() else f"{path.parent}/"
-    typer.echo(_NEXT[example].format(path=path, stem=path.with_suffix(""), folder=folder))
+    following = _NEXT[example].format(path=path, stem=path.with_suffix(""), folder=folder)
+    typer.echo(following)
 
 
 def _contents_of(example: Example, path: Path) -> dict[Path, bytes]:
@@ -112,4 +114,6 @@ def _content(name: str) -> bytes:
     # for them.
     here = Path(__file__)
     folder = here.with_name("examples")
-    return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_bytes()
+    if not folder.is_dir():
+        folder = here.parents[3] / "examples"
+    return (folder / inside).read_bytes()

@@ -100,7 +100,10 @@ def inspect(
                 "this is no kind of picture", where=str(output), allowed=f"{', '.join(_PICTURES)}"
             )
         require(PICTURE)
-        check_new_file(output, force=force, inputs=[file, *([case] if case else [])])
+        inputs = [file]
+        if case:
+            inputs.append(case)
+        check_new_file(output, force=force, inputs=inputs)
     options: dict[str, Any] = {
         "shaft_speed": si("--shaft-speed", shaft_speed, SPEED),
         "hub_to_output": si("--hub-to-output", hub_to_output, LENGTH),
@@ -117,16 +120,19 @@ def inspect(
         "shaft_mass_station": si("--shaft-mass-station", shaft_mass_station, LENGTH),
     }
     bearings = bearings_in(case) if case else ("",)
-    base = read_case(case, bearing=bearings[0]) if case else None
+    base = None
+    if case:
+        base = read_case(case, bearing=bearings[0])
     # The case file's drivetrain, or the default one, with single values replaced.
     own = {name: value for name, value in own.items() if value is not None}
-    drivetrain = replace(base.drivetrain if base else Drivetrain(), **own)
+    default = base.drivetrain if base else Drivetrain()
+    drivetrain = replace(default, **own)
     if case:
         source = load_source(case)
         if source.file and file.exists() and file.samefile(case.parent / source.file):
-            whole = {
-                name: value for name, value in source.cut.items() if name not in ("start", "end")
-            }
+            whole = dict(source.cut)
+            whole.pop("start", None)
+            whole.pop("end", None)
             options = whole | options
     description, loads, bearing = _read(file, options, drivetrain, bearings[1:])
     doubts = doubtful_loads(loads, base.bearing if base else None)
@@ -170,14 +176,19 @@ def _read(
     description = _described(hub, "hub loads in non-rotating shaft axes")
     description["reading"] = list(hub.reading)
     units = {"tilt": "deg", "shaft_mass": "kg"}
-    plain = asdict(drivetrain) | {"tilt": math.degrees(drivetrain.tilt)}
-    description["drivetrain"] = {"default": drivetrain == Drivetrain()} | {
-        name if name in _NO_UNIT else f"{name} [{units.get(name, 'm')}]": value
-        for name, value in plain.items()
-    }
+    plain = asdict(drivetrain)
+    plain["tilt"] = math.degrees(drivetrain.tilt)
+    described: dict[str, Any] = {"default": drivetrain == Drivetrain()}
+    for name, value in plain.items():
+        heading = name
+        if name not in _NO_UNIT:
+            heading = f"{name} [{units.get(name, 'm')}]"
+        described[heading] = value
+    description["drivetrain"] = described
     description["main bearing"] = _statistics(_forces(bearing))
     for name in others:
-        load = main_bearing_load(hub, replace(drivetrain, bearing=name))
+        other = replace(drivetrain, bearing=name)
+        load = main_bearing_load(hub, other)
         description[f"{name} main bearing"] = _statistics(_forces(load))
     return description, hub, bearing
 
@@ -193,7 +204,8 @@ def _holds_bearing_loads(file: Path, sheet: str) -> bool:
     ):  # a pipe would wait for ever
         return False
     try:
-        return any(name.startswith("F_X0") for name in open_table(file, None, sheet).names)
+        names = open_table(file, None, sheet).names
+        return any(name.startswith("F_X0") for name in names)
     except InputError:
         return False
 
@@ -204,7 +216,8 @@ def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
     from macroslip.loads import HubLoads
 
     steps = np.diff(read.time)
-    quantities = {"shaft speed [rpm]": read.shaft_speed * 30.0 / math.pi}
+    speed = read.shaft_speed * 30.0 / math.pi
+    quantities = {"shaft speed [rpm]": speed}
     if isinstance(read, HubLoads):
         names = ("fx [kN]", "fy [kN]", "fz [kN]", "mx [kN m]", "my [kN m]", "mz [kN m]")
         loads_in_kilo = np.hstack([read.force, read.moment]).T / 1e3
@@ -222,10 +235,9 @@ def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
 
 
 def _forces(read: BearingLoads) -> dict[str, NDArray]:
-    forces = {
-        f"{name} [kN]": values / 1e3
-        for name, values in zip(("F_X0", "F_Y0", "F_Z0"), read.force.T, strict=True)
-    }
+    forces = {}
+    for name, values in zip(("F_X0", "F_Y0", "F_Z0"), read.force.T, strict=True):
+        forces[f"{name} [kN]"] = values / 1e3
     square = read.force[:, 0] ** 2 + read.force[:, 1] ** 2
     radial = square**0.5
     return forces | {"radial [kN]": radial / 1e3}
@@ -240,8 +252,10 @@ def _statistics(quantities: dict[str, NDArray]) -> dict[str, dict[str, float]]:
 
 def _print(description: dict[str, Any]) -> None:
     step = description["step [s]"]
-    uneven = step["max"] - step["min"] > 1e-3 * step["median"]
-    spread = f" (median; {step['min']:.6g} s to {step['max']:.6g} s)" if uneven else ""
+    range_of_steps = step["max"] - step["min"]
+    spread = ""
+    if range_of_steps > 1e-3 * step["median"]:
+        spread = f" (median; {step['min']:.6g} s to {step['max']:.6g} s)"
     start, end = description["time [s]"]
     lines = {
         "source": description["source"],
@@ -262,7 +276,8 @@ def _print(description: dict[str, Any]) -> None:
             f"load on the main bearing, with {_words(description['drivetrain'])}",
             description["main bearing"],
         )
-    for name in (key for key in description if key.endswith(" main bearing")):
+    others = [key for key in description if key.endswith(" main bearing")]
+    for name in others:
         typer.echo()
         _table(f"load on the {name}", description[name])
 
@@ -278,15 +293,20 @@ def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
 def _words(drivetrain: dict[str, Any]) -> str:
     shaft = "no shaft mass"
     if mass := drivetrain["shaft_mass [kg]"]:
-        shaft = f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub"
-    start = f"{'the default' if drivetrain['default'] else 'your'} drivetrain ({drivetrain['hub_to_bearing [m]']:g} m from hub to "
+        station = drivetrain["shaft_mass_station [m]"]
+        shaft = f"a shaft of {mass:g} kg {station:g} m behind the hub"
+    whose = "the default" if drivetrain["default"] else "your"
+    distance = drivetrain["hub_to_bearing [m]"]
+    start = f"{whose} drivetrain ({distance:g} m from hub to "
     if drivetrain["mount"] == "four-point":
-        rear = f"{drivetrain['front_to_rear [m]']:g} m from front to rear bearing, {drivetrain['locating']} locating"
+        between = drivetrain["front_to_rear [m]"]
+        rear = f"{between:g} m from front to rear bearing, {drivetrain['locating']} locating"
         if drivetrain["front"] == "moment-carrying":
             share = drivetrain["front_moment_share"] or 0.0
             rear += f", a moment-carrying front that takes {share:g} of the moment"
         return f"{start}front bearing, {rear}, {shaft}): the {drivetrain['bearing']} bearing"
-    return f"{start}bearing, {drivetrain['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
+    to_gearbox = drivetrain["bearing_to_gearbox [m]"]
+    return f"{start}bearing, {to_gearbox:g} m from bearing to gearbox, {shaft})"
 
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:
@@ -295,9 +315,9 @@ def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -
     from macroslip.report.load_figures import load_figure
     from macroslip.result.rating import roller_load_series
 
-    parts = (
-        {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws} if base else {}
-    )
+    parts = {}
+    if base:
+        parts = {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws}
     case = Case(loads=bearing, drivetrain=drivetrain, **parts)
     time, rollers = roller_load_series(case, bearing.start, bearing.end)
     upwind = rollers[:, ROWS.index("upwind")]

@@ -33,4 +33,7 @@ def wind_of(weibull: tuple[float, float] | None) -> weights.Weibull | None:
     """The distribution that `--weibull` gives; None where the option is left out."""
     from macroslip.study import weights
 
-    return None if weibull is None else weights.Weibull(scale=weibull[0], shape=weibull[1])
+    if weibull is None:
+        return None
+    scale, shape = weibull
+    return weights.Weibull(scale=scale, shape=shape)

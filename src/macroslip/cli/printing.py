@@ -24,7 +24,8 @@ def counted(count: int, noun: str) -> str:
     >>> counted(1, "run"), counted(3, "load file")
     ('1 run', '3 load files')
     """
-    return f"{count} {noun}{'' if count == 1 else 's'}"
+    ending = "" if count == 1 else "s"
+    return f"{count} {noun}{ending}"
 
 
 def print_table(
@@ -47,8 +48,10 @@ def print_table(
     from rich.table import Table
 
     table = Table(box=None, padding=(0, 2, 0, 0), show_header=any(headings))
-    for heading, side in zip(headings, columns or "l" * len(headings), strict=True):
-        table.add_column(heading, justify="right" if side == "r" else "left")
+    sides = columns or "l" * len(headings)
+    for heading, side in zip(headings, sides, strict=True):
+        justify = "right" if side == "r" else "left"
+        table.add_column(heading, justify=justify)
     for row in rows:
         table.add_row(*row)
     out = plain_console()
@@ -85,7 +88,8 @@ def number(value: float) -> str:
 
 def print_json(data: Mapping[str, Any] | list[Any]) -> None:
     """Print data as JSON, with numbers in full, and null for a number that is not finite."""
-    typer.echo(json.dumps(_plain(data), indent=2, allow_nan=False))
+    text = json.dumps(_plain(data), indent=2, allow_nan=False)
+    typer.echo(text)
 
 
 def _plain(data: Any) -> Any:
@@ -104,4 +108,6 @@ def _plain(data: Any) -> Any:
         data = data.item()
     if isinstance(data, float):
         return data if math.isfinite(data) else None
-    return data if isinstance(data, bool | int | str) or data is None else str(data)
+    if data is None or isinstance(data, bool | int | str):
+        return data
+    return str(data)

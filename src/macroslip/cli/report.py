@@ -55,21 +55,28 @@ def report(
     from macroslip.study.result_files import CASES
     from macroslip.study.store import parts
 
-    output = output or (results if results.is_dir() else results.parent) / PAGE
+    folder = results if results.is_dir() else results.parent
+    output = output or folder / PAGE
     if results.exists():
         # Files that the page is made from, as far as the output could be one of them.
-        inputs = results.glob("*.nc") if results.is_dir() else [results]
+        inputs = [results]
+        if results.is_dir():
+            inputs = results.glob("*.nc")
         if of_study:
-            stored = (results / CASES).resolve() in output.resolve().parents
-            inputs = [*parts(results), *([output] if stored else [])]
+            of_cases = (results / CASES).resolve()
+            is_stored = of_cases in output.resolve().parents
+            inputs = parts(results)
+            if is_stored:
+                inputs.append(output)
         check_new_file(output, force=force, inputs=inputs)
     if of_study:
         study = open_study(results)
         number = incomplete_runs(study).sizes["case"]
-        failed = f"{number} of {study.sizes['case']} runs failed or are missing" if number else ""
-        page = study_page(
-            study, title=title or study.attrs["title"] or _TITLE, weights=wind_of(weibull)
-        )
+        failed = ""
+        if number:
+            failed = f"{number} of {study.sizes['case']} runs failed or are missing"
+        heading = title or study.attrs["title"] or _TITLE
+        page = study_page(study, title=heading, weights=wind_of(weibull))
     else:
         page, failed = _of_results(results, title)
     write_new(output, page, force=force)
@@ -91,7 +98,8 @@ def _of_results(results: Path, title: str | None) -> tuple[str, str]:
         page = results_page(datasets, title=title or _TITLE)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         # A file may have been changed in too many ways to check each.
-        fault = f"no page can be made of this ({type(error).__name__}: {on_one_line(error)[:200]})"
+        why = on_one_line(error)[:200]
+        fault = f"no page can be made of this ({type(error).__name__}: {why})"
         allowed = "what macroslip run wrote, or a selection of it"
         remedy = "Run the case again; if nothing has changed the file since it was written, please report this."
         raise InputError(fault, where=str(results), allowed=allowed, remedy=remedy) from error

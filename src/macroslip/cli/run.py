@@ -89,29 +89,33 @@ def run(
         content = to_netcdf(dataset)
         with new_file(path, force=force) as temporary:
             temporary.write_bytes(content)
-        summaries[name] = _numbers(dataset) | {"written": str(path)}
+        summary = _numbers(dataset) | {"written": str(path)}
+        summaries[name] = summary
         if xlsx is not None:
             from macroslip.report.sheets import result_sheets
 
             book = _of_bearing(xlsx, name)
-            criteria = summaries[name]["damage"]["criteria"]
-            sheets = result_sheets(dataset, summaries[name]["answer"], criteria)
+            criteria = summary["damage"]["criteria"]
+            sheets = result_sheets(dataset, summary["answer"], criteria)
             write_workbook(book, sheets, force=force)
-            summaries[name]["workbook"] = str(book)
+            summary["workbook"] = str(book)
         if not (quiet or as_json):
-            _summary(dataset, summaries[name], name, path)
+            _summary(dataset, summary, name, path)
         any_failed = _print_doubts(dataset, quiet) or any_failed
     if as_json:
         print_json(summaries.get("", summaries))
     elif len(outputs) > 1 and not quiet:
-        typer.echo(f"one page on both: macroslip report {' '.join(map(str, outputs.values()))}")
+        files = " ".join(map(str, outputs.values()))
+        typer.echo(f"one page on both: macroslip report {files}")
     if any_failed:
         raise typer.Exit(ROLLERS_FAILED)
 
 
 def _of_bearing(path: Path, bearing: str) -> Path:
     """Path of an output: with the bearing's name where a case has both main bearings."""
-    return path.parent / f"{path.stem}-{bearing}{path.suffix}" if bearing else path
+    if not bearing:
+        return path
+    return path.parent / f"{path.stem}-{bearing}{path.suffix}"
 
 
 def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.Dataset:
@@ -126,15 +130,18 @@ def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.
     doubts = doubtful_loads(checked.loads, checked.bearing)
     with command_progress(quiet=quiet) as report, _named(case, checked.loads.source, doubts):
         progress = report and (lambda done, total: report("rollers", done, total))
-        return with_rating(simulate(checked, threads=threads, progress=progress), checked)
+        result = simulate(checked, threads=threads, progress=progress)
+        return with_rating(result, checked)
 
 
 def with_motion(case: Case) -> Case:
     """The case with traces of its first minute, from which its page shows the bearing in motion."""
     from macroslip.case.parts import Traces
 
-    end = min(case.loads.start + _TRACE_LENGTH, case.loads.end)
-    return replace(case, traces=Traces(step=_TRACE_STEP, end=end))
+    start = case.loads.start
+    end = min(start + _TRACE_LENGTH, case.loads.end)
+    traces = Traces(step=_TRACE_STEP, end=end)
+    return replace(case, traces=traces)
 
 
 @contextmanager
@@ -143,11 +150,13 @@ def _named(case: Path, loads: str, doubts: Sequence[str]) -> Iterator[None]:
     try:
         yield
     except InputError as problem:
-        inner = f"loads, {problem.where}" if problem.where.startswith(loads) else problem.where
-        raise problem.but(
-            where=f"{case}, {inner}" if inner else str(case),
-            remedy=" ".join([problem.remedy, *(f"Doubtful: {doubt}" for doubt in doubts)]).strip(),
-        ) from None
+        inner = problem.where
+        if inner.startswith(loads):
+            inner = f"loads, {inner}"
+        sentences = [f"Doubtful: {doubt}" for doubt in doubts]
+        remedy = " ".join([problem.remedy, *sentences]).strip()
+        where = f"{case}, {inner}" if inner else str(case)
+        raise problem.but(where=where, remedy=remedy) from None
     except MemoryError:
         fault = "the computer has not enough memory for this case"
         raise InputError(fault, where=f"{case}, loads, rollers or traces", remedy=MEMORY) from None
@@ -159,12 +168,12 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     from macroslip.result.damage import lines
     from macroslip.result.plausibility import doubtful_result
 
-    rows = {
-        row["name"]: {
-            words: math.nan if row[key] is None else row[key] for key, words in _OF_ROW.items()
-        }
-        for row in row_numbers(dataset)
-    }
+    rows = {}
+    for row in row_numbers(dataset):
+        numbers_of_row = {}
+        for key, words in _OF_ROW.items():
+            numbers_of_row[words] = math.nan if row[key] is None else row[key]
+        rows[row["name"]] = numbers_of_row
     window = {
         "start [s]": dataset.attrs["window_start"],
         "end [s]": dataset.attrs["window_end"],
@@ -173,7 +182,8 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     numbers = {name: dataset.attrs[name] for name in ("title", "model", "oil")}
     numbers |= {"window": window, "rows": rows}
     if "inlet_temperature" in dataset:
-        numbers["inlet temperature [degC]"] = float(dataset.inlet_temperature) - ZERO_CELSIUS
+        kelvin = float(dataset.inlet_temperature)
+        numbers["inlet temperature [degC]"] = kelvin - ZERO_CELSIUS
     if "static_safety" in dataset:
         rating = {words: float(dataset[name]) for name, words in _RATED.items() if name in dataset}
         rating["largest pressure [Pa]"] = float(dataset.largest_pressure.max())
@@ -181,9 +191,11 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     if "rating_problem" in dataset.attrs:
         numbers["not rated"] = dataset.attrs["rating_problem"]
     if "cage_slip" in dataset:
-        numbers["cage slip [1]"] = {
-            str(slip.cage.item()): float(slip) for slip in dataset.cage_slip
-        }
+        slips = {}
+        for slip in dataset.cage_slip:
+            cage = str(slip.cage.item())
+            slips[cage] = float(slip)
+        numbers["cage slip [1]"] = slips
     if "books_warning" in dataset.attrs:
         numbers["warning"] = dataset.attrs["books_warning"]
     numbers["doubtful"] = doubtful_result(dataset)
@@ -202,7 +214,8 @@ def _summary(dataset: xr.Dataset, summary: dict[str, Any], bearing: str, path: P
     typer.echo()
     _print_rows(dataset, summary)
     title = "from slip to damage, the worst of any row and place"
-    print_criteria(summary["damage"]["criteria"], summary["damage"]["not kept"], title=title)
+    judged = summary["damage"]
+    print_criteria(judged["criteria"], judged["not kept"], title=title)
     typer.echo(f"written: {path}")
     if "workbook" in summary:
         typer.echo(f"written: {summary['workbook']}")
@@ -212,7 +225,8 @@ def _print_rows(dataset: xr.Dataset, summary: dict[str, Any]) -> None:
     rows = []
     for name, row in summary["rows"].items():
         *values, rollers, failed = row.values()
-        rows.append([name, *map(number, values), f"{failed} of {rollers}"])
+        cells = map(number, values)
+        rows.append([name, *cells, f"{failed} of {rollers}"])
     start, end, orbits = summary["window"].values()
     plural = "" if orbits == 1 else "s"
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{plural}"

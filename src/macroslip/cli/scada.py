@@ -77,8 +77,11 @@ def inspect(
     from macroslip.study.speeds import speed_notes, speeds_beside
 
     read = Scada.read(description)
-    beside = None if study is None else speeds_beside(read, study)
-    notes = [*read.notes, *([] if beside is None else speed_notes(beside))]
+    beside = None
+    notes = list(read.notes)
+    if study is not None:
+        beside = speeds_beside(read, study)
+        notes += speed_notes(beside)
     counts = rows_by_month(read.counts)
     shares = histogram(read)
     if as_json:
@@ -88,7 +91,9 @@ def inspect(
             "counts": read.counts.astype({"filter": str}).to_dict("records"),
             "histogram": shares.to_dict("records"),
         }
-        print_json(report if beside is None else report | {"speeds": beside.to_dict("records")})
+        if beside is not None:
+            report["speeds"] = beside.to_dict("records")
+        print_json(report)
         return
     typer.echo(told_rows(read))
     print_notes(notes)
@@ -128,24 +133,28 @@ def _print_histogram(read: Scada) -> None:
         index="wind_speed [m/s]", columns="temperature", values="share", aggfunc="sum"
     )
     idle = shares[shares["state"] == "idle"]
-    stood = idle.groupby("temperature")["share"].sum().to_dict()
-    lines = [
-        [f"{wind:g}", *(_percent(share) for share in row)]
-        for wind, row in zip(table.index, table.to_numpy(), strict=True)
-    ]
+    share_at = idle.groupby("temperature")["share"].sum()
+    stood = share_at.to_dict()
+    lines = []
+    for wind, row in zip(table.index, table.to_numpy(), strict=True):
+        percents = [_percent(share) for share in row]
+        lines.append([f"{wind:g}", *percents])
     idle_shares = [_percent(stood.get(at, 0.0)) for at in table.columns]
     lines.append(["idle", *idle_shares])
+    temperatures = [f"{at:g}" for at in table.columns]
     print_table(
         "% of the rows with data, by wind speed [m/s] and temperature of the bearing [degC]",
-        ["", *(f"{at:g}" for at in table.columns)],
+        ["", *temperatures],
         lines,
-        "r" + "r" * len(table.columns),
+        "r" + "r" * len(temperatures),
     )
 
 
 def _percent(share: float) -> str:
     """A share in per cent with two digits; a dash for none."""
-    return f"{100.0 * share:.2g}" if share > 0.0 else "-"
+    if not share > 0.0:
+        return "-"
+    return f"{100.0 * share:.2g}"
 
 
 def year(
@@ -197,13 +206,11 @@ def _print_year(real: RealYear) -> None:
     print_notes(real.notes)
     typer.echo()
     names = ["real", "at_mean", "fixed", "real_over_fixed", "oil_cooler", "oil_warmer", "seeds [%]"]
-    lines = [
-        [
-            f"{line['design']} {line['quantity']} [{line['unit']}]".strip(),
-            *(number(line[name]) for name in names),
-        ]
-        for line in real.table.to_dict("records")
-    ]
+    lines = []
+    for line in real.table.to_dict("records"):
+        head = f"{line['design']} {line['quantity']} [{line['unit']}]".strip()
+        values = [number(line[name]) for name in names]
+        lines.append([head, *values])
     headings = ["", "real", "at the mean", "at 35 degC", "real/35 degC", "oil −5 K", "oil +5 K"]
     columns = "l" + "r" * len(names)
     print_table(f"a year: {real.source}", [*headings, "seeds [%]"], lines, columns)

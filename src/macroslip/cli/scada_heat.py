@@ -41,13 +41,16 @@ def heat(
 
     described = ScadaDescription.read(description)
     fitted = heat_fit(description, study)
-    written = write_tables({"fit": fitted.fit, "index": fitted.index}, output, "csv")
+    tables = {"fit": fitted.fit, "index": fitted.index}
+    written = write_tables(tables, output, "csv")
     page = output / "page.html"
-    write_durably(page, heat_page(fitted, described, str(study)).encode())
+    text = heat_page(fitted, described, str(study))
+    write_durably(page, text.encode())
     written.append(page)
     sentences = heat_sentences(fitted, described)
     if as_json:
-        numbers = fitted.fit.astype(object).where(fitted.fit.notna(), None).to_dict("records")
+        known = fitted.fit.astype(object).where(fitted.fit.notna(), None)
+        numbers = known.to_dict("records")
         print_json(
             {
                 "fit": numbers, "answer": sentences, "marks": list(fitted.marks),
@@ -57,13 +60,13 @@ def heat(
         return
     if quiet:
         return
-    for sentence in (*sentences, *(f"doubtful: {mark}" for mark in fitted.marks)):
+    for sentence in sentences:
         typer.echo(sentence)
+    for mark in fitted.marks:
+        typer.echo(f"doubtful: {mark}")
     print_notes(fitted.notes)
-    rows = [
-        [fit.model.title, f"{fit.residual:.4f}"]
-        for fit in sorted(fitted.fits, key=lambda fit: fit.residual)
-    ]
+    by_residual = sorted(fitted.fits, key=lambda fit: fit.residual)
+    rows = [[fit.model.title, f"{fit.residual:.4f}"] for fit in by_residual]
     headings = ["model", "root mean square of the residual [K/h]"]
     print_table("What each model leaves of dT/dt", headings, rows, "lr")
     for path in written:

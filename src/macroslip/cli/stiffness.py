@@ -52,12 +52,14 @@ def stiffness(
                 allowed=" or ".join(_FORMATS),
             )
         check_new_file(output, force=force, inputs=cases)
-    rings = ring_stiffness(_cases(cases, loads or []))
+    cases_under_loads = _cases(cases, loads or [])
+    rings = ring_stiffness(cases_under_loads)
     if output is not None:
         if output.suffix.lower() == ".csv":
             text = stiffness_table(rings).to_csv(index=False, lineterminator="\n")
         else:
-            text = json.dumps(stiffness_data(rings), indent=2, ensure_ascii=False)
+            data = stiffness_data(rings)
+            text = json.dumps(data, indent=2, ensure_ascii=False)
         write_new(output, text, force=force)
     if as_json:
         print_json(stiffness_data(rings))
@@ -85,8 +87,10 @@ def _cases(paths: list[Path], names: list[str]) -> dict[str, Case]:
                 if name in known:
                     source = LoadSource(bundled=name)
                 else:
-                    source = LoadSource(file=name, **load_source(path).cut)
-                cases[f"{of_file}, {Path(name).name}"] = replace(case, loads=source.series(Path()))
+                    cut = load_source(path).cut
+                    source = LoadSource(file=name, **cut)
+                under_loads = replace(case, loads=source.series(Path()))
+                cases[f"{of_file}, {Path(name).name}"] = under_loads
     return cases
 
 
@@ -96,7 +100,8 @@ def _print(rings: xr.Dataset) -> None:
     rows = []
     for k in range(rings.sizes["point"]):
         point = rings.isel(point=k)
-        forces = [number(float(value) / 1e3) for value in point.force.values]
+        kilonewtons = [float(value) / 1e3 for value in point.force.values]
+        forces = [number(force) for force in kilonewtons]
         matrix = point.stiffness.values / 1e6
         entries = [number(float(matrix[pair])) for pair in pairs]
         held = "" if point.held else "not held"

@@ -124,9 +124,12 @@ def _write_study(study: Path, folder: Path, *, force: bool) -> None:
     for remark in made.remarks[:_LISTED]:
         to_stderr(f"note: {remark}")
     if len(made.remarks) > _LISTED:
-        to_stderr(f"note: {len(made.remarks) - _LISTED} more files are left out or relabelled")
+        further = len(made.remarks) - _LISTED
+        to_stderr(f"note: {further} more files are left out or relabelled")
     winds = [labels["wind_speed"] for labels in made.labels]
-    ends = dict.fromkeys(f"{end:g}" for end in (min(winds), max(winds)))
+    lowest = f"{min(winds):g}"
+    highest = f"{max(winds):g}"
+    ends = dict.fromkeys((lowest, highest))
     typer.echo(f"{counted(len(winds), 'load file')}, {' to '.join(ends)} m/s")
     typer.echo(f"written: {' and '.join(map(str, made.texts))}")
 
@@ -144,7 +147,8 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
         (len(checked.lubricants), "lubricants"), (len(checked.models), "models"),
         (len(checked.variations), "combinations of parameters"),
     ]  # fmt: skip
-    processors = min(usable_processors(), (workers or 1) * (threads or usable_processors()))
+    asked = (workers or 1) * (threads or usable_processors())
+    processors = min(usable_processors(), asked)
     if as_json:
         known = bool(estimate.looked_at)
         print_json(
@@ -239,12 +243,12 @@ def _failures(ended: Ended, output: Path) -> None:
         shown.add_column(heading, overflow="fold")
     for labels, outcome, reason in ended.failures[:_LISTED]:
         others = [str(labels[name]) for name in ("bearing", "lubricant", "model")]
-        others += [
-            f"{name} {value}" for name, value in labels.items() if "." in name and name != "loads"
-        ]
-        shown.add_row(
-            *map(safe_text, (labels["loads"], ", ".join(others), outcome, " ".join(reason.split())))
-        )
+        for name, value in labels.items():
+            if "." in name and name != "loads":
+                others.append(f"{name} {value}")
+        one_line = " ".join(reason.split())
+        cells = (labels["loads"], ", ".join(others), outcome, one_line)
+        shown.add_row(*map(safe_text, cells))
     plain_console(stderr=True).print(shown)
     total = ended.progress.failed
     if total > _LISTED:
@@ -253,11 +257,7 @@ def _failures(ended: Ended, output: Path) -> None:
         )
     counts = Counter(outcome for _, outcome, _ in ended.failures)
     kinds = ", ".join(f"{outcome}: {count}" for outcome, count in counts.items())
-    to_stderr(
-        f"failed: {total} of {ended.progress.total} runs ({kinds}). "
-        + (
-            "Stopped there, as --strict says; go on with --resume."
-            if ended.stopped
-            else "Runs that failed are tried again by --resume."
-        )
-    )
+    following = "Runs that failed are tried again by --resume."
+    if ended.stopped:
+        following = "Stopped there, as --strict says; go on with --resume."
+    to_stderr(f"failed: {total} of {ended.progress.total} runs ({kinds}). {following}")

@@ -90,7 +90,8 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
     `reading`, their channels. `shaft_speed` is left out unless it is needed. Raises InputError if
     a group is absent, cut off, or does not fit its header.
     """
-    groups = _groups(path, (*_LOADS, _SPEED) if speed_needed else _LOADS)
+    wanted = (*_LOADS, _SPEED) if speed_needed else _LOADS
+    groups = _groups(path, wanted)
     loads = [group for group in groups if group.has(_LOADS)]
     if not loads:
         remedy = "Switch on the output of the hub loads in the fixed frame, and run Bladed again."
@@ -109,8 +110,9 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
         raise _missing((_SPEED,), groups, path, remedy)
     sampled = [group for group in drives if group.is_sampled_as(hub)]
     if sampled:
-        result["shaft_speed"] = _columns(sampled[0], (_SPEED,))[:, 0]
-        reading.append(f"shaft speed: {_SPEED} of {sampled[0].header.name}")
+        with_speed = sampled[0]
+        result["shaft_speed"] = _columns(with_speed, (_SPEED,))[:, 0]
+        reading.append(f"shaft speed: {_SPEED} of {with_speed.header.name}")
     else:
         names = ", ".join(group.header.name for group in drives)
         raise InputError(
@@ -140,13 +142,12 @@ def _missing(names: Sequence[str], groups: Sequence[_Group], path: Path, remedy:
 def _groups(path: Path, wanted: Sequence[str]) -> list[_Group]:
     """Groups of the run over time that have a variable that is wanted."""
     stem = path.name[: -len(path.suffix)]
-    headers = sorted(
-        neighbour
-        for neighbour in path.parent.iterdir()
-        if neighbour.is_file()
-        and neighbour.stem == stem
-        and re.fullmatch(r"\.%\d+", neighbour.suffix)
-    )
+    headers = []
+    for neighbour in path.parent.iterdir():
+        is_header = re.fullmatch(r"\.%\d+", neighbour.suffix) and neighbour.stem == stem
+        if is_header and neighbour.is_file():
+            headers.append(neighbour)
+    headers.sort()
     if not headers:
         raise InputError(
             f"there is no header {stem}.%nn beside it",
@@ -155,12 +156,13 @@ def _groups(path: Path, wanted: Sequence[str]) -> list[_Group]:
             remedy="Copy the headers too: without them the data cannot be read.",
         )
     fields = {header: _fields(header) for header in headers}
-    groups = [
-        _group(header, of_header)
-        for header, of_header in fields.items()
-        if any(name in value for _, value in of_header for name in wanted)
-    ]
-    return [group for group in groups if group is not None]
+    groups = []
+    for header, of_header in fields.items():
+        if any(name in value for _, value in of_header for name in wanted):
+            group = _group(header, of_header)
+            if group is not None:
+                groups.append(group)
+    return groups
 
 
 def _fields(path: Path) -> list[tuple[str, str]]:
@@ -198,11 +200,15 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
         if form not in ("F", "U"):
             raise ValueError(f"FORM {form}, where F is text and U is binary")
         # Some versions declare binary data as F, with direct access. Sequential data are text.
-        sequential = form == "F" and first_of.get("ACCESS", "S").strip().upper() == "S"
-        number = None if sequential else _NUMBERS[first_of["FORMAT"].strip().upper()]
+        access = first_of.get("ACCESS", "S").strip().upper()
+        sequential = form == "F" and access == "S"
+        number = None
+        if not sequential:
+            number = _NUMBERS[first_of["FORMAT"].strip().upper()]
         first = fortran_number(first_of["MIN"].strip())
         step = fortran_number(first_of["STEP"].strip())
-        if not (step > 0.0 and math.isfinite(first + step * samples)):
+        end = first + step * samples
+        if not (step > 0.0 and math.isfinite(end)):
             raise ValueError(
                 f"MIN {first:g} and STEP {step:g}, where times are finite and the step is above 0"
             )
@@ -231,7 +237,8 @@ def _group(path: Path, fields: list[tuple[str, str]]) -> _Group | None:
 def _columns(group: _Group, names: Sequence[str]) -> FloatArray:
     """Values (n, len(names)) of some variables in SI units, checked against the header."""
     for name in names:
-        unit = group.units[group.names.index(name)]
+        column = group.names.index(name)
+        unit = group.units[column]
         if unit != _UNITS[name]:
             raise InputError(
                 f"{name} has the unit code {unit}",
@@ -239,14 +246,16 @@ def _columns(group: _Group, names: Sequence[str]) -> FloatArray:
                 allowed=f"{_UNITS[name]}, in SI units",
                 remedy="Run Bladed with SI output.",
             )
-    data = group.header.with_suffix(group.header.suffix.replace("%", "$"))
+    suffix = group.header.suffix.replace("%", "$")
+    data = group.header.with_suffix(suffix)
     if not data.is_file():
         fault = f"there is no {data.name} beside the header"
         raise InputError(fault, where=str(group.header), remedy="Copy the data file too.")
     shape = (group.samples, len(group.names))
     number = group.number
     if number is not None and group.may_be_text:
-        is_binary = data.stat().st_size == math.prod(shape) * number.itemsize
+        size_of_binary = math.prod(shape) * number.itemsize
+        is_binary = data.stat().st_size == size_of_binary
         number = number if is_binary else None
     if number is None:
         samples = announced_text(data, shape, "its header", _AGAIN)
@@ -264,7 +273,8 @@ def _columns(group: _Group, names: Sequence[str]) -> FloatArray:
 def _check_means(group: _Group, samples: Samples, data: Path) -> None:
     """InputError if a channel's mean is not the one that the header states."""
     mean = samples.values.mean(axis=0, dtype=np.float64)
-    largest = np.maximum(np.abs(samples.values).max(axis=0), 1e-30)
+    size = np.abs(samples.values).max(axis=0)
+    largest = np.maximum(size, 1e-30)
     # Values that are not finite matter in the channels that are used, and in no others.
     relative = np.abs(mean - group.mean) / largest
     difference = np.nan_to_num(relative, posinf=0.0)

@@ -35,7 +35,10 @@ class BundledCase:
     @property
     def source(self) -> str:
         """Source of its loads; for an event also that its supervisor is assumed."""
-        return f"bundled case {self.name}" + (f" (event, {ASSUMED})" if self.event else "")
+        about = f"bundled case {self.name}"
+        if self.event:
+            about += f" (event, {ASSUMED})"
+        return about
 
     @property
     def path(self) -> Path:
@@ -57,16 +60,14 @@ def _turbulent(speeds: range, classes: str) -> list[BundledCase]:
 def _year() -> list[BundledCase]:
     """All cases, those of the paper first."""
     second = [BundledCase(f"{speed}B-2", float(speed), "B", 2) for speed in (8, 10, 12, 16, 24)]
-    events = [
-        BundledCase(
-            name,
-            float(name.rpartition("-")[2]),
-            "-" if name[:3] in ("eog", "ecd") else "B",
-            event=name,
-        )
-        for name in EVENTS
-    ]
-    production = _turbulent(range(12, 25, 2), "ABC") + _turbulent(range(4, 11, 2), "AB")
+    events = []
+    for name in EVENTS:
+        _, _, speed = name.rpartition("-")
+        turbulence = "-" if name[:3] in ("eog", "ecd") else "B"
+        events.append(BundledCase(name, float(speed), turbulence, event=name))
+    above_rated = _turbulent(range(12, 25, 2), "ABC")
+    below_rated = _turbulent(range(4, 11, 2), "AB")
+    production = above_rated + below_rated
     return production + second + events
 
 
@@ -74,9 +75,10 @@ def _nrel5() -> list[BundledCase]:
     """Cases of the NREL 5 MW turbine: class B at all winds, class A and second seeds at some."""
     production = [*_turbulent(range(4, 25, 2), "B"), *_turbulent(range(12, 19, 6), "A")]
     second = [BundledCase(f"{speed}B-2", float(speed), "B", 2) for speed in (8, 12, 18)]
-    return [
-        replace(case, name=f"nrel5-{case.name}", turbine="nrel5") for case in production + second
-    ]
+    cases = []
+    for case in production + second:
+        cases.append(replace(case, name=f"nrel5-{case.name}", turbine="nrel5"))
+    return cases
 
 
 _CASES = {case.name: case for case in [*_year(), *_nrel5()]}
@@ -149,4 +151,7 @@ def bundled_labels(names: Sequence[str]) -> list[dict[str, float | str]]:
     labels = ["wind_speed", "turbulence"]
     if not set(names).issubset(bundled_cases()):
         labels += ["seed", "event"]
-    return [{label: getattr(case, label) for label in labels} for case in cases]
+    labels_of_cases = []
+    for case in cases:
+        labels_of_cases.append({label: getattr(case, label) for label in labels})
+    return labels_of_cases

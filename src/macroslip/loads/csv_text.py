@@ -69,7 +69,8 @@ class NumberFormat:
         mark = re.escape(self.decimal)
         integer = r"\d+"
         if self.thousands:
-            integer = rf"(\d+|\d{{1,3}}({re.escape(self.thousands)}\d{{3}})+)"
+            mark_of_thousands = re.escape(self.thousands)
+            integer = rf"(\d+|\d{{1,3}}({mark_of_thousands}\d{{3}})+)"
         return rf"[+-]?({integer}({mark}\d*)?|{mark}\d+){_EXPONENT}"
 
 
@@ -114,7 +115,8 @@ class CsvTable:
         import pyarrow.compute as pc
 
         column = pc.utf8_trim_whitespace(self.cells.column(index))
-        return pc.if_else(pc.equal(column, ""), None, column)
+        is_empty = pc.equal(column, "")
+        return pc.if_else(is_empty, None, column)
 
     def _decimal_mark(self, columns: dict[int, pa.ChunkedArray]) -> str:
         """Decimal mark of all columns, as given or as they have it; refuses what is ambiguous."""
@@ -166,7 +168,8 @@ class CsvTable:
         """
         import pyarrow.compute as pc
 
-        marked = column.filter(pc.match_substring(column, mark))
+        is_marked = pc.match_substring(column, mark)
+        marked = column.filter(is_marked)
         if _BELOW_A_THOUSAND.match(name):
             return len(marked) > 0
         return _first(marked, _grouped(mark), matches=False) is not None
@@ -198,9 +201,11 @@ class CsvTable:
                 f"where the {_MARK_NAMES[mark]} may separate decimals or thousands{tells}"
             )
         cell = several or marked or ""
-        remedy = f'Write loads: {{thousands: "{mark}"}} if it means {cell.replace(mark, "")}'
+        as_thousands = cell.replace(mark, "")
+        remedy = f'Write loads: {{thousands: "{mark}"}} if it means {as_thousands}'
         if several is None:
-            remedy += f', and loads: {{decimal: "{mark}"}} if it means {cell.replace(mark, ".")}'
+            as_decimal = cell.replace(mark, ".")
+            remedy += f', and loads: {{decimal: "{mark}"}} if it means {as_decimal}'
         raise self._ambiguous(problem, remedy)
 
     def _ambiguous(self, problem: str, remedy: str) -> InputError:
@@ -220,7 +225,8 @@ class CsvTable:
 
         thousands = self.number_format.thousands
         if thousands in _OTHER_FORMS:
-            column = pc.replace_substring_regex(column, f"[{_OTHER_FORMS[thousands]}]", thousands)
+            other_forms = f"[{_OTHER_FORMS[thousands]}]"
+            column = pc.replace_substring_regex(column, other_forms, thousands)
         number = NumberFormat(decimal, thousands).pattern
         wrong = _first(column, number, matches=False)
         if wrong is not None and text_allowed:
@@ -266,13 +272,18 @@ def _first(column: pa.ChunkedArray, pattern: str, *, matches: bool = True) -> st
 
     whole = pattern if pattern.endswith(".*") else f"^(?:{pattern})$"
     hits = pc.match_substring_regex(column, whole)
-    matching = column.filter(hits if matches else pc.invert(hits))
-    return matching[0].as_py() if len(matching) else None
+    if not matches:
+        hits = pc.invert(hits)
+    matching = column.filter(hits)
+    if not len(matching):
+        return None
+    return matching[0].as_py()
 
 
 def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
     """Read a CSV file as text; InputError if it has no header, or rows of another length."""
-    text = _decoded(path.read_bytes()).replace("\r\n", "\n").replace("\r", "\n")
+    text = _decoded(path.read_bytes())
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
     comments: list[str] = []
     if "#" in text or "%" in text:
         comments = _COMMENT.findall(text)
@@ -283,10 +294,13 @@ def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
     if separator_line:
         body = below.lstrip("\n")
     header, _, rows = body.partition("\n")
-    separator = separator_line[1] if separator_line else max(_SEPARATORS, key=header.count)
+    separator = max(_SEPARATORS, key=header.count)
+    if separator_line:
+        separator = separator_line[1]
     names = _cells(header, separator)
     if comments and any(map(_is_number, names)):  # the names stand in a comment, as NumPy has it
-        names = _cells(comments[-1].strip().lstrip("#% "), separator)
+        last_comment = comments[-1].strip().lstrip("#% ")
+        names = _cells(last_comment, separator)
         rows = body
     if not any(names):
         raise InputError(
@@ -296,8 +310,10 @@ def read_csv(path: Path, number_format: NumberFormat | None = None) -> CsvTable:
         )
     first_row, _, below_units = rows.lstrip("\n").partition("\n")
     cells = _cells(first_row, separator)
-    if any(cells) and not any(map(_is_number, cells)) and below_units.strip():
-        second_row = _cells(below_units.lstrip("\n").partition("\n")[0], separator)
+    are_words = any(cells) and not any(map(_is_number, cells))
+    if are_words and below_units.strip():
+        second_line, _, _ = below_units.lstrip("\n").partition("\n")
+        second_row = _cells(second_line, separator)
         if len(cells) <= len(names) and any(map(_is_number, second_row)):
             names = [*map(name_with_unit, names, cells), *names[len(cells) :]]
             rows = below_units
@@ -335,7 +351,10 @@ def name_with_unit(name: str, unit: str) -> str:
     """Name of a column with the unit below it, unless the name has this unit already."""
     unit = unit.strip("[]() ")
     plain_unit = re.sub(r"[\W_]", "", unit)
-    return name if re.sub(r"[\W_]", "", name).endswith(plain_unit) else f"{name} [{unit}]"
+    plain_name = re.sub(r"[\W_]", "", name)
+    if plain_name.endswith(plain_unit):
+        return name
+    return f"{name} [{unit}]"
 
 
 def _fitted(names: list[str], row: list[str]) -> list[str]:
@@ -352,7 +371,8 @@ def _text_columns(rows: str, width: int, separator: str, path: Path) -> pa.Table
 
     names = [str(index) for index in range(width)]
     if not rows.strip():
-        return pa.table({name: pa.array([], pa.string()) for name in names})
+        nothing = pa.array([], pa.string())
+        return pa.table(dict.fromkeys(names, nothing))
     refused: list[arrow_csv.InvalidRow] = []
 
     def refuse(row: arrow_csv.InvalidRow) -> str:
@@ -360,13 +380,17 @@ def _text_columns(rows: str, width: int, separator: str, path: Path) -> pa.Table
         return "error"
 
     try:
+        read_options = arrow_csv.ReadOptions(column_names=names, use_threads=False)
+        parse_options = arrow_csv.ParseOptions(delimiter=separator, invalid_row_handler=refuse)
+        text_columns = dict.fromkeys(names, pa.string())
+        convert_options = arrow_csv.ConvertOptions(
+            column_types=text_columns, strings_can_be_null=True
+        )
         return arrow_csv.read_csv(
             io.BytesIO(rows.encode()),
-            read_options=arrow_csv.ReadOptions(column_names=names, use_threads=False),
-            parse_options=arrow_csv.ParseOptions(delimiter=separator, invalid_row_handler=refuse),
-            convert_options=arrow_csv.ConvertOptions(
-                column_types=dict.fromkeys(names, pa.string()), strings_can_be_null=True
-            ),
+            read_options=read_options,
+            parse_options=parse_options,
+            convert_options=convert_options,
         )
     except pa.ArrowInvalid:
         if not refused:

@@ -122,7 +122,10 @@ class _Section(NamedTuple):
     @property
     def text(self) -> str:
         """Node and label."""
-        return f"node {self.node}" + (f" ({self.label})" if self.label else "")
+        text = f"node {self.node}"
+        if self.label:
+            text += f" ({self.label})"
+        return text
 
 
 def read_hawc2(path: Path, *, speed_needed: bool = True, at_hub: bool = True) -> dict:
@@ -152,7 +155,8 @@ def read_hawc2(path: Path, *, speed_needed: bool = True, at_hub: bool = True) ->
     if path.suffix.lower() == ".dat":
         remedy = "A .dat file is read as HAWC2 output: copy the list of channels too."
         path = _beside(path, ".sel", remedy)
-    output = _read_gtsdf(path) if path.suffix.lower() in (".hdf5", ".h5") else _read_sel(path)
+    is_gtsdf = path.suffix.lower() in (".hdf5", ".h5")
+    output = _read_gtsdf(path) if is_gtsdf else _read_sel(path)
     section = _section(output, at_hub)
     angle = _shaft_angle(output)
     force, moment, turned = _to_fixed(
@@ -194,15 +198,18 @@ def _section(output: _Output, at_hub: bool) -> _Section:
         )
         if component and body:
             node = int(body[1])
-            section = sections.setdefault(node, _Section(node, body[2].strip(), {}))
-            section.components[component[1].capitalize()] = channel
+            label = body[2].strip()
+            section = sections.setdefault(node, _Section(node, label, {}))
+            name = component[1].capitalize()
+            section.components[name] = channel
     known = list(sections.values())
     for kind, letter in (("force", "F"), ("moment", "M")):
-        at_nodes = f" at {_listed([candidate.text for candidate in known])}" if known else ""
+        at_nodes = ""
+        if known:
+            at_nodes = f" at {_listed([candidate.text for candidate in known])}"
+        names = [letter + axis for axis in "xyz"]
         known = [
-            candidate
-            for candidate in known
-            if all(letter + axis in candidate.components for axis in "xyz")
+            candidate for candidate in known if all(name in candidate.components for name in names)
         ]
         if not known:
             raise InputError(
@@ -237,15 +244,16 @@ def _section(output: _Output, at_hub: bool) -> _Section:
 
 def _shaft_angle(output: _Output) -> _Channel:
     """The angle of the bearing on the shaft."""
-    angles = [
-        channel
-        for channel in output.channels
-        if channel.says("bea|shaft_rot") and channel.says("angle") and not channel.says("speed")
-    ]
+    angles = []
+    for channel in output.channels:
+        is_angle = channel.says("angle") and not channel.says("speed")
+        if is_angle and channel.says("bea|shaft_rot"):
+            angles.append(channel)
     possible = [channel for channel in angles if channel.unit in ANGLE]
     angle = _recognised(output, possible, _SHAFT_BEARING, "angle of the shaft's bearing")
     if angle is None:
-        others = _listed([f"{channel.text} in {channel.unit}" for channel in angles])
+        texts = [f"{channel.text} in {channel.unit}" for channel in angles]
+        others = _listed(texts)
         raise InputError(
             f"there is no angle of the shaft's bearing{'; there is ' if others else ''}{others}",
             where=output.where,
@@ -262,8 +270,9 @@ def _shaft_speed(output: _Output, angle: _Channel) -> _Channel | None:
         for channel in output.channels
         if channel.unit in SPEED and channel.says(r"omega|rotor speed|angle_?\s*speed")
     ]
-    bearing = (angle.description or angle.name).split()[0]
-    patterns = (rf"^{re.escape(bearing)}\b", "shaft_rot", "^omega$", "^rotor speed", "")
+    bearing, *_ = (angle.description or angle.name).split()
+    of_bearing = rf"^{re.escape(bearing)}\b"
+    patterns = (of_bearing, "shaft_rot", "^omega$", "^rotor speed", "")
     return _recognised(output, speeds, patterns, "speed of the shaft")
 
 
@@ -292,7 +301,9 @@ def _recognised(
 
 def _listed(texts: Sequence[str]) -> str:
     """Up to eight texts in one line."""
-    more = f" and {len(texts) - 8} more" if len(texts) > 8 else ""
+    more = ""
+    if len(texts) > 8:
+        more = f" and {len(texts) - 8} more"
     return ", ".join(texts[:8]) + more
 
 
@@ -304,13 +315,16 @@ def _to_fixed(
     Of both directions of the angle that is taken in which the weight of the rotor rests the most.
     """
     directions = {"+": _turned(force, angle), "−": _turned(force, -angle)}
-    sizes = {
-        direction: np.hypot(*vector[:, 1:].mean(axis=0)) for direction, vector in directions.items()
-    }
+    sizes = {}
+    for direction, vector in directions.items():
+        mean_across = vector[:, 1:].mean(axis=0)
+        sizes[direction] = np.hypot(*mean_across)
     direction = max(sizes, key=sizes.__getitem__)
     size = sizes[direction]
-    mean_z = directions[direction][:, 2].mean()
-    if not np.isfinite(size) or size == 0.0 or abs(mean_z) < _DOWN * size:
+    fixed_force = directions[direction]
+    mean_z = fixed_force[:, 2].mean()
+    is_unknown = not np.isfinite(size) or size == 0.0
+    if is_unknown or abs(mean_z) < _DOWN * size:
         raise InputError(
             f"the weight of the rotor cannot be seen: the force across the shaft has a mean of "
             f"{size:.4g} N, of which {mean_z:.4g} N along the vertical",
@@ -320,14 +334,17 @@ def _to_fixed(
             "mz_Nm instead.",
         )
     sign = -1.0 if mean_z > 0.0 else 1.0
-    turned_moment = _turned(moment, angle if direction == "+" else -angle)
+    turned_by = angle if direction == "+" else -angle
+    turned_moment = _turned(moment, turned_by)
     signs = (direction, "+" if sign > 0.0 else "−")
-    return sign * directions[direction], sign * turned_moment, signs
+    return sign * fixed_force, sign * turned_moment, signs
 
 
 def _turned(vector: NDArray, angle: NDArray) -> NDArray:
     """Vector (n, 3) in the axes of `HubLoads` from that in the shaft's, at an angle (n,) [rad]."""
-    y, z = turn_to_fixed(vector[:, 0], -vector[:, 1], angle)
+    across = vector[:, 0]
+    down = vector[:, 1]
+    y, z = turn_to_fixed(across, -down, angle)
     return np.column_stack([-vector[:, 2], y, z])
 
 
@@ -340,7 +357,8 @@ def _read_sel(path: Path) -> _Output:
             remedy="Check that it is one.",
         )
     try:
-        shape, duration, channels, scale = _channel_list(text_lines(path.read_bytes()))
+        lines = text_lines(path.read_bytes())
+        shape, duration, channels, scale = _channel_list(lines)
     except (StopIteration, ValueError, IndexError) as error:
         cause = error or "no line with Scans and Channels"
         raise InputError(
@@ -357,11 +375,14 @@ def _read_sel(path: Path) -> _Output:
         packed = announced_binary(data, "<i2", shape[::-1], header, _AGAIN)
         samples = Samples(packed.T * scale)
     if channels[0].name.lower() == "time":
-        resolution = 0.0 if scale is None else abs(float(scale[0]))
+        resolution = 0.0
+        if scale is not None:
+            resolution = abs(float(scale[0]))
         stamps = samples.channel(0, channels[0].name, str(data))
         time = _announced_time(stamps, duration, resolution, data)
     else:
-        time = np.arange(shape[0]) * duration / shape[0]
+        scans = shape[0]
+        time = np.arange(scans) * duration / scans
     return _Output(channels, samples, time, str(path))
 
 
@@ -384,20 +405,21 @@ def _channel_list(
     scans, count = map(int, announcement[:2])
     duration = fortran_number(announcement[2])
     kind = announcement[3]
-    if not (0 < scans * count <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in (
-        "ASCII",
-        "BINARY",
-    ):
+    is_size = 0 < scans * count <= MOST_VALUES
+    is_duration = 0.0 < duration < np.inf
+    if not (is_size and is_duration) or kind not in ("ASCII", "BINARY"):
         raise ValueError(f"{scans} scans of {count} channels in {duration} s, format {kind}")
     below = lines[start + 2 :]
     rows = [line for line in below if re.match(r"\s*\d+\s+\S", line)][:count]
     if len(rows) != count:
         raise ValueError(f"{len(rows)} channels are listed, {count} are announced")
     # Name, unit and description of a channel are in fixed columns.
-    channels = [
-        _Channel(index, line[12:43].strip(), line[43:54].strip(), line[54:].strip())
-        for index, line in enumerate(map(str.expandtabs, rows))
-    ]
+    channels = []
+    for index, line in enumerate(map(str.expandtabs, rows)):
+        name = line[12:43].strip()
+        unit = line[43:54].strip()
+        description = line[54:].strip()
+        channels.append(_Channel(index, name, unit, description))
     if kind == "ASCII":
         return (scans, count), duration, channels, None
     factors = [
@@ -412,7 +434,8 @@ def _channel_list(
 def _beside(path: Path, extension: str, remedy: str) -> Path:
     """The file of the same output with another extension, in whatever case it is written."""
     for neighbour in path.parent.iterdir():
-        same_output = neighbour.stem == path.stem and neighbour.suffix.lower() == extension
+        has_extension = neighbour.suffix.lower() == extension
+        same_output = neighbour.stem == path.stem and has_extension
         if same_output and neighbour.is_file():
             return neighbour
     raise InputError(
@@ -428,8 +451,10 @@ def _announced_time(stamps: NDArray, duration: float, resolution: float, data: P
     """
     # Some programs announce the time from first to last sample, others one step more.
     near = 2.5 * duration / stamps.size + resolution + 1e-3
-    span = stamps[-1] - stamps[0]
-    off = min(abs(span - duration), abs(stamps[-1] - duration))
+    first = stamps[0]
+    last = stamps[-1]
+    span = last - first
+    off = min(abs(span - duration), abs(last - duration))
     if off > near:
         fault = (
             f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels "
@@ -438,8 +463,9 @@ def _announced_time(stamps: NDArray, duration: float, resolution: float, data: P
         raise InputError(fault, where=str(data), remedy=_AGAIN)
     if not resolution:
         return stamps
-    even = np.linspace(stamps[0], stamps[-1], stamps.size)
-    if np.abs(stamps - even).max() > 2.0 * resolution:
+    even = np.linspace(first, last, stamps.size)
+    deviation = np.abs(stamps - even).max()
+    if deviation > 2.0 * resolution:
         raise InputError(
             "the samples of its time are not equally spaced", where=str(data), remedy=_AGAIN
         )
@@ -455,19 +481,22 @@ def _read_gtsdf(path: Path) -> _Output:
     check_hdf5([path], _AGAIN)
     try:
         with h5py.File(path, "r") as file:
-            if str(_plain(file.attrs.get("type", ""))).lower() != "general time series data format":
+            kind = str(_plain(file.attrs.get("type", ""))).lower()
+            if kind != "general time series data format":
                 raise ValueError("its type is not 'General time series data format'")
-            columns = [
-                [str(_plain(text)).strip() for text in np.asarray(file[f"attribute_{kind}"])]
-                for kind in ("names", "units", "descriptions")
-            ]
+            columns = []
+            for kind_of_text in ("names", "units", "descriptions"):
+                texts = np.asarray(file[f"attribute_{kind_of_text}"])
+                columns.append([str(_plain(text)).strip() for text in texts])
             channels = [
                 _Channel(index, *texts) for index, texts in enumerate(zip(*columns, strict=True))
             ]
             block_count = _plain(file.attrs["no_blocks"])
             blocks = [file[f"block{i:04d}"] for i in range(block_count)]
-            values = np.concatenate([_block_values(block) for block in blocks])
-            time = np.concatenate([_block_time(block) for block in blocks])
+            values_of_blocks = [_block_values(block) for block in blocks]
+            values = np.concatenate(values_of_blocks)
+            time_of_blocks = [_block_time(block) for block in blocks]
+            time = np.concatenate(time_of_blocks)
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise InputError(
             f"not readable as HAWC2 output in the format gtsdf ({error})",
@@ -483,7 +512,9 @@ def _read_gtsdf(path: Path) -> _Output:
 def _plain(value: Any) -> Any:
     """Number or text of an attribute, which HAWC2 writes as an array with one element."""
     value = np.asarray(value).item()
-    return value.decode("utf-8", "replace") if isinstance(value, bytes) else value
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace")
+    return value
 
 
 def _block_values(block) -> FloatArray:
@@ -494,8 +525,10 @@ def _block_values(block) -> FloatArray:
         return values
     if data.dtype.kind in "iu":
         # The largest number that fits means that there is no value.
-        values[data[:] == np.iinfo(data.dtype).max] = np.nan
-    return values * block["gains"][:] + block["offsets"][:]
+        no_value = np.iinfo(data.dtype).max
+        values[data[:] == no_value] = np.nan
+    gains = block["gains"][:]
+    return values * gains + block["offsets"][:]
 
 
 def _block_time(block) -> FloatArray:

@@ -136,11 +136,13 @@ class History:
         InputError if the window is not within the record, as `cut` has it.
         """
         record: Any = self
-        columns = {field.name: getattr(self, field.name) for field in fields(record)}
-        columns = {
-            name: values for name, values in columns.items() if isinstance(values, np.ndarray)
-        }
-        return replace(record, **cut(columns, start, end, self.source))
+        columns = {}
+        for field in fields(record):
+            values = getattr(self, field.name)
+            if isinstance(values, np.ndarray):
+                columns[field.name] = values
+        cut_columns = cut(columns, start, end, self.source)
+        return replace(record, **cut_columns)
 
     def __repr__(self) -> str:
         means = ", ".join(
@@ -153,16 +155,11 @@ class History:
     def _repr_html_(self) -> str:
         channels = {"shaft speed [rpm]": self.shaft_speed / RPM}
         channels |= {f"{name} [kN]": values / 1e3 for name, values in self._forces().items()}
-        rows = [
-            [
-                name,
-                *(
-                    f"{value:.4g}"
-                    for value in (values.mean(), values.std(), values.min(), values.max())
-                ),
-            ]
-            for name, values in channels.items()
-        ]
+        rows = []
+        for name, values in channels.items():
+            statistics = (values.mean(), values.std(), values.min(), values.max())
+            cells = [f"{value:.4g}" for value in statistics]
+            rows.append([name, *cells])
         title = f"{type(self).__name__} from {self.source}: {self._span()}"
         return html_overview(title, ["", "mean", "std", "min", "max"], rows)
 
@@ -172,7 +169,8 @@ class History:
 
     def _forces(self) -> dict[str, FloatArray]:
         """Forces (n,) [N] by their names."""
-        return dict(zip(self._VECTORS["force"], self.force.T, strict=True))
+        names = self._VECTORS["force"]
+        return dict(zip(names, self.force.T, strict=True))
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -251,7 +249,8 @@ class HubLoads(History):
         >>> HubLoads.constant([164e3, 0, -263e3], [726e3, 0, 0], 2.14, 600.0).time.size
         12001
         """
-        return cls(**_constant(duration, step, shaft_speed, force=force, moment=moment))
+        fields_of_loads = _constant(duration, step, shaft_speed, force=force, moment=moment)
+        return cls(**fields_of_loads)
 
     @classmethod
     def read(
@@ -334,7 +333,8 @@ class HubLoads(History):
         if shaft_speed is not None:
             columns["shaft_speed"] = np.full(columns["time"].shape, shaft_speed)
             taken = (*taken, f"shaft speed: given, {shaft_speed:g} rad/s")
-        return cls(**cut(columns, start, end, str(path)), source=str(path), reading=taken)
+        window = cut(columns, start, end, str(path))
+        return cls(**window, source=str(path), reading=taken)
 
     @classmethod
     def bundled(cls, case: str) -> HubLoads:
@@ -390,7 +390,9 @@ class BearingLoads(History):
     @property
     def radial_load(self) -> FloatArray:
         """√(F_X0² + F_Y0²), shape (n,) [N]."""
-        return np.hypot(self.force[:, 0], self.force[:, 1])
+        across = self.force[:, 0]
+        vertical = self.force[:, 1]
+        return np.hypot(across, vertical)
 
     @property
     def axial_load(self) -> FloatArray:
@@ -400,7 +402,8 @@ class BearingLoads(History):
     def resampled(self, time: FloatArray, shaft_speed: FloatArray) -> BearingLoads:
         """The same loads at other times [s], interpolated linearly, with the speed there [rad/s]."""
         components = [np.interp(time, self.time, component) for component in self.force.T]
-        return BearingLoads(time, shaft_speed, np.column_stack(components), self.source)
+        force = np.column_stack(components)
+        return BearingLoads(time, shaft_speed, force, self.source)
 
     @classmethod
     def constant(
@@ -426,7 +429,8 @@ class BearingLoads(History):
         >>> BearingLoads.constant([0.0, -343e3, 0.0], 2.14, 10.0).force[-1]
         array([      0., -343000.,       0.])
         """
-        return cls(**_constant(duration, step, shaft_speed, force=force))
+        fields_of_loads = _constant(duration, step, shaft_speed, force=force)
+        return cls(**fields_of_loads)
 
     @classmethod
     def read(
@@ -469,7 +473,8 @@ class BearingLoads(History):
         number_format = csv_number_format(path, decimal, thousands)
         with reading(path, DAMAGED), np.errstate(all="ignore"):
             columns = read_bearing_table(path, number_format, sheet)
-        return cls(**cut(columns, start, end, str(path)), source=str(path))
+        window = cut(columns, start, end, str(path))
+        return cls(**window, source=str(path))
 
 
 def cut(
@@ -502,13 +507,15 @@ def cut(
     """
     columns = {name: np.asarray(values) for name, values in columns.items()}
     for name, value in (("start", start), ("end", end)):
-        if value is not None and (isinstance(value, bool) or not isinstance(value, Real)):
+        is_number = isinstance(value, Real) and not isinstance(value, bool)
+        if value is not None and not is_number:
             raise InputError(
                 f"{name} is {value!r}", where=source, allowed="a number of seconds, or None"
             )
     if start is None and end is None:
         return columns
-    stamps = columns["time"][np.isfinite(columns["time"])]
+    stamps = columns["time"]
+    stamps = stamps[np.isfinite(stamps)]
     if stamps.size < 2:  # nothing to cut; validation reports the fault
         return columns
     first = float(stamps.min())
@@ -518,7 +525,9 @@ def cut(
     low = first if start is None else start
     high = last if end is None else end
     window = f"the window from {low:.10g} s to {high:.10g} s"
-    if not (first - step - slack <= low < high <= last + step + slack):
+    earliest = first - step - slack
+    latest = last + step + slack
+    if not (earliest <= low < high <= latest):
         raise InputError(
             f"{window} cannot be cut out",
             where=source,
@@ -534,7 +543,8 @@ def cut(
             fault, where=source, allowed="at least 2 samples", remedy="Widen the window."
         )
     # A stamp that is not a number may lie inside: it is kept, so that validation refuses it.
-    unknown = np.flatnonzero(~np.isfinite(columns["time"]))
+    is_unknown = ~np.isfinite(time)
+    unknown = np.flatnonzero(is_unknown)
     is_between = (unknown > inside[0]) & (unknown < inside[-1])
     unknown = unknown[is_between]
     keep = np.sort(np.concatenate([inside, unknown]))
@@ -562,7 +572,8 @@ def _constant(
         raise InputError(
             f"the shaft_speed is {shaft_speed!r}", where=source, allowed="a finite number"
         )
-    steps = math.ceil(duration / step * (1 - 1e-12))
+    intervals = duration / step * (1 - 1e-12)
+    steps = math.ceil(intervals)
     count = max(2, steps + 1)
     fields = {
         "time": np.linspace(0.0, duration, count),
@@ -596,7 +607,8 @@ def _check_time(time: NDArray, source: str) -> None:
     """InputError if times (n,) [s] do not increase, have a gap, or are no seconds."""
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
-        fault = f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)"
+        first = bad[0]
+        fault = f"time is {time[first]} at sample {first} (counted from 0)"
         raise InputError(
             fault,
             where=source,
@@ -617,7 +629,8 @@ def _check_time(time: NDArray, source: str) -> None:
         )
     typical = float(np.median(steps))
     latest = float(np.abs(time).max())
-    if latest > LATEST_TIME or np.spacing(latest) > 1e-6 * typical:
+    is_too_late = latest > LATEST_TIME
+    if is_too_late or np.spacing(latest) > 1e-6 * typical:
         raise InputError(
             f"time reaches {latest:.6g} s, with steps of {typical:.6g} s",
             where=source,

@@ -86,7 +86,8 @@ def shaft_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[BearingLoad
     across = weight * np.cos(drivetrain.tilt)
     along = weight * np.sin(drivetrain.tilt)
     force += np.array([0.0, -across, along])
-    moment[:, 0] += (drivetrain.shaft_mass_station - middle) * across
+    lever = drivetrain.shaft_mass_station - middle
+    moment[:, 0] += lever * across
     source = f"main bearing under {hub_loads.source}"
     loads = BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, source, hub_loads.event)
     return loads, moment

@@ -26,7 +26,6 @@ The official reader, openfast_io, reads a binary file once it is sure that the f
 from __future__ import annotations
 
 import io
-import math
 import re
 import struct
 from collections.abc import Mapping
@@ -142,7 +141,9 @@ def read_openfast(path: Path, *, speed_needed: bool = True, at_hub: bool = True)
 
 def read_channels(path: Path) -> Channels:
     """All channels of an output file; InputError if it is cut off or damaged."""
-    return _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)
+    if path.suffix.lower() == ".outb":
+        return _read_binary(path)
+    return _read_text(path)
 
 
 def gauge_distance(channels: Channels) -> float | None:
@@ -165,15 +166,20 @@ def gauge_distance(channels: Channels) -> float | None:
     across = np.concatenate([fz, -fy])
     change = np.concatenate([gauge_y - hub_y, gauge_z - hub_z])
     squares = across @ across
-    distance = float(change @ across / squares) if squares > 0.0 else math.nan
+    if not squares > 0.0:
+        return None
+    distance = float(change @ across / squares)
     residual = change - distance * across
-    return distance if residual @ residual < _SAME_CHANGE * (change @ change) else None
+    is_alike = residual @ residual < _SAME_CHANGE * (change @ change)
+    return distance if is_alike else None
 
 
 def is_load_channel(name: str) -> bool:
     """True if loads at the hub may be read from a channel of this name, or from its negative."""
     name = name.lower()
-    return name in _LOAD_CHANNELS or (name.startswith(_MINUS) and name[1:] in _LOAD_CHANNELS)
+    if name in _LOAD_CHANNELS:
+        return True
+    return name.startswith(_MINUS) and name[1:] in _LOAD_CHANNELS
 
 
 def mean_wind_speed(channels: Channels) -> float | None:
@@ -182,7 +188,8 @@ def mean_wind_speed(channels: Channels) -> float | None:
         return None
     downwind = channels.column(_WIND, {"m/s": 1.0})
     lateral = channels.column(_LATERAL_WIND, {"m/s": 1.0})
-    return float(np.hypot(downwind, lateral).mean())
+    speed = np.hypot(downwind, lateral)
+    return float(speed.mean())
 
 
 def loads_from_channels(channels: Channels, *, speed_needed: bool, at_hub: bool = True) -> dict:
@@ -259,7 +266,8 @@ class Channels:
         name = self.names[i]
         unit = re.sub("[-·* ()]", "", self.units[i])
         turned = ", its sign turned back" if sign < 0.0 else ""
-        self.taken.append(f"{name} ({self.units[i].strip('()')}){turned}")
+        shown_unit = self.units[i].strip("()")
+        self.taken.append(f"{name} ({shown_unit}){turned}")
         remedy = "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel."
         # OpenFAST writes INVALID without the brackets that its reader takes away.
         if unit.upper() in ("INVALID", "NVALI"):
@@ -276,7 +284,9 @@ class Channels:
     ) -> tuple[FloatArray, FloatArray]:
         """Components along y and z, from the non-rotating pair or else from the rotating pair."""
         if self.has_all(fixed):
-            return self.column(fixed[0], factors), self.column(fixed[1], factors)
+            y_name, z_name = fixed
+            y = self.column(y_name, factors)
+            return y, self.column(z_name, factors)
         if self.has_all((*rotating, _AZIMUTH)):
             y = self.column(rotating[0], factors)
             z = self.column(rotating[1], factors)
@@ -300,10 +310,16 @@ class Channels:
         if "time" not in self.index:
             remedy = "This is not an OpenFAST time series."
             raise InputError("there is no channel Time", where=self.where, remedy=remedy)
-        meanings = [f'"{name}"'.ljust(16) + f"- {_MEANING[name]}" for name in self.missing]
+        meanings = []
+        for name in self.missing:
+            quoted = f'"{name}"'.ljust(16)
+            meanings.append(f"{quoted}- {_MEANING[name]}")
         lines = "\n".join(meanings)
-        gauge = [name for name in self.names if name.lower().startswith("lssgagm")]
-        gauge = [name for name in gauge if name.lower()[7] in "yz"]
+        gauge = []
+        for name in self.names:
+            lower_name = name.lower()
+            if lower_name.startswith("lssgagm") and lower_name[7] in "yz":
+                gauge.append(name)
         note = ""
         if gauge and any(name.startswith("LSSTip") for name in self.missing):
             note = (
@@ -355,7 +371,9 @@ def _read_binary(path: Path) -> Channels:
     except Exception as error:  # the reader raises any error of its parsing
         fault = f"not readable as OpenFAST binary output ({error})"
         raise InputError(fault, where=str(path), remedy=_AGAIN) from error
-    return Channels(info["attribute_names"], info["attribute_units"], Samples(data), str(path))
+    channel_names = info["attribute_names"]
+    units = info["attribute_units"]
+    return Channels(channel_names, units, Samples(data), str(path))
 
 
 def _binary_size(path: Path) -> int:
@@ -371,18 +389,23 @@ def _binary_size(path: Path) -> int:
 
         def take(layout: str) -> tuple:
             """The next numbers of the file."""
-            return struct.unpack("<" + layout, file.read(struct.calcsize("<" + layout)))
+            little_endian = "<" + layout
+            size = struct.calcsize(little_endian)
+            return struct.unpack(little_endian, file.read(size))
 
         try:
             (file_format,) = take("h")
             if file_format not in (1, 2, 3, 4):
                 raise damaged
-            name_length = take("h")[0] if file_format == 4 else 10
+            name_length = 10
+            if file_format == 4:
+                (name_length,) = take("h")
             channels, samples, *_ = take("iidd")
             if min(name_length, channels, samples) < 1:
                 raise damaged
             packed = file_format != 3
-            file.seek(8 * channels if packed else 0, io.SEEK_CUR)
+            scale_bytes = 8 * channels if packed else 0
+            file.seek(scale_bytes, io.SEEK_CUR)
             (description,) = take("i")
         except struct.error:
             raise InputError(
@@ -390,10 +413,12 @@ def _binary_size(path: Path) -> int:
             ) from None
         if description < 0:
             raise damaged
-        header = file.tell() + description + 2 * (channels + 1) * name_length
+        names_and_units = 2 * (channels + 1) * name_length
+        header = file.tell() + description + names_and_units
         time_bytes = 4 if file_format == 1 else 0
         number_bytes = 2 if packed else 8
-        return header + samples * (time_bytes + channels * number_bytes)
+        sample_bytes = time_bytes + channels * number_bytes
+        return header + samples * sample_bytes
 
 
 def _read_text(path: Path) -> Channels:
@@ -426,7 +451,9 @@ def _read_text(path: Path) -> Channels:
     # A line cut within its last number still parses. OpenFAST ends every line, and all data lines
     # are equally long.
     has_end = content.endswith((b"\n", b"\r"))
-    if not has_end and len(lines[-1]) < len(lines[-2].rstrip()):
+    last_line = lines[-1]
+    whole_line = lines[-2].rstrip()
+    if not has_end and len(last_line) < len(whole_line):
         remedy = "Copy the file again, run OpenFAST again, or delete that line."
         raise InputError("the last line is cut off", where=str(path), remedy=remedy)
     return Channels(names, units, Samples(values, unreadable), str(path))
@@ -440,8 +467,10 @@ def _head(lines: list[str], path: Path) -> int:
     fault = "there is no channel Time that begins a line of names above a line of units"
     words = [line.split() for line in lines[:_LONGEST_HEAD]]
     for index, (names, units) in enumerate(pairwise(words)):
-        if names[:1] and names[0].lower() == "time" and units[:1] and units[0].startswith("("):
-            if len(units) == len(names) and index + 2 < len(lines):
+        begins_with_time = bool(names) and names[0].lower() == "time"
+        if begins_with_time and units[:1] and units[0].startswith("("):
+            has_data = index + 2 < len(lines)
+            if len(units) == len(names) and has_data:
                 return index
             fault = (
                 f"{len(names)} channel names, {len(units)} units, {len(lines) - index - 2} lines "

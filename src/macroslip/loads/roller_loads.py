@@ -77,8 +77,10 @@ class RollerLoads(History):
             raise InputError(
                 "a load is negative", where=self.source, allowed="0 N or more; rollers only press"
             )
-        turned = np.sort(np.mod(self.angle, 2.0 * math.pi), axis=2)
-        if (np.diff(turned, axis=2) <= 1e-9).any():
+        angle_in_turn = np.mod(self.angle, 2.0 * math.pi)
+        turned = np.sort(angle_in_turn, axis=2)
+        distance = np.diff(turned, axis=2)
+        if (distance <= 1e-9).any():
             raise InputError(
                 "a place is given twice",
                 where=self.source,
@@ -131,7 +133,8 @@ class RollerLoads(History):
                 allowed=", ".join(COLUMNS),
                 remedy="Add or rename the columns.",
             )
-        rows = [str(row) for row in table.texts(table.names.index("row"))]
+        texts = table.texts(table.names.index("row"))
+        rows = [str(row) for row in texts]
         strange = sorted(set(rows) - set(ROW_NAMES))
         if strange:
             raise InputError(
@@ -141,10 +144,12 @@ class RollerLoads(History):
             indices = [table.names.index(name) for name in COLUMNS if name != "row"]
             values = np.array(table.numbers(indices))
         row = np.array([ROW_NAMES.index(name) for name in rows])
-        samples = np.stack([values[0], row])
+        given_times = values[0]
+        samples = np.stack([given_times, row])
         _, counts = np.unique(samples, axis=1, return_counts=True)
-        times = np.unique(values[0]).size
-        if counts.size != len(ROW_NAMES) * times or np.ptp(counts):
+        times = np.unique(given_times).size
+        has_every_row = counts.size == len(ROW_NAMES) * times
+        if not has_every_row or np.ptp(counts):
             raise InputError(
                 f"rows have {counts.min()} to {counts.max()} places, "
                 f"{counts.size} rows at {times} times",
@@ -152,8 +157,9 @@ class RollerLoads(History):
                 allowed="as many places in both rows at every time",
                 remedy="Give places without load as well, with 0 N.",
             )
-        order = np.lexsort((values[2], row, values[0]))
-        time, speed, angle, load = values[:, order].reshape(4, times, len(ROW_NAMES), -1)
+        order = np.lexsort((values[2], row, given_times))
+        by_place = values[:, order].reshape(4, times, len(ROW_NAMES), -1)
+        time, speed, angle, load = by_place
         if np.ptp(speed, axis=(1, 2)).any():
             raise InputError(
                 "the shaft has two speeds at one time",
@@ -166,11 +172,13 @@ class RollerLoads(History):
             "angle": np.radians(angle),
             "load": load,
         }
-        return cls(**cut(columns, start, end, str(path)), source=str(path))
+        window = cut(columns, start, end, str(path))
+        return cls(**window, source=str(path))
 
     def _forces(self) -> dict[str, FloatArray]:
         """Mean load of a row's positions (n,) [N] by the row's name."""
-        return dict(zip(ROW_NAMES, self.load.mean(axis=2).T, strict=True))
+        mean = self.load.mean(axis=2)
+        return dict(zip(ROW_NAMES, mean.T, strict=True))
 
     def resultant(self, contact_angle: float, rollers_per_row: int) -> BearingLoads:
         """Load on the inner ring that rollers with these loads carry, at a contact angle [rad].
@@ -179,14 +187,12 @@ class RollerLoads(History):
         """
         share = rollers_per_row / self.load.shape[2]
         radial = math.cos(contact_angle) * self.load
+        x = radial * np.cos(self.angle)
+        y = radial * np.sin(self.angle)
         downwind, upwind = self.load.sum(axis=2).T
-        force = np.column_stack(
-            [
-                (radial * np.cos(self.angle)).sum(axis=(1, 2)),
-                (radial * np.sin(self.angle)).sum(axis=(1, 2)),
-                math.sin(contact_angle) * (downwind - upwind),
-            ]
-        )
+        thrust = math.sin(contact_angle) * (downwind - upwind)
+        over_places = (1, 2)
+        force = np.column_stack([x.sum(axis=over_places), y.sum(axis=over_places), thrust])
         return BearingLoads(self.time, self.shaft_speed, share * force, self.source)
 
     def approach(self, stiffness: float, play: float) -> FloatArray:

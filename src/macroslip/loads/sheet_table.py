@@ -82,7 +82,9 @@ def read_sheet(path: Path, sheet: str = "") -> SheetTable:
             remedy="Name the sheet that holds the loads with the key sheet.",
         )
     header, *rows = cells
-    names = ["" if cell is None else str(cell).strip() for cell in header]
+    names = []
+    for cell in header:
+        names.append("" if cell is None else str(cell).strip())
     first_row = 1
     if len(rows) > 1 and _is_line_of_units(rows[0], rows[1]):
         units = rows[0]
@@ -98,7 +100,8 @@ def read_sheet(path: Path, sheet: str = "") -> SheetTable:
 def _is_line_of_units(row: Sequence[Any], below: Sequence[Any]) -> bool:
     """True if a row has text and no number, and the row below it has numbers."""
     has_text = any(isinstance(cell, str) for cell in row)
-    return has_text and not any(map(_is_number, row)) and any(map(_is_number, below))
+    has_number = any(map(_is_number, row))
+    return has_text and not has_number and any(map(_is_number, below))
 
 
 def _is_number(cell: Any) -> bool:

@@ -51,7 +51,8 @@ def source_file(
     extension = path.suffix.lower()
     # Bladed numbers its groups of results: run.%23 and run.$23.
     numbered = re.fullmatch(r"\.[%$](\d{1,4}|pj)", extension)
-    if extension not in kinds and not (numbered and ".%nn" in kinds):
+    is_group_of_bladed = bool(numbered) and ".%nn" in kinds
+    if extension not in kinds and not is_group_of_bladed:
         allowed = ", ".join(f"{ext} ({meaning})" for ext, meaning in kinds.items())
         raise InputError(
             f"the extension {path.suffix!r} is not known",

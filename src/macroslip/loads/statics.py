@@ -38,7 +38,8 @@ _FRONT_KEYS = ("front", "front_moment_share")
 def _end_of_shaft(drivetrain: Mapping[str, Any]) -> float:
     """Farthest station of the shaft's mass: gearbox support, or 10 m behind the rear bearing."""
     if drivetrain.get("mount") in ("four-point", "two-bearings"):
-        return drivetrain["hub_to_bearing"] + (drivetrain.get("front_to_rear") or 0.0) + 10.0
+        span = drivetrain.get("front_to_rear") or 0.0
+        return drivetrain["hub_to_bearing"] + span + 10.0
     return drivetrain["hub_to_bearing"] + drivetrain["bearing_to_gearbox"]
 
 
@@ -293,9 +294,11 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, Floa
         )
     first, second = _without_moments(hub_loads, drivetrain)
     # Across the shaft only: a moment-carrying front leaves the thrust where it is.
-    spared = (drivetrain.front_moment_share or 0.0) * second * [1.0, 1.0, 0.0]
+    share = drivetrain.front_moment_share or 0.0
+    spared = share * second * [1.0, 1.0, 0.0]
     names = BEARINGS if drivetrain.mount == "four-point" else ("bearing", "gearbox")
-    return dict(zip(names, (first + spared, second - spared), strict=True))
+    loads = (first + spared, second - spared)
+    return dict(zip(names, loads, strict=True))
 
 
 def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> FloatArray:
@@ -328,9 +331,12 @@ def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> FloatArray:
     """
     # Without it the rear bearing alone holds the moment: M_y = −b F_Y0, M_z = b F_X0 there.
     _, rear = _without_moments(hub_loads, drivetrain)
-    arm = (drivetrain.front_to_rear or 0.0) * (drivetrain.front_moment_share or 0.0)
+    span = drivetrain.front_to_rear or 0.0
+    arm = span * (drivetrain.front_moment_share or 0.0)
     none = np.zeros(len(rear))
-    return arm * np.column_stack([-rear[:, 1], rear[:, 0], none])
+    moment_y = -rear[:, 1]
+    moment_z = rear[:, 0]
+    return arm * np.column_stack([moment_y, moment_z, none])
 
 
 def _without_moments(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[FloatArray, FloatArray]:
@@ -342,16 +348,22 @@ def _without_moments(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[Float
     weight = drivetrain.shaft_mass * GRAVITY
     fx, fy, fz = hub_loads.force.T
     _, my, mz = hub_loads.moment.T
-    weight_moment = (arm - drivetrain.shaft_mass_station) * weight * math.cos(drivetrain.tilt)
+    weight_across = weight * math.cos(drivetrain.tilt)
+    weight_arm = arm - drivetrain.shaft_mass_station
+    weight_moment = weight_arm * weight * math.cos(drivetrain.tilt)
     thrust = fx + weight * math.sin(drivetrain.tilt)
     x = (arm * fy - mz) / span
     y = (arm * fz + my - weight_moment) / span
     none = np.zeros_like(thrust)
-    first_carries = not four_point or drivetrain.locating == "front"
-    first = np.column_stack([x, y, thrust if first_carries else none])
-    second = np.column_stack(
-        [fy - x, fz - weight * math.cos(drivetrain.tilt) - y, none if first_carries else thrust]
-    )
+    first_thrust = none
+    second_thrust = thrust
+    if not four_point or drivetrain.locating == "front":
+        first_thrust = thrust
+        second_thrust = none
+    first = np.column_stack([x, y, first_thrust])
+    second_x = fy - x
+    second_y = fz - weight_across - y
+    second = np.column_stack([second_x, second_y, second_thrust])
     return first, second
 
 

@@ -130,27 +130,32 @@ def read_hub_table(
 def _openfast_channels(table: Table, where: str) -> Channels | None:
     """Channels of a table that was exported from OpenFAST's output, None of any other table."""
     columns = [_IN_BRACKETS.fullmatch(name.strip()) for name in table.names]
-    channels = {
-        index: column
-        for index, column in enumerate(columns)
-        if column is not None and is_load_channel(column["name"])
-    }
+    channels = {}
+    for index, column in enumerate(columns):
+        if column is not None and is_load_channel(column["name"]):
+            channels[index] = column
     names = [column["name"] for column in channels.values()]
+    units = [column["unit"] for column in channels.values()]
     has_time = any(name.lower() == "time" for name in names)
     if not has_time or len(names) == 1 or any(map(_OWN_COMPONENT.match, table.names)):
         return None
-    values = np.column_stack(table.numbers(list(channels), text_allowed=True))
+    indices = list(channels)
+    values = np.column_stack(table.numbers(indices, text_allowed=True))
     values = values[: _filled_rows(values)]
-    samples = Samples(values, _texts(table, list(channels), values), _TEXT_REMEDY)
-    return Channels(names, [column["unit"] for column in channels.values()], samples, where)
+    texts = _texts(table, indices, values)
+    samples = Samples(values, texts, _TEXT_REMEDY)
+    return Channels(names, units, samples, where)
 
 
 def _texts(table: Table, indices: Sequence[int], values: NDArray) -> dict[int, str]:
     """First cell that is no number in each column, by the position of the column in `indices`."""
     texts = {}
     for position, index in enumerate(indices):
-        empty = np.flatnonzero(np.isnan(values[:, position]))
-        cells = table.texts(index) if empty.size else []
+        is_empty = np.isnan(values[:, position])
+        empty = np.flatnonzero(is_empty)
+        cells = []
+        if empty.size:
+            cells = table.texts(index)
         words = ((row, cells[row]) for row in empty)
         for row, word in words:
             if word and word.lower() != "nan":
@@ -164,7 +169,8 @@ def read_bearing_table(
 ) -> dict[str, FloatArray]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s] and force (n, 3) [N] on the inner ring."""
     remedy = "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
-    columns = _read(open_table(path, number_format, sheet), path, _BEARING_VECTORS, ("fx", remedy))
+    table = open_table(path, number_format, sheet)
+    columns = _read(table, path, _BEARING_VECTORS, ("fx", remedy))
     del columns["reading"]
     return columns
 
@@ -186,16 +192,16 @@ def _read(
     if not speed_needed:
         del quantities["shaft_speed"]
     for field, components in vectors.items():
-        quantities |= {name: ((name,), _UNITS[field]) for name in components}
-    columns = {
-        quantity: _find(names, table.names, quantity, _spellings(*choice), str(path))
-        for quantity, choice in quantities.items()
-    }
-    missing = [
-        " or ".join(_spellings(*quantities[quantity]))
-        for quantity, column in columns.items()
-        if column is None
-    ]
+        unit = _UNITS[field]
+        quantities |= {name: ((name,), unit) for name in components}
+    columns = {}
+    missing = []
+    for quantity, choice in quantities.items():
+        spellings = _spellings(*choice)
+        column = _find(names, table.names, quantity, spellings, str(path))
+        columns[quantity] = column
+        if column is None:
+            missing.append(" or ".join(spellings))
     if missing:
         other_name, other_remedy = other_kind
         other = any(name.startswith(f"{other_name}_") for name in names)
@@ -206,15 +212,16 @@ def _read(
             remedy=other_remedy if other else _MISSING_COLUMNS + _other_sheets(path),
         )
     chosen = {quantity: column for quantity, column in columns.items() if column is not None}
-    numbers = table.numbers([index for index, _ in chosen.values()])
+    indices = [index for index, _ in chosen.values()]
     factors = [factor for _, factor in chosen.values()]
-    values = np.column_stack(numbers) * factors
+    values = np.column_stack(table.numbers(indices)) * factors
     values = values[: _filled_rows(values)]
     series = dict(zip(chosen, values.T, strict=True))
     result: dict = {name: series[name] for name in _BASE if name in series}
     for field, components in vectors.items():
-        result[field] = np.column_stack([series[name] for name in components])
-    reading = tuple(table.names[index] for index, _ in chosen.values())
+        of_field = [series[name] for name in components]
+        result[field] = np.column_stack(of_field)
+    reading = tuple(table.names[index] for index in indices)
     return result | {"reading": reading}
 
 
@@ -227,8 +234,11 @@ def _other_sheets(path: Path) -> str:
 
 def _filled_rows(values: FloatArray) -> int:
     """Number of rows before the empty ones at the end, which spreadsheets leave."""
-    filled = np.flatnonzero(~np.isnan(values).all(axis=1))
-    return int(filled[-1]) + 1 if filled.size else 0
+    is_empty = np.isnan(values).all(axis=1)
+    filled = np.flatnonzero(~is_empty)
+    if not filled.size:
+        return 0
+    return int(filled[-1]) + 1
 
 
 def _spelled(name: str) -> str:
@@ -246,11 +256,16 @@ def _spelled(name: str) -> str:
     if any(quantity.lower() in choices for choices, _ in _BASE.values()):
         quantity = quantity.lower()
     quantity = _OPENFAST.get(brackets["name"].lower(), quantity)
-    return f"{quantity}_{re.sub('[-·* ]', '', brackets['unit']).replace('/', '_')}"
+    unit = re.sub("[-·* ]", "", brackets["unit"]).replace("/", "_")
+    return f"{quantity}_{unit}"
 
 
 def _spellings(prefixes: tuple[str, ...], factors: Mapping[str, float]) -> dict[str, float]:
-    return {f"{prefix}_{unit}": factor for prefix in prefixes for unit, factor in factors.items()}
+    spellings = {}
+    for prefix in prefixes:
+        for unit, factor in factors.items():
+            spellings[f"{prefix}_{unit}"] = factor
+    return spellings
 
 
 def _find(
@@ -271,8 +286,12 @@ def _find(
             remedy="Remove or rename all but one of them.",
         )
     if matches:
-        return matches[0], spellings[names[matches[0]]]
-    prefixes = {spelling.removesuffix(f"_{spelling.rpartition('_')[2]}") for spelling in spellings}
+        index = matches[0]
+        return index, spellings[names[index]]
+    prefixes = set()
+    for spelling in spellings:
+        prefix, _, _ = spelling.rpartition("_")
+        prefixes.add(prefix)
     for name, original in zip(names, original_names, strict=True):
         if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes):
             raise InputError(
@@ -296,7 +315,8 @@ class _ParquetTable:
         return [name.strip() for name in self.columns.column_names]
 
     def texts(self, index: int) -> list[str | None]:
-        return [None if cell is None else str(cell) for cell in self.columns[index].to_pylist()]
+        cells = self.columns[index].to_pylist()
+        return [None if cell is None else str(cell) for cell in cells]
 
     def numbers(self, indices: Sequence[int], *, text_allowed: bool = False) -> list[FloatArray]:
         return [self._values(index, text_allowed=text_allowed) for index in indices]
@@ -306,7 +326,8 @@ class _ParquetTable:
 
         column = self.columns.column(index)
         kind = column.type
-        if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
+        is_number = pa.types.is_floating(kind) or pa.types.is_integer(kind)
+        if not is_number and not pa.types.is_null(kind):
             if text_allowed:
                 return np.full(len(column), np.nan)
             raise InputError(
@@ -318,7 +339,9 @@ class _ParquetTable:
         # Empty cells become NaN here and are reported with their time.
         values = column.cast(pa.float64()).to_numpy()
         is_time = _spelled(self.names[index]) == "time_s"
-        return _rebuild_uniform(values) if is_time and kind == pa.float32() else values
+        if is_time and kind == pa.float32():
+            return _rebuild_uniform(values)
+        return values
 
 
 def open_table(path: Path, number_format: NumberFormat | None = None, sheet: str = "") -> Table:
@@ -368,12 +391,13 @@ def _rebuild_uniform(time: FloatArray) -> FloatArray:
     """
     if time.size < 3 or not np.isfinite(time).all():
         return time
-    step = (time[-1] - time[0]) / (time.size - 1)
+    first_stamp = time[0]
+    step = (time[-1] - first_stamp) / (time.size - 1)
     if step <= 0:
         return time
     # First stamp, rate and step are round numbers as a rule: prefer those, where stamps allow it.
     # The shortest decimal that rounds to the stored number:
-    first = float(str(np.float32(time[0])))
+    first = float(str(np.float32(first_stamp)))
     rate = max(1, round(1.0 / step))
     index = np.arange(time.size, dtype=float)
     largest = np.float32(np.abs(time).max())
@@ -381,8 +405,9 @@ def _rebuild_uniform(time: FloatArray) -> FloatArray:
     for axis in (
         first + index / rate,
         first + index * float(f"{step:.6g}"),
-        time[0] + index * step,
+        first_stamp + index * step,
     ):
-        if np.abs(axis - time).max() <= tolerance:
+        deviation = np.abs(axis - time).max()
+        if deviation <= tolerance:
             return axis
     return time

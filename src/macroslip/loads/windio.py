@@ -77,7 +77,9 @@ class WindioShaft:
         types = {"front": self.front_type, "rear": self.rear_type}
         carrying = [name for name, kind in types.items() if kind in _CARRY_THRUST]
         known = all(types.values())
-        return carrying[0] if known and len(carrying) == 1 else None
+        if not known or len(carrying) != 1:
+            return None
+        return carrying[0]
 
     @property
     def description(self) -> str:
@@ -115,17 +117,16 @@ def windio_values(path: str | os.PathLike[str], own: Mapping[str, Any]) -> dict[
     shaft = read_windio(path)
     mount = own.get("mount", "four-point")
     needed = _NEEDED.get(mount, ())  # another mount is refused with its key
-    values = {
-        key: getattr(shaft, key)
-        for key in needed
-        if key not in own and getattr(shaft, key, None) is not None
-    }
+    values = {}
+    for key in needed:
+        if key not in own and getattr(shaft, key, None) is not None:
+            values[key] = getattr(shaft, key)
     missing = [key for key in needed if key not in own and key not in values]
     if missing:
-        named = [
-            f"{key} ({_PLACES[key]})" if key in _PLACES else f"{key} (windIO does not have it)"
-            for key in missing
-        ]
+        named = []
+        for key in missing:
+            place = _PLACES.get(key, "windIO does not have it")
+            named.append(f"{key} ({place})")
         examples = ", ".join(f"{key}: {_EXAMPLES[key]}" for key in missing)
         raise InputError(
             f"the file does not tell {'; '.join(named)}. Its main bearings: {shaft.description}",
@@ -162,8 +163,11 @@ def _read(path: Path, size: int, changed: int) -> WindioShaft:
     from ruamel.yaml import YAML
 
     with reading(path, _AGAIN):
-        data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
-    version = str(data.get("windIO_version", "")) if isinstance(data, Mapping) else ""
+        text = path.read_text(encoding="utf-8")
+        data = YAML(typ="safe").load(text)
+    version = ""
+    if isinstance(data, Mapping):
+        version = str(data.get("windIO_version", ""))
     if not version.startswith("2."):
         raise InputError(
             f"windIO_version is {version}" if version else "the file has no windIO_version",
@@ -179,13 +183,18 @@ def _read(path: Path, size: int, changed: int) -> WindioShaft:
     hub_to_bearing = None
     if hub_diameter is not None and from_flange is not None:
         hub_to_bearing = 0.5 * hub_diameter + from_flange
+    tilt = None
+    if uptilt is not None:
+        tilt = math.radians(uptilt)
+    front_type = _value(data, (*_OTHER, "mb1Type"))
+    rear_type = _value(data, (*_OTHER, "mb2Type"))
     return WindioShaft(
         path.name,
-        tilt=None if uptilt is None else math.radians(uptilt),
+        tilt=tilt,
         hub_to_bearing=hub_to_bearing,
         front_to_rear=_number(data, (*_SHAPE, "distance_mb_mb"), where),
-        front_type=str(_value(data, (*_OTHER, "mb1Type")) or ""),
-        rear_type=str(_value(data, (*_OTHER, "mb2Type")) or ""),
+        front_type=str(front_type or ""),
+        rear_type=str(rear_type or ""),
     )
 
 

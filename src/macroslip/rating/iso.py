@@ -139,7 +139,8 @@ def dynamic_equivalent_load(
     axial = np.abs(axial_load)
     light = radial + y1 * axial
     heavy = 0.67 * radial + y2 * axial
-    return np.where(axial <= e * radial, light, heavy)
+    is_light = axial <= e * radial
+    return np.where(is_light, light, heavy)
 
 
 def basic_life(load_rating: float, equivalent_load: ArrayLike) -> FloatArray:
@@ -155,7 +156,8 @@ def basic_life(load_rating: float, equivalent_load: ArrayLike) -> FloatArray:
     '2.353e+10'
     """
     with np.errstate(divide="ignore"):
-        return 1e6 * (load_rating / np.asarray(equivalent_load, float)) ** LIFE_EXPONENT
+        ratio = load_rating / np.asarray(equivalent_load, float)
+        return 1e6 * ratio**LIFE_EXPONENT
 
 
 def mean_equivalent_load(equivalent_load: ArrayLike, revolutions: ArrayLike) -> float:
@@ -194,7 +196,8 @@ def reference_viscosity(speed: float, pitch: float) -> float:
     """
     rpm = abs(speed) * 30.0 / math.pi
     by_speed = 45000.0 * rpm**-0.83 if rpm < 1000.0 else 4500.0 * rpm**-0.5
-    return 1e-6 * by_speed * (1e3 * pitch) ** -0.5
+    millimetres = 1e3 * pitch
+    return 1e-6 * by_speed * millimetres**-0.5
 
 
 def life_modification(
@@ -232,9 +235,11 @@ def life_modification(
     # At kappa 0.1 the film's part is zero but for the rounding of its coefficients. Where the
     # bracket is not positive the endurance limit is reached.
     by_film = max(1.5859 - a / kappa**b, 0.0)
-    bracket = 1.0 - by_film * (contamination * ratio) ** 0.4
+    cleanliness = (contamination * ratio) ** 0.4
+    bracket = 1.0 - by_film * cleanliness
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        factor = np.where(bracket > 0.0, 0.1 * np.abs(bracket) ** -9.185, np.inf)
+        finite = 0.1 * np.abs(bracket) ** -9.185
+        factor = np.where(bracket > 0.0, finite, np.inf)
     return np.minimum(factor, LARGEST_MODIFICATION)
 
 
@@ -291,13 +296,13 @@ def ring_ratings(
     >>> round(inner / 1e3), round(outer / 1e3)
     (514, 657)
     """
-    ratio = 1.038 * ((1.0 - gamma) / (1.0 + gamma)) ** (143 / 108)
+    curvatures = (1.0 - gamma) / (1.0 + gamma)
+    ratio = 1.038 * curvatures ** (143 / 108)
     rollers = rollers_per_row * math.cos(contact_angle) * rows ** (7 / 9)
     share = dynamic_load_rating / rollers
-    return RingRatings(
-        share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9),
-        share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9),
-    )
+    inner = share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9)
+    outer = share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9)
+    return RingRatings(inner, outer)
 
 
 @jit
@@ -394,4 +399,5 @@ def reference_life(damage: FloatArray, axis: int | tuple[int, ...] | None = None
     (1000000.0, 540030)
     """
     with np.errstate(divide="ignore"):
-        return 1e6 * np.sum(damage, axis=axis) ** (-1.0 / WEIBULL_SLOPE)
+        total = np.sum(damage, axis=axis)
+        return 1e6 * total ** (-1.0 / WEIBULL_SLOPE)

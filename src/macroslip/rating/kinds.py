@@ -97,7 +97,8 @@ def equivalent_loads(
     if bearing.kind == "cylindrical":
         radial = np.asarray(radial_load, dtype=float)
         return EquivalentLoads(radial, radial)
-    e, y1, y2, y0 = (float(getattr(bearing, key)) for key in _AXIAL_FACTORS)
+    factors = [float(getattr(bearing, key)) for key in _AXIAL_FACTORS]
+    e, y1, y2, y0 = factors
     return EquivalentLoads(
         iso.dynamic_equivalent_load(radial_load, axial_load, e, y1, y2),
         iso.static_equivalent_load(radial_load, axial_load, y0),

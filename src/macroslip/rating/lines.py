@@ -48,7 +48,8 @@ def loads_of_strips(strips: Strips, load: NDArray[np.float64], count: int) -> ND
     """
     load = np.asarray(load, dtype=float)
     pressed = strip_approach(strips, load)
-    drop = strips.profile(strip_places(strips.length, count))
+    stations = strip_places(strips.length, count)
+    drop = strips.profile(stations)
     approach = np.maximum(pressed[..., None] - drop, 0.0)
     parts = approach**PALMGREN_EXPONENT
     # Strips that are few carry a little less or more than the line that they stand for.
@@ -87,16 +88,16 @@ def line_rating(
     damage = np.zeros((1, 2, samples))
     for first in range(0, samples, _TOGETHER):
         piece = slice(first, first + _TOGETHER)
-        strips = loads_of_strips(lines[0], roller_load[0, :, piece].T, LAMINAE)
+        load = roller_load[0, :, piece].T
+        strips = loads_of_strips(lines[0], load, LAMINAE)
         damage[0, 0, piece] = strip_damage(strips, rings.inner, stationary=False)
         damage[0, 1, piece] = strip_damage(strips, rings.outer, stationary=True)
     largest = float(roller_load.max())
     pressure = np.zeros((1, 2))
     if largest > 0.0:
-        pressure[0] = [
-            line_pressure(middle_load(line, largest), line.curvature, line.modulus)
-            for line in lines
-        ]
+        for k, line in enumerate(lines):
+            load = middle_load(line, largest)
+            pressure[0, k] = line_pressure(load, line.curvature, line.modulus)
     return StripRating(damage, pressure)
 
 

@@ -62,13 +62,16 @@ def roller_load_history(
     """
     model = roller_model(bearing, lubricant, 1, tilt=0.0)
     ring = ring_geometry(bearing, model)
-    motion, _ = ring_motion(loads, bearing, ring, highest_load(bearing, lubricant, Laws.physical()))
+    limit = highest_load(bearing, lubricant, Laws.physical())
+    motion, _ = ring_motion(loads, bearing, ring, limit)
     roller_load = elastic_loads(loads, ring, motion)
-    by_roller = isinstance(loads, RollerLoads)
-    known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row) if by_roller else loads
+    known = loads
+    if isinstance(loads, RollerLoads):
+        known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row)
     finer = known.resampled(motion.time, motion.shaft_speed)
     shape = (bearing.rows, bearing.rollers_per_row, -1)
-    return finer, np.moveaxis(roller_load, 0, -1).reshape(shape)
+    by_roller = np.moveaxis(roller_load, 0, -1).reshape(shape)
+    return finer, by_roller
 
 
 def rate(
@@ -122,26 +125,28 @@ def rate(
     history = history._replace(strips=strips)
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
              _spectra(history, wohler_exponents))  # fmt: skip
-    variables = {name: value for part in parts for name, value in part.items()}
+    variables = {}
+    for part in parts:
+        variables |= part
     edges = history.class_edges
+    middles = 0.5 * (edges[1:] + edges[:-1])
+    about_class = _variable(middles, "N", "middle of the class of load", "load_class")
     coordinates = {
         "row": list(row_names(bearing)),
         "raceway": list(RACEWAYS),
         "load_along_roller": list(DISTRIBUTIONS),
         "load": list(LOADS),
         "wohler_exponent": list(wohler_exponents),
-        "load_class": _variable(
-            0.5 * (edges[1:] + edges[:-1]), "N", "middle of the class of load", "load_class"
-        ),
+        "load_class": about_class,
     }
     about = {
         "bearing": bearing.name,
         "lubricant": lubricant.name,
         "inlet_temperature": lubricant.inlet_temperature,
+        "contamination": contamination,
+        "film_law": FILM_LAW,
     }
-    return xr.Dataset(
-        variables, coordinates, about | {"contamination": contamination, "film_law": FILM_LAW}
-    )
+    return xr.Dataset(variables, coordinates, about)
 
 
 def _touches_along_line(bearing: Bearing) -> bool:
@@ -184,13 +189,16 @@ class _History(NamedTuple):
         if mean_speed == 0.0:
             return math.nan
         kinematic = self.lubricant.viscosity / self.lubricant.density
-        return kinematic / iso.reference_viscosity(mean_speed, 2.0 * self.bearing.pitch_radius)
+        pitch = 2.0 * self.bearing.pitch_radius
+        return kinematic / iso.reference_viscosity(mean_speed, pitch)
 
     @property
     def hours_a_revolution(self) -> float:
         """Mean time of a turn of the shaft [h]; NaN for a shaft at rest."""
         turned = self.revolutions.sum()
-        return self.duration.sum() / turned / HOUR if turned > 0.0 else math.nan
+        if not turned > 0.0:
+            return math.nan
+        return self.duration.sum() / turned / HOUR
 
 
 def _variable(values: object, units: str, long_name: str, *dims: str) -> tuple:
@@ -226,6 +234,7 @@ def _history(
             "contamination",
         )
     duration = sample_durations(loads.time)
+    turned = duration * np.abs(loads.shaft_speed)
     return _History(
         bearing=bearing,
         lubricant=lubricant,
@@ -234,13 +243,14 @@ def _history(
         ratings=ratings,
         roller_load=roller_load,
         duration=duration,
-        revolutions=duration * np.abs(loads.shaft_speed) / (2.0 * math.pi),
+        revolutions=turned / (2.0 * math.pi),
         equivalent=equivalent_loads(bearing, loads.radial_load, loads.axial_load),
     )
 
 
 def _share(condition: BoolArray, weight: FloatArray) -> float:
-    return float(weight[condition].sum() / weight.sum())
+    with_condition = weight[condition].sum()
+    return float(with_condition / weight.sum())
 
 
 def _static(history: _History) -> dict[str, tuple]:
@@ -261,9 +271,13 @@ def _static(history: _History) -> dict[str, tuple]:
 def _iso281(history: _History) -> dict[str, tuple]:
     mean = iso.mean_equivalent_load(history.equivalent.dynamic, history.revolutions)
     limit = history.ratings.fatigue_limit
-    life = iso.basic_life(history.ratings.dynamic, mean) * history.hours_a_revolution
-    ratio = limit / mean if mean else math.inf
-    factor = float(iso.life_modification(history.viscosity_ratio, history.contamination, ratio))
+    basic = iso.basic_life(history.ratings.dynamic, mean)
+    life = basic * history.hours_a_revolution
+    ratio = math.inf
+    if mean:
+        ratio = limit / mean
+    kappa = history.viscosity_ratio
+    factor = float(iso.life_modification(kappa, history.contamination, ratio))
     below = _share(history.equivalent.dynamic < limit, history.duration)
     return {
         "equivalent_load": _variable(mean, "N", "mean dynamic equivalent load P_m"),
@@ -304,22 +318,25 @@ def _reference(history: _History) -> dict[str, tuple]:
                 load, semi_axes[k], bearing.roller_length, rating, stationary
             )
     if history.strips is not None:
-        damages[DISTRIBUTIONS.index("hertz")] = history.strips.damage
+        hertz = DISTRIBUTIONS.index("hertz")
+        damages[hertz] = history.strips.damage
 
     def hours(life: FloatArray) -> FloatArray:
         # Palmgren and Miner: the shares of life used by each load add up.
         turned = history.revolutions.sum()
-        used = (history.revolutions / life).sum(axis=-1)
+        used_by_loads = history.revolutions / life
+        used = used_by_loads.sum(axis=-1)
         with np.errstate(divide="ignore", invalid="ignore"):
             return turned / used * history.hours_a_revolution
 
     together = iso.reference_life(damages, axis=(1, 2))
-    load = history.ratings.dynamic * (1e6 / together) ** (1.0 / iso.LIFE_EXPONENT)
+    million_revolutions = 1e6 / together
+    load = history.ratings.dynamic * million_revolutions ** (1.0 / iso.LIFE_EXPONENT)
     with np.errstate(divide="ignore"):
-        factor = iso.life_modification(
-            history.viscosity_ratio, history.contamination, history.ratings.fatigue_limit / load
-        )
-    by_raceway = hours(iso.reference_life(damages, axis=()))
+        ratio = history.ratings.fatigue_limit / load
+        factor = iso.life_modification(history.viscosity_ratio, history.contamination, ratio)
+    lives_of_raceways = iso.reference_life(damages, axis=())
+    by_raceway = hours(lives_of_raceways)
     modified = hours(together * factor)
     name = "basic reference rating life, ISO/TS 16281"
     along = "load_along_roller"
@@ -341,17 +358,15 @@ def _contacts(history: _History) -> dict[str, tuple]:
     of_ellipse: list[Callable] = [np.asarray] * len(RACEWAYS)
     if _touches_along_line(bearing):
         raceways = line_interfaces(bearing, history.lubricant)
-        of_ellipse = [
-            partial(film_load, *pair) for pair in zip(raceways, strips_of(bearing), strict=True)
-        ]
+        of_ellipse = []
+        for raceway, strips in zip(raceways, strips_of(bearing), strict=True):
+            of_ellipse.append(partial(film_load, raceway, strips))
     load = history.roller_load
     largest = load.max(axis=(1, 2))
-    pressure = np.array(
-        [
-            [raceway.hertz.pressure * np.cbrt(roller_load) for raceway in raceways]
-            for roller_load in largest
-        ]
-    )
+    pressures = []
+    for roller_load in largest:
+        pressures.append([raceway.hertz.pressure * np.cbrt(roller_load) for raceway in raceways])
+    pressure = np.array(pressures)
     if history.strips is not None:
         pressure = history.strips.pressure
     inner = geometry.inner_contact_radius(bearing)
@@ -362,16 +377,18 @@ def _contacts(history: _History) -> dict[str, tuple]:
     weights = np.broadcast_to(history.duration, load.shape[1:])
     film = FILM_LAWS.named(FILM_LAW)
     for row, k in np.ndindex(low.shape):
-        carried = (load[row] > 0.0) & (entrainment > 0.0)
+        load_of_row = load[row]
+        carried = (load_of_row > 0.0) & (entrainment > 0.0)
         if carried.any():
             speed = np.broadcast_to(entrainment, carried.shape)[carried]
-            pressed = of_ellipse[k](load[row][carried])
+            pressed = of_ellipse[k](load_of_row[carried])
             ratio = film(raceways[k], pressed, speed) / bearing.composite_roughness
             quantiles = np.quantile(
                 ratio, (0.05, 0.5), weights=weights[carried], method="inverted_cdf"
             )
             low[row, k], middle[row, k] = quantiles
-    loaded = (load > 0.0).mean(axis=1) @ history.duration / history.duration.sum()
+    share_of_rollers = (load > 0.0).mean(axis=1)
+    loaded = share_of_rollers @ history.duration / history.duration.sum()
     return {
         "loaded_share": _variable(
             loaded, "1", "share of time in which a roller carries load, mean of the row", "row"

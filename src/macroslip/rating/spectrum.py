@@ -39,7 +39,7 @@ def load_duration(load: FloatArray, weight: FloatArray, edges: FloatArray) -> ND
     >>> load_duration(loads, np.array([1.0, 3.0]), edges).tolist()
     [0.25, 0.75]
     """
-    durations = np.histogram(load, edges, weights=weight)[0]
+    durations, _ = np.histogram(load, edges, weights=weight)
     with np.errstate(invalid="ignore"):
         return durations / weight.sum()
 
@@ -65,7 +65,8 @@ def rainflow_ranges(load: FloatArray) -> FloatArray:
     if np.ptp(load) == 0.0:
         return np.zeros(0)
     try:
-        return np.asarray(fatpack.find_rainflow_ranges(load, k=LEVELS), float)
+        ranges = fatpack.find_rainflow_ranges(load, k=LEVELS)
+        return np.asarray(ranges, float)
     except (
         ValueError,
         IndexError,
@@ -107,5 +108,6 @@ def damage_equivalent_load(
     90.0
     """
     ranges = rainflow_ranges(np.asarray(load, float))
-    mean_power = np.sum(ranges**exponent) / (frequency * duration)
+    cycles = frequency * duration
+    mean_power = np.sum(ranges**exponent) / cycles
     return float(mean_power ** (1.0 / exponent))

@@ -111,7 +111,8 @@ def equivalent_load(ratings: TaperedRatings, radial: ArrayLike, axial: ArrayLike
     along = np.abs(axial)
     mixed = across + ratings.axial_factor_y1 * along
     axial_load = 0.67 * across + ratings.axial_factor_y2 * along
-    return np.where(along <= ratings.axial_factor_e * across, mixed, axial_load)
+    is_mixed = along <= ratings.axial_factor_e * across
+    return np.where(is_mixed, mixed, axial_load)
 
 
 def static_equivalent_load(
@@ -135,7 +136,8 @@ def static_equivalent_load(
     >>> round(float(static_equivalent_load(ratings, 1300e3, 700e3)) / 1e3)
     1825
     """
-    return np.asarray(radial, float) + ratings.axial_factor_y0 * np.abs(axial)
+    across = np.asarray(radial, float)
+    return across + ratings.axial_factor_y0 * np.abs(axial)
 
 
 def strip_damage(strips: FloatArray, rating: float, stationary: bool) -> FloatArray:
@@ -171,7 +173,8 @@ def strip_damage(strips: FloatArray, rating: float, stationary: bool) -> FloatAr
     count = strips.shape[-1]
     ratio = strips * count * REDUCTION / rating
     if stationary:
-        return (ratio**4.5).mean(axis=-2).mean(axis=-1)
+        over_rollers = (ratio**4.5).mean(axis=-2)
+        return over_rollers.mean(axis=-1)
     over_turn = (ratio**4.0).mean(axis=-2)
     return (over_turn ** (4.5 / 4.0)).mean(axis=-1)
 
@@ -209,7 +212,8 @@ def tapered_reference_life(
     if not turned.any():
         return math.nan
     damage = strip_rating(bearing, ring, balance, shaft_angle).damage
-    return float(reference_life(np.average(damage, axis=-1, weights=turned)))
+    mean_damage = np.average(damage, axis=-1, weights=turned)
+    return float(reference_life(mean_damage))
 
 
 class StripRating(NamedTuple):
@@ -257,8 +261,9 @@ def strip_rating(
     damage = np.zeros((len(ROW_SIGNS), 2, len(shaft_angle)))
     largest = np.zeros((len(ROW_SIGNS), 2))
     for sample in range(len(shaft_angle)):
-        strips = np.stack(strip_loads(ring, balance, shaft_angle, sample))
-        inner, outer = strips.reshape(2, len(ROW_SIGNS), -1, strips.shape[-1])
+        of_raceways = np.stack(strip_loads(ring, balance, shaft_angle, sample))
+        strips = of_raceways.shape[-1]
+        inner, outer = of_raceways.reshape(2, len(ROW_SIGNS), -1, strips)
         damage[:, 0, sample] = strip_damage(inner, rating.inner, stationary=False)
         damage[:, 1, sample] = strip_damage(outer, rating.outer, stationary=True)
         by_raceway = np.stack([inner, outer], axis=1)
@@ -266,4 +271,5 @@ def strip_rating(
     modulus = effective_modulus(*(bearing.youngs_modulus, bearing.poisson_ratio) * 2)
     curvature = np.array(raceway_curvatures(row))
     strip = bearing.roller_length / ring.profile.size
-    return StripRating(damage, line_pressure(largest / strip, curvature, modulus))
+    pressure = line_pressure(largest / strip, curvature, modulus)
+    return StripRating(damage, pressure)

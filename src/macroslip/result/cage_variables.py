@@ -30,7 +30,8 @@ def cage_values(case: Case, outcome: Outcome, cages: CageMeasures) -> dict[str, 
     span, first, second = cages.slip.T
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = first / span
-        variance = second / span - mean * mean
+        mean_square = second / span
+        variance = mean_square - mean * mean
     values |= {
         "cage_slip": mean,
         "cage_slip_deviation": np.sqrt(np.maximum(variance, 0.0)),
@@ -48,7 +49,9 @@ def _pocket_values(case: Case, outcome: Outcome, cages: CageMeasures) -> dict[st
     def by_roller(values: np.ndarray) -> np.ndarray:
         every = np.array(values, dtype=float).reshape(rows, count, *values.shape[1:])
         chosen = every[:, list(case.roller_numbers)]
-        return chosen if outcome.status == Status.COMPLETED else np.full_like(chosen, np.nan)
+        if outcome.status != Status.COMPLETED:
+            return np.full_like(chosen, np.nan)
+        return chosen
 
     by_sector = cages.largest_by_sector.reshape(rows, count, -1)
     return {
@@ -60,8 +63,10 @@ def _pocket_values(case: Case, outcome: Outcome, cages: CageMeasures) -> dict[st
 
 
 def _book_values(books: Books) -> dict[str, Any]:
-    columns = zip((*STOCKS, *FLOWS), (*books.stocks.T, *books.flows.T), strict=True)
-    return {f"book_{name}": column for name, column in columns} | {
+    names = (*STOCKS, *FLOWS)
+    columns = (*books.stocks.T, *books.flows.T)
+    named = {f"book_{name}": column for name, column in zip(names, columns, strict=True)}
+    return named | {
         "momentum_residual": books.momentum_residual(),
         "energy_residual": books.energy_residual(),
         "pocket_loss": books.pocket_loss(),
@@ -72,15 +77,19 @@ def _trace_values(case: Case, cages: CageMeasures) -> dict[str, Any]:
     shape = (-1, case.bearing.rows, case.bearing.rollers_per_row)
 
     def over_time(values: np.ndarray) -> np.ndarray:
-        return np.moveaxis(values.reshape(shape)[:, :, list(case.roller_numbers)], 0, -1)
+        by_roller = values.reshape(shape)
+        chosen = by_roller[:, :, list(case.roller_numbers)]
+        return np.moveaxis(chosen, 0, -1)
 
     offset = cages.offset.reshape(shape)
-    spacing = np.roll(offset, -1, axis=2) - offset
+    ahead = np.roll(offset, -1, axis=2)
+    spacing = ahead - offset
+    traces = np.moveaxis(cages.traces, -1, 0).swapaxes(1, 2)
     return {
         "pocket_offset": over_time(cages.offset),
         "orbit_speed_deviation": over_time(cages.deviation),
         "spacing_deviation": over_time(spacing),
-    } | dict(zip(_CAGE_TRACES, np.moveaxis(cages.traces, -1, 0).swapaxes(1, 2), strict=True))
+    } | dict(zip(_CAGE_TRACES, traces, strict=True))
 
 
 def open_books(books: Books) -> str:
@@ -108,12 +117,14 @@ def open_books(books: Books) -> str:
     )
     missing = []
     for quantity, residual, whole, of in residuals:
-        share = np.abs(residual).max() / max(whole, _SLIGHT)
+        largest = np.abs(residual).max()
+        share = largest / max(whole, _SLIGHT)
         if share > LARGEST_RESIDUAL:
             missing.append(f"{quantity} to {100.0 * share:.2g} % of {of}")
     sentences = []
     if missing:
-        sentences.append(f"the books close {' and '.join(missing)}, where 0.5 % is good")
+        listed = " and ".join(missing)
+        sentences.append(f"the books close {listed}, where 0.5 % is good")
     gain = books.driven / max(dissipated, _SLIGHT)
     if gain > _LARGEST_GAIN:
         sentences.append(

@@ -140,10 +140,10 @@ def _coefficients(
     coefficients_given: Sequence[float] | None, hardness: float | None
 ) -> list[float]:
     """Coefficients of wear k [m²/N], rising, of those that were given and the hardness [Pa]."""
-    coefficients = [
-        float(value)
-        for value in (wear.COEFFICIENTS if coefficients_given is None else coefficients_given)
-    ]
+    values = wear.COEFFICIENTS
+    if coefficients_given is not None:
+        values = coefficients_given
+    coefficients = [float(value) for value in values]
     are_positive = all(math.isfinite(value) and value > 0.0 for value in coefficients)
     are_rising = coefficients == sorted(set(coefficients)) and coefficients
     hardness_is_valid = hardness is None or (math.isfinite(hardness) and hardness > 0.0)
@@ -216,7 +216,9 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
 
     def compared_with(name: str, source: str) -> str:
         own = evaluation.thresholds.get(name)
-        return source if own is None else f"your threshold: {own.source}"
+        if own is None:
+            return source
+        return f"your threshold: {own.source}"
 
     coefficients = evaluation.wear_coefficients
     compared = [compared_with(criterion.name, criterion.compared_with) for criterion in CRITERIA]
@@ -265,9 +267,11 @@ def lines(result: xr.Dataset) -> tuple[list[dict[str, Any]], list[str]]:
 
 def criterion_lines(criteria: xr.Dataset) -> tuple[list[dict[str, Any]], list[str]]:
     """The lines of a dataset of `damage`, and the sentences on what is missing."""
-    known = criteria.isel(criterion=np.flatnonzero(criteria.value.notnull().values))
+    is_known = criteria.value.notnull().values
+    known = criteria.isel(criterion=np.flatnonzero(is_known))
     headings = [name.replace("_", " ") for name in _COLUMNS]
-    table = zip(*(known[name].values.tolist() for name in _COLUMNS), strict=True)
+    columns = [known[name].values.tolist() for name in _COLUMNS]
+    table = zip(*columns, strict=True)
     rows = [dict(zip(headings, line, strict=True)) for line in table]
     for row in rows:
         row["compared with"] = row["compared with"] or "no traced reference"

@@ -105,7 +105,9 @@ def to_dataset(
         Every variable has `units` and `long_name`; the attributes hold the full input, the version
         and the works cited.
     """
-    method = [_RADAU] if isinstance(ready.case.integrator, Radau) else []
+    method = []
+    if isinstance(ready.case.integrator, Radau):
+        method = [_RADAU]
     table = _by_row(ready.case, results)
     values = _values(ready, wanted, table)
     coordinates = _coordinates(ready)
@@ -142,7 +144,8 @@ def whole_dataset(
         As of `to_dataset`.
     """
     case = ready.case
-    table = _by_row(case, {job: Measured(roller, outcome) for job, roller in measures.items()})
+    measured = {job: Measured(roller, outcome) for job, roller in measures.items()}
+    table = _by_row(case, measured)
     values = _values(ready, wanted, table) | cage_values(case, outcome, cages)
     coordinates = _coordinates(ready) | {
         "cage": ["both"] if bearing.cages == 1 else list(row_names(case.bearing)),
@@ -177,14 +180,19 @@ def _dataset(
 
 def _by_row(case: Case, results: dict[tuple[str, int], Measured]) -> Table:
     rows = row_names(case.bearing)
-    return [[results[row, number] for number in case.roller_numbers] for row in rows]
+    lines = []
+    for row in rows:
+        lines.append([results[row, number] for number in case.roller_numbers])
+    return lines
 
 
 def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
     """Values by name of all variables that the case has, but for those of cages."""
     case = ready.case
     curved = ready.model.curved
-    left_out = set() if case.dynamics == WHOLE_BEARING else {WHOLE_TRACES}
+    left_out = set()
+    if case.dynamics != WHOLE_BEARING:
+        left_out.add(WHOLE_TRACES)
     if case.laws.asperities not in BOUNDED:
         left_out.add(ASPERITIES)
     if not curved:
@@ -200,12 +208,14 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
     if ready.edges.size == 1:
         values["peak_power_by_position"] = _peaks_by_position(table)
     if curved:
-        values |= {name: _gathered(table, name) for name in ("mechanism_energy", "asperity_energy")}
+        for name in ("mechanism_energy", "asperity_energy"):
+            values[name] = _gathered(table, name)
     if wanted.details:
         values |= _contact_details(table)
     if case.laws.skew != "none":
         skews = [[roller.measures.skew for roller in line] for line in table]
-        values |= skew.values(case, skews, _failed(table), ready.end - float(ready.edges[0]))
+        length = ready.end - float(ready.edges[0])
+        values |= skew.values(case, skews, _failed(table), length)
     if case.traces is not None:
         # Up to where an integration ended its traces are kept: they show why.
         values |= _traces(table)
@@ -219,7 +229,8 @@ def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
     which carries no thrust.
     """
     case = ready.case
-    if not isinstance(case.ring_loads, BearingLoads) or case.bearing.rows == 1:
+    carries_thrust = isinstance(case.ring_loads, BearingLoads)
+    if not carries_thrust or case.bearing.rows == 1:
         return {}
     start = float(ready.edges[0])
     motion = ready.motion
@@ -232,7 +243,8 @@ def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
 
 def _each(table: Table, number: Callable[[Any], Any]) -> np.ndarray:
     """A number or an array of every roller, over (row, roller, ...)."""
-    return np.array([[number(roller) for roller in line] for line in table])
+    numbers = [[number(roller) for roller in line] for line in table]
+    return np.array(numbers)
 
 
 def _traces(table: Table) -> dict[str, np.ndarray]:
@@ -269,9 +281,12 @@ def _coordinates(ready: Prepared) -> dict[str, Any]:
 def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict[str, Any]:
     case = ready.case
     # What a reader of the result needs to make the same contacts.
-    supplied = {"oil_gap": case.oil.oil_gap} if case.laws.asks_for_oil else {}
+    supplied = {}
+    if case.laws.asks_for_oil:
+        supplied = {"oil_gap": case.oil.oil_gap}
     under = f"{case.bearing.name} under {without_folders(case.loads.source)}"
-    oil = f"{case.oil.name} at {case.oil.inlet_temperature - ZERO_CELSIUS:.3g} °C"
+    celsius = case.oil.inlet_temperature - ZERO_CELSIUS
+    oil = f"{case.oil.name} at {celsius:.3g} °C"
     return {
         "title": f"Roller slip of {under}, model {case.laws.name}, {oil}",
         "source": f"macroslip {macroslip.__version__}",
@@ -294,7 +309,12 @@ def _failed(table: Table) -> np.ndarray:
 
 def _gathered(table: Table, name: str, of: str = "totals") -> np.ndarray:
     """One array of the totals or details over (row, roller, ...); NaN for rollers that failed."""
-    values = _each(table, lambda roller: getattr(getattr(roller.measures, of), name))
+
+    def value(roller: Measured) -> Any:
+        record = getattr(roller.measures, of)
+        return getattr(record, name)
+
+    values = _each(table, value)
     values = values.astype(float)
     values[_failed(table)] = np.nan
     return values
@@ -312,8 +332,10 @@ def _window_values(table: Table) -> dict[str, Any]:
     for values in (ratio, times, loads):
         values[failed] = np.nan
     with np.errstate(invalid="ignore", divide="ignore"):
-        films = loads[:, :, 1] / loads[:, :, 0]
-        outside = times[:, :, 1:] / times[:, :, :1]
+        film_load = loads[:, :, 1]
+        films = film_load / loads[:, :, 0]
+        loaded_time = times[:, :, :1]
+        outside = times[:, :, 1:] / loaded_time
     return {
         **{name: _gathered(table, name) for name in ("energy", "rolling_energy", "orbit_energy")},
         "peak_power": peaks[:, :, :-1],
@@ -336,23 +358,27 @@ def _contact_details(table: Table) -> dict[str, np.ndarray]:
     quadrature = _gathered(table, "quadrature", "details")
     extreme[np.isinf(extreme)] = np.nan
     # Orbits in which no entry was looked at.
-    entry[np.isinf(entry[..., -1])] = np.nan
+    last = entry[..., -1]
+    entry[np.isinf(last)] = np.nan
     fine, off = np.moveaxis(quadrature, -1, 0)
     with np.errstate(invalid="ignore", divide="ignore"):
         error = np.where(fine > 0.0, off / fine, np.nan)
     details = [[roller.measures.details for roller in line] for line in table]
+    of_orbits = np.moveaxis(extreme, -1, 0)
+    at_entries = np.moveaxis(entry, -1, 0)
     return {
         "station_energy": _gathered(table, "station_energy", "details"),
-        **dict(zip(ORBIT_EXTREMES, np.moveaxis(extreme, -1, 0), strict=True)),
+        **dict(zip(ORBIT_EXTREMES, of_orbits, strict=True)),
         "entries": _gathered(table, "entries", "details"),
-        **dict(zip(ENTRY_EXTREMES, np.moveaxis(entry, -1, 0), strict=True)),
+        **dict(zip(ENTRY_EXTREMES, at_entries, strict=True)),
         "quadrature_error": error,
         **surface_maps.values(details, _failed(table)),
     }
 
 
 def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
-    middles = (np.arange(SECTORS) + 0.5) * (2.0 * np.pi / SECTORS)
+    sector = 2.0 * np.pi / SECTORS
+    middles = (np.arange(SECTORS) + 0.5) * sector
     return "position", middles, described("rad", "place on the orbit, from +X0")
 
 
@@ -378,7 +404,10 @@ def roller_coordinates(
     """
     numbers = list(case.roller_numbers)
     rows = row_names(case.bearing)
-    angles = [initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in rows]
+    angles = []
+    for row in rows:
+        every = initial_angles(row, case.bearing.rollers_per_row)
+        angles.append(every[numbers])
     about_angle = described("rad", "position at the first sample, from +X0 towards +Y0")
     coordinates: dict[str, Any] = {
         "row": list(rows),

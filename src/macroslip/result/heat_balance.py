@@ -82,13 +82,15 @@ def balance_temperature(
     >>> round(balance_temperature(lambda temperature: 600.0, conductance=60.0, ambient=288.15), 6)
     298.15
     """
-    if not (math.isfinite(conductance) and conductance > 0.0):
+    is_positive = math.isfinite(conductance) and conductance > 0.0
+    if not is_positive:
         raise InputError(
             f"the conductance is {conductance:g} W/K",
             allowed="a positive number",
             remedy="40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine.",
         )
-    if not (math.isfinite(ambient) and 0.0 < ambient < hottest):
+    is_below_hottest = math.isfinite(ambient) and 0.0 < ambient < hottest
+    if not is_below_hottest:
         raise InputError(
             f"the ambient temperature is {ambient:g} K",
             allowed=f"above 0 K and below {hottest:g} K",
@@ -97,15 +99,18 @@ def balance_temperature(
 
     def surplus(temperature: float) -> float:
         heat = power(temperature)
-        if not (math.isfinite(heat) and heat >= 0.0):
+        is_power = math.isfinite(heat) and heat >= 0.0
+        if not is_power:
             raise InputError(
                 f"the friction power at {temperature:g} K is {heat:g} W",
                 allowed="a finite number, not negative",
                 remedy="Check the lubricant at that temperature.",
             )
-        return heat - conductance * (temperature - ambient)
+        carried_off = conductance * (temperature - ambient)
+        return heat - carried_off
 
-    steps = math.ceil((hottest - ambient) / _SCAN_STEP)
+    span = hottest - ambient
+    steps = math.ceil(span / _SCAN_STEP)
     temperatures = np.linspace(ambient, hottest, steps + 1)
     colder = ambient
     for temperature in temperatures.tolist():
@@ -113,9 +118,8 @@ def balance_temperature(
         if left == 0.0:
             return temperature
         if left < 0.0:
-            return root_scalar(
-                surplus, bracket=(colder, temperature), method="brentq", xtol=1e-9
-            ).root
+            bracket = (colder, temperature)
+            return root_scalar(surplus, bracket=bracket, method="brentq", xtol=1e-9).root
         colder = temperature
     raise InputError(
         f"there is no heat balance up to {hottest:g} K: the friction power exceeds what is carried "
@@ -141,7 +145,8 @@ def tabulated_power(
     """
     at = np.asarray(temperatures, dtype=float)
     values = np.asarray(powers, dtype=float)
-    if at.ndim != 1 or at.shape != values.shape or at.size < 2:
+    are_pairs = at.ndim == 1 and at.shape == values.shape
+    if not are_pairs or at.size < 2:
         fault = f"there are {at.size} temperatures and {values.size} powers"
         raise InputError(fault, allowed="as many of the one as of the other, two at least")
     rises = (np.diff(at) > 0.0).all()
@@ -155,7 +160,9 @@ def tabulated_power(
             allowed="powers of 0 W and above",
         )
     curve = PchipInterpolator(at, values)
-    return lambda temperature: float(curve(min(max(temperature, at[0]), at[-1])))
+    coldest = at[0]
+    warmest = at[-1]
+    return lambda temperature: float(curve(min(max(temperature, coldest), warmest)))
 
 
 def bearing_friction_power(result: xr.Dataset) -> float:
@@ -173,7 +180,8 @@ def bearing_friction_power(result: xr.Dataset) -> float:
     if "rib_energy" in result:
         energy += float(result.rib_energy.sum())
     share = result.attrs["rollers_per_row"] / result.sizes["roller"]
-    return share * energy / window_length(result) + result.attrs["drag_power"]
+    power = share * energy / window_length(result)
+    return power + result.attrs["drag_power"]
 
 
 def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, bool]:
@@ -205,9 +213,8 @@ def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, b
         return min(heat.ambient + _FIRST_RISE, warmest), False
     powers = [known[temperature] for temperature in temperatures]
     try:
-        balance = balance_temperature(
-            tabulated_power(temperatures, powers), heat.to_oil, heat.ambient
-        )
+        power = tabulated_power(temperatures, powers)
+        balance = balance_temperature(power, heat.to_oil, heat.ambient)
     except InputError as problem:
         if powers[-1] < powers[-2] and warmest < HOTTEST:
             # The table ends where preload stopped the trials, and friction still falls there.
@@ -224,7 +231,8 @@ def next_temperature(known: Mapping[float, float], case: Case) -> tuple[float, b
             remedy="Give the bearing more clearance, or check heat.ring_conductance and "
             "clearance_state.",
         ) from problem
-    if min(abs(balance - temperature) for temperature in temperatures) <= _SETTLED:
+    distance = min(abs(balance - temperature) for temperature in temperatures)
+    if distance <= _SETTLED:
         return balance, True
     if len(known) >= _MOST_TRIALS:
         raise InputError(
@@ -240,7 +248,8 @@ def _warmest_trial(case: Case, warmest: float) -> float:
     heat = case.heat
     if heat is None or heat.ring_conductance is None:
         return math.inf
-    per_kelvin = clearance_change(case, warmest + 1.0) - clearance_change(case, warmest)
+    change_above = clearance_change(case, warmest + 1.0)
+    per_kelvin = change_above - clearance_change(case, warmest)
     play = max(operating_clearance(case, warmest), 0.0)
     return warmest + (play + _PRELOAD_STEP) / per_kelvin
 
@@ -281,7 +290,8 @@ def at_balance(case: Case, temperature: float) -> Case:
             allowed=f"{1e6 * narrowest:g} um and more",
             remedy="Check heat.ring_conductance, or give the bearing more clearance.",
         )
-    return replace(case, bearing=case.bearing.replace(diametral_clearance=left))
+    bearing = case.bearing.replace(diametral_clearance=left)
+    return replace(case, bearing=bearing)
 
 
 def operating_clearance(case: Case, temperature: float) -> float:
@@ -301,10 +311,12 @@ def clearance_change(case: Case, temperature: float) -> float:
     """
     heat = case.heat
     assert heat is not None, "the case has no balance"
-    loss = clearance_loss(case.bearing, *rings_at_balance(heat, temperature))
+    rings = rings_at_balance(heat, temperature)
+    loss = clearance_loss(case.bearing, *rings)
     if case.bearing.clearance_state == "cold":
         return loss
-    return loss - clearance_loss(case.bearing, *rings_at_balance(heat, reference_temperature(case)))
+    reference_rings = rings_at_balance(heat, reference_temperature(case))
+    return loss - clearance_loss(case.bearing, *reference_rings)
 
 
 def reference_temperature(case: Case) -> float:
@@ -392,14 +404,20 @@ def ring_temperatures(
         raise InputError("the masses of the rings are not given", where="heat", allowed=allowed)
     between = heat.ring_conductance
     out = heat.conductance
-    capacity = SPECIFIC_HEAT * np.array([[heat.inner_mass], [heat.outer_mass]])
+    masses = np.array([[heat.inner_mass], [heat.outer_mass]])
+    capacity = SPECIFIC_HEAT * masses
     conductances = [[-between, between], [between, -between - out]]
     rate = np.array(conductances) / capacity
     outer = heat.ambient + power / out
-    steady = np.array([outer + 0.5 * power / between, outer])
-    return np.array(
-        [steady + (expm(rate * t) @ (start - steady) if math.isfinite(t) else 0.0) for t in time]
-    )
+    inner = outer + 0.5 * power / between
+    steady = np.array([inner, outer])
+    temperatures = []
+    for t in time:
+        left = 0.0
+        if math.isfinite(t):
+            left = expm(rate * t) @ (start - steady)
+        temperatures.append(steady + left)
+    return np.array(temperatures)
 
 
 def clearance_loss(bearing: Bearing, inner: float, outer: float) -> float:

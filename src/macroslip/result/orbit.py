@@ -46,20 +46,24 @@ def position(result: xr.Dataset) -> xr.DataArray:
             remedy="Leave traces.start away.",
         )
     turned = xr.DataArray(np.degrees(travelled(result)), dims="time")
-    angle = np.mod(np.degrees(result.start_angle) + 90.0 + turned, 360.0)
-    return angle.transpose(*_ORDER).assign_coords(time=result.time).assign_attrs(_ANGLE)
+    from_bottom = np.degrees(result.start_angle) + 90.0
+    angle = np.mod(from_bottom + turned, 360.0)
+    with_time = angle.transpose(*_ORDER).assign_coords(time=result.time)
+    return with_time.assign_attrs(_ANGLE)
 
 
 def travelled(result: xr.Dataset) -> np.ndarray:
     """Signed angle [rad] that all rollers have travelled since the traces begin, by time."""
-    whole = np.isfinite(result.spin_pure.values).all(axis=-1)
+    pure_spin = result.spin_pure.values
+    whole = np.isfinite(pure_spin).all(axis=-1)
     if not whole.any():
         raise InputError("no roller completed, so that nothing is known of the orbit")
     bearing = run_input(result).bearing
     ratio = geometry.roller_radius(bearing) / geometry.outer_contact_radius(bearing)
-    speed = -ratio * result.spin_pure.values[whole][0]
+    speed = -ratio * pure_spin[whole][0]
     mean_speed = 0.5 * (speed[1:] + speed[:-1])
-    turned = np.cumsum(mean_speed * np.diff(result.time.values))
+    steps = np.diff(result.time.values)
+    turned = np.cumsum(mean_speed * steps)
     return np.concatenate([[0.0], turned])
 
 
@@ -72,11 +76,13 @@ def in_window(result: xr.Dataset) -> xr.Dataset:
 
 def _thinned(size: int, most: int) -> slice:
     """Every first, second, third ... of `size` samples, so that `most` are left at most."""
-    return slice(None, None, max(1, math.ceil(size / most)))
+    step = max(1, math.ceil(size / most))
+    return slice(None, None, step)
 
 
 def _middles(sectors: int) -> tuple[str, np.ndarray, dict[str, str]]:
-    middles = 360.0 / sectors * (np.arange(sectors) + 0.5)
+    numbers = np.arange(sectors)
+    middles = 360.0 / sectors * (numbers + 0.5)
     return "angle", middles, _ANGLE
 
 
@@ -109,7 +115,8 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
             "the traces hold less than two samples of the window", remedy="Give them a later end."
         )
     power = window.power.transpose(*_ORDER, "interface").values
-    angles = travelled(result)[np.isin(result.time.values, window.time.values)]
+    is_inside = np.isin(result.time.values, window.time.values)
+    angles = travelled(result)[is_inside]
     orbits = np.ptp(angles) / (2.0 * np.pi)
     seconds = np.gradient(window.time.values)
     way = np.abs(np.gradient(angles))
@@ -119,11 +126,13 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
     sector = _sectors(angle.sel(time=window.time), sectors)
     interfaces = result.sizes["interface"]
     values = np.full((result.sizes["row"], interfaces, sectors), np.nan)
-    for row in np.flatnonzero(completed.any(axis=1) & (orbits > 0.0)):
+    is_known = completed.any(axis=1) & (orbits > 0.0)
+    for row in np.flatnonzero(is_known):
         chosen = completed[row]
         rollers = int(chosen.sum())
         sector_of_sample = sector[row, chosen].ravel()
-        passed = np.bincount(sector_of_sample, np.tile(way, rollers), sectors)
+        ways = np.tile(way, rollers)
+        passed = np.bincount(sector_of_sample, ways, sectors)
         degrees = rollers * orbits * 360.0 / sectors
         for interface in range(interfaces):
             energy = power[row, chosen, :, interface] * seconds
@@ -154,8 +163,9 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
     values = np.empty((result.sizes["row"], angle.sizes["time"], sectors))
     _, middles, _ = dims
     for r, k in np.ndindex(*values.shape[:2]):
+        load_of_samples = load[r, :, k]
         known = angle.values[r, :, k]
-        values[r, k] = np.interp(middles, known, load[r, :, k], period=360.0)
+        values[r, k] = np.interp(middles, known, load_of_samples, period=360.0)
     labels = {"row": result.row, "time": angle.time, "angle": dims}
     about = {"units": "N", "long_name": "load of the rollers"}
     return xr.DataArray(values, labels, ("row", "time", "angle"), "roller_load", about)
@@ -184,16 +194,17 @@ def over_orbit(
     xarray.DataArray
         Over (row, interface, quantile, angle); NaN where a sector holds no value.
     """
-    quantile_values = np.full(
-        (values.sizes["row"], values.sizes["interface"], len(quantiles), sectors), np.nan
-    )
-    sectors_by_row = _sectors(angle, sectors).reshape(values.sizes["row"], -1)
+    rows = values.sizes["row"]
+    interfaces = values.sizes["interface"]
+    quantile_values = np.full((rows, interfaces, len(quantiles), sectors), np.nan)
+    sectors_by_row = _sectors(angle, sectors).reshape(rows, -1)
     for r, sector in enumerate(sectors_by_row):
         order = np.argsort(sector, kind="stable")
         ends = np.searchsorted(sector[order], np.arange(sectors + 1))
-        for i, k in np.ndindex(quantile_values.shape[1], sectors):
+        for i, k in np.ndindex(interfaces, sectors):
             samples = order[ends[k] : ends[k + 1]]
-            in_sector = values.values[r, ..., i].ravel()[samples]
+            of_interface = values.values[r, ..., i].ravel()
+            in_sector = of_interface[samples]
             known = in_sector[np.isfinite(in_sector)]
             if known.size:
                 quantile_values[r, i, :, k] = np.quantile(known, quantiles)
@@ -221,17 +232,21 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
     """
     orbit = energy_over_orbit(result).to_dataset()
     window = in_window(result)
-    traced = window.isel(time=_thinned(window.sizes["time"], _QUANTILE_SAMPLES))
+    every = _thinned(window.sizes["time"], _QUANTILE_SAMPLES)
+    traced = window.isel(time=every)
     angle = position(result).sel(time=traced.time)
-    thickness = over_orbit(traced.film_thickness.transpose(*_ORDER, "interface"), angle)
+    film = traced.film_thickness.transpose(*_ORDER, "interface")
+    thickness = over_orbit(film, angle)
     orbit["film_thickness"] = thickness
     with np.errstate(invalid="ignore", divide="ignore"):
         slip = 1.0 - traced.spin / traced.spin_pure
     slip = slip.expand_dims(interface=["raceways"], axis=-1)
-    orbit["slip"] = over_orbit(slip, angle).isel(interface=0, drop=True)
+    slip_over_orbit = over_orbit(slip, angle)
+    orbit["slip"] = slip_over_orbit.isel(interface=0, drop=True)
     about = {"units": "1", "long_name": "film thickness over composite roughness, Λ"}
     roughness = run_input(result).bearing.composite_roughness
-    orbit["film_parameter"] = (thickness / roughness).assign_attrs(about)
+    film_parameter = thickness / roughness
+    orbit["film_parameter"] = film_parameter.assign_attrs(about)
     return {
         "result": result.drop_dims("time"),
         "orbit": orbit,
@@ -248,8 +263,10 @@ def still(result: xr.Dataset) -> xr.Dataset:
     that does not spin, and roller_load [N].
     """
     angle = position(result)
-    power = in_window(result).power.sum("interface").max(("row", "roller"))
-    moment = result.sel(time=power.time[int(power.argmax("time"))])
+    of_rollers = in_window(result).power.sum("interface")
+    power = of_rollers.max(("row", "roller"))
+    largest = int(power.argmax("time"))
+    moment = result.sel(time=power.time[largest])
     slip = 1.0 - moment.spin / moment.spin_pure
     values = {"angle": angle.sel(time=moment.time), "slip": slip}
     return xr.Dataset(values | {"roller_load": moment.roller_load})
@@ -268,9 +285,11 @@ def scene(
     """
     angle = position(result)
     turned = np.degrees(travelled(result))
-    interval = float(np.median(np.diff(result.time.values)))  # two samples at least
+    steps = np.diff(result.time.values)  # two samples at least
+    interval = float(np.median(steps))
     every = slice(None, None, max(1, round(step / interval)))
-    power = result.power.sum("interface", skipna=False).isel(time=every).transpose(*_ORDER)
+    of_rollers = result.power.sum("interface", skipna=False)
+    power = of_rollers.isel(time=every).transpose(*_ORDER)
     window = np.isin(power.time.values, in_window(result).time.values)
     largest = np.nan_to_num(power.values, nan=-1.0).max(axis=(0, 1))
     total = np.where(window, largest, -1.0)
@@ -280,12 +299,17 @@ def scene(
     first = min(first, last_start)
     part = slice(first, first + samples)
     thin = result.isel(time=every).isel(time=part)
-    values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}
+    values = {
+        "slip": thin.slip,
+        "roller_load": thin.roller_load,
+        "power": power.isel(time=part),
+    }
     if "pocket_offset" in thin:
         values |= {name: thin[name] for name in ("cage_force", "pocket_offset")}
-    played = xr.Dataset(
-        {name: variable.transpose(*_ORDER).astype(np.float32) for name, variable in values.items()}
-    )
+    single = {}
+    for name, variable in values.items():
+        single[name] = variable.transpose(*_ORDER).astype(np.float32)
+    played = xr.Dataset(single)
     played.power.attrs = {
         "units": "W",
         "long_name": "frictional power, all interfaces, at the instant",
@@ -297,7 +321,8 @@ def scene(
         of_rows = np.broadcast_to(lead, (result.sizes["row"], lead.shape[1]))
         about = {"units": "degree", "long_name": "cage ahead of pure rolling"}
         played["cage_lead"] = (("row", "time"), of_rows, about)
-    played["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
+    played_angle = angle.isel(time=every).isel(time=part)
+    played["angle"] = played_angle.isel(time=0, drop=True)
     moved = turned[every][part]
     about = {"units": "degree", "long_name": "angle travelled since the start"}
     return played.assign(travelled=("time", moved - moved[0], about))

@@ -61,7 +61,8 @@ def doubtful_loads(
     """
     doubts = []
     fastest = float(np.abs(loads.shaft_speed).max())
-    if fastest > _FASTEST and (bearing is None or bearing.kind == "spherical"):
+    is_spherical = bearing is None or bearing.kind == "spherical"
+    if fastest > _FASTEST and is_spherical:
         doubts.append(
             f"the shaft turns at up to {fastest / RPM:.3g} rpm, and rotors on main bearings stay "
             "below 40 rpm; is the speed that of the generator, or in another unit?"
@@ -85,8 +86,9 @@ def _loads_that_turn(loads: HubLoads) -> list[str]:
     In axes that turn, fy and fz go round with amplitude W, the rotor's weight, and have a mean near
     zero. Turned back by an angle that is wrong by δ, the weight has a mean fy of W sin δ.
     """
-    mean_y, mean_z = loads.force[:, 1:].mean(axis=0)
-    deviations = loads.force[:, 1:].std(axis=0)
+    lateral = loads.force[:, 1:]
+    mean_y, mean_z = lateral.mean(axis=0)
+    deviations = lateral.std(axis=0)
     for name, deviation in zip(("fy", "fz"), deviations, strict=True):
         if deviation > abs(mean_z):
             return [
@@ -174,8 +176,9 @@ def _doubtful_rating(result: xr.Dataset) -> list[str]:
                 f"the film's formula is outside its range for {100.0 * outside:.3g} % of the "
                 "loaded time at a raceway: film thickness and traction are extrapolated there."
             )
-    bearing = stored_settings(result).get("bearing", {})
-    if "basic_life" in result and bearing.get("dynamic_load_rating", {}).get("tag") == "D":
+    entries = stored_settings(result).get("bearing", {})
+    dynamic_rating = entries.get("dynamic_load_rating", {})
+    if "basic_life" in result and dynamic_rating.get("tag") == "D":
         doubts.append(
             "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of "
             "what makers publish: lives are 0.5 to 0.9 of those by the maker's C."

@@ -63,12 +63,14 @@ class Prepared:
         motion = self.motion
         model = self.model
         start = self.edges[0]
-        inside = (motion.time > start) & (motion.time < self.end)
-        time = np.concatenate([[start], motion.time[inside], [self.end]])
+        is_inside = (motion.time > start) & (motion.time < self.end)
+        inside = motion.time[is_inside]
+        time = np.concatenate([[start], inside, [self.end]])
         shaft_speed = np.interp(time, motion.time, motion.shaft_speed)
         speed = np.abs(model.orbit_ratio * shaft_speed)
-        power = model.drag * speed**3 * self.case.bearing.pitch_radius
-        rollers = self.case.bearing.rows * self.case.bearing.rollers_per_row
+        bearing = self.case.bearing
+        power = model.drag * speed**3 * bearing.pitch_radius
+        rollers = bearing.rows * bearing.rollers_per_row
         energy = float(np.trapezoid(power, time))
         return rollers * energy / (self.end - start)
 
@@ -82,8 +84,10 @@ class Prepared:
             # Of some hundred samples.
             every = max(1, self.motion.time.size // 200)
             few = Motion(*(values[::every] for values in self.motion))
-            pressed = elastic_loads(case.ring_loads, ring_geometry(case.bearing, self.model), few)
-            beyond = truncated_share(self.largest, truncation_load(case.bearing, case.oil))
+            ring = ring_geometry(case.bearing, self.model)
+            pressed = elastic_loads(case.ring_loads, ring, few)
+            truncation = truncation_load(case.bearing, case.oil)
+            beyond = truncated_share(self.largest, truncation)
         laws = self.model.laws
         contacts = tuple(law.interface for law in (laws.inner, laws.outer, laws.cage))
         return {
@@ -112,10 +116,10 @@ def prepare(case: Case) -> Prepared:
         "drag": case.drag,
         "laws": case.laws,
     }
-    models = {
-        row: roller_model(case.bearing, case.oil, AXIAL_SIGNS[row], **options)
-        for row in row_names(case.bearing)
-    }
+    models = {}
+    for row in row_names(case.bearing):
+        sign = AXIAL_SIGNS[row]
+        models[row] = roller_model(case.bearing, case.oil, sign, **options)
     model = next(iter(models.values()))
     tapered = None
     own = []
@@ -133,17 +137,17 @@ def prepare(case: Case) -> Prepared:
     ring_speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
     fastest = float(np.abs(ring_speeds).max())
     check_own_laws(case.laws, case.bearing, case.oil, fastest)
-    body = body_force(model, float(np.abs(motion.shaft_speed).max()))
+    fastest_shaft = float(np.abs(motion.shaft_speed).max())
+    body = body_force(model, fastest_shaft)
     # Free rollers drop through their pockets, even where the rings creep.
-    falling = (
-        math.sqrt(2.0 * GRAVITY * case.cage.gap)
-        if case.dynamics == WHOLE_BEARING and case.gravity
-        else 0.0
-    )
-    tolerance = (
-        case.integrator.tolerance if isinstance(case.integrator, Radau) else _FIXED_STEP_TOLERANCE
-    )
-    for _ in range(0 if case.laws.skew == "none" or isinstance(loads, RollerLoads) else _BALANCED):
+    falling = 0.0
+    if case.dynamics == WHOLE_BEARING and case.gravity:
+        falling = math.sqrt(2.0 * GRAVITY * case.cage.gap)
+    tolerance = _FIXED_STEP_TOLERANCE
+    if isinstance(case.integrator, Radau):
+        tolerance = case.integrator.tolerance
+    has_thrust = case.laws.skew != "none" and not isinstance(loads, RollerLoads)
+    for _ in range(_BALANCED if has_thrust else 0):
         box = table_box(ring_speeds, largest + body, float(tolerance), falling)
         more = thrust_on_ring(case, model, ring, motion, box)
         motion, largest = ring_motion(loads, case.bearing, ring, limit, more)
@@ -187,23 +191,30 @@ def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> 
     # The first orbit belongs to the rollers' start; of an event, what happens in it belongs to the
     # event.
     opens_late = case.window.start is None and not case.loads.event
-    start = completed[0] if opens_late and completed.size and completed[0] < end else time[0]
-    return np.concatenate([[start], completed[completed > start]])
+    start = time[0]
+    if opens_late and completed.size and completed[0] < end:
+        start = completed[0]
+    later = completed[completed > start]
+    return np.concatenate([[start], later])
 
 
 def _trace_times(case: Case, motion: Motion, edges: np.ndarray, window_end: float) -> np.ndarray:
     """Times at which traces are kept [s], never past the end of the simulation."""
     if case.traces is None:
         return np.empty(0)
-    start = motion.time[0] if case.traces.start is None else case.traces.start
-    end = window_end if case.traces.end is None else min(case.traces.end, window_end)
-    samples = (end - start) / case.traces.step * (1.0 + 1e-12)
+    traces = case.traces
+    start = motion.time[0] if traces.start is None else traces.start
+    end = window_end
+    if traces.end is not None:
+        end = min(traces.end, window_end)
+    samples = (end - start) / traces.step * (1.0 + 1e-12)
     if samples > _MOST_SAMPLES:
-        fault = f"a step of {case.traces.step:g} s makes {samples:.3g} samples"
+        fault = f"a step of {traces.step:g} s makes {samples:.3g} samples"
         allowed = f"up to {_MOST_SAMPLES:,} samples for each roller"
         remedy = "Take a longer step, or traces of a shorter time."
         raise InputError(fault, where="traces", allowed=allowed, remedy=remedy)
     count = int(np.floor(samples)) + 1
-    times = start + case.traces.step * np.arange(max(count, 0))
-    known = np.unique(np.concatenate([motion.time, edges, [window_end]]))
+    times = start + traces.step * np.arange(max(count, 0))
+    known_times = np.concatenate([motion.time, edges, [window_end]])
+    known = np.unique(known_times)
     return np.minimum(merged_times(times, known), end)

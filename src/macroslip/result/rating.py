@@ -30,7 +30,8 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     loads, roller_load, _ = _load_history(case)
     is_inside = (loads.time >= start) & (loads.time <= end)
     chosen = np.flatnonzero(is_inside)[::_EVERY]
-    return loads.time[chosen], np.moveaxis(roller_load[..., chosen], -1, 0)
+    load_of_samples = np.moveaxis(roller_load[..., chosen], -1, 0)
+    return loads.time[chosen], load_of_samples
 
 
 def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset:
@@ -59,9 +60,11 @@ def _load_history(case: Case) -> tuple[BearingLoads, FloatArray, StripRating | N
     ring_motion = tapered_ring_motion(case)
     motion = ring_motion.motion
     loads = case.ring_loads.resampled(motion.time, motion.shaft_speed)
-    pressed = np.moveaxis(ring_motion.balance.outer_load, 0, -1)
-    strips = strip_rating(case.bearing, ring_motion.ring, ring_motion.balance, motion.shaft_angle)
-    return loads, pressed.reshape(case.bearing.rows, case.bearing.rollers_per_row, -1), strips
+    balance = ring_motion.balance
+    pressed = np.moveaxis(balance.outer_load, 0, -1)
+    strips = strip_rating(case.bearing, ring_motion.ring, balance, motion.shaft_angle)
+    by_row = pressed.reshape(case.bearing.rows, case.bearing.rollers_per_row, -1)
+    return loads, by_row, strips
 
 
 def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:
@@ -73,7 +76,8 @@ def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:
     if not case.rating:
         return result
     if case.temperature == BALANCE:
-        case = replace(case, temperature=float(result.inlet_temperature), heat=None)
+        temperature = float(result.inlet_temperature)
+        case = replace(case, temperature=temperature, heat=None)
     try:
         rating = rate_case(case)
     except InputError as problem:
@@ -82,4 +86,5 @@ def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:
     # A class of load is another load in every case, so its middle is a variable and no coordinate.
     middle = rating.load_class.variable
     rating = rating.drop_vars("load_class").assign(load_class_middle=middle)
-    return result.merge(rating.drop_attrs(deep=False)).assign_attrs(result.attrs | attributes)
+    merged = result.merge(rating.drop_attrs(deep=False))
+    return merged.assign_attrs(result.attrs | attributes)

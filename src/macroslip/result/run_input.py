@@ -77,10 +77,11 @@ class RunInput:
                 "drag": settings["forces"]["drag"],
                 "laws": Laws(**choices),
             }
-            return {
-                row: roller_model(self.bearing, lubricant, AXIAL_SIGNS[row], **options)
-                for row in self._rows
-            }
+            models = {}
+            for row in self._rows:
+                sign = AXIAL_SIGNS[row]
+                models[row] = roller_model(self.bearing, lubricant, sign, **options)
+            return models
 
 
 def run_input(result: xr.Dataset) -> RunInput:
@@ -92,7 +93,8 @@ def run_input(result: xr.Dataset) -> RunInput:
     Raises InputError if the dataset has no input.
     """
     with _complete():
-        return _run_input(result.attrs["input"], tuple(result.row.values.tolist()))
+        rows = tuple(result.row.values.tolist())
+        return _run_input(result.attrs["input"], rows)
 
 
 @functools.lru_cache(maxsize=_KEPT)
@@ -111,7 +113,9 @@ def stored_settings(result: xr.Dataset) -> dict[str, Any]:
 
 def window_length(result: xr.Dataset) -> float:
     """Length of the window [s]."""
-    return float(result.attrs["window_end"] - result.attrs["window_start"])
+    end = result.attrs["window_end"]
+    start = result.attrs["window_start"]
+    return float(end - start)
 
 
 def leaves(settings: Any, key: str = "") -> Iterator[tuple[str, Any]]:
@@ -124,7 +128,8 @@ def leaves(settings: Any, key: str = "") -> Iterator[tuple[str, Any]]:
     """
     if isinstance(settings, Mapping) and not {"value", "tag"} <= settings.keys():
         for name, section in settings.items():
-            yield from leaves(section, f"{key}.{name}" if key else str(name))
+            inner_key = f"{key}.{name}" if key else str(name)
+            yield from leaves(section, inner_key)
     else:
         yield key, settings
 

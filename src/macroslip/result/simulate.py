@@ -124,13 +124,15 @@ def _imposed_orbits(
             for row, number in left:
                 problem = problems[row]
                 if own_motions:
-                    index = names.index(row) * case.bearing.rollers_per_row + number
+                    first = names.index(row) * case.bearing.rollers_per_row
+                    index = first + number
                     problem = replace(problem, motion=own_motions[index])
                 start_angle = float(angles[row][number])
                 future = pool.submit(_roller, problem, rows[row], start_angle, stop)
                 futures[future] = (row, number)
             try:
-                for future in _finished(set(futures), progress, total - len(left), total):
+                done = total - len(left)
+                for future in _finished(set(futures), progress, done, total):
                     results[futures[future]] = future.result()
             except BaseException:
                 stop.set()
@@ -163,8 +165,11 @@ def _problem(ready: Prepared, roller: Roller, skewing: Skewing | None) -> Proble
     integrator = ready.case.integrator
     motion = ready.motion
     if isinstance(integrator, Radau):
-        turns = skewing is not None and skewing.guide.largest > 0.0
-        longest = LONGEST_TURN if ready.tapered is None else LONGEST_RIBBED_TURN
+        longest = LONGEST_TURN
+        if ready.tapered is not None:
+            longest = LONGEST_RIBBED_TURN
+        if skewing is not None and skewing.guide.largest > 0.0:
+            longest = LONGEST_SKEWED_TURN
         limits = radau_limits(
             roller,
             motion,
@@ -172,16 +177,16 @@ def _problem(ready: Prepared, roller: Roller, skewing: Skewing | None) -> Proble
             max_steps=integrator.max_steps,
             heaviest=ready.heaviest,
             window=float(ready.edges[0]),
-            longest_turn=LONGEST_SKEWED_TURN if turns else longest,
+            longest_turn=longest,
         )
-        stops = np.unique(np.concatenate([ready.edges, ready.trace_time, [ready.end]]))
+        times = np.concatenate([ready.edges, ready.trace_time, [ready.end]])
+        stops = np.unique(times)
         return Problem(roller, motion, limits, stops)
-    tolerance = float(integrator.tolerance) if isinstance(integrator, BackwardEuler) else None
-    return Problem(
-        roller,
-        motion,
-        fixed_step(roller, motion, step=integrator.step, end=ready.end, tolerance=tolerance),
-    )
+    tolerance = None
+    if isinstance(integrator, BackwardEuler):
+        tolerance = float(integrator.tolerance)
+    limits = fixed_step(roller, motion, step=integrator.step, end=ready.end, tolerance=tolerance)
+    return Problem(roller, motion, limits)
 
 
 def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Event) -> Measured:
@@ -239,26 +244,21 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     count = case.bearing.rollers_per_row
     names = row_names(case.bearing)
     skews = skewing(case, ready.model.laws, ready.box)
-    rows = {
-        row: Row(
-            bearing.models[row],
-            Roller(assembly.bodies[k : k + 1], assembly.tables),
-            motion,
-            wanted,
-            skews.get(row),
-        )
-        for k, row in enumerate(names)
-    }
+    rows = {}
+    for k, row in enumerate(names):
+        roller = Roller(assembly.bodies[k : k + 1], assembly.tables)
+        rows[row] = Row(bearing.models[row], roller, motion, wanted, skews.get(row))
     chosen = [(row, number) for row in names for number in case.roller_numbers]
     indices = [names.index(row) * count + number for row, number in chosen]
-    measures = [
-        RollerMeasures(rows[row], float(bearing.positions["angle"][index]))
-        for (row, _), index in zip(chosen, indices, strict=True)
-    ]
+    measures = []
+    for (row, _), index in zip(chosen, indices, strict=True):
+        start_angle = float(bearing.positions["angle"][index])
+        measures.append(RollerMeasures(rows[row], start_angle))
     start = float(motion.time[0])
     times = ready.trace_time
     if case.traces is None:
-        times = np.unique(np.concatenate([[start], ready.edges, [ready.end]]))
+        ends = np.concatenate([[start], ready.edges, [ready.end]])
+        times = np.unique(ends)
     cages = CageMeasures(bearing, wanted, times)
     stops = np.unique(np.concatenate([times, ready.edges, [ready.end]]))
     outcome = Outcome()
@@ -283,4 +283,5 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
         )
     for measure in measures:
         measure.finish()
-    return outcome, dict(zip(chosen, measures, strict=True)), cages, report
+    by_roller = dict(zip(chosen, measures, strict=True))
+    return outcome, by_roller, cages, report

@@ -32,12 +32,12 @@ def skewing(case: Case, laws: PreparedLaws, box: Box) -> dict[str, Skewing]:
     stop = pocket(case.bearing, cage.guidance, cage.gap, cage.skew_play)
     if cage.alignment == "none":
         stop = stop._replace(effective_radius=0.0)
-    return {
-        row: Skewing(
-            table, guide_of(stop, AXIAL_SIGNS[row]), raceways(laws, case.bearing, AXIAL_SIGNS[row])
-        )
-        for row in ROWS
-    }
+    skewings = {}
+    for row in ROWS:
+        sign = AXIAL_SIGNS[row]
+        guide = guide_of(stop, sign)
+        skewings[row] = Skewing(table, guide, raceways(laws, case.bearing, sign))
+    return skewings
 
 
 def thrust_on_ring(
@@ -65,10 +65,12 @@ def thrust_on_ring(
     down, up = skewing(case, model.laws, box).values()
     count = motion.time.size
     if case.window.end is not None:
-        count = min(int(np.searchsorted(motion.time, case.window.end)) + 1, count)
+        inside = int(np.searchsorted(motion.time, case.window.end))
+        count = min(inside + 1, count)
     force = np.zeros((motion.time.size, 3))
     part = Motion(*(samples[:count] for samples in motion))
-    force[:count] = thrust(down.table, (down.guide, up.guide), ring, model, part)
+    guides = (down.guide, up.guide)
+    force[:count] = thrust(down.table, guides, ring, model, part)
     return force
 
 
@@ -94,15 +96,18 @@ def values(
     """
 
     def of_rollers(name: str) -> np.ndarray:
-        gathered = np.array([[getattr(roller, name) for roller in row] for row in table])
+        by_row = [[getattr(roller, name) for roller in row] for row in table]
+        gathered = np.array(by_row)
         gathered[failed] = np.nan
         return gathered
 
     total = np.nansum(of_rollers("by_sector"), axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         means = total[..., 1:] / total[..., :1]
-        share = case.bearing.rollers_per_row / (~failed).sum(axis=1)
-    impulse = total[..., 1 + BY_SECTOR.index("axial_force_by_position")].sum(axis=1)
+        completed = (~failed).sum(axis=1)
+        share = case.bearing.rollers_per_row / completed
+    axial_force = 1 + BY_SECTOR.index("axial_force_by_position")
+    impulse = total[..., axial_force].sum(axis=1)
     mean_thrust = impulse * share / span * math.cos(case.bearing.contact_angle)
     return {
         "skew_energy": of_rollers("energy"),

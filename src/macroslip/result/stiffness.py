@@ -87,7 +87,9 @@ def ring_stiffness(cases: Mapping[str, Case]) -> xr.Dataset:
     >>> [round(float(matrix.sel(load=f"F_{axis}0", motion=f"d_{axis}0")) / 1e9, 2) for axis in "XYZ"]
     [6.01, 7.55, 0.53]
     """
-    points = [point for name, case in cases.items() for point in _points(name, case)]
+    points = []
+    for name, case in cases.items():
+        points += _points(name, case)
     stacked = {}
     for key in points[0]:
         stacked[key] = np.array([point[key] for point in points])
@@ -162,16 +164,20 @@ def _points(name: str, case: Case) -> list[dict[str, Any]]:
 
 
 def _ring(bearing: Bearing, lubricant: Lubricant) -> RingGeometry:
-    return ring_geometry(bearing, roller_model(bearing, lubricant, 1, tilt=0.0))
+    model = roller_model(bearing, lubricant, 1, tilt=0.0)
+    return ring_geometry(bearing, model)
 
 
 def _about(ring: RingGeometry, force: FloatArray, name: str) -> dict[str, Any]:
     """Displacement, stiffness, its variation over a pitch, and whether the ring is held."""
     pitch = 4.0 * math.pi / ring.cosine.size
-    angle = pitch / ring.orbit_ratio * np.arange(_POSITIONS) / _POSITIONS
+    shares = np.arange(_POSITIONS)
+    angle = pitch / ring.orbit_ratio * shares / _POSITIONS
     loads = np.tile(force, (_POSITIONS, 1))
-    displacement, unbalanced = balance(ring, angle, loads, np.zeros((_POSITIONS, 3)))
-    if not (unbalanced <= _UNBALANCED * np.linalg.norm(force) + 1e-6).all():
+    at_rest = np.zeros((_POSITIONS, 3))
+    displacement, unbalanced = balance(ring, angle, loads, at_rest)
+    tolerated = _UNBALANCED * np.linalg.norm(force) + 1e-6
+    if not (unbalanced <= tolerated).all():
         raise MacroslipError(
             f"{name}: the balance of the ring did not converge under {force.round(1).tolist()} N."
         )
@@ -185,7 +191,10 @@ def _about(ring: RingGeometry, force: FloatArray, name: str) -> dict[str, Any]:
     stiffest = eigenvalues[:, -1]
     held = bool((softest > _HELD * stiffest).all())
     largest = np.abs(mean).max()
-    variation = float(np.abs(tangents - mean).max() / largest) if largest > 0.0 else math.nan
+    variation = math.nan
+    if largest > 0.0:
+        largest_change = np.abs(tangents - mean).max()
+        variation = float(largest_change / largest)
     return {
         "displacement": displacement.mean(axis=0),
         "stiffness": stiffness,

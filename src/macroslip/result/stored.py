@@ -36,7 +36,9 @@ def to_netcdf(result: xr.Dataset) -> bytes:
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in result.variables.items():
         if variable.ndim and variable.size and variable.dtype.kind in "fiu":
-            whole = {"chunksizes": variable.shape} if variable.nbytes <= _LARGEST_BLOCK else {}
+            whole = {}
+            if variable.nbytes <= _LARGEST_BLOCK:
+                whole = {"chunksizes": variable.shape}
             encoding[str(name)] = {"fletcher32": True, **whole}
     return bytes(result.to_netcdf(engine="h5netcdf", encoding=encoding))
 
@@ -59,11 +61,12 @@ def _names(result: xr.Dataset) -> str:
     missing = [name for name in ("energy", "status") if name not in result.data_vars]
     missing += [name for name in ("row", "roller", "interface") if name not in result.dims]
     if "time" in result.dims:
-        missing += [
-            name for name in ("time", "start_angle", *_TRACES) if name not in result.variables
-        ]
+        traced = ("time", "start_angle", *_TRACES)
+        missing += [name for name in traced if name not in result.variables]
         missing += [name for name in ("window_start", "window_end") if name not in result.attrs]
-    return f"the dataset has no {', no '.join(missing)}" if missing else ""
+    if not missing:
+        return ""
+    return f"the dataset has no {', no '.join(missing)}"
 
 
 def _kinds(result: xr.Dataset) -> str:
@@ -73,15 +76,16 @@ def _kinds(result: xr.Dataset) -> str:
         expected = variable.dims
         dims = tuple(dim for dim in result[name].dims if dim != "case")
         # A selection, of one row for example, has lost that dimension everywhere.
-        if dims != tuple(dim for dim in expected if dim in result.dims):
-            return f"{name} is over ({', '.join(map(str, dims))}), not ({', '.join(expected)})"
+        whole = tuple(dim for dim in expected if dim in result.dims)
+        if dims != whole:
+            listed = ", ".join(map(str, dims))
+            return f"{name} is over ({listed}), not ({', '.join(expected)})"
         if result[name].dtype.kind not in "fiu":
             return f"{name} holds no numbers"
     for name in ("window_start", "window_end"):
         time = result.attrs.get(name, 0.0)
-        if not (
-            np.ndim(time) == 0 and isinstance(time, (int, float, np.number)) and np.isfinite(time)
-        ):
+        is_number = np.ndim(time) == 0 and isinstance(time, (int, float, np.number))
+        if not (is_number and np.isfinite(time)):
             return f"the attribute {name} is no time"
     return ""
 
@@ -89,8 +93,11 @@ def _kinds(result: xr.Dataset) -> str:
 def _labels(result: xr.Dataset) -> str:
     for name, known in (("row", tuple(AXIAL_SIGNS)), ("interface", INTERFACES)):
         labels = result[name].values.tolist()
-        if not labels or len(set(labels)) != len(labels) or not set(labels) <= set(known):
-            return f"{name} is {', '.join(map(str, labels))[:80] or 'empty'}, not of {', '.join(known)}"
+        different = set(labels)
+        is_repeated = len(different) != len(labels)
+        if not labels or is_repeated or not different <= set(known):
+            listed = ", ".join(map(str, labels))[:80] or "empty"
+            return f"{name} is {listed}, not of {', '.join(known)}"
     for name in ("roller", "time"):
         if name in result.dims:
             values = result[name].values
@@ -106,10 +113,13 @@ def _labels(result: xr.Dataset) -> str:
 
 def _values(result: xr.Dataset) -> str:
     status = result.status.values
-    if not np.isin(status, [int(member) for member in Status]).all():
+    meanings = [int(member) for member in Status]
+    if not np.isin(status, meanings).all():
         return "status holds numbers without a meaning"
-    energy = result.energy.where(result.status == Status.COMPLETED, 0.0).values
-    if not (np.isfinite(energy) & (energy >= 0.0)).all():
+    is_completed = result.status == Status.COMPLETED
+    energy = result.energy.where(is_completed, 0.0).values
+    is_energy = np.isfinite(energy) & (energy >= 0.0)
+    if not is_energy.all():
         return "energy is negative or not finite for a roller that was completed"
     if "start_angle" in result.variables:
         angles = result.start_angle.values
@@ -130,7 +140,8 @@ def _values(result: xr.Dataset) -> str:
 
 def _input(result: xr.Dataset) -> str:
     try:
-        good = isinstance(json.loads(result.attrs.get("input", "{}")), dict)
+        content = json.loads(result.attrs.get("input", "{}"))
+        good = isinstance(content, dict)
     except (TypeError, ValueError, RecursionError):
         good = False
     return "" if good else "the attribute input holds no case"

@@ -33,7 +33,10 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
         sums = [sum(getattr(record, name) for record in row) for row in records]
         return np.array(sums, dtype=float)
 
-    density = [np.max([record.surface_density for record in row], axis=0) for row in records]
+    density = []
+    for row in records:
+        densities = [record.surface_density for record in row]
+        density.append(np.max(densities, axis=0))
     weighted_load = total("working_load")
     classes = total("film_slip")
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -56,7 +59,8 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
 
 def coordinates(bearing: Bearing | TaperedBearing) -> dict[str, Any]:
     """Angles, areas of the cells, and names of the parts of the energy."""
-    angle = (np.arange(SECTORS) + 0.5) * (2.0 * math.pi / SECTORS)
+    sector = 2.0 * math.pi / SECTORS
+    angle = (np.arange(SECTORS) + 0.5) * sector
     about = {
         "units": "rad",
         "long_name": "angle on the raceway, outer: from +X0 to +Y0, inner: the same on the ring",
@@ -65,18 +69,21 @@ def coordinates(bearing: Bearing | TaperedBearing) -> dict[str, Any]:
     edges = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
     middles = 0.5 * (edges[1:] + edges[:-1])
     width = bearing.roller_length / STATIONS
-    radii = (geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing))
+    inner_radius = geometry.inner_contact_radius(bearing)
+    outer_radius = geometry.outer_contact_radius(bearing)
     lean = math.sin(bearing.contact_angle)
 
     def radii_along(row: str, radius: float) -> np.ndarray:
         if isinstance(bearing, TaperedBearing):
-            return radius * (1.0 + middles / tapered_geometry(bearing).apex_distance)
+            apex_distance = tapered_geometry(bearing).apex_distance
+            return radius * (1.0 + middles / apex_distance)
         return radius - AXIAL_SIGNS[row] * middles * lean
 
-    areas = [
-        [radii_along(row, radius) * (2.0 * math.pi / SECTORS) * width for radius in radii]
-        for row in row_names(bearing)
-    ]
+    areas = []
+    for row in row_names(bearing):
+        inner = radii_along(row, inner_radius) * sector * width
+        outer = radii_along(row, outer_radius) * sector * width
+        areas.append([inner, outer])
     area = {"units": "m2", "long_name": "area of a place of the raceway"}
     return {
         "angle": ("angle", angle, about),
@@ -121,7 +128,8 @@ def even_energy(result: xr.Dataset) -> xr.DataArray:
     per_pass = xr.where(passes > 0.0, energy / passes, 0.0 * energy)
     over_raceway = ("angle", "station", "slip_sign", "film_regime")
     total = per_pass.sum(over_raceway, skipna=False)
-    scale = energy.sum(over_raceway, skipna=False) / total.where(total != 0.0, 1.0)
+    whole = energy.sum(over_raceway, skipna=False)
+    scale = whole / total.where(total != 0.0, 1.0)
     return (per_pass * scale).transpose(*energy.dims)
 
 
@@ -144,11 +152,13 @@ def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
     result has no maps.
     """
     _require_maps(result)
-    area = 2.0 * math.pi * geometry.roller_radius(bearing) * bearing.roller_length / STATIONS
-    energy = result.surface_energy.sum(("raceway", "angle"), skipna=False) / result.sizes["roller"]
-    return (energy / area).assign_attrs(
-        units="J/m2", long_name="frictional energy per area of the roller"
-    )
+    circumference = 2.0 * math.pi * geometry.roller_radius(bearing)
+    area = circumference * bearing.roller_length / STATIONS
+    of_rollers = result.surface_energy.sum(("raceway", "angle"), skipna=False)
+    energy = of_rollers / result.sizes["roller"]
+    density = energy / area
+    about = "frictional energy per area of the roller"
+    return density.assign_attrs(units="J/m2", long_name=about)
 
 
 def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> xr.DataArray:
@@ -159,10 +169,10 @@ def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> 
     frictional power or energy per area could be traced to a primary source.
     """
     weight = (area + 0.0 * density).where(density.notnull())
-    return (
-        weight.where(density > threshold, 0.0).sum(("angle", "station"))
-        / weight.sum(("angle", "station"))
-    ).rename("share_above")
+    above = weight.where(density > threshold, 0.0)
+    over_raceway = ("angle", "station")
+    share = above.sum(over_raceway) / weight.sum(over_raceway)
+    return share.rename("share_above")
 
 
 def _require_maps(result: xr.Dataset) -> None:

@@ -149,7 +149,8 @@ class TaperedMount:
                 remedy="Two bearings hold the shaft, and the gearbox takes torque only: remove "
                 "support_stiffness.",
             )
-        if self.rows_each not in (1, 2) or (self.rows_each == 1 and not self.front_to_rear):
+        is_single = self.rows_each == 1
+        if self.rows_each not in (1, 2) or (is_single and not self.front_to_rear):
             raise InputError(
                 f"rows_each is {self.rows_each}, and front_to_rear {self.front_to_rear:g} m",
                 where="TaperedMount",
@@ -190,7 +191,10 @@ class TaperedMount:
     def row_names(self) -> tuple[str, ...]:
         """Names of the rows, by the thrust that they carry."""
         if self.front_to_rear and self.rows_each == 2:
-            return tuple(f"{bearing} {row}" for bearing in ("front", "rear") for row in ROWS)
+            names = []
+            for bearing in ("front", "rear"):
+                names += [f"{bearing} {row}" for row in ROWS]
+            return tuple(names)
         return ROWS
 
     def mounted(self, bearing: TaperedBearing) -> TaperedBearing:
@@ -313,7 +317,8 @@ def warmed(bearing: TaperedBearing, temperature_difference: float) -> TaperedBea
     """
     row = tapered_geometry(bearing)
     change = row.preload_per_kelvin(STEEL_EXPANSION, bearing.row_offset, bearing.arrangement)
-    return bearing.replace(preload=bearing.preload + change * temperature_difference)
+    preload = bearing.preload + change * temperature_difference
+    return bearing.replace(preload=preload)
 
 
 def tapered_history(
@@ -351,21 +356,25 @@ def tapered_history(
     state = TaperedState() if state is None else state
     mounted = mount.mounted(bearing)
     warm = warmed(mounted, state.temperature_difference)
-    ring = mount.ring(warm, state.thickness_of(state.line_law, warm))
+    thickness = state.thickness_of(state.line_law, warm)
+    ring = mount.ring(warm, thickness)
     angle = shaft_angle(hub_loads.time, hub_loads.shaft_speed)
     force, moment = moment_bearing_load(hub_loads, mount.middle)
     check_preload(warm, ring)
     check_moment(warm, ring, moment)
     balance = tapered_balance(ring, angle, force, moment)
     is_converged = balance.is_converged(ring, force, moment)
-    solved = _Solved(warm, lubricant, ring, balance, angle, np.abs(hub_loads.shaft_speed), state)
+    speed = np.abs(hub_loads.shaft_speed)
+    solved = _Solved(warm, lubricant, ring, balance, angle, speed, state)
     values = {**_ring_values(solved), **_raceway_values(solved)}
-    values |= rib_values(warm, lubricant, solved.by_row(balance.rib_force), solved.speed)
+    rib_force = solved.by_row(balance.rib_force)
+    values |= rib_values(warm, lubricant, rib_force, solved.speed)
     values |= _torques(values, solved.speed)
     for name, numbers in values.items():
         if np.ndim(numbers):
-            shape = (-1, *(1,) * (np.ndim(numbers) - 1))
-            values[name] = np.where(is_converged.reshape(shape), numbers, np.nan)
+            inner_axes = (1,) * (np.ndim(numbers) - 1)
+            of_sample = is_converged.reshape((-1, *inner_axes))
+            values[name] = np.where(of_sample, numbers, np.nan)
     values["preload"] = warm.preload
     values["preload_change"] = warm.preload - bearing.preload
     values["failed"] = int((~is_converged).sum())
@@ -415,10 +424,11 @@ class _Solved(NamedTuple):
 def _ring_values(solved: _Solved) -> dict[str, Any]:
     """Displacement of the ring and forces on the rollers, by the name of the variable."""
     balance = solved.balance
-    angle = solved.ring.angle + solved.ring.orbit_ratio * solved.angle[:, None]
+    ring = solved.ring
+    angle = ring.angle + ring.orbit_ratio * solved.angle[:, None]
     outer = solved.by_row(balance.outer_load)
     row = tapered_geometry(solved.bearing)
-    room = axial_float(row, solved.ring, balance, solved.angle)
+    room = axial_float(row, ring, balance, solved.angle)
     return {
         "ring_displacement": balance.displacement[:, :3],
         "ring_tilt": balance.displacement[:, 3:],
@@ -434,6 +444,7 @@ def _ring_values(solved: _Solved) -> dict[str, Any]:
 def _raceway_values(solved: _Solved) -> dict[str, Any]:
     """Grip, pressure and rolling resistance of the raceways, by the name of the variable."""
     contacts = line_contacts(solved.bearing, solved.lubricant)
+    inner_contact = contacts[0]
     state = solved.state
     grip = np.nan
     if solved.speed.any():
@@ -446,34 +457,36 @@ def _raceway_values(solved: _Solved) -> dict[str, Any]:
             rolling=state.rolling,
         )
     row = tapered_geometry(solved.bearing)
-    surface = np.maximum(row.surface_speed(solved.speed), LEAST_SPEED)[:, None]
+    surface_speed = row.surface_speed(solved.speed)
+    surface = np.maximum(surface_speed, LEAST_SPEED)[:, None]
+    speed_of_rollers = surface[:, :, None]
     strips = raceway_strips(
         row,
         solved.ring,
         solved.balance,
         solved.angle,
         solved.speed,
-        contacts[0],
+        inner_contact,
         solved.bearing.rollers_per_row,
     )
     inner = solved.by_row(solved.balance.inner_load)
+    outer = solved.by_row(solved.balance.outer_load)
     hardest = np.maximum(inner.max(axis=2), _LEAST_LOAD)
-    film = state.film_factor * line_film(contacts[0], hardest, surface)
-    loads = inner, solved.by_row(solved.balance.outer_load)
-    resistance = sum(
-        rolling_resistance(contact, load, surface[:, :, None], state.rolling)
-        for contact, load in zip(contacts, loads, strict=True)
-    )
+    film = state.film_factor * line_film(inner_contact, hardest, surface)
+    resistance = np.zeros_like(inner)
+    for contact, load in zip(contacts, (inner, outer), strict=True):
+        resistance += rolling_resistance(contact, load, speed_of_rollers, state.rolling)
+    power = 2.0 * resistance * speed_of_rollers
     return {
         "grip_load": grip,
-        "below_grip": (loads[1] < grip).sum(axis=2).astype(float),
+        "below_grip": (outer < grip).sum(axis=2).astype(float),
         "contact_pressure": strips.pressure,
         "pressure_along": strips.along,
         "edge_pressure": strips.edge_pressure,
         "edge_share": strips.edge_share,
         "raceway_microslip": strips.microslip,
-        "raceway_film_ratio": film / contacts[0].roughness,
-        "rolling_power": (2.0 * resistance * surface[:, :, None]).sum(axis=2),
+        "raceway_film_ratio": film / inner_contact.roughness,
+        "rolling_power": power.sum(axis=2),
     }
 
 
@@ -494,7 +507,9 @@ def _other_line_law(
     if not largest[worst] > 0.0:
         return math.nan
     other = next(law for law in LINE_LAWS if law != solved.state.line_law)
-    ring = mount.ring(solved.bearing, solved.state.thickness_of(other, solved.bearing))
+    thickness = solved.state.thickness_of(other, solved.bearing)
+    ring = mount.ring(solved.bearing, thickness)
     here = slice(worst, worst + 1)
     balance = tapered_balance(ring, solved.angle[here], force[here], moment[here])
-    return float(balance.outer_load.max() / largest[worst])
+    other_largest = balance.outer_load.max()
+    return float(other_largest / largest[worst])

@@ -43,7 +43,9 @@ def warm_bearing(case: Case) -> TaperedBearing:
 
 def _mount_of(case: Case) -> TaperedMount | None:
     """How the shaft of a case is held; None where the force on the bearing is given."""
-    return TaperedMount.of(case.drivetrain) if isinstance(case.loads, HubLoads) else None
+    if not isinstance(case.loads, HubLoads):
+        return None
+    return TaperedMount.of(case.drivetrain)
 
 
 def tapered_ring_motion(case: Case) -> TaperedMotion:
@@ -82,7 +84,8 @@ def _refuse(case: Case, ring_motion: TaperedMotion) -> None:
     limit = load_at_pressure(inner, HIGHEST_PRESSURE)
     if largest <= limit:
         return
-    sample = int(ring_motion.balance.outer_load.max(axis=1).argmax())
+    largest_of_samples = ring_motion.balance.outer_load.max(axis=1)
+    sample = int(largest_of_samples.argmax())
     raise InputError(
         f"a roller carries {largest / 1e3:.4g} kN, with a pressure above {HIGHEST_PRESSURE / 1e9:g} GPa",
         where=f"{case.loads.source}, t = {ring_motion.motion.time[sample]:g} s",
@@ -124,13 +127,17 @@ def ring_values(ready: Prepared) -> dict[str, Any]:
     speed = np.abs(ready.motion.shaft_speed[inside])
     loads = _by_row(balance.outer_load[inside])
     mean = float(speed.mean())
-    grip = grip_load(case.bearing, case.oil, mean) if mean > 0.0 else np.nan
+    grip = np.nan
+    if mean > 0.0:
+        grip = grip_load(case.bearing, case.oil, mean)
+    tilt = balance.displacement[inside, 3:]
+    below_grip = (loads < grip).sum(axis=2)
     warm = warm_bearing(case)
     return {
         "grip_load": np.array(grip),
-        "rollers_below_grip": (loads < grip).sum(axis=2).mean(axis=0),
+        "rollers_below_grip": below_grip.mean(axis=0),
         "least_roller_load": loads.min(axis=(0, 2)),
-        "largest_tilt": np.array(np.hypot(*balance.displacement[inside, 3:].T).max()),
+        "largest_tilt": np.array(np.hypot(*tilt.T).max()),
         "preload": np.array(warm.preload),
         "preload_change": np.array(warm.preload - case.bearing.preload),
         **_rib_window(ready, _by_row(balance.rib_force[inside]), speed),
@@ -148,7 +155,8 @@ def _rib_window(ready: Prepared, force: np.ndarray, speed: np.ndarray) -> dict[s
     ribs = history_of_ribs(case.bearing, case.oil, force, speed, case.laws)
     # A shaft at rest has no film.
     turning = (speed > 0.0)[:, None]
-    ratio = np.where(turning, ribs["rib_film_ratio"], np.inf).min(axis=0)
+    film_ratio = np.where(turning, ribs["rib_film_ratio"], np.inf)
+    ratio = film_ratio.min(axis=0)
     worn = {}
     if case.laws.asperities != "none":
         work = np.where(turning[..., None], ribs["rib_asperity_work"], 0.0)

@@ -78,7 +78,8 @@ def check_moment(bearing: TaperedBearing, ring: TaperedRing, moment: np.ndarray)
     centre = tapered_geometry(bearing).load_centre
     centres = ring.station - ring.sign * centre
     spread = float(np.ptp(centres))
-    largest = float(np.linalg.norm(moment, axis=1).max())
+    moments = np.linalg.norm(moment, axis=1)
+    largest = float(moments.max())
     static = tapered_ratings(bearing).static
     if largest > static * spread:
         raise InputError(

@@ -133,16 +133,20 @@ def raceway_strips(
         per_length = largest / width
         line_pressures = line_pressure(per_length, contact.curvature, contact.modulus)
         pressure[sample] = line_pressures.max(axis=1)
-        edge_pressure[sample] = line_pressures[:, at_edge > 0.0].max(axis=1)
+        at_edges = line_pressures[:, at_edge > 0.0]
+        edge_pressure[sample] = at_edges.max(axis=1)
         for k in range(rows):
-            hardest = int(inner[k].sum(axis=1).argmax())
+            load_of_rollers = inner[k].sum(axis=1)
+            hardest = int(load_of_rollers.argmax())
             loads = inner[k, hardest]
             load = loads.sum()
             if load > 0.0:
                 per_length = loads / width
                 along[sample, k] = line_pressure(per_length, contact.curvature, contact.modulus)
-                edge_share[sample, k] = (loads * at_edge).sum() / load
-                tilt = _tilt(ring, balance, shaft_angle, sample, k * rollers + hardest)
+                load_at_edge = (loads * at_edge).sum()
+                edge_share[sample, k] = load_at_edge / load
+                roller = k * rollers + hardest
+                tilt = _tilt(ring, balance, shaft_angle, sample, roller)
                 speed = abs(float(shaft_speed[sample]))
                 slip[sample, k] = microslip(row, speed, ring.profile, tilt, loads)
     return RacewayStrips(pressure, edge_pressure, edge_share, along, slip)
@@ -190,12 +194,14 @@ def axial_float(
     dx, dy, dz, turn_x, turn_y = balance.displacement.T[..., None]
     tilt = turn_y * cosine - turn_x * sine
     radial = dx * cosine + dy * sine + ring.station * tilt
-    axial = ring.sign * (dz - ring.pitch_radius * tilt) + ring.preload
+    axial_at_row = dz - ring.pitch_radius * tilt
+    axial = ring.sign * axial_at_row + ring.preload
     lean = row.axis_angle - row.rib_angle
     towards_rib = math.sin(lean) * radial - math.cos(lean) * axial
     # A roller that slides along the outer raceway by λ towards the apex touches the rib.
     along = -math.cos(row.half_cone_angle + row.rib_angle)
     shift = towards_rib / along
+    cone_angle = 2.0 * row.half_cone_angle
     approach = ring.inner_radial * radial + ring.inner_axial * axial
-    gap = -approach - shift * math.sin(2.0 * row.half_cone_angle)
+    gap = -approach - shift * math.sin(cone_angle)
     return np.maximum(gap, 0.0) / (2.0 * math.sin(row.half_cone_angle))

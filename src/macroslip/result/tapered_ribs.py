@@ -83,9 +83,8 @@ def rib_values(
     rib = rib_state(contact, rib_force, entrainment, speeds.sliding, film_coefficient=coefficient)
     pressed = rib.pressure > 0.0
     total = rib_force.sum(axis=2)
-    friction = (rib.friction_coefficient * rib_force).sum(axis=2) / np.where(
-        total > 0.0, total, 1.0
-    )
+    force = (rib.friction_coefficient * rib_force).sum(axis=2)
+    friction = force / np.where(total > 0.0, total, 1.0)
     largest = rib.pressure.max(axis=2)
     return {
         "rib_pressure": largest,
@@ -115,23 +114,28 @@ def _film_coefficient(
     largest = max(float(load.max()), _LEAST_LOAD)
     loads = np.geomspace(_LOAD_RANGE * largest, largest, _KNOTS[0])
     fastest = int(sliding.argmax())
-    slowest = float(sliding.min() / max(sliding.max(), LEAST_SPEED))
+    highest_speed = max(sliding.max(), LEAST_SPEED)
+    slowest = float(sliding.min() / highest_speed)
     # A shaft of one speed needs knots as well.
-    parts = np.geomspace(max(0.999 * slowest, _SPEED_RANGE), 1.0, _KNOTS[1])
+    lowest_part = max(0.999 * slowest, _SPEED_RANGE)
+    parts = np.geomspace(lowest_part, 1.0, _KNOTS[1])
+    fastest_entrainment = max(entrainment.flat[fastest], LEAST_SPEED)
+    fastest_sliding = max(sliding.flat[fastest], LEAST_SPEED)
     state = rib_state(
         contact,
         loads[:, None],
-        parts * max(entrainment.flat[fastest], LEAST_SPEED),
-        parts * max(sliding.flat[fastest], LEAST_SPEED),
+        parts * fastest_entrainment,
+        parts * fastest_sliding,
         laws,
     )
     boundary = contact.lubricant.boundary_friction * state.asperity_share
-    film = (state.friction_coefficient - boundary) / (1.0 - state.asperity_share)
+    fluid = state.friction_coefficient - boundary
+    film = fluid / (1.0 - state.asperity_share)
     spline = RectBivariateSpline(np.log(loads), np.log(parts), film)
-    fastest_speed = max(sliding.flat[fastest], LEAST_SPEED)
-    part = np.clip(sliding / fastest_speed, parts[0], 1.0)
+    part = np.clip(sliding / fastest_sliding, parts[0], 1.0)
+    part_of_rollers = np.broadcast_to(part, load.shape)
     carried = np.clip(load, loads[0], loads[-1])
-    return spline.ev(np.log(carried), np.log(np.broadcast_to(part, load.shape)))
+    return spline.ev(np.log(carried), np.log(part_of_rollers))
 
 
 def _suffered(rib: RibState, speeds: _Speeds) -> dict[str, np.ndarray]:
@@ -148,8 +152,10 @@ def _suffered(rib: RibState, speeds: _Speeds) -> dict[str, np.ndarray]:
     )
     # A place of the rib meets all rollers of its row once a revolution past them, a place of a
     # roller's circle of contact meets the rib once a turn of the roller.
-    rib_work = (on_rib * rib.asperity_share).sum(axis=2) * speeds.past_rollers[:, :, 0]
-    roller_work = (on_roller * rib.asperity_share).max(axis=2) * speeds.spin[:, :, 0]
+    asperities_on_rib = on_rib * rib.asperity_share
+    asperities_on_roller = on_roller * rib.asperity_share
+    rib_work = asperities_on_rib.sum(axis=2) * speeds.past_rollers[:, :, 0]
+    roller_work = asperities_on_roller.max(axis=2) * speeds.spin[:, :, 0]
     return {
         "rib_pass_energy": on_rib.max(axis=2),
         "rib_flash_temperature": flash.max(axis=2),

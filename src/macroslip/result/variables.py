@@ -727,7 +727,10 @@ def with_attributes(values: dict[str, Any]) -> dict[str, Any]:
     """
     unknown = set(values) - set(VARIABLES)
     if unknown:
-        raise KeyError(f"the table of variables has no {', '.join(sorted(unknown))}")
-    return {
-        name: variable.of(values[name]) for name, variable in VARIABLES.items() if name in values
-    }
+        listed = ", ".join(sorted(unknown))
+        raise KeyError(f"the table of variables has no {listed}")
+    filled = {}
+    for name, variable in VARIABLES.items():
+        if name in values:
+            filled[name] = variable.of(values[name])
+    return filled

@@ -62,18 +62,23 @@ class JointShares:
         speeds = load_speeds(scada)[turning]
         row = nearest_bins(speeds, centres, width)
         sensor = used["bearing_temperature"].to_numpy()
-        number = np.floor((sensor - ZERO_CELSIUS) / TEMPERATURE_WIDTH + 0.5).astype(int)
+        degrees = (sensor - ZERO_CELSIUS) / TEMPERATURE_WIDTH
+        number = np.floor(degrees + 0.5).astype(int)
         first = number.min()
         shape = (centres.size, number.max() - first + 1)
         counts = np.zeros(shape)
-        np.add.at(counts, (row, number[turning] - first), 1.0)
+        turning_bins = number[turning] - first
+        np.add.at(counts, (row, turning_bins), 1.0)
         idle_bins = number[~turning] - first
         idle = np.bincount(idle_bins, minlength=shape[1]).astype(float)
-        span = f"{used.index[0]:%Y-%m-%d} to {used.index[-1]:%Y-%m-%d}"
+        first_time = used.index[0]
+        last_time = used.index[-1]
+        span = f"{first_time:%Y-%m-%d} to {last_time:%Y-%m-%d}"
+        bins = first + np.arange(shape[1])
         return cls(
             source=f"{scada.description.turbine or 'turbine'}, {span}",
             wind=centres,
-            temperature=ZERO_CELSIUS + TEMPERATURE_WIDTH * (first + np.arange(shape[1])),
+            temperature=ZERO_CELSIUS + TEMPERATURE_WIDTH * bins,
             turning=counts / len(used),
             idle=idle / len(used),
             mean_turning=float(sensor[turning].mean()),
@@ -90,11 +95,14 @@ class JointShares:
     def mean_idle(self) -> float:
         """Mean temperature of the sensor while the rotor stands [K]; NaN if it never does."""
         total = self.idle.sum()
-        return float(self.idle @ self.temperature / total) if total > 0.0 else np.nan
+        if not total > 0.0:
+            return np.nan
+        return float(self.idle @ self.temperature / total)
 
     def wind_shares(self) -> dict[float, float]:
         """Share of the time in which the rotor turns at each wind speed, by the middle of the bin."""
-        return dict(zip(self.wind.tolist(), self.turning.sum(axis=1).tolist(), strict=True))
+        shares = self.turning.sum(axis=1)
+        return dict(zip(self.wind.tolist(), shares.tolist(), strict=True))
 
     def content(self) -> dict[str, Any]:
         """Plain data, from which `from_content` makes it again."""
@@ -131,9 +139,11 @@ def load_speeds(scada: Scada) -> np.ndarray:
     if scada.description.load_by == "wind":
         return measured
     rated = scada.description.rated
-    share = np.clip(used["power"].to_numpy() / rated.power, 0.0, None)
+    share_of_rated = used["power"].to_numpy() / rated.power
+    share = np.clip(share_of_rated, 0.0, None)
     below = rated.wind_speed * np.cbrt(share)
-    return np.where(share < 1.0, below, np.maximum(measured, rated.wind_speed))
+    above = np.maximum(measured, rated.wind_speed)
+    return np.where(share < 1.0, below, above)
 
 
 def bin_centres(values: ArrayLike, width: float) -> np.ndarray:
@@ -146,7 +156,8 @@ def bin_centres(values: ArrayLike, width: float) -> np.ndarray:
     >>> bin_centres([10.9, 11.0, 12.9, 13.0], 2.0).tolist()
     [10.0, 12.0, 12.0, 14.0]
     """
-    return np.floor(np.asarray(values, dtype=float) / width + 0.5) * width
+    widths = np.asarray(values, dtype=float) / width
+    return np.floor(widths + 0.5) * width
 
 
 def nearest_bins(values: np.ndarray, centres: np.ndarray, width: float) -> np.ndarray:
@@ -169,10 +180,13 @@ def nearest_bins(values: np.ndarray, centres: np.ndarray, width: float) -> np.nd
     [0, 1, 2]
     """
     middle = bin_centres(values, width)
-    above = np.clip(np.searchsorted(centres, middle), 1, max(centres.size - 1, 1))
+    last = max(centres.size - 1, 1)
+    above = np.clip(np.searchsorted(centres, middle), 1, last)
     if centres.size == 1:
         return np.zeros(values.size, dtype=int)
-    is_lower = middle - centres[above - 1] <= centres[above] - middle
+    over_lower = middle - centres[above - 1]
+    under_upper = centres[above] - middle
+    is_lower = over_lower <= under_upper
     return np.where(is_lower, above - 1, above)
 
 
@@ -201,7 +215,8 @@ def histogram(scada: Scada, width: float = 2.0) -> pd.DataFrame:
             "bearing_temperature [degC]": bin_centres(celsius, TEMPERATURE_WIDTH),
         }
     )
-    counts = table.value_counts(sort=False).sort_index().rename("share").reset_index()
+    shares = table.value_counts(sort=False).sort_index().rename("share")
+    counts = shares.reset_index()
     counts["share"] /= len(used)
     counts["hours [h]"] = counts["share"] * scada.hours
     return counts

@@ -29,8 +29,10 @@ class Times(NamedTuple):
 
 def consecutive_times(count: int, first: int, step: float) -> Times:
     """Times of rows that follow one another: `count` rows from row `first` on, `step` [s] each."""
-    offsets = pd.to_timedelta(step * np.arange(first, first + count), unit="s")
-    return Times(pd.DatetimeIndex(_BEGINNING + offsets), np.zeros(count, dtype=bool), True)
+    seconds = step * np.arange(first, first + count)
+    offsets = pd.to_timedelta(seconds, unit="s")
+    is_repeated = np.zeros(count, dtype=bool)
+    return Times(pd.DatetimeIndex(_BEGINNING + offsets), is_repeated, True)
 
 
 def utc_times(values: pd.Series, clock: Clock, where: str) -> Times:
@@ -70,7 +72,8 @@ def utc_times(values: pd.Series, clock: Clock, where: str) -> Times:
         zone = ZoneInfo(clock.zone)
         placed = naive.tz_localize(zone, ambiguous="NaT", nonexistent="NaT")
         # Either of the two times tells the month in which the row is counted.
-        index = naive.tz_localize(zone, ambiguous=repeated, nonexistent="NaT").tz_convert("UTC")
+        earlier = naive.tz_localize(zone, ambiguous=repeated, nonexistent="NaT")
+        index = earlier.tz_convert("UTC")
         repeated = np.asarray(placed.isna() & ~index.isna())
     if clock.stamp == "end":
         index = index - pd.Timedelta(seconds=clock.step)
@@ -83,7 +86,9 @@ def _parsed(texts: pd.Series, clock: Clock, where: str) -> pd.Series:
     dates = pd.to_datetime(texts, format=form, utc=True, errors="coerce")
     unread = texts.notna() & dates.isna()
     if bool(unread.all()) or unread.mean() > 0.5:
-        example = texts[unread].iloc[0] if bool(unread.any()) else "empty"
+        example = "empty"
+        if bool(unread.any()):
+            example = texts[unread].iloc[0]
         raise InputError(
             f"the time {shown(example)} cannot be read",
             where=where,
@@ -112,4 +117,6 @@ def hours_shown_twice(utc: pd.DatetimeIndex, differs: np.ndarray, step: float) -
     """
     number, _ = pd.factorize(utc.floor("h"))
     twice = np.bincount(number, weights=differs)
-    return (twice >= max(0.5 * HOUR / step, 2.0))[number]
+    rows_of_half_an_hour = max(0.5 * HOUR / step, 2.0)
+    is_twice = twice >= rows_of_half_an_hour
+    return is_twice[number]

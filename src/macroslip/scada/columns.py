@@ -74,7 +74,10 @@ def unit_of(name: str) -> str:
     ('kW', 'r/min', '')
     """
     match = _IN_BRACKETS.search(name) or _BEHIND.search(name)
-    return _UNITS.get(match["unit"].lower(), "") if match else ""
+    if not match:
+        return ""
+    unit = match["unit"].lower()
+    return _UNITS.get(unit, "")
 
 
 def recognized(names: Iterable[str]) -> dict[str, str]:
@@ -85,7 +88,10 @@ def recognized(names: Iterable[str]) -> dict[str, str]:
     >>> recognized(["Date_time", "Ws_avg", "Ws_min", "Rbt_avg"])
     {'time': 'Date_time', 'wind_speed': 'Ws_avg', 'bearing_temperature': 'Rbt_avg'}
     """
-    bare = {name: _IN_BRACKETS.sub("", name).strip().lower() for name in names}
+    bare = {}
+    for name in names:
+        without_unit = _IN_BRACKETS.sub("", name)
+        bare[name] = without_unit.strip().lower()
     columns: dict[str, str] = {}
     for quantity, patterns in PATTERNS.items():
         for pattern in patterns:

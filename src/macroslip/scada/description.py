@@ -54,7 +54,8 @@ class MeasuredColumn:
         array([283.15])
         """
         unit = self.dimension.units[self.unit]
-        return (values + float(unit.offset)) * (float(unit.scale) / self.ratio)
+        scale = float(unit.scale) / self.ratio
+        return (values + float(unit.offset)) * scale
 
     def written(self, si_value: float) -> str:
         """A value [SI] in the unit of the column.
@@ -65,7 +66,8 @@ class MeasuredColumn:
         '310 degC'
         """
         unit = self.dimension.units[self.unit]
-        value = si_value * self.ratio / float(unit.scale) - float(unit.offset)
+        scaled = si_value * self.ratio / float(unit.scale)
+        value = scaled - float(unit.offset)
         return f"{value:.4g} {self.unit}"
 
 
@@ -90,9 +92,8 @@ class ColumnForm(Form):
         if not isinstance(value, Mapping) or set(value) != set(keys):
             raise self.wrong(value)
         column = Text("name of the column").read(value["column"], context)
-        unit = Choice("unit of the column", lambda: tuple(self.dimension.units)).read(
-            value["unit"], context
-        )
+        units = tuple(self.dimension.units)
+        unit = Choice("unit of the column", lambda: units).read(value["unit"], context)
         ratio = value.get("ratio", 1.0)
         ratio = Positive("speed of the generator over that of the rotor", NUMBER).read(
             ratio, context
@@ -121,10 +122,13 @@ class Labels(Form):
 
     def read(self, value: Any, context: Context) -> tuple[str, ...]:
         """Every value as text."""
-        values = list(value) if isinstance(value, list | tuple) else [value]
+        values = [value]
+        if isinstance(value, list | tuple):
+            values = list(value)
         if not values:
             raise self.wrong(value)
-        return tuple(Label(self.about).read(item, context) for item in values)
+        label = Label(self.about)
+        return tuple(label.read(item, context) for item in values)
 
 
 class Period(NamedTuple):
@@ -157,7 +161,8 @@ class PeriodForm(Form):
             days.append(timestamp.normalize())
         if days[1] < days[0]:
             raise self.wrong(value, "Write the earlier day first.")
-        return Period(days[0], days[1] + pd.Timedelta(days=1))
+        first, last = days
+        return Period(first, last + pd.Timedelta(days=1))
 
 
 @dataclass(frozen=True)
@@ -171,7 +176,8 @@ class Range(Form):
         """Read both to SI."""
         if not isinstance(value, list | tuple) or len(value) != 2:
             raise self.wrong(value)
-        low, high = (Positive(self.about, self.dimension).read(item, context) for item in value)
+        form = Positive(self.about, self.dimension)
+        low, high = (form.read(item, context) for item in value)
         if low is None or high is None or not low <= high:
             raise self.wrong(value)
         return low, high

@@ -110,7 +110,8 @@ def _values(file: Path, columns: dict[str, str], sheet: str | None) -> pd.DataFr
     if not parts:
         raise InputError("the file has no rows", where=str(file))
     table = parts[0].head(_ROWS)
-    return pd.DataFrame({quantity: table[name] for quantity, name in columns.items()})
+    by_quantity = {quantity: table[name] for quantity, name in columns.items()}
+    return pd.DataFrame(by_quantity)
 
 
 def _column(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> list[str]:
@@ -142,18 +143,23 @@ def _guessed(quantity: str, numbers: np.ndarray) -> str:
 
 
 def _numbers(values: pd.DataFrame, quantity: str) -> np.ndarray:
-    numbers = np.asarray(pd.to_numeric(values[quantity], errors="coerce"), dtype=float)
+    numeric = pd.to_numeric(values[quantity], errors="coerce")
+    numbers = np.asarray(numeric, dtype=float)
     return numbers[np.isfinite(numbers)]
 
 
 def _largest(quantity: str, columns: dict[str, str], values: pd.DataFrame) -> str:
     """Nearly the largest value [r/min or kW], by the unit in the name or a guess, as text."""
-    numbers = _numbers(values, quantity) if quantity in values else np.empty(0)
+    numbers = np.empty(0)
+    if quantity in values:
+        numbers = _numbers(values, quantity)
     if not numbers.size:
         return "NUMBER"
     unit = unit_of(columns[quantity]) or _guessed(quantity, numbers)
-    factor = {"rad/s": 30.0 / np.pi, "MW": 1e3, "W": 1e-3}.get(unit, 1.0)
-    return f"{factor * float(np.quantile(numbers, 0.999)):.5g}"
+    to_usual = {"rad/s": 30.0 / np.pi, "MW": 1e3, "W": 1e-3}
+    factor = to_usual.get(unit, 1.0)
+    largest = float(np.quantile(numbers, 0.999))
+    return f"{factor * largest:.5g}"
 
 
 def _unknown(quantity: str) -> str:
@@ -167,7 +173,8 @@ def _other_columns(names: list[str], columns: dict[str, str]) -> list[str]:
     if all(quantity in columns for quantity in (*_NEEDED, "time")):
         return []
     others = [name for name in names if name and name not in columns.values()]
-    text = f"Columns of the file that were not recognized: {', '.join(others) or 'none'}."
+    listed = ", ".join(others) or "none"
+    text = f"Columns of the file that were not recognized: {listed}."
     return textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="#   ")
 
 
@@ -182,15 +189,16 @@ def _other_sheets(file: Path, sheet: str | None) -> str:
 def _turbine(values: pd.DataFrame) -> str:
     if "turbine" not in values:
         return "NAME"
-    return _quoted(str(values["turbine"].dropna().iloc[0]))
+    names = values["turbine"].dropna()
+    return _quoted(str(names.iloc[0]))
 
 
 def _rows(columns: dict[str, str], values: pd.DataFrame) -> list[str]:
     """The section on rows, where a file has several turbines."""
-    several = "turbine" in columns and len(set(values["turbine"])) > 1
-    if not several:
+    if "turbine" not in columns or len(set(values["turbine"])) < 2:
         return []
-    return [f"rows: {{column: {_quoted(columns['turbine'])}, equals: {_turbine(values)}}}"]
+    name = _quoted(columns["turbine"])
+    return [f"rows: {{column: {name}, equals: {_turbine(values)}}}"]
 
 
 def _time(columns: dict[str, str], values: pd.DataFrame) -> list[str]:
@@ -201,13 +209,21 @@ def _time(columns: dict[str, str], values: pd.DataFrame) -> list[str]:
             f"time: {{column: {_MISSING}}}",
         ]
     texts = values["time"].astype("string")
-    has_offset = bool(texts.str.contains(r"(?:Z|[+-]\d\d:?\d\d)\s*$", regex=True).all())
+    is_offset = texts.str.contains(r"(?:Z|[+-]\d\d:?\d\d)\s*$", regex=True)
+    has_offset = bool(is_offset.all())
     dates, form = _dates(texts.drop_duplicates())
-    steps = np.diff(np.unique(dates.dropna())).astype("timedelta64[s]")
-    minutes = float(np.median(steps.astype(float))) / 60.0 if steps.size else 10.0
-    zone = "" if has_offset else ", zone: UTC"
-    lines = [] if has_offset else ["# The times tell no offset: is the clock in UTC?"]
-    section = f"column: {_quoted(columns['time'])}{zone}{form}, stamp: start, step: {minutes:g} min"
+    different = np.unique(dates.dropna())
+    steps = np.diff(different).astype("timedelta64[s]")
+    minutes = 10.0
+    if steps.size:
+        minutes = float(np.median(steps.astype(float))) / 60.0
+    zone = ""
+    lines = []
+    if not has_offset:
+        zone = ", zone: UTC"
+        lines = ["# The times tell no offset: is the clock in UTC?"]
+    name = _quoted(columns["time"])
+    section = f"column: {name}{zone}{form}, stamp: start, step: {minutes:g} min"
     return [*lines, f"time: {{{section}}}"]
 
 
@@ -216,13 +232,18 @@ def _dates(texts: pd.Series) -> tuple[pd.Series, str]:
     dates = pd.to_datetime(texts, format="ISO8601", utc=True, errors="coerce")
     if dates.notna().any():
         return dates, ""
-    read = {form: pd.to_datetime(texts, format=form, utc=True, errors="coerce") for form in _FORMS}
-    best = max(_FORMS, key=lambda form: int(read[form].notna().sum()))
-    if not read[best].notna().any():
+    read = {}
+    known = {}
+    for form in _FORMS:
+        read[form] = pd.to_datetime(texts, format=form, utc=True, errors="coerce")
+        known[form] = int(read[form].notna().sum())
+    best = max(_FORMS, key=lambda form: known[form])
+    if not known[best]:
         return dates, ", format: FORM OF THE TIMES"
     return read[best], f", format: '{best}'"
 
 
 def _quoted(text: str | None) -> str:
     """Text as YAML in single quotes."""
-    return "'" + str(text).replace("'", "''") + "'"
+    doubled = str(text).replace("'", "''")
+    return f"'{doubled}'"

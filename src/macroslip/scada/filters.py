@@ -61,12 +61,15 @@ def filtered(
     ndarray of int, shape (rows,)
         Index in `FILTERS`, or -1 where no filter drops the row.
     """
-    turning = values["rotor_speed"] > TURNING * described.rated.rotor_speed
+    rated = described.rated
+    turning = values["rotor_speed"] > TURNING * rated.rotor_speed
+    produces = values["power"] > _POWER * rated.power
+    is_missing = [~np.isfinite(column) for column in values.values()]
     dropped = {
-        "missing": np.any([~np.isfinite(column) for column in values.values()], axis=0),
-        "range": _out_of_range(values, described.rated.rotor_speed),
+        "missing": np.any(is_missing, axis=0),
+        "range": _out_of_range(values, rated.rotor_speed),
         "stuck": _stuck(values, turning, time, described),
-        "contradiction": (values["power"] > _POWER * described.rated.power) & ~turning,
+        "contradiction": produces & ~turning,
         "status": np.zeros(time.size, dtype=bool),
     }
     if state is not None and described.columns.status is not None:
@@ -100,7 +103,8 @@ def _stuck(
     days of storm: equal values are normal there.
     """
     longest = 1.5 * described.time.step
-    gap = np.concatenate([[True], np.diff(time) > longest])
+    is_late = np.diff(time) > longest
+    gap = np.concatenate([[True], is_late])
     rated = {"rotor_speed": described.rated.rotor_speed, "power": described.rated.power}
     stuck = np.zeros(time.size, dtype=bool)
     for name, column in values.items():
@@ -108,10 +112,12 @@ def _stuck(
         if name == "bearing_temperature":
             counted = turning
         elif name in rated:
-            counted = turning & (column < _HELD * rated[name])
+            below_rated = column < _HELD * rated[name]
+            counted = turning & below_rated
         is_fine = name == "bearing_temperature" and sensor_resolution(column) < COARSE
         most = _STUCK_BEARING if is_fine else _STUCK_OTHER
-        stuck |= run_lengths(column, counted, gap) >= most
+        lengths = run_lengths(column, counted, gap)
+        stuck |= lengths >= most
     return stuck
 
 
@@ -142,7 +148,8 @@ def run_lengths(values: np.ndarray, counted: np.ndarray, breaks: np.ndarray) -> 
     is_left_out = ~counted[1:] | ~counted[:-1]
     begins[1:] = changes | breaks[1:] | is_left_out
     number = np.cumsum(begins) - 1
-    return np.where(counted, np.bincount(number)[number], 0)
+    lengths = np.bincount(number)
+    return np.where(counted, lengths[number], 0)
 
 
 def jumps(values: Quantities, time: np.ndarray, step: float) -> np.ndarray:
@@ -155,8 +162,9 @@ def jumps(values: Quantities, time: np.ndarray, step: float) -> np.ndarray:
     is_jump = np.zeros(time.size, dtype=bool)
     for name, limit in _JUMPS.items():
         if name in values:
-            allowed = limit * max(step / _TEN_MINUTES, 1.0)
-            is_large = np.abs(np.diff(values[name])) > allowed + _ROUNDING
+            steps = max(step / _TEN_MINUTES, 1.0)
+            change = np.abs(np.diff(values[name]))
+            is_large = change > limit * steps + _ROUNDING
             is_jump[1:] |= is_large & ~after_gap
     return is_jump
 

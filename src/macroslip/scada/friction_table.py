@@ -140,7 +140,8 @@ class FrictionTable:
 
     def _grid(self, supply: str, value: str = "torque") -> pd.DataFrame:
         """A value over wind (rows) and temperature (columns)."""
-        entries = self.entries[self.entries["supply"] == supply]
+        is_supply = self.entries["supply"] == supply
+        entries = self.entries[is_supply]
         return entries.pivot_table(value, "wind_speed", "temperature", dropna=False)
 
     @cached_property
@@ -149,11 +150,12 @@ class FrictionTable:
         curves = {}
         for supply in self.supplies:
             grid = self._grid(supply)
-            speeds = self._grid(supply, "shaft_speed").mean(axis=1).to_numpy()
-            torque = PchipInterpolator(
-                grid.columns.to_numpy(float), np.log(grid.to_numpy()), axis=1
-            )
-            curves[supply] = (grid.index.to_numpy(float), np.log(speeds), torque)
+            shaft_speeds = self._grid(supply, "shaft_speed")
+            speeds = shaft_speeds.mean(axis=1).to_numpy()
+            temperatures = grid.columns.to_numpy(float)
+            winds = grid.index.to_numpy(float)
+            torque = PchipInterpolator(temperatures, np.log(grid.to_numpy()), axis=1)
+            curves[supply] = (winds, np.log(speeds), torque)
         return curves
 
     def check_span(self, temperature: ArrayLike) -> None:
@@ -172,7 +174,9 @@ class FrictionTable:
         warmest = float(np.max(temperature))
         low = float(self.temperatures[0])
         high = float(self.temperatures[-1])
-        if coldest < low - MOST_BEYOND or warmest > high + MOST_BEYOND:
+        is_colder = coldest < low - MOST_BEYOND
+        is_warmer = warmest > high + MOST_BEYOND
+        if is_colder or is_warmer:
             raise InputError(
                 f"the oil is at {coldest - ZERO_CELSIUS:.1f} to {warmest - ZERO_CELSIUS:.1f} degC, "
                 f"the study at {low - ZERO_CELSIUS:g} to {high - ZERO_CELSIUS:g} degC",
@@ -203,19 +207,25 @@ class FrictionTable:
         wind, speed, oil = np.broadcast_arrays(
             *(np.asarray(values, dtype=float) for values in (wind_speed, shaft_speed, temperature))
         )
-        held = np.clip(oil, log_torque.x[0], log_torque.x[-1])
+        coldest = log_torque.x[0]
+        warmest = log_torque.x[-1]
+        held = np.clip(oil, coldest, warmest)
         position = np.interp(wind, winds, np.arange(winds.size))
-        below = np.minimum(position.astype(int), max(winds.size - 2, 0))
-        above = np.minimum(below + 1, winds.size - 1)
+        last = winds.size - 1
+        below = np.minimum(position.astype(int), max(last - 1, 0))
+        above = np.minimum(below + 1, last)
         part = position - below
         at_winds = log_torque(held)
         lower = np.take_along_axis(at_winds, below[None], axis=0)[0]
         upper = np.take_along_axis(at_winds, above[None], axis=0)[0]
-        log_case = (1.0 - part) * log_speeds[below] + part * log_speeds[above]
+        log_below = (1.0 - part) * log_speeds[below]
+        log_above = part * log_speeds[above]
+        speed_of_case = np.exp(log_below + log_above)
         exponents = self.speed_exponents[supply]
-        exponent = np.interp(held, exponents.index.to_numpy(float), exponents.to_numpy(float))
+        temperatures = exponents.index.to_numpy(float)
+        exponent = np.interp(held, temperatures, exponents.to_numpy(float))
         # Towards standstill no law of powers holds, and the exponent may be negative.
-        ratio = np.maximum(speed / np.exp(log_case), SLOWEST)
+        ratio = np.maximum(speed / speed_of_case, SLOWEST)
         log_power = (1.0 - part) * lower + part * upper
         return np.exp(log_power) * ratio**exponent
 
@@ -239,8 +249,9 @@ class FrictionTable:
 
     def write_csv(self, path: str | PathLike[str]) -> None:
         """Write the entries as a CSV table, the temperature in °C and torques to 0.01 N m."""
+        celsius = self.entries["temperature"] - ZERO_CELSIUS
         shown = self.entries.assign(
-            temperature=(self.entries["temperature"] - ZERO_CELSIUS).round(6),
+            temperature=celsius.round(6),
             shaft_speed=self.entries["shaft_speed"].round(5),
             torque=self.entries["torque"].round(2),
         )
@@ -259,7 +270,8 @@ def read_entries(path: str | PathLike[str]) -> pd.DataFrame:
 
 def _headings() -> dict[str, str]:
     """Headings of a CSV table by column: a table of temperatures is in degC."""
-    units = {name: unit for name, (unit, _) in COLUMNS.items()} | {"temperature": "degC"}
+    units = {name: unit for name, (unit, _) in COLUMNS.items()}
+    units["temperature"] = "degC"
     headings = {}
     for name, unit in units.items():
         headings[name] = name if unit == "1" else f"{name} [{unit}]"

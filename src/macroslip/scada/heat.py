@@ -76,7 +76,8 @@ class BearingHeat:
 
     def index_by(self, period: str) -> pd.DataFrame:
         """The index by `day`, `week` or `month`, of every model."""
-        return self.index.loc[self.index["period"] == period]
+        is_period = self.index["period"] == period
+        return self.index.loc[is_period]
 
 
 def bearing_heat(
@@ -106,16 +107,19 @@ def bearing_heat(
     analysed = _analysed(scada, record, friction)
     fits = analysed.fits
     chosen = _chosen(fits, analysed)
-    index = _index_table(list(_indexed(analysed, chosen)))
+    indexed = list(_indexed(analysed, chosen))
+    index = _index_table(indexed)
     if sibling is not None:
         other = _analysed(sibling, _record(sibling), friction)
         same = fit_of(other.fits, FRICTION, chosen.model.supply)
-        index = _over_sibling(index, _index_table(list(_indexed(other, same))))
+        index_of_sibling = _index_table(list(_indexed(other, same)))
+        index = _over_sibling(index, index_of_sibling)
     table = _fit_table(fits, analysed)
     marks = (*_marks(chosen, analysed), *_change_of_halves(chosen, analysed))
     notes = (*scada.notes, *friction.notes, *_notes(scada))
     index = index.reindex(columns=list(INDEX_COLUMNS))
-    return BearingHeat(fits, chosen, table, index, _window_table(analysed), marks, notes)
+    windows = _window_table(analysed)
+    return BearingHeat(fits, chosen, table, index, windows, marks, notes)
 
 
 class _Analysed(NamedTuple):
@@ -131,7 +135,8 @@ class _Analysed(NamedTuple):
 def _record(scada: Scada) -> pd.DataFrame:
     """Rows of the record in the order of time, with a column `used`."""
     record = scada.data.sort_index(kind="stable")
-    record = record.assign(used=np.asarray(record["filter"] == "", dtype=bool))
+    is_used = np.asarray(record["filter"] == "", dtype=bool)
+    record = record.assign(used=is_used)
     if not any(name in record and bool(record[name].notna().any()) for name in AIR):
         raise InputError(
             "there is no temperature of the air around the bearing",
@@ -150,20 +155,21 @@ def _analysed(scada: Scada, record: pd.DataFrame, friction: FrictionTable) -> _A
     windows = unbroken_windows(time, record["used"], record["jump"], scada.step)
     rated = described.rated.rotor_speed
     speed = np.abs(record["rotor_speed"].to_numpy(float))
-    reference = _in_reference(time[windows.first], described.reference)
-    turning = windows.mean(speed) > TURNING * rated
-    idle = (speed <= TURNING * rated)[windows.rows].all(axis=1)
+    start = time[windows.first]
+    reference = _in_reference(start, described.reference)
+    slowest = TURNING * rated
+    turning = windows.mean(speed) > slowest
+    idle = (speed <= slowest)[windows.rows].all(axis=1)
     kelvin = windows.mean(record["bearing_temperature"].to_numpy(float))
     _check_windows(reference, idle, kelvin)
     used = record["used"].to_numpy()
     friction.check_span(kelvin + described.oil_offset)
-    known = record.assign(
-        # Rows that are not used enter no window; numbers keep formulas from NaN.
-        **{
-            name: record[name].where(used, record.loc[used, name].median())
-            for name in ("wind_speed", "rotor_speed", "bearing_temperature")
-        }
-    )
+    # Rows that are not used enter no window; numbers keep formulas from NaN.
+    replaced = {}
+    for name in ("wind_speed", "rotor_speed", "bearing_temperature"):
+        median = record.loc[used, name].median()
+        replaced[name] = record[name].where(used, median)
+    known = record.assign(**replaced)
     balance = Balance.of(record, windows)
     models = heat_models(known, friction, rated, described.oil_offset)
     fits = tuple(fit_heat(balance, model, reference) for model in models)
@@ -199,7 +205,8 @@ def _check_windows(reference: BoolArray, idle: BoolArray, kelvin: FloatArray) ->
             allowed=f"{LEAST_IDLE} and more",
             remedy="Choose a longer reference.",
         )
-    low, high = np.percentile(kelvin[reference], [5.0, 95.0])
+    in_reference = kelvin[reference]
+    low, high = np.percentile(in_reference, [5.0, 95.0])
     if high - low < LEAST_SPAN:
         raise InputError(
             f"the bearing is at {low - ZERO_CELSIUS:.1f} to {high - ZERO_CELSIUS:.1f} degC in nine "
@@ -233,15 +240,16 @@ def _marks(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
             f"{fit.errors['seal_torque']:.0f} N m, below 0; the computed friction is too high or "
             "grows too little with load, as with a wrong supply."
         )
-    marks += [
-        f"{of}: the conductance {name.replace('_', ' ')} is {fit.values[name]:.3g} per hour, "
-        "below 0."
-        for name in AIR.values()
-        if fit.values.get(name, 0.0) < 0.0
-    ]
-    mean_heat = float(fit.heat[analysed.reference & analysed.turning].mean())
+    for name in AIR.values():
+        conductance = fit.values.get(name, 0.0)
+        if conductance < 0.0:
+            words = name.replace("_", " ")
+            marks.append(f"{of}: the conductance {words} is {conductance:.3g} per hour, below 0.")
+    inside = analysed.reference & analysed.turning
+    mean_heat = float(fit.heat[inside].mean())
     drift = fit.values["drift"]
-    if abs(drift) > MOST_DRIFT * abs(mean_heat - drift):
+    heat_of_model = abs(mean_heat - drift)
+    if abs(drift) > MOST_DRIFT * heat_of_model:
         marks.append(
             f"{of}: a heat of {fit.values['drift']:.2g} K/h goes with nothing, beside "
             f"{mean_heat:.2g} K/h in the mean while turning."
@@ -253,7 +261,8 @@ def _change_of_halves(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
     """A sentence if the heat of the reference changes by more than a tenth from half to half."""
     start = analysed.balance.start
     inside = start[analysed.reference]
-    middle = inside[0] + (inside[-1] - inside[0]) / 2
+    first_window = inside[0]
+    middle = first_window + (inside[-1] - first_window) / 2
     chosen = analysed.reference & analysed.turning
     first = chosen & np.asarray(start < middle)
     second = chosen & np.asarray(start >= middle)
@@ -300,7 +309,9 @@ def _indexed(analysed: _Analysed, chosen: HeatFit) -> Iterator[Indexed]:
     start = analysed.balance.start[turning]
     rivals = [fit for fit in analysed.fits if fit.model.name in (SKF, SPEED)]
     for fit in (chosen, *rivals):
-        yield Indexed(fit.model.name, fit.model.supply, start, fit.left[turning], fit.heat[turning])
+        left = fit.left[turning]
+        heat = fit.heat[turning]
+        yield Indexed(fit.model.name, fit.model.supply, start, left, heat)
     rise, expected = _regressed_rise(analysed)
     yield Indexed(RISE, "", start, rise[turning], expected[turning])
 
@@ -308,9 +319,10 @@ def _indexed(analysed: _Analysed, chosen: HeatFit) -> Iterator[Indexed]:
 def _window_table(analysed: _Analysed) -> pd.DataFrame:
     """A line a window with its means."""
     balance = analysed.balance
-    means = {
-        name: balance.windows.mean(analysed.record[name].to_numpy(float)) for name in WINDOW_UNITS
-    }
+    means = {}
+    for name in WINDOW_UNITS:
+        values = analysed.record[name].to_numpy(float)
+        means[name] = balance.windows.mean(values)
     table = pd.DataFrame({"start": balance.start, **means, "rate": balance.rate})
     for name, units in {**WINDOW_UNITS, "rate": "K/h"}.items():
         table[name].attrs["units"] = units
@@ -328,15 +340,17 @@ def _regressed_rise(analysed: _Analysed) -> tuple[FloatArray, FloatArray]:
     balance = analysed.balance
     air = next(name for name in reversed(list(AIR)) if AIR[name] in balance.excess)
     rise = balance.excess[AIR[air]]
-    means = {
-        name: balance.windows.mean(analysed.record[name].to_numpy(float))
-        for name in ("rotor_speed", "wind_speed", "power", air)
-    }
+    means = {}
+    for name in ("rotor_speed", "wind_speed", "power", air):
+        values = analysed.record[name].to_numpy(float)
+        means[name] = balance.windows.mean(values)
     means["wind_square"] = means["wind_speed"] ** 2
-    design = np.stack([np.ones(rise.size), *means.values()], axis=1)
-    design = design / np.maximum(np.abs(design).max(axis=0), 1e-300)
+    constant = np.ones(rise.size)
+    design = np.stack([constant, *means.values()], axis=1)
+    scale = np.maximum(np.abs(design).max(axis=0), 1e-300)
+    design = design / scale
     chosen = analysed.reference & analysed.turning
-    solved = np.linalg.lstsq(design[chosen], rise[chosen], rcond=None)[0]
+    solved, *_ = np.linalg.lstsq(design[chosen], rise[chosen], rcond=None)
     return rise, design @ solved
 
 
@@ -346,7 +360,9 @@ def _index_table(indexed: Sequence[Indexed]) -> pd.DataFrame:
     for model, supply, start, measured, expected in indexed:
         for period in PERIODS:
             table = index_over(start, measured, expected, period)
-            sums = cusum(table["r"].to_numpy()) if period == "day" else np.nan
+            sums = np.nan
+            if period == "day":
+                sums = cusum(table["r"].to_numpy())
             tables.append(table.assign(model=model, supply=supply, period=period, cusum=sums))
     return pd.concat(tables, ignore_index=True)
 
@@ -354,9 +370,12 @@ def _index_table(indexed: Sequence[Indexed]) -> pd.DataFrame:
 def _over_sibling(index: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     """The index with that over the sibling's, for periods that both have."""
     keys = ["model", "period", "start"]
-    merged = index.merge(other[[*keys, "r"]], on=keys, how="left", suffixes=("", "_of_sibling"))
+    of_sibling = other[[*keys, "r"]]
+    merged = index.merge(of_sibling, on=keys, how="left", suffixes=("", "_of_sibling"))
     merged["r_sibling"] = merged["r"] / merged["r_of_sibling"]
     merged["cusum_sibling"] = np.nan
-    for _, days in merged[merged["period"] == "day"].groupby("model"):
-        merged.loc[days.index, "cusum_sibling"] = cusum(days["r_sibling"].to_numpy())
+    is_day = merged["period"] == "day"
+    for _, days in merged[is_day].groupby("model"):
+        sums = cusum(days["r_sibling"].to_numpy())
+        merged.loc[days.index, "cusum_sibling"] = sums
     return merged.drop(columns="r_of_sibling")

@@ -48,18 +48,19 @@ class Balance:
     def of(cls, record: pd.DataFrame, windows: Windows) -> Balance:
         """Of a record with `bearing_temperature` and temperatures of the air [K]."""
         bearing = record["bearing_temperature"].to_numpy(float)
-        excess = {
-            constant: windows.mean(bearing - record[air].to_numpy(float))
-            for air, constant in AIR.items()
-            if air in record and bool(record[air].notna().any())
-        }
+        excess = {}
+        for air, constant in AIR.items():
+            if air in record and bool(record[air].notna().any()):
+                over_air = bearing - record[air].to_numpy(float)
+                excess[constant] = windows.mean(over_air)
         start = pd.DatetimeIndex(record.index[windows.first])
         return cls(windows, start, windows.rate(bearing), excess)
 
     @property
     def blocks(self) -> NDArray[np.int64]:
         """Number of the block of three days in which each window begins."""
-        days = self.start.as_unit("ns").asi8 // (86_400_000_000_000 * BLOCK_DAYS)
+        nanoseconds = self.start.as_unit("ns").asi8
+        days = nanoseconds // (86_400_000_000_000 * BLOCK_DAYS)
         return days - days.min()
 
 
@@ -104,19 +105,24 @@ def fit_heat(balance: Balance, model: HeatModel, reference: BoolArray) -> HeatFi
     """
     names, columns = _columns(balance, model)
     # Columns of one size: sums of squares of watts and kelvins differ by ten powers of ten.
-    mean_square = np.mean(columns[:, reference] ** 2, axis=1)
+    in_reference = columns[:, reference]
+    mean_square = np.mean(in_reference**2, axis=1)
     scale = np.maximum(np.sqrt(mean_square), 1e-300)
     design = (columns / scale[:, None]).T
     target = balance.rate
-    solved = np.linalg.lstsq(design[reference], target[reference], rcond=None)[0]
-    samples = _bootstrap(design[reference], target[reference], balance.blocks[reference])
+    design_of_reference = design[reference]
+    target_of_reference = target[reference]
+    solved, *_ = np.linalg.lstsq(design_of_reference, target_of_reference, rcond=None)
+    blocks = balance.blocks[reference]
+    samples = _bootstrap(design_of_reference, target_of_reference, blocks)
     values = _constants(names, solved / scale)
     spread = _constants(names, samples / scale)
     errors = {name: _half_width(spread[name]) for name in values}
     fitted = design * solved
     sources = 1 + len(model.sources)
     heat = fitted[:, :sources].sum(axis=1)
-    left = target - fitted[:, sources:].sum(axis=1)
+    losses = fitted[:, sources:].sum(axis=1)
+    left = target - losses
     missed = (left - heat)[reference]
     return HeatFit(
         model=model,
@@ -139,7 +145,8 @@ def _columns(balance: Balance, model: HeatModel) -> tuple[Sequence[str], FloatAr
 
 def _constants(names: Sequence[str], solved: FloatArray) -> dict[str, FloatArray]:
     """Constants of the fit, from solutions over (..., constant)."""
-    values = dict(zip(names, np.moveaxis(solved, -1, 0), strict=True))
+    by_name = np.moveaxis(solved, -1, 0)
+    values = dict(zip(names, by_name, strict=True))
     if "capacity" in values:
         per_heat = values["capacity"]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -153,14 +160,16 @@ def _bootstrap(design: FloatArray, target: FloatArray, blocks: NDArray[np.int64]
     """Solutions of the normal equations of drawn blocks, over (sample, constant)."""
     _, block = np.unique(blocks, return_inverse=True)
     number = int(block.max()) + 1
-    squares = np.zeros((number, design.shape[1], design.shape[1]))
-    products = np.zeros((number, design.shape[1]))
+    constants = design.shape[1]
+    squares = np.zeros((number, constants, constants))
+    products = np.zeros((number, constants))
     outer_products = design[:, :, None] * design[:, None, :]
     np.add.at(squares, block, outer_products)
     np.add.at(products, block, design * target[:, None])
     random = np.random.default_rng(SEED)
     drawn = random.integers(0, number, (SAMPLES, number))
-    counts = np.stack([np.bincount(row, minlength=number) for row in drawn]).astype(float)
+    counts_of_samples = [np.bincount(row, minlength=number) for row in drawn]
+    counts = np.stack(counts_of_samples).astype(float)
     left = np.einsum("sb,bij->sij", counts, squares)
     right = counts @ products
     solutions = []

@@ -47,14 +47,16 @@ def index_over(
     [1.25]
     """
     code, least = PERIODS[period]
-    begins = start.tz_localize(None).to_period(code).start_time
+    periods = start.tz_localize(None).to_period(code)
+    begins = periods.start_time
     table = pd.DataFrame({"start": begins, "measured": measured, "expected": expected})
     sums = table.groupby("start", sort=True).agg(
         windows=("measured", "size"), measured=("measured", "sum"), expected=("expected", "sum")
     )
     ratio = sums["measured"] / sums["expected"]
     ratio_of_period = ratio.reindex(table["start"]).to_numpy()
-    table["off"] = table["measured"] - ratio_of_period * table["expected"]
+    fitted = ratio_of_period * table["expected"]
+    table["off"] = table["measured"] - fitted
     square = table["off"] ** 2
     squares = square.groupby(table["start"]).sum()
     freedom = np.maximum(sums["windows"] - 1, 1)
@@ -81,12 +83,14 @@ def cusum(index: FloatArray) -> FloatArray:
     sums = np.empty(index.size)
     for day, value in enumerate(index):
         if np.isfinite(value):
-            total = max(0.0, total + value - TOLERATED)
+            excess = value - TOLERATED
+            total = max(0.0, total + excess)
         sums[day] = total
     return sums
 
 
 def first_flag(days: pd.DataFrame, column: str = "cusum") -> pd.Timestamp | None:
     """First day whose cumulative sum is flagged; None if there is none."""
-    above = days.loc[days[column] > FLAGGED, "start"]
+    is_above = days[column] > FLAGGED
+    above = days.loc[is_above, "start"]
     return None if above.empty else above.iloc[0]

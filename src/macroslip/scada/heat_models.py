@@ -108,21 +108,26 @@ def _handbooks(
     radial = loads["radial_load"].to_numpy(float)[:, None]
     axial = loads["axial_load"].to_numpy(float)[:, None]
     # Speeds lie closer towards standstill, where the torques bend.
-    speeds = max(float(speed.max()), 1e-6) * np.linspace(0.0, 1.0, _SPEEDS) ** 2
+    fastest = max(float(speed.max()), 1e-6)
+    shares = np.linspace(0.0, 1.0, _SPEEDS) ** 2
+    speeds = fastest * shares
     speeds[0] = 1e-3 * speeds[1]
     coldest = np.floor(oil.min())
     warmest = np.ceil(oil.max())
     kelvin = np.arange(coldest, warmest + _KELVIN, _KELVIN)
     formulas = {SKF: skf_torque, PALMGREN: palmgren_torque}
-    tables = {name: np.empty((kelvin.size, winds.size, _SPEEDS)) for name in formulas}
+    shape = (kelvin.size, winds.size, _SPEEDS)
+    tables = {name: np.empty(shape) for name in formulas}
     for number, temperature in enumerate(kelvin):
         lubricant = friction.lubricant.at(float(temperature))
         for name, formula in formulas.items():
             torque = formula(friction.bearing, lubricant, radial, axial, speeds[None])
             tables[name][number] = torque.total
     held = np.clip(wind, winds[0], winds[-1])
-    points = np.stack([oil, held, np.maximum(speed, speeds[0])], axis=1)
-    return {
-        name: RegularGridInterpolator((kelvin, winds, speeds), table)(points)
-        for name, table in tables.items()
-    }
+    turning = np.maximum(speed, speeds[0])
+    points = np.stack([oil, held, turning], axis=1)
+    torques = {}
+    for name, table in tables.items():
+        interpolator = RegularGridInterpolator((kelvin, winds, speeds), table)
+        torques[name] = interpolator(points)
+    return torques

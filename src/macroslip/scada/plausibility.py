@@ -51,11 +51,13 @@ def check_quantities(values: Quantities, described: ScadaDescription) -> None:
 
 
 def _normalised(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> list[InputError]:
-    known = values["wind_speed"][np.isfinite(values["wind_speed"])]
-    if known.size and np.quantile(known, 0.99) > _NORMALISED:
+    winds = values["wind_speed"]
+    known = winds[np.isfinite(winds)]
+    most = np.quantile(known, 0.99) if known.size else 0.0
+    if most > _NORMALISED:
         return []
     fault = f"the wind speed '{columns['wind_speed'].column}' "
-    fault += f"is {np.quantile(known, 0.99):.3g} m/s at most" if known.size else "has no numbers"
+    fault += f"is {most:.3g} m/s at most" if known.size else "has no numbers"
     return [
         InputError(
             fault,
@@ -91,7 +93,8 @@ def _wrong_medians(values: Quantities, columns: Mapping[str, MeasuredColumn]) ->
 
 def _other_unit(column: MeasuredColumn, median: float) -> str:
     """The unit that a column is more likely in, by its median [K] as it was read."""
-    number = float(column.written(median).split()[0])
+    number_and_unit = column.written(median).split()
+    number = float(number_and_unit[0])
     if number > 200.0:
         return "K"
     return "degF" if column.unit == "degC" else "another unit, or scaled"
@@ -100,7 +103,8 @@ def _other_unit(column: MeasuredColumn, median: float) -> str:
 def _wrong_speed(
     values: Quantities, columns: Mapping[str, MeasuredColumn], rated: float
 ) -> list[InputError]:
-    known = values["rotor_speed"][np.isfinite(values["rotor_speed"])]
+    speeds = values["rotor_speed"]
+    known = speeds[np.isfinite(speeds)]
     fastest = np.quantile(known, 0.99) if known.size else 0.0
     if 0.5 * rated <= fastest <= 1.3 * rated:
         return []
@@ -121,8 +125,9 @@ def _same_sensors(values: Quantities, columns: Mapping[str, MeasuredColumn]) -> 
     for name in ("nacelle_temperature", "ambient_temperature"):
         if name not in values:
             continue
-        both = np.isfinite(bearing) & np.isfinite(values[name])
-        difference = np.abs(bearing[both] - values[name][both])
+        air = values[name]
+        both = np.isfinite(bearing) & np.isfinite(air)
+        difference = np.abs(bearing[both] - air[both])
         if both.any() and np.mean(difference < 1e-6) > _SAME:
             problems.append(
                 InputError(
@@ -155,5 +160,8 @@ def sensor_resolution(values: np.ndarray) -> float:
     >>> sensor_resolution(np.array([20.0, 21.0, 23.0, np.nan]))
     1.0
     """
-    different = np.unique(np.round(values[np.isfinite(values)], 6))
-    return float(np.diff(different).min()) if different.size > 1 else np.inf
+    known = values[np.isfinite(values)]
+    different = np.unique(np.round(known, 6))
+    if different.size < 2:
+        return np.inf
+    return float(np.diff(different).min())

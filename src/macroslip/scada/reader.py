@@ -81,7 +81,8 @@ class Scada:
             If the description is wrong, a file cannot be read, a column is missing, or values are
             not what the description calls them.
         """
-        return read_scada(ScadaDescription.read(path), Path(path).parent)
+        description = ScadaDescription.read(path)
+        return read_scada(description, Path(path).parent)
 
     @property
     def turning(self) -> pd.Series:
@@ -92,7 +93,8 @@ class Scada:
     @property
     def hours(self) -> float:
         """Hours with data that no filter drops."""
-        return float(self.kept.sum()) * self.step / HOUR
+        rows = float(self.kept.sum())
+        return rows * self.step / HOUR
 
     @property
     def used_rows(self) -> pd.DataFrame:
@@ -121,17 +123,18 @@ def read_scada(description: ScadaDescription, folder: Path) -> Scada:
     order, fates, notes = _order(record, description)
     utc = record.times.utc[order]
     columns = {name: values[order] for name, values in record.columns.items()}
-    state = None if record.state is None else record.state[order]
+    state = None
+    if record.state is not None:
+        state = record.state[order]
     seconds = utc.as_unit("s").asi8.astype(float)
     step = description.time.step
     first = filtered(columns, state, seconds, description)
-    data = pd.DataFrame(
-        {
-            name: np.where(first < 0, columns[name], np.nan) if name in columns else np.nan
-            for name in QUANTITIES
-        },
-        index=utc.rename("time"),
-    )
+    used = {}
+    for name in QUANTITIES:
+        used[name] = np.nan
+        if name in columns:
+            used[name] = np.where(first < 0, columns[name], np.nan)
+    data = pd.DataFrame(used, index=utc.rename("time"))
     data["status"] = "" if state is None else state
     data["filter"] = pd.Categorical.from_codes(first + 1, ["", *FILTERS])
     data["jump"] = jumps(columns, seconds, step)
@@ -139,7 +142,8 @@ def read_scada(description: ScadaDescription, folder: Path) -> Scada:
         data[name].attrs["units"] = units
     notes += doubts(columns, description)
     counts = _counts(data, fates, step)
-    return Scada(description, data, counts, step, (*notes, *_missing_months(counts)))
+    notes += _missing_months(counts)
+    return Scada(description, data, counts, step, tuple(notes))
 
 
 def _record(description: ScadaDescription, folder: Path) -> _Record:
@@ -160,7 +164,8 @@ def _record(description: ScadaDescription, folder: Path) -> _Record:
         for piece in pieces(path, names, description.sheet):
             if rows is not None:
                 labels = piece[rows.column].map(_label)
-                others |= set(labels.unique()[:_LISTED])
+                listed = labels.unique()[:_LISTED]
+                others |= set(listed)
                 piece = piece[labels == rows.equals]
             if piece.empty:
                 continue
@@ -174,7 +179,8 @@ def _record(description: ScadaDescription, folder: Path) -> _Record:
                 numbers = _numbers(piece[column.column])
                 part[name] = column.si(numbers)
             if status is not None:
-                part["status"] = piece[status.column].map(_label).to_numpy(dtype=object)
+                states_of_piece = piece[status.column].map(_label)
+                part["status"] = states_of_piece.to_numpy(dtype=object)
             parts.append(pd.DataFrame(part))
     if not parts:
         raise InputError(
@@ -184,14 +190,17 @@ def _record(description: ScadaDescription, folder: Path) -> _Record:
         )
     whole = pd.concat(parts, ignore_index=True)
     values = {name: whole[name].to_numpy(dtype=float) for name in measured}
-    states = whole["status"].to_numpy(dtype=object) if status else None
+    states = None
+    if status:
+        states = whole["status"].to_numpy(dtype=object)
     return _Record(_joined(times), values, states)
 
 
 def _joined(times: list[Times]) -> Times:
     """Times of pieces of a record, one after the other."""
     first, *others = times
-    utc = first.utc.append([part.utc for part in others])
+    further = [part.utc for part in others]
+    utc = first.utc.append(further)
     is_repeated = np.concatenate([part.is_repeated for part in times])
     has_offset = all(part.has_offset for part in times)
     return Times(utc, is_repeated, has_offset)
@@ -206,7 +215,8 @@ def _label(value: object) -> str:
 
 def _numbers(column: pd.Series) -> np.ndarray:
     """Numbers of a column; NaN where a cell is empty or no number."""
-    return np.asarray(pd.to_numeric(column, errors="coerce"), dtype=float)
+    numeric = pd.to_numeric(column, errors="coerce")
+    return np.asarray(numeric, dtype=float)
 
 
 def _order(
@@ -217,8 +227,10 @@ def _order(
     notes = []
     fates = {"repeated hour": record.times.is_repeated}
     fates["no time"] = np.asarray(utc.isna())
-    order = np.flatnonzero(~fates["no time"] & ~record.times.is_repeated)
-    order = order[np.argsort(utc.asi8[order], kind="stable")]
+    is_placed = ~fates["no time"] & ~record.times.is_repeated
+    order = np.flatnonzero(is_placed)
+    rising = np.argsort(utc.asi8[order], kind="stable")
+    order = order[rising]
     later = utc[order].duplicated(keep="first")
     is_copy = np.zeros(len(utc), dtype=bool)
     is_copy[order[later]] = True
@@ -233,7 +245,8 @@ def _order(
     gone = np.any(list(fates.values()), axis=0)
     month_texts = np.asarray(utc.strftime("%Y-%m"), dtype=object)
     months = np.where(utc.isna(), "", month_texts)
-    return order[~gone[order]], _counted(months, fates), notes
+    left = order[~gone[order]]
+    return left, _counted(months, fates), notes
 
 
 def _counted(months: np.ndarray, fates: Mapping[str, np.ndarray]) -> list[tuple[str, str, int]]:
@@ -249,12 +262,14 @@ def _repeated_hours(
     record: _Record, order: np.ndarray, later: np.ndarray, step: float
 ) -> np.ndarray:
     """Rows in an hour that a record without zone shows twice, shape (rows,) of the files."""
-    values = np.column_stack([column[order] for column in record.columns.values()])
+    sorted_columns = [column[order] for column in record.columns.values()]
+    values = np.column_stack(sorted_columns)
     differs = np.zeros(order.size, dtype=bool)
     has_changed = np.any(values[1:] != values[:-1], axis=1)
     differs[1:] = later[1:] & has_changed
-    repeated = np.zeros(len(record.times.utc), dtype=bool)
-    repeated[order] = hours_shown_twice(record.times.utc[order], differs, step)
+    utc = record.times.utc
+    repeated = np.zeros(len(utc), dtype=bool)
+    repeated[order] = hours_shown_twice(utc[order], differs, step)
     return repeated
 
 
@@ -262,14 +277,17 @@ def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) 
     """Rows by month and outcome."""
     months = np.asarray(data.index.strftime("%Y-%m"), dtype=object)
     kept = (data["filter"] == "").to_numpy()
-    sorted_out = dict(dropped_by_filter(data["filter"].cat.codes.to_numpy() - 1))
+    filter_of_row = data["filter"].cat.codes.to_numpy() - 1
+    sorted_out = dict(dropped_by_filter(filter_of_row))
     sorted_out["kept"] = kept
     sorted_out["jump"] = kept & data["jump"].to_numpy()
     table = [*fates, *_counted(months, sorted_out)]
     first = data.index[0]
     last = data.index[-1]
-    steps = pd.date_range(first, last, freq=pd.Timedelta(seconds=step))
-    expected = pd.Series(steps.strftime("%Y-%m")).value_counts()
+    step_of_time = pd.Timedelta(seconds=step)
+    steps = pd.date_range(first, last, freq=step_of_time)
+    months_of_steps = pd.Series(steps.strftime("%Y-%m"))
+    expected = months_of_steps.value_counts()
     present = pd.Series(months).value_counts()
     absent = expected.sub(present, fill_value=0).clip(lower=0)
     for month, count in absent.items():
@@ -284,17 +302,15 @@ def _missing_months(counts: pd.DataFrame) -> list[str]:
     """Months of whose time more than `_MOST_MISSING` is without data, in a sentence."""
     table = rows_by_month(counts)
     expected = table.drop(columns=["jump", "duplicate", "no time"]).sum(axis=1)
-    missing = 1.0 - table["kept"].to_numpy() / expected.to_numpy()
-    months = [
-        f"{month} ({100.0 * share:.0f} %)"
-        for month, share in zip(table.index, missing.tolist(), strict=True)
-        if share > _MOST_MISSING
-    ]
-    return (
-        [f"More than {100.0 * _MOST_MISSING:.0f} % is missing in {', '.join(months)}."]
-        if months
-        else []
-    )
+    kept = table["kept"].to_numpy()
+    missing = 1.0 - kept / expected.to_numpy()
+    months = []
+    for month, share in zip(table.index, missing.tolist(), strict=True):
+        if share > _MOST_MISSING:
+            months.append(f"{month} ({100.0 * share:.0f} %)")
+    if not months:
+        return []
+    return [f"More than {100.0 * _MOST_MISSING:.0f} % is missing in {', '.join(months)}."]
 
 
 def rows_by_month(counts: pd.DataFrame) -> pd.DataFrame:
@@ -303,7 +319,8 @@ def rows_by_month(counts: pd.DataFrame) -> pd.DataFrame:
     table = dated.pivot_table(
         index="month", columns="filter", values="rows", aggfunc="sum", observed=False
     )
-    return table.reindex(columns=list(FATES)).fillna(0).astype(int)
+    every_fate = table.reindex(columns=list(FATES))
+    return every_fate.fillna(0).astype(int)
 
 
 def told_rows(scada: Scada) -> str:
@@ -313,9 +330,12 @@ def told_rows(scada: Scada) -> str:
     """
     first, last = scada.data.index[[0, -1]]
     span = f"{first:%Y-%m-%d} to {last:%Y-%m-%d}"
-    name = shown(scada.description.turbine) if scada.description.turbine else "the turbine"
+    name = "the turbine"
+    if scada.description.turbine:
+        name = shown(scada.description.turbine)
     kept = int(scada.kept.sum())
+    percent = 100.0 * scada.turning.sum() / max(kept, 1)
     return (
         f"{len(scada.data)} rows of {name} from {span}; {kept} of them, {scada.hours:.0f} h, are "
-        f"used, and the rotor turns in {100.0 * scada.turning.sum() / max(kept, 1):.0f} % of these."
+        f"used, and the rotor turns in {percent:.0f} % of these."
     )

@@ -47,7 +47,11 @@ def speed_exponents(supplies: Iterable[str]) -> tuple[dict[str, pd.Series], tupl
     (0.52, ())
     """
     kelvin = ZERO_CELSIUS + np.array(TEMPERATURES)
-    numbers = {1.0 if name == _FLOODED else float(name): name for name in EXPONENTS if name != SKF}
+    numbers = {}
+    for name in EXPONENTS:
+        if name != SKF:
+            number = 1.0 if name == _FLOODED else float(name)
+            numbers[number] = name
     known = sorted(numbers)
     curves = np.array([EXPONENTS[numbers[number]] for number in known])
     exponents = {}
@@ -57,7 +61,8 @@ def speed_exponents(supplies: Iterable[str]) -> tuple[dict[str, pd.Series], tupl
             values = np.array(EXPONENTS[supply])
         else:
             film = float(supply)
-            values = np.array([np.interp(film, known, curve) for curve in curves.T])
+            interpolated = [np.interp(film, known, curve) for curve in curves.T]
+            values = np.array(interpolated)
             if not known[0] <= film <= known[-1]:
                 notes.append(
                     f"The supply {supply} has the exponent of speed of the supply {known[0]:g}."

@@ -88,7 +88,8 @@ def base_turbine_friction() -> FrictionTable:
     ('skf', 'flooded', '0.7', '0.5')
     """
     entries = read_entries(BASE_TURBINE)
-    exponents, _ = speed_exponents(entries["supply"].unique())
+    supplies = entries["supply"].unique()
+    exponents, _ = speed_exponents(supplies)
     return FrictionTable(entries, exponents, source="base turbine")
 
 
@@ -123,7 +124,8 @@ def synthetic_year(truth: SyntheticYear, friction: FrictionTable) -> pd.DataFram
     def rounded(kelvin: FloatArray) -> FloatArray:
         if truth.resolution == 0.0:
             return kelvin
-        steps = np.round((kelvin - ZERO_CELSIUS) / truth.resolution)
+        degrees = kelvin - ZERO_CELSIUS
+        steps = np.round(degrees / truth.resolution)
         return ZERO_CELSIUS + steps * truth.resolution
 
     record = pd.DataFrame(
@@ -137,7 +139,8 @@ def synthetic_year(truth: SyntheticYear, friction: FrictionTable) -> pd.DataFram
         },
         index=time,
     )
-    missing = _within_spells(random, rows, truth.missing * rows / _GAP_ROWS, _GAP_ROWS)
+    gaps = truth.missing * rows / _GAP_ROWS
+    missing = _within_spells(random, rows, gaps, _GAP_ROWS)
     return record.loc[~missing]
 
 
@@ -148,25 +151,31 @@ def write_record(record: pd.DataFrame, path: str | PathLike[str]) -> None:
     air to 0.5 °C, as sensors of that kind have them; times are those of UTC.
     """
     celsius = record.filter(like="temperature") - ZERO_CELSIUS
+    half_degrees = (2.0 * celsius).round()
+    kilowatts = 10 * (record["power"] / 1e4).round()
+    rotor_rpm = record["rotor_speed"] / RPM
     table = pd.DataFrame(
         {
             "time": record.index.strftime("%Y-%m-%d %H:%M"),
             "wind_mps": [f"{value:.1f}" for value in record["wind_speed"]],
-            "rotor_rpm": [f"{value:.1f}" for value in record["rotor_speed"] / RPM],
-            "power_kW": 10 * (record["power"] / 1e4).round().to_numpy(int),
+            "rotor_rpm": [f"{value:.1f}" for value in rotor_rpm],
+            "power_kW": kilowatts.to_numpy(int),
             "bearing_degC": [f"{value:.1f}" for value in celsius["bearing_temperature"]],
-            "nacelle_degC": (2.0 * celsius["nacelle_temperature"]).round().to_numpy() / 2.0,
-            "ambient_degC": (2.0 * celsius["ambient_temperature"]).round().to_numpy() / 2.0,
+            "nacelle_degC": half_degrees["nacelle_temperature"].to_numpy() / 2.0,
+            "ambient_degC": half_degrees["ambient_temperature"].to_numpy() / 2.0,
         }
     )
-    compression = {"method": "gzip", "mtime": 0} if str(path).endswith(".gz") else None
+    compression = None
+    if str(path).endswith(".gz"):
+        compression = {"method": "gzip", "mtime": 0}
     table.to_csv(path, index=False, lineterminator="\n", compression=compression)
 
 
 def _correlated(random: np.random.Generator, rows: int, correlation: float) -> FloatArray:
     """Normal numbers of variance 1 whose correlation falls by e over so many rows."""
     kept = np.exp(-1.0 / correlation)
-    pushes = np.sqrt(1.0 - kept**2) * random.standard_normal(rows)
+    scatter = np.sqrt(1.0 - kept**2)
+    pushes = scatter * random.standard_normal(rows)
     pushes[0] = random.standard_normal()
     return np.asarray(lfilter([1.0], [1.0, -kept], pushes))
 
@@ -191,14 +200,18 @@ def _operation(random: np.random.Generator, rows: int) -> tuple[FloatArray, Floa
     fast = np.sqrt(1.0 - _WEATHER) * gusts
     both = slow + fast
     scale, shape = _WIND
-    wind = weibull_min.ppf(norm.cdf(both), shape, scale=scale)
+    probability = norm.cdf(both)
+    wind = weibull_min.ppf(probability, shape, scale=scale)
     speed = np.clip(_SPEED_PER_WIND * wind, _LEAST_SPEED, RATED_SPEED)
-    speed = np.minimum(speed * (1.0 + 0.01 * random.standard_normal(rows)), RATED_SPEED)
-    power = RATED_POWER * np.minimum(wind / RATED_WIND, 1.0) ** 3
+    scatter = 1.0 + 0.01 * random.standard_normal(rows)
+    speed = np.minimum(speed * scatter, RATED_SPEED)
+    share_of_wind = np.minimum(wind / RATED_WIND, 1.0)
+    power = RATED_POWER * share_of_wind**3
     idle = wind < CUT_IN
     speed[idle] = 0.4 * RPM * wind[idle]
     power[idle] = _OWN_USE
-    stopped = _within_spells(random, rows, _STOPS * rows / 52560.0, _STOP_ROWS)
+    stops = _STOPS * rows / 52560.0
+    stopped = _within_spells(random, rows, stops, _STOP_ROWS)
     speed[stopped] = 0.0
     power[stopped] = _OWN_USE
     return wind, speed, power
@@ -211,12 +224,16 @@ def _air(
     hours = np.arange(time.size) * _STEP / HOUR
     since_coldest_day = hours / 24.0 - 20.0
     since_coldest_hour = hours - 3.0
-    of_year = -7.5 * np.cos(2.0 * np.pi * since_coldest_day / 365.0)
-    of_day = -3.0 * np.cos(2.0 * np.pi * since_coldest_hour / 24.0)
+    angle_of_year = 2.0 * np.pi * since_coldest_day / 365.0
+    angle_of_day = 2.0 * np.pi * since_coldest_hour / 24.0
+    of_year = -7.5 * np.cos(angle_of_year)
+    of_day = -3.0 * np.cos(angle_of_day)
     weather = 2.5 * _smoothed(_correlated(random, time.size, 3.0 * _ROWS_A_DAY))
     ambient = ZERO_CELSIUS + 11.0 + of_year + of_day + weather
-    rise = _smoothed(7.0 + 5.0 * np.maximum(power, 0.0) / RATED_POWER)
-    return ambient, ambient + rise + 0.6 * _smoothed(_correlated(random, time.size, 36.0))
+    rise_by_power = 5.0 * np.maximum(power, 0.0) / RATED_POWER
+    rise = _smoothed(7.0 + rise_by_power)
+    scatter = _smoothed(_correlated(random, time.size, 36.0))
+    return ambient, ambient + rise + 0.6 * scatter
 
 
 def _smoothed(values: FloatArray) -> FloatArray:
@@ -247,11 +264,13 @@ def _bearing(
     high = friction.temperatures[-1]
     grid = np.arange(low - _BEYOND, high + _BEYOND, _CELL)
     # Beyond the table its ends are held.
-    known, inverse = np.unique(np.clip(grid, low, high), return_inverse=True)
+    held = np.clip(grid, low, high)
+    known, inverse = np.unique(held, return_inverse=True)
     powers = [friction.power(truth.supply, wind, speed, kelvin) for kelvin in known]
     seals = truth.seal_torque * speed
     powers_of_oils = np.stack(powers, axis=1)[:, inverse]
-    heats = per_heat * (factor[:, None] * powers_of_oils + seals[:, None])
+    heat = factor[:, None] * powers_of_oils + seals[:, None]
+    heats = per_heat * heat
     slopes = np.diff(heats, axis=1) / _CELL
     to_nacelle = truth.to_nacelle * (1.0 + truth.fan * wind)
     loss = to_nacelle + truth.to_ambient
@@ -262,9 +281,11 @@ def _bearing(
         cell = int((now - grid[0]) / _CELL)
         slope = slopes[row, cell]
         decay = loss[row] - slope
-        level = (heats[row, cell] - slope * grid[cell] + drive[row]) / decay
+        heat_at_cell = heats[row, cell] - slope * grid[cell]
+        level = (heat_at_cell + drive[row]) / decay
         kept = np.exp(-decay * step)
-        means[row] = level + (now - level) * (1.0 - kept) / (decay * step)
+        settled = (now - level) * (1.0 - kept)
+        means[row] = level + settled / (decay * step)
         now = level + (now - level) * kept
     return means
 
@@ -274,5 +295,6 @@ def _friction_factor(truth: SyntheticYear, rows: int) -> FloatArray:
     days = np.arange(rows) / _ROWS_A_DAY
     turns = days / _WANDER_DAYS + _WANDER_PHASE * truth.seed
     factor = 1.0 + truth.wander * np.sin(2.0 * np.pi * turns)
-    factor[truth.more_from * _ROWS_A_DAY :] *= truth.more_friction
+    first_row = truth.more_from * _ROWS_A_DAY
+    factor[first_row:] *= truth.more_friction
     return factor

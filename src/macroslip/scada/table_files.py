@@ -35,10 +35,15 @@ def files_of(patterns: Sequence[str], folder: Path) -> list[Path]:
     files: dict[Path, None] = {}
     for pattern in patterns:
         path = Path(pattern)
-        start = Path(path.anchor) if path.is_absolute() else folder
-        name = str(path.relative_to(path.anchor)) if path.is_absolute() else pattern
+        start = folder
+        name = pattern
+        if path.is_absolute():
+            start = Path(path.anchor)
+            name = str(path.relative_to(path.anchor))
         is_pattern = re.search(r"[*?\[]", name)
-        paths = sorted(start.glob(name)) if is_pattern else [start / name]
+        paths = [start / name]
+        if is_pattern:
+            paths = sorted(start.glob(name))
         if not paths or not all(file.is_file() for file in paths):
             raise InputError(
                 f"there is no file {pattern!r} in '{folder}'",
@@ -175,7 +180,8 @@ class _CsvText:
             skipinitialspace=True,
         ) as reader:
             for piece in reader:
-                yield piece[order].set_axis(list(columns), axis=1)
+                in_order = piece[order]
+                yield in_order.set_axis(list(columns), axis=1)
 
 
 def _cells(line: str, separator: str) -> list[str]:
@@ -208,7 +214,8 @@ class _Parquet:
         from pyarrow.parquet import ParquetFile
 
         self._file = ParquetFile(path)
-        self._own_names = {clean(name): name for name in self._file.schema_arrow.names}
+        names = self._file.schema_arrow.names
+        self._own_names = {clean(name): name for name in names}
         self.names = list(self._own_names)
 
     def pieces(self, columns: Sequence[str]) -> Iterator[pd.DataFrame]:
@@ -216,7 +223,8 @@ class _Parquet:
         own = [self._own_names[name] for name in columns]
         for batch in self._file.iter_batches(batch_size=PIECE, columns=own):
             piece = batch.to_pandas().reset_index()
-            yield piece[own].set_axis(list(columns), axis=1)
+            in_order = piece[own]
+            yield in_order.set_axis(list(columns), axis=1)
 
 
 class _Sheet:
@@ -235,7 +243,8 @@ class _Sheet:
             raise InputError("the sheet is empty", where=str(path))
         texts = [sum(isinstance(cell, str) for cell in row) for row in head]
         self._header = texts.index(max(texts))
-        self.names = [clean(cell) for cell in head[self._header]]
+        headings = head[self._header]
+        self.names = [clean(cell) for cell in headings]
 
     def _rows(self, first: int, last: int | None = None) -> Iterator[tuple[Any, ...]]:
         """Cells of the rows, numbered from 1."""
@@ -249,7 +258,8 @@ class _Sheet:
                     where=str(self._path),
                     allowed=", ".join(book.sheetnames),
                 )
-            sheet = book[self._sheet or book.sheetnames[0]]
+            name = self._sheet or book.sheetnames[0]
+            sheet = book[name]
             yield from sheet.iter_rows(min_row=first, max_row=last, values_only=True)
         finally:
             book.close()

@@ -93,18 +93,22 @@ def unbroken_windows(
     """
     usable = np.asarray(usable, dtype=bool)
     steps = round(LENGTH / step)
-    later = np.diff(time.as_unit("ns").asi8) / 1e9
+    nanoseconds = np.diff(time.as_unit("ns").asi8)
+    later = nanoseconds / 1e9
     is_next = np.abs(later - step) < 0.5 * step
-    follows = is_next & ~np.asarray(jump, dtype=bool)[1:]
+    jumped = np.asarray(jump, dtype=bool)
+    follows = is_next & ~jumped[1:]
     is_joined = follows & usable[1:] & usable[:-1]
     joined = np.r_[False, is_joined]
     stretch = np.cumsum(~joined)
     # Number of a row within its stretch.
     starts = np.flatnonzero(~joined)
-    inside = np.arange(usable.size) - starts[stretch - 1]
+    start_of_stretch = starts[stretch - 1]
+    inside = np.arange(usable.size) - start_of_stretch
     begins = usable & (inside % steps == 0)
     candidates = np.flatnonzero(begins)
-    candidates = candidates[candidates + steps < usable.size]
+    has_end = candidates + steps < usable.size
+    candidates = candidates[has_end]
     stretch_of_end = stretch[candidates + steps]
     whole = stretch_of_end == stretch[candidates]
     return Windows(candidates[whole], steps, step)

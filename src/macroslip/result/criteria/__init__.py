@@ -13,7 +13,10 @@ def _declared() -> list[Criterion]:
         import_module(f"{__name__}.{module_of_criteria.name}")
         for module_of_criteria in pkgutil.iter_modules(__path__)
     )
-    return [criterion for module in modules for criterion in getattr(module, "CRITERIA", ())]
+    criteria = []
+    for module in modules:
+        criteria += getattr(module, "CRITERIA", ())
+    return criteria
 
 
 #: All criteria in their order.

@@ -88,13 +88,17 @@ class Criterion:
 
 def largest(values: np.ndarray) -> float:
     """The largest number; NaN where there is none."""
-    return float(np.nanmax(values)) if np.isfinite(values).any() else np.nan
+    if not np.isfinite(values).any():
+        return np.nan
+    return float(np.nanmax(values))
 
 
 def largest_of(name: str) -> Callable[[Mapping[str, np.ndarray]], float]:
     """The largest number of a variable; NaN where it is missing."""
 
     def value(variables: Mapping[str, np.ndarray]) -> float:
-        return largest(variables[name]) if name in variables else np.nan
+        if name not in variables:
+            return np.nan
+        return largest(variables[name])
 
     return value

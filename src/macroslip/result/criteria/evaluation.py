@@ -62,7 +62,8 @@ class Evaluation:
         self.all_rollers = self.bearing.rollers_per_row / result.sizes["roller"]
         first = next(iter(run_input.models.values()))
         self.boundary_friction = first.laws.inner.boundary_friction
-        self._cell_area = result.cell_area.transpose("row", "raceway", "station").values
+        area = result.cell_area.transpose("row", "raceway", "station")
+        self._cell_area = area.values
 
     @property
     def tells_of_year(self) -> bool:
@@ -78,8 +79,9 @@ class Evaluation:
         """Power of a map [W], of all rollers of a row, over row, raceway, angle and station."""
         energy = self.result[name]
         kinds = [kind for kind in ("slip_sign", "film_regime") if kind in energy.dims]
-        energy = energy.sum(kinds, skipna=False).transpose("row", "raceway", "angle", "station")
-        return energy.values * (self.all_rollers / self.seconds)
+        of_places = energy.sum(kinds, skipna=False)
+        by_place = of_places.transpose("row", "raceway", "angle", "station")
+        return by_place.values * (self.all_rollers / self.seconds)
 
     def profile(self, name: str) -> np.ndarray:
         """Power per area [W/m²] of a map over row, surface and station.
@@ -89,17 +91,21 @@ class Evaluation:
         few rollers, or orbits that are no whole number, pass some sectors more often than others.
         """
         density = self.powers(name) / self._cell_area[:, :, None]
+        inner = density[:, 0]
+        outer = density[:, 1] * self._evenness()[..., None]
         profile = np.empty((density.shape[0], len(SURFACES), STATIONS))
-        profile[:, 0] = density[:, 0].mean(axis=1)
-        for row, sectors in enumerate(density[:, 1] * self._evenness()[..., None]):
-            worst = int(np.argmax(np.nan_to_num(sectors).max(axis=-1)))
+        profile[:, 0] = inner.mean(axis=1)
+        for row, sectors in enumerate(outer):
+            largest = np.nan_to_num(sectors).max(axis=-1)
+            worst = int(np.argmax(largest))
             profile[row, 1] = sectors[worst]
         profile[:, 2] = self.roller_share(name).sum(axis=1)
         return profile
 
     def _evenness(self) -> np.ndarray:
         """Mean passes of the outer sectors over those of each, over row and angle; 0 without."""
-        passes = self.result.surface_passes.sel(raceway="outer").transpose("row", "angle").values
+        outer_passes = self.result.surface_passes.sel(raceway="outer")
+        passes = outer_passes.transpose("row", "angle").values
         mean = passes.mean(axis=1, keepdims=True)
         return np.divide(mean, passes, out=np.zeros_like(passes), where=passes > 0.0)
 
@@ -107,18 +113,23 @@ class Evaluation:
         """Power per area of a roller [W/m²] of a map over row, raceway and station."""
         circumference = 2.0 * math.pi * geometry.roller_radius(self.bearing)
         area = circumference * self.bearing.roller_length / STATIONS
-        return self.powers(name).sum(axis=2) / (self.bearing.rollers_per_row * area)
+        area_of_row = self.bearing.rollers_per_row * area
+        return self.powers(name).sum(axis=2) / area_of_row
 
     def pass_rates(self) -> np.ndarray:
         """Passes a second over a point of rings and roller [1/s]; NaN without an orbit."""
         orbits = self.result.sizes["orbit"]
-        rate = orbits / self.orbit_time() if orbits else math.nan
+        rate = math.nan
+        if orbits:
+            rate = orbits / self.orbit_time()
         outer_radius = geometry.outer_contact_radius(self.bearing)
         outer = self.bearing.rollers_per_row
-        inner = outer * outer_radius / geometry.inner_contact_radius(self.bearing)
+        inner_radius = geometry.inner_contact_radius(self.bearing)
+        inner = outer * outer_radius / inner_radius
         roller = 2.0 * outer_radius / geometry.roller_radius(self.bearing)
         return rate * np.array([inner, outer, roller])
 
     def orbit_time(self) -> float:
         """Length of all complete orbits [s]."""
-        return float((self.result.orbit_end - self.result.orbit_start).sum())
+        lengths = self.result.orbit_end - self.result.orbit_start
+        return float(lengths.sum())

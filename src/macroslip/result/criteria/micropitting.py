@@ -39,26 +39,31 @@ def _mixed(evaluation: Evaluation) -> Variables:
         amounts = _amounts(evaluation, kind)
         shares = [micropitting.share_below(amounts, FILM_EDGES, edge) for edge in FILM_EDGES]
         about = described("1", f"share of {meaning} with Lambda below film_ratio")
-        variables[f"mixed_{kind}"] = ((*_OVER, "film_ratio"), np.stack(shares, axis=-1), about)
+        share = np.stack(shares, axis=-1)
+        variables[f"mixed_{kind}"] = ((*_OVER, "film_ratio"), share, about)
     return variables
 
 
 def _slower(evaluation: Evaluation) -> Variables:
-    thin = _amounts(evaluation, "time")[:, :, :_BELOW_THREE].sum(axis=2)
+    by_class = _amounts(evaluation, "time")
+    thin = by_class[:, :, :_BELOW_THREE].sum(axis=2)
     meaning = "of the time with Lambda below 3 the share with the ring the slower surface"
     share = micropitting.slower_share(thin, SLIP_EDGES)
     return {"slower_share": (_OVER, share, described("1", meaning))}
 
 
 def _without_thin_films(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
-    return [] if np.isfinite(variables["slower_share"]).any() else [_NO_THIN_FILMS]
+    if np.isfinite(variables["slower_share"]).any():
+        return []
+    return [_NO_THIN_FILMS]
 
 
 def _mixed_film_time(_: xr.Dataset, result: xr.Dataset) -> xr.DataArray:
     """Share of a roller's time with load and Λ < 1 [-], over row, at the raceway with more."""
     thin = result.film_slip_time.isel(film_class=slice(_BELOW_ONE))
     time = thin.sum(["film_class", "slip_class"], skipna=False)
-    return (time / (window_length(result) * result.sizes["roller"])).max("raceway", skipna=False)
+    simulated = window_length(result) * result.sizes["roller"]
+    return (time / simulated).max("raceway", skipna=False)
 
 
 CRITERIA = (

@@ -38,7 +38,8 @@ def _wear_time(evaluation: Evaluation) -> Variables:
         return {}
     work = evaluation.result.rib_asperity_work.max("rib_surface").values
     with np.errstate(divide="ignore"):
-        times = COMPARED_DEPTH / (np.array(evaluation.wear_coefficients) * work[:, None])
+        rates = np.array(evaluation.wear_coefficients) * work[:, None]
+        times = COMPARED_DEPTH / rates
     meaning = "time like this window until the rib or the rollers' ends have worn by 10 um"
     return {"rib_wear_time": (("row", "wear_coefficient"), times, described("s", meaning))}
 

@@ -31,7 +31,7 @@ def _largest(evaluation: Evaluation, criterion: Criterion) -> Variables:
     at_entries = evaluation.result[criterion.name].transpose(*_OVER, "roller", "orbit")
     # Unlike max, fmax does not warn where no roller entered.
     worst = at_entries.reduce(np.fmax.reduce, ("roller", "orbit")).values
-    meaning = str(at_entries.attrs["long_name"]).split(",")[0]
+    meaning, *_ = str(at_entries.attrs["long_name"]).split(",")
     variables: Variables = {
         criterion.name: (_OVER, worst, described(criterion.unit, meaning)),
     }
@@ -52,8 +52,10 @@ def _slide_roll_ratio(evaluation: Evaluation) -> Variables:
     if not evaluation.result.sizes["orbit"]:
         return {}
     scale = evaluation.all_rollers / evaluation.orbit_time()
-    rate = np.nansum(_entries(evaluation), axis=(1, 2)) * scale
-    thinnest = evaluation.result.entry_film_ratio.reduce(np.fmin.reduce, ("roller", "orbit"))
+    entries = np.nansum(_entries(evaluation), axis=(1, 2))
+    rate = entries * scale
+    film_ratios = evaluation.result.entry_film_ratio
+    thinnest = film_ratios.reduce(np.fmin.reduce, ("roller", "orbit"))
     return {
         "entry_rate": (
             ("row",),
@@ -70,7 +72,8 @@ def _slide_roll_ratio(evaluation: Evaluation) -> Variables:
 
 
 def _missing(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
-    return [] if float(evaluation.result.entries.sum()) > 0.0 else [_NO_ENTRIES]
+    entries = float(evaluation.result.entries.sum())
+    return [] if entries > 0.0 else [_NO_ENTRIES]
 
 
 def _of_raceways(name: str, criteria: xr.Dataset) -> xr.DataArray | None:

@@ -54,10 +54,10 @@ def _variables(evaluation: Evaluation) -> Variables:
             raise InputError(_NO_WEAR, where="wear", allowed="results with asperities")
         return {}
     # Splines may leave a little less than nothing of what asperities have.
-    work = wear.worn_volume(
-        1.0, np.maximum(evaluation.profile("surface_asperity_energy"), 0.0), friction
-    )
-    on_roller = np.maximum(evaluation.roller_share("surface_asperity_energy"), 0.0) / friction
+    on_surfaces = np.maximum(evaluation.profile("surface_asperity_energy"), 0.0)
+    work = wear.worn_volume(1.0, on_surfaces, friction)
+    of_roller = np.maximum(evaluation.roller_share("surface_asperity_energy"), 0.0)
+    on_roller = of_roller / friction
     meaning = "asperities' pressure times slip, mean over time: depth of wear a second over k"
     rate = (("row", "surface", "station"), work, described("W/m2", meaning))
     if not evaluation.tells_of_year:
@@ -103,14 +103,16 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
     """
     bearing = evaluation.bearing
     width = bearing.roller_length / (_SLICES * STATIONS)
-    from_end = (np.arange(_SLICES * STATIONS) + 0.5) * width
+    numbers = np.arange(_SLICES * STATIONS)
+    from_end = (numbers + 0.5) * width
     along = from_end - 0.5 * bearing.roller_length
     curvatures = (geometry.inner_curvatures(bearing), geometry.outer_curvatures(bearing))
     result = evaluation.result.sel(row=row)
     laws = evaluation.run_input.models[row].laws
     skew = working_skew(result)
     contacts = []
-    for i, (law, curved) in enumerate(zip((laws.inner, laws.outer), curvatures, strict=True)):
+    raceways = zip((laws.inner, laws.outer), curvatures, strict=True)
+    for i, (law, curved) in enumerate(raceways):
         load = float(result.working_load.isel(raceway=i))
         if not load > 0.0 or not work[i].sum() > 0.0:
             nothing = np.zeros(along.size)
@@ -118,13 +120,15 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
             continue
         contour, stiffness = _slices(law, load, along, curved.lateral)
         pressed = wear.slice_loads(contour, load, stiffness, width)
-        mapped = result.surface_work.isel(raceway=i).sum("angle").values
+        work_of_raceway = result.surface_work.isel(raceway=i)
+        mapped = work_of_raceway.sum("angle").values
         slip = slip_profile(law, along, pressed, mapped, skew)
         total = (pressed * slip).sum() / _SLICES
         ring = work[i].sum() / total
         roller = on_roller[i].sum() / total
         contacts.append(wear.Pressed(load, contour, stiffness, slip, ring, roller))
-    return wear.grow((contacts[0], contacts[1]), width)
+    inner, outer = contacts
+    return wear.grow((inner, outer), width)
 
 
 def _slices(
@@ -138,10 +142,12 @@ def _slices(
     if isinstance(law, PreparedStrips):
         strips = law.strips
         approach = float(strip_approach(strips, load))
-        slope = PALMGREN_EXPONENT * float(strips.load_per_length(approach)) / approach
+        load_per_length = float(strips.load_per_length(approach))
+        slope = PALMGREN_EXPONENT * load_per_length / approach
         return strips.profile(along), slope
     half_length = law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
-    return 0.5 * curvature * along**2, wear.hertz_slices(load, half_length, curvature)
+    contour = 0.5 * curvature * along**2
+    return contour, wear.hertz_slices(load, half_length, curvature)
 
 
 def working_skew(row: xr.Dataset) -> float:
@@ -156,7 +162,8 @@ def working_skew(row: xr.Dataset) -> float:
     passes = outer.surface_passes.values
     weight = np.divide(work, passes, out=np.zeros_like(work), where=passes > 0.0)
     square = np.nan_to_num(row.skew_by_position.values) ** 2
-    return math.sqrt((square * weight).sum() / max(weight.sum(), 1e-300))
+    total = max(weight.sum(), 1e-300)
+    return math.sqrt((square * weight).sum() / total)
 
 
 def slip_profile(
@@ -186,10 +193,13 @@ def slip_profile(
         return np.ones_like(along)
     largest = np.abs(microslip[pressed > 0.0]).max()
     middle = np.linspace(-1.0, 1.0, _TRIED)[:, None] * largest
-    slips = np.hypot(microslip + middle * _growth(law, along), skew)
-    profiles = (slips * pressed).reshape(_TRIED, STATIONS, _SLICES).sum(axis=-1)
+    slip_along = microslip + middle * _growth(law, along)
+    slips = np.hypot(slip_along, skew)
+    work_of_slices = (slips * pressed).reshape(_TRIED, STATIONS, _SLICES)
+    profiles = work_of_slices.sum(axis=-1)
     profiles /= profiles.sum(axis=1, keepdims=True)
-    error = ((profiles - work / work.sum()) ** 2).sum(axis=1)
+    mapped = work / work.sum()
+    error = ((profiles - mapped) ** 2).sum(axis=1)
     return slips[int(np.argmin(error))]
 
 
@@ -216,7 +226,8 @@ def _years(variables: Mapping[str, np.ndarray]) -> float:
         return math.nan
     times = variables["wear_time"][:, :, _COMPARED]
     middle = times.shape[-1] // 2
-    return float(np.nanmin(times[..., middle], initial=math.inf)) / YEAR
+    shortest = float(np.nanmin(times[..., middle], initial=math.inf))
+    return shortest / YEAR
 
 
 def _missing(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
