@@ -269,7 +269,8 @@ def _profile(bearing: Bearing, source: Source) -> Iterator[InputError]:
             "logarithmic profile, and roller_profile if he tells of a crown.",
         )
     longest = LONGEST_LOGARITHMIC * bearing.roller_diameter
-    if bearing.roller_profile == LOGARITHMIC and bearing.roller_length > longest:
+    is_logarithmic = bearing.roller_profile == LOGARITHMIC
+    if is_logarithmic and bearing.roller_length > longest:
         yield InputError(
             f"roller_length is {bearing.written('roller_length')}, and the standard's logarithmic "
             f"profile of so long a roller is another one, straight in its middle",
@@ -296,7 +297,8 @@ def _contradictions(bearing: Bearing, source: Source) -> Iterator[InputError]:
         ("pitch_radius", centre * math.cos(bearing.contact_angle), "cos(contact_angle)"),
         ("row_offset", centre * math.sin(bearing.contact_angle), "sin(contact_angle)"),
     ):
-        if abs(getattr(bearing, key) - expected) > SPHERE_TOLERANCE * abs(expected):
+        difference = abs(getattr(bearing, key) - expected)
+        if difference > SPHERE_TOLERANCE * abs(expected):
             yield InputError(
                 f"{key} is {bearing.written(key)}, but rollers that touch the outer raceway sphere "
                 f"have (outer_raceway_radius - roller_diameter/2) {formula} = "
@@ -376,14 +378,16 @@ def _sizes(bearing: Bearing, source: Source) -> Iterator[InputError]:
     static = load_ratings.static_load_rating_of(bearing)
     limit = load_ratings.fatigue_load_limit(static, pitch)
     expected = {"static_load_rating": static, "fatigue_load_limit": limit}
-    slenderness = bearing.roller_diameter * math.cos(bearing.contact_angle) / pitch
+    projected = bearing.roller_diameter * math.cos(bearing.contact_angle)
+    slenderness = projected / pitch
     if 0.01 <= slenderness <= 0.30:
         expected["dynamic_load_rating"] = load_ratings.dynamic_load_rating_of(bearing)
     bore = bearing.bore_diameter
     outside = bearing.outside_diameter
     width = bearing.width
     if bore is not None and outside is not None and width is not None and bore < outside:
-        volume = math.pi / 4.0 * (outside**2 - bore**2) * width
+        face = math.pi / 4.0 * (outside**2 - bore**2)
+        volume = face * width
         expected["mass"] = bearing.density * volume
     for key, value in expected.items():
         size = getattr(bearing, key)

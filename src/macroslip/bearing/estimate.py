@@ -141,7 +141,8 @@ class MakersPage:
             return
         count = self.bpfo + self.bpfi
         nearest = round(count)
-        if abs(count - nearest) > 0.05 or nearest < 3 or not self.bpfo < self.bpfi:
+        is_whole = abs(count - nearest) <= 0.05
+        if not is_whole or nearest < 3 or not self.bpfo < self.bpfi:
             raise InputError(
                 f"bpfo is {self.bpfo:g} and bpfi {self.bpfi:g} per turn of the shaft, together "
                 f"{count:g}",
@@ -203,8 +204,10 @@ def estimate_bearing(
     >>> bearing.rollers_per_row, round(diameter, 1), round(length, 1)
     (29, 75.4, 104.0)
     """
-    drawn = _fitting(page, _draw(page, np.random.default_rng(seed)))
-    return EstimatedBearing(_record(page, drawn, name, title), drawn)
+    tried = _draw(page, np.random.default_rng(seed))
+    drawn = _fitting(page, tried)
+    bearing = _record(page, drawn, name, title)
+    return EstimatedBearing(bearing, drawn)
 
 
 def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
@@ -213,7 +216,8 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     Diameter, number and length of the rollers follow from them.
     """
     height = 0.5 * (page.outside - page.bore)
-    e = page.axial_factor_e + E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
+    rounding = E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
+    e = page.axial_factor_e + rounding
     alpha = np.arctan(e / 1.5)
     edge = page.width * (0.5 - CHAMFER.drawn(rng))
     wall = OUTER_WALL.drawn(rng)
@@ -236,17 +240,18 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     count = np.zeros(SAMPLES)
     gamma = None
     if page.bpfo is not None and page.bpfi is not None:
-        count = np.full(SAMPLES, float(round(page.bpfo + page.bpfi)))
-        gamma = (
-            page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)
-        ) / count
+        both = round(page.bpfo + page.bpfi)
+        count = np.full(SAMPLES, float(both))
+        frequency_rounding = FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)
+        gamma = (page.bpfi - page.bpfo + frequency_rounding) / count
         diameter = 2.0 * gamma * sphere / (1.0 + gamma)
     # The room for the inner ring depends little on the roller length, and the length little on the
     # diameter.
     for _ in range(30):
         centre = sphere - 0.5 * diameter
         if gamma is None:
-            half_pitch = np.minimum(spacing * diameter / (2.0 * centre * cosine), 1.0)
+            pitch = 2.0 * centre * cosine
+            half_pitch = np.minimum(spacing * diameter / pitch, 1.0)
             count = np.pi / np.arcsin(half_pitch)
         length = _length(rating, count, diameter, alpha, centre * cosine)
         if gamma is None:
@@ -289,11 +294,12 @@ def _fitting(page: MakersPage, drawn: dict[str, FloatArray]) -> dict[str, FloatA
     along = 0.5 * length * cosine
     across = end * sine
     half_pitch = np.pi / drawn["rollers_per_row"]
-    spacing = 2.0 * drawn["pitch_radius"] * np.sin(half_pitch) / diameter
-    clearance = 0.5 - (drawn["row_offset"] + along + across) / page.width
-    wall = (drawn["pitch_radius"] - 0.5 * length * sine - end * cosine - 0.5 * page.bore) / (
-        page.outside - page.bore
-    )
+    chord = 2.0 * drawn["pitch_radius"] * np.sin(half_pitch)
+    spacing = chord / diameter
+    farthest = drawn["row_offset"] + along + across
+    clearance = 0.5 - farthest / page.width
+    inside = drawn["pitch_radius"] - 0.5 * length * sine - end * cosine
+    wall = (inside - 0.5 * page.bore) / (page.outside - page.bore)
     passed = {
         "a sphere inside the outer ring": drawn["outer_raceway_radius"] < 0.49 * page.outside,
         "roller length over diameter": within(length / diameter, SLENDERNESS),
@@ -338,15 +344,14 @@ def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: st
             np.median(drawn["osculation"]), drawn["osculation"], *_OSCULATION
         )
     alpha = math.radians(entries["contact_angle"]["value"])
-    centre = 1e-3 * (
-        entries["outer_raceway_radius"]["value"] - 0.5 * entries["roller_diameter"]["value"]
-    )
-    entries["pitch_radius"] = entry(
-        centre * math.cos(alpha), drawn["pitch_radius"], "mm", 1, "E", _ON_SPHERE
-    )
-    entries["row_offset"] = entry(
-        centre * math.sin(alpha), drawn["row_offset"], "mm", 1, "E", _ON_SPHERE
-    )
+    sphere = entries["outer_raceway_radius"]["value"]
+    roller_radius = 0.5 * entries["roller_diameter"]["value"]
+    centre = 1e-3 * (sphere - roller_radius)
+    pitch_radius = centre * math.cos(alpha)
+    row_offset = centre * math.sin(alpha)
+    on_sphere = ("mm", 1, "E", _ON_SPHERE)
+    entries["pitch_radius"] = entry(pitch_radius, drawn["pitch_radius"], *on_sphere)
+    entries["row_offset"] = entry(row_offset, drawn["row_offset"], *on_sphere)
     entries |= _published(page) | _ratings(page, entries)
     known = Bearing.read(_STEEL_OF).as_dict()
     same = {key: known[key] for key in _STEEL}

@@ -76,7 +76,8 @@ def inner_contact_radius(bearing: Bearing) -> float:
     >>> round(inner_contact_radius(Bearing.read("skf-240-600-bc")), 6)
     0.338367
     """
-    return bearing.pitch_radius - roller_radius(bearing) * math.cos(bearing.contact_angle)
+    across = roller_radius(bearing) * math.cos(bearing.contact_angle)
+    return bearing.pitch_radius - across
 
 
 def outer_contact_radius(bearing: Bearing) -> float:
@@ -88,7 +89,8 @@ def outer_contact_radius(bearing: Bearing) -> float:
     >>> round(outer_contact_radius(Bearing.read("skf-240-600-bc")), 6)
     0.407033
     """
-    return bearing.pitch_radius + roller_radius(bearing) * math.cos(bearing.contact_angle)
+    across = roller_radius(bearing) * math.cos(bearing.contact_angle)
+    return bearing.pitch_radius + across
 
 
 def orbit_ratio(bearing: Bearing) -> float:
@@ -294,7 +296,8 @@ def initial_angles(row: str, rollers_per_row: int) -> FloatArray:
             remedy="Choose one of the two rows.",
         )
     pitches = np.arange(rollers_per_row) + _STAGGER[row]
-    return -np.pi / 2 + 2 * np.pi * pitches / rollers_per_row
+    angles = 2 * np.pi * pitches / rollers_per_row
+    return -np.pi / 2 + angles
 
 
 def roller_mass(density: float, roller_radius: float, roller_length: float) -> float:

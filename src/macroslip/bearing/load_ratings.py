@@ -149,7 +149,8 @@ def dynamic_load_rating(
     7084
     """
     cosine = math.cos(contact_angle)
-    factor = geometry_factor(roller_diameter * cosine / pitch)
+    gamma = roller_diameter * cosine / pitch
+    factor = geometry_factor(gamma)
     length = rows * roller_length * 1e3 * cosine
     diameter = roller_diameter * 1e3
     return (
@@ -174,7 +175,8 @@ def fatigue_load_limit(static_load_rating: float, pitch: float) -> float:
     >>> round(fatigue_load_limit(16300e3, 0.7454) / 1e3)
     1088
     """
-    return static_load_rating / 8.2 * min(1.0, (0.1 / pitch) ** 0.3)
+    by_size = min(1.0, (0.1 / pitch) ** 0.3)
+    return static_load_rating / 8.2 * by_size
 
 
 def static_load_rating_of(bearing: Bearing) -> float:

@@ -33,9 +33,9 @@ def overlapping(bearing: Bearing | TaperedBearing, source: Source) -> Iterator[I
     half_pitch = math.pi / bearing.rollers_per_row
     spacing = 2 * bearing.pitch_radius * math.sin(half_pitch)
     if spacing <= bearing.roller_diameter:
-        most = math.floor(
-            math.pi / math.asin(min(1.0, bearing.roller_diameter / (2 * bearing.pitch_radius)))
-        )
+        sine = bearing.roller_diameter / (2 * bearing.pitch_radius)
+        narrowest = math.asin(min(1.0, sine))
+        most = math.floor(math.pi / narrowest)
         yield InputError(
             f"{bearing.rollers_per_row} rollers do not fit round the circumference: "
             f"roller_diameter is {bearing.written('roller_diameter')}, centres are "

@@ -41,7 +41,8 @@ def check_positive(page: Any) -> None:
     """Refuse a number of a maker's page that is not above 0; a missing one is None."""
     for field in fields(page):
         value = getattr(page, field.name)
-        if isinstance(value, int | float) and not (math.isfinite(value) and value > 0.0):
+        is_number = isinstance(value, int | float)
+        if is_number and not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{field.name} is {value!r}", allowed="a finite number above 0")
 
 
@@ -122,7 +123,8 @@ def entry(value: float, samples: NDArray, unit: str, digits: int, tag: str, note
         rounded = round(float(number) * _SCALES[unit], digits)
         return int(rounded) if digits == 0 else rounded
 
-    low, high = (written(limit) for limit in np.percentile(samples, PERCENTILES))
+    limits = np.percentile(samples, PERCENTILES)
+    low, high = (written(limit) for limit in limits)
     middle = written(value)
     return {"value": middle, "unit": unit, "tag": tag, "note": note,
             "range": [min(low, middle), max(high, middle)]}  # fmt: skip

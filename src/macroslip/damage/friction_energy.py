@@ -78,24 +78,22 @@ class ThrustTest:
         (5.61, 4.84)
         """
         width = self.roller_length / slices
-        offset = np.asarray(
-            (np.arange(slices) + 0.5) * width - 0.5 * self.roller_length, dtype=np.float64
-        )
+        middles = (np.arange(slices) + 0.5) * width
+        offset = np.asarray(middles - 0.5 * self.roller_length, dtype=np.float64)
         mean = self.force / (self.rollers * self.roller_length)
         load = np.full(slices, mean)
         if profile == "logarithmic":
-            gap = (
-                0.00035
-                * self.roller_diameter
-                * -np.log1p(-((2.0 * offset / self.roller_length) ** 2))
-            )
+            from_middle = 2.0 * offset / self.roller_length
+            depth = 0.00035 * self.roller_diameter
+            gap = depth * -np.log1p(-(from_middle**2))
             approach = 1e-3 * (1e-3 * mean / 35948.0) ** 0.9
             force = self.force / self.rollers
             stiffness = 10.0 / 9.0 * mean / approach
             load = slice_loads(gap, force, stiffness, width)
         radius = self.pitch_radius + offset
         passing = 0.5 * self.speed * radius
-        work = pass_work(load, 0.5 * self.speed * offset, passing)
+        slip = 0.5 * self.speed * offset
+        work = pass_work(load, slip, passing)
         passes_a_second = self.rollers * 0.5 * self.speed / (2.0 * math.pi)
         return offset, friction_power(work, passes_a_second)
 

@@ -46,7 +46,8 @@ def pass_energy(
     >>> round(float(pass_energy(260e6, 5.25e-3, 0.0417, 0.2587)) / 1e4, 1)
     44.0
     """
-    time = 2.0 * np.asarray(half_along) / np.asarray(speed)
+    length = 2.0 * np.asarray(half_along)
+    time = length / np.asarray(speed)
     return np.asarray(pressure) * np.asarray(sliding) * time
 
 
@@ -85,10 +86,6 @@ def rib_flash_temperature(
     """
     along = np.asarray(half_along)
     power = 0.5 * math.pi * np.asarray(friction) * np.asarray(pressure) * along
-    return flash_temperature(
-        power * np.asarray(sliding),
-        np.where(along > 0.0, along, 1.0),
-        *speeds,
-        STEEL_EFFUSIVITY,
-        STEEL_EFFUSIVITY,
-    )
+    heat = power * np.asarray(sliding)
+    half_width = np.where(along > 0.0, along, 1.0)
+    return flash_temperature(heat, half_width, *speeds, STEEL_EFFUSIVITY, STEEL_EFFUSIVITY)

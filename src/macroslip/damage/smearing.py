@@ -35,4 +35,5 @@ def entries_beyond(largest: ArrayLike, entries: ArrayLike, limit: float) -> tupl
     beyond = np.asarray(largest) > limit
     entries_there = np.where(beyond, entries, 0)
     rollers_and_orbits = (-2, -1)
-    return beyond.sum(axis=rollers_and_orbits), entries_there.sum(axis=rollers_and_orbits)
+    orbits_beyond = beyond.sum(axis=rollers_and_orbits)
+    return orbits_beyond, entries_there.sum(axis=rollers_and_orbits)

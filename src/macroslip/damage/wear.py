@@ -76,10 +76,12 @@ def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> 
     rising = np.sort(gap)
     count = np.arange(1, gap.size + 1)
     # The approach if only the slices up to each gap were pressed.
-    approach = (load / (stiffness * width) + np.cumsum(rising)) / count
+    of_load = load / (stiffness * width)
+    approach = (of_load + np.cumsum(rising)) / count
     pressed = np.flatnonzero(approach > rising)
     last = pressed[-1] if pressed.size else 0
-    return stiffness * np.maximum(approach[last] - gap, 0.0)
+    penetration = np.maximum(approach[last] - gap, 0.0)
+    return stiffness * penetration
 
 
 def hertz_slices(load: float, half_length: float, curvature: float) -> float:
@@ -120,7 +122,8 @@ class Worn(NamedTuple):
         Infinite where it is not reached while the deepest of all wears by 2 mm.
         """
         deepest = self.depth.max(axis=-1)
-        return np.array([np.interp(depth, body, self.work, right=math.inf) for body in deepest.T])
+        works = [np.interp(depth, body, self.work, right=math.inf) for body in deepest.T]
+        return np.array(works)
 
     def depth_at(self, work: float) -> FloatArray:
         """Depth [m] of each body by slice at a k t; NaN beyond the time that was computed."""
@@ -163,8 +166,9 @@ def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DE
     depth = np.zeros((3, contacts[0].contour.size))
     work = [0.0]
     depths = [depth]
-    rings = np.array([bool(contact.ring * contact.load) for contact in contacts])
-    wears = np.append(rings, any(contact.roller * contact.load for contact in contacts))
+    ring_wears = [bool(contact.ring * contact.load) for contact in contacts]
+    roller_wears = any(contact.roller * contact.load for contact in contacts)
+    wears = np.append(np.array(ring_wears), roller_wears)
     while wears.any() and len(work) < _MOST_STEPS:
         deepest_now = depth.max(axis=-1)[wears]
         if not (deepest_now < deepest).any():

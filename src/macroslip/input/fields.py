@@ -87,7 +87,8 @@ class Form:
 
     def wrong(self, value: Any, remedy: str = "", allowed: str = "") -> InputError:
         """The error for a value of another form."""
-        return InputError(f"it is {shown(value)}", allowed=allowed or self.form, remedy=remedy)
+        fault = f"it is {shown(value)}"
+        return InputError(fault, allowed=allowed or self.form, remedy=remedy)
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,8 @@ class Quantity(Form):
         """Accepted values, in words."""
         if self.dimension is NUMBER:
             return self.range_text() if self.whole else "a number without unit"
-        return " or ".join([*self.words, f"a number with its unit, {self.dimension.choices}"])
+        with_unit = f"a number with its unit, {self.dimension.choices}"
+        return " or ".join([*self.words, with_unit])
 
     def read(self, value: Any, context: Context) -> float | None:
         """Read text with a unit, or a number, to SI, and check its range."""
@@ -165,7 +167,8 @@ class Quantity(Form):
             reminder = (
                 "" if context.in_file or context.written else _REMINDERS.get(self.dimension, "")
             )
-            remedy = f"{self.remedy or f'It is the {self.about}{check}.'}{reminder}"
+            known_remedy = self.remedy or f"It is the {self.about}{check}."
+            remedy = f"{known_remedy}{reminder}"
             raise InputError(f"it is {written}", allowed=known.range_text(unit), remedy=remedy)
 
     def holds(self, value: float) -> bool:
@@ -209,7 +212,8 @@ class Quantity(Form):
         if self.dimension is NUMBER:
             return {"type": "integer" if self.whole else "number"}
         inner = quantity_pattern(self.dimension)[1:-1]
-        return {"type": "string", "pattern": f"^({'|'.join([inner, *self.words])})$"}
+        forms = "|".join([inner, *self.words])
+        return {"type": "string", "pattern": f"^({forms})$"}
 
 
 class Whole(Quantity):
@@ -242,7 +246,8 @@ class Vector(Form):
         """Read three texts to SI."""
         if not isinstance(value, list) or len(value) != 3:
             raise self.wrong(value, f"It is the {self.about}.")
-        return [Quantity("component", self.dimension).read(item, context) for item in value]
+        form = Quantity("component", self.dimension)
+        return [form.read(item, context) for item in value]
 
     def json(self) -> dict[str, Any]:
         """A list of three texts."""

@@ -120,12 +120,14 @@ def estimate_lubricant(
     entries["limiting_shear"] = _entry(
         mean, "1", "usual for the family, see docs/lubricants.md"
     ) | {"range": [low, high]}
-    index = roelands_index(
-        viscosities(line, T40, density_at(family.density_15, T15, T40))[0], alpha
-    )
-    viscosity, _ = viscosities(line, INLET, density_at(family.density_15, T15, INLET))
+    density_40 = density_at(family.density_15, T15, T40)
+    viscosity_40, _ = viscosities(line, T40, density_40)
+    index = roelands_index(viscosity_40, alpha)
+    density = density_at(family.density_15, T15, INLET)
+    viscosity, _ = viscosities(line, INLET, density)
     at_inlet = pressure_viscosity_at(index, viscosity)
-    stress = eyring_stress(mean, mean_pressure_viscosity(viscosity, at_inlet, _CONTACT_PRESSURE))
+    at_pressure = mean_pressure_viscosity(viscosity, at_inlet, _CONTACT_PRESSURE)
+    stress = eyring_stress(mean, at_pressure)
     entries["eyring_stress"] = _entry(stress * 1e-6, "MPa", "2 gamma/alpha at 1 GPa; half of it is reported too; docs/measurements.md",
                                       spread=(0.5, 1.3))  # fmt: skip
     return Lubricant.from_dict(entries)

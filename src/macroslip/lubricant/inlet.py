@@ -150,7 +150,8 @@ def derive(values: Mapping[str, float], origins: Mapping[str, Provenance]) -> di
         and {"reference_pressure_viscosity", "reference_temperature"} <= values.keys()
     ):
         reference = values["reference_temperature"]
-        eta, _ = viscosities(line, reference, density_at(density, temperature, reference))
+        density_there = density_at(density, temperature, reference)
+        eta, _ = viscosities(line, reference, density_there)
         index = roelands_index(eta, values["reference_pressure_viscosity"])
         note = "from that at the reference temperature, with Roelands' index constant"
         alpha = pressure_viscosity_at(index, viscosity)

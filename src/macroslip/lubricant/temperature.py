@@ -57,7 +57,8 @@ def walther_viscosity(line: WaltherLine, temperature: float) -> float:
     179.4
     """
     ordinate = line.intercept - line.slope * math.log10(temperature)
-    return (10.0**10.0**ordinate - _SHIFT) * _MM2
+    shifted = 10.0**10.0**ordinate
+    return (shifted - _SHIFT) * _MM2
 
 
 def walther_coefficient(line: WaltherLine, temperature: float) -> float:
@@ -109,8 +110,10 @@ def walther_line_through(
     >>> round(line.intercept, 4), round(line.slope, 4)
     (7.077, 2.6651)
     """
-    ordinates = _ordinate(first_viscosity), _ordinate(second_viscosity)
-    slope = (ordinates[0] - ordinates[1]) / math.log10(second_temperature / first_temperature)
+    first = _ordinate(first_viscosity)
+    second = _ordinate(second_viscosity)
+    ratio = second_temperature / first_temperature
+    slope = (first - second) / math.log10(ratio)
     if not slope > 0.0:
         raise InputError(
             f"the viscosity is {first_viscosity / _MM2:g} mm2/s at {first_temperature:g} K and "
@@ -118,7 +121,8 @@ def walther_line_through(
             allowed="a viscosity that falls with temperature",
             remedy="Check which of the two belongs to which temperature.",
         )
-    return WaltherLine(ordinates[0] + slope * math.log10(first_temperature), slope)
+    intercept = first + slope * math.log10(first_temperature)
+    return WaltherLine(intercept, slope)
 
 
 def walther_line_with_slope(
@@ -144,7 +148,8 @@ def walther_line_with_slope(
     number = viscosity / _MM2
     shifted = number + _SHIFT
     slope = coefficient * number * temperature / (shifted * math.log(shifted))
-    return WaltherLine(ordinate + slope * math.log10(temperature), slope)
+    intercept = ordinate + slope * math.log10(temperature)
+    return WaltherLine(intercept, slope)
 
 
 def _ordinate(viscosity: float) -> float:
@@ -246,7 +251,8 @@ def mean_pressure_viscosity(viscosity: float, pressure_viscosity: float, pressur
     """
     index = roelands_index(viscosity, pressure_viscosity)
     constant = pressure_viscosity * ROELANDS_PRESSURE / index
-    return constant * math.expm1(index * math.log1p(pressure / ROELANDS_PRESSURE)) / pressure
+    exponent = index * math.log1p(pressure / ROELANDS_PRESSURE)
+    return constant * math.expm1(exponent) / pressure
 
 
 def gold(kinematic_viscosity: float, factor: float, exponent: float) -> float:

@@ -65,12 +65,15 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         )
     model = next(iter(models.values()))
     # Every roller has the same speed in pure rolling; a failed roller has NaN.
-    spin = np.nan_to_num(result.spin_pure.values.reshape(-1, result.sizes["time"]))
-    spin = spin[np.argmax(np.abs(spin).max(axis=1))]
+    by_roller = result.spin_pure.values.reshape(-1, result.sizes["time"])
+    spins = np.nan_to_num(by_roller)
+    fastest = np.abs(spins).max(axis=1)
+    spin = spins[np.argmax(fastest)]
     orbital = -spin * model.radius / model.outer_radius
     shaft = orbital / model.orbit_ratio
     with np.errstate(divide="ignore"):
-        per_power = np.where(shaft != 0.0, 1.0 / np.abs(shaft), np.nan)
+        per_speed = 1.0 / np.abs(shaft)
+        per_power = np.where(shaft != 0.0, per_speed, np.nan)
     contacts = _per_speed(result.power, per_power)
     rolling = _per_speed(result.rolling_power, per_power)
     drag_force = model.drag * orbital**2
@@ -90,13 +93,9 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         "units": "N m",
         "long_name": "torque of the contacts on the ring, positive along the orbit",
     }
-    total = (
-        sum(
-            torque_by_row.sum(("row", "interface"), skipna=False)
-            for torque_by_row in (contacts, rolling)
-        )
-        + drag
-    )
+    torque_of_contacts = contacts.sum(("row", "interface"), skipna=False)
+    torque_of_rolling = rolling.sum(("row", "interface"), skipna=False)
+    total = torque_of_contacts + torque_of_rolling + drag
 
     def over_time(values: object, units: str, long_name: str) -> tuple:
         return "time", np.asarray(values), {"units": units, "long_name": long_name}
@@ -119,7 +118,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
 
 def _per_speed(power: xr.DataArray, per_power: np.ndarray) -> xr.DataArray:
     """Torque over (row, interface, time) of the power of all rollers."""
-    total = power.sum("roller", skipna=False).transpose("row", "interface", "time")
+    of_rollers = power.sum("roller", skipna=False)
+    total = of_rollers.transpose("row", "interface", "time")
     total = total.drop_vars("start_angle", errors="ignore") * per_power
     # In the order of files, so that sums over a stored result give the same digits.
     return total.copy(data=np.ascontiguousarray(total.values))
@@ -144,8 +144,10 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
         at_ring = result[["traction", "power", "rolling_power"]].sel(here, drop=True)
         at_ring = at_ring.transpose("row", "roller", "time")
         with np.errstate(invalid="ignore", divide="ignore"):
-            sliding = (at_ring.power + at_ring.traction * roller) / ring
-            force = -sliding - at_ring.rolling_power / (roller + ring)
+            power = at_ring.power + at_ring.traction * roller
+            sliding = power / ring
+            rolling = at_ring.rolling_power / (roller + ring)
+            force = -sliding - rolling
         torques.append(arm * force.sum(("row", "roller"), skipna=False))
     torque = xr.concat(torques, dim="raceway").drop_vars("start_angle", errors="ignore")
     return torque.assign_coords(raceway=["inner", "outer"]).transpose("raceway", "time")

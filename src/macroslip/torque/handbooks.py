@@ -121,15 +121,17 @@ def _operation(
     bore, outside, width = _need(bearing, "bore_diameter", "outside_diameter", "width")
     values = {"radial_load": radial_load, "axial_load": axial_load, "shaft_speed": shaft_speed}
     for name, value in values.items():
-        if not np.all(np.isfinite(np.asarray(value, dtype=float))):
+        number = np.asarray(value, dtype=float)
+        if not np.all(np.isfinite(number)):
             fault = f"{name} holds a number that is not finite"
             raise InputError(fault, where=_WHERE, allowed="finite numbers")
     viscosity = lubricant.viscosity / lubricant.density * 1e6
+    turning = np.abs(np.asarray(shaft_speed, dtype=float))
     return _Operation(
         bore=bore * 1e3,
         outside=outside * 1e3,
         width=width * 1e3,
-        speed=np.abs(np.asarray(shaft_speed, dtype=float)) * 30.0 / math.pi,
+        speed=turning * 30.0 / math.pi,
         viscosity=viscosity,
         radial_load=np.abs(np.asarray(radial_load, dtype=float)),
         axial_load=np.abs(np.asarray(axial_load, dtype=float)),
@@ -239,7 +241,8 @@ def palmgren_torque(
     )
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     flow = case.viscosity * case.speed
-    by_flow = np.where(flow < SLOW, 160e-7, 1e-7 * np.cbrt(flow) ** 2)
+    turbulent = 1e-7 * np.cbrt(flow) ** 2
+    by_flow = np.where(flow < SLOW, 160e-7, turbulent)
     viscous = viscous_factor * case.mean_diameter**3 * by_flow
     radial = case.radial_load
     thrust = case.axial_load / factor_e
@@ -250,7 +253,8 @@ def palmgren_torque(
     mostly_radial = radial * (1 + 0.6 * share**3)
     driving = np.where(thrust > radial, 1.6 * thrust, mostly_radial)
     static = radial + factor_y0 * case.axial_load
-    load = scale * (static / rating) ** exponent * driving * case.mean_diameter
+    load_factor = scale * (static / rating) ** exponent
+    load = load_factor * driving * case.mean_diameter
     viscous, load = np.broadcast_arrays(viscous * _NEWTON_METRE, load * _NEWTON_METRE)
     return PalmgrenTorque(viscous=viscous[()], load=load[()])
 
@@ -400,8 +404,10 @@ def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> Float
     radial = case.radial_load
     axial = case.axial_load
     flow = case.viscosity * case.speed
-    elliptic = r1 * d_m**1.85 * (radial + r2 * axial) ** 0.54
-    linear = r3 * d_m**2.3 * (radial + r4 * axial) ** 0.31
+    elliptic_load = radial + r2 * axial
+    linear_load = radial + r4 * axial
+    elliptic = r1 * d_m**1.85 * elliptic_load**0.54
+    linear = r3 * d_m**2.3 * linear_load**0.31
     least = np.minimum(elliptic, linear)
     sheared = 1.84e-9 * (case.speed * d_m) ** 1.28 * case.viscosity**0.64
     heating = 1 / (1 + sheared)
@@ -419,8 +425,10 @@ def _skf_sliding(case: _Operation, constants: tuple, film: float) -> FloatArray:
     radial = case.radial_load
     axial = case.axial_load
     flow = case.speed * case.viscosity
-    elliptic = s1 * d_m**0.25 * np.cbrt(radial**4 + s2 * axial**4)
-    linear = s3 * d_m**0.94 * np.cbrt(radial**3 + s4 * axial**3)
+    elliptic_load = radial**4 + s2 * axial**4
+    linear_load = radial**3 + s4 * axial**3
+    elliptic = s1 * d_m**0.25 * np.cbrt(elliptic_load)
+    linear = s3 * d_m**0.94 * np.cbrt(linear_load)
     least = np.minimum(elliptic, linear)
     boundary = np.exp(-2.6e-8 * flow**1.4 * d_m)
     touching = np.where(case.speed > 0, BOUNDARY_FRICTION, STARTING_FRICTION)
@@ -451,7 +459,9 @@ def _oil_bath_drag(case: _Operation, bath: OilBath) -> FloatArray:
     level = bath.level * 1e3
     cosine = 1 - level / (0.6 * d_m)
     angle = 2 * math.acos(max(-1.0, cosine))
-    immersion = math.sin(angle / 2) if angle <= math.pi else 1.0
+    immersion = 1.0
+    if angle <= math.pi:
+        immersion = math.sin(angle / 2)
     span = 5 * ROLLER_FACTOR * case.width / d_m
     shape = 2.789e-10 * span**3 - 2.786e-4 * span**2 + 0.0195 * span + 0.6439
     roll = ROLLER_FACTOR * TYPE_FACTOR * spread * 1e-12
@@ -509,8 +519,10 @@ def torque_histories(
         for name, history in computed.items()
     }
     times = [history.time.values for history in computed.values()]
-    start = max((time[0] for time in times), default=loads.start)
-    end = min((time[-1] for time in times), default=loads.end)
+    starts = [time[0] for time in times]
+    ends = [time[-1] for time in times]
+    start = max(starts, default=loads.start)
+    end = min(ends, default=loads.end)
     common = (loads.time >= start) & (loads.time <= end)
     operation = (
         bearing,
@@ -526,4 +538,5 @@ def torque_histories(
         "Palmgren, all": palmgren_torque(*operation).total,
     }
     time = loads.time[common]
-    return simulated | {name: TorqueHistory(time, torque) for name, torque in by_handbook.items()}
+    estimated = {name: TorqueHistory(time, torque) for name, torque in by_handbook.items()}
+    return simulated | estimated

@@ -244,7 +244,8 @@ def _rows_beside_each_other(bearing: TaperedBearing, source: Source) -> Iterator
     beta, apex = geometry.cone(
         bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle
     )
-    reach = bearing.roller_length / 2.0 * math.cos(bearing.outer_angle - beta)
+    axis_angle = bearing.outer_angle - beta
+    reach = bearing.roller_length / 2.0 * math.cos(axis_angle)
     if apex <= bearing.roller_length / 2.0:
         yield InputError(
             f"the rollers' small ends lie beyond the apex, which is "
@@ -269,7 +270,8 @@ def _rib_beside_the_end(bearing: TaperedBearing, source: Source) -> Iterator[Inp
     beta, apex = geometry.cone(
         bearing.roller_diameter, 2.0 * bearing.pitch_radius, bearing.outer_angle
     )
-    highest = (apex + bearing.roller_length / 2.0) * math.sin(beta)
+    end = apex + bearing.roller_length / 2.0
+    highest = end * math.sin(beta)
     if bearing.rib_contact_height >= highest:
         yield InputError(
             f"rib.contact_height is {bearing.written('rib_contact_height')}, above the middle of "

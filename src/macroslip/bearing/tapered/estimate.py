@@ -161,7 +161,8 @@ class TaperedPage:
             return
         by_e = self.axial_factor_e / 1.5
         by_y = _cotangent_factor(self.rows) / self.axial_factor_y
-        if abs(by_e / by_y - 1.0) > _ANGLES_AGREE:
+        difference = abs(by_e / by_y - 1.0)
+        if difference > _ANGLES_AGREE:
             raise InputError(
                 f"e and Y mean two different contact angles, {math.degrees(math.atan(by_e)):.2f} and "
                 f"{math.degrees(math.atan(by_y)):.2f} deg",
@@ -227,13 +228,16 @@ def estimate_tapered_bearing(
     >>> [bearing.provenance[key].range for key in ("roller_diameter", "roller_length")]
     [(14.6, 18.8), (21.5, 25.6)]
     """
-    drawn = _fitting(page, _draw(page, np.random.default_rng(seed)))
-    return EstimatedTaperedBearing(_record(page, drawn, name, title), drawn)
+    tried = _draw(page, np.random.default_rng(seed))
+    drawn = _fitting(page, tried)
+    bearing = _record(page, drawn, name, title)
+    return EstimatedTaperedBearing(bearing, drawn)
 
 
 def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     """Sample dimensions that the page leaves open; number and size of the rollers follow."""
-    alpha = _angles(page, E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES))
+    rounding = E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
+    alpha = _angles(page, rounding)
     if page.bore is not None and page.outside is not None:
         pitch = 0.5 * (page.bore + page.outside) * PITCH.drawn(rng)
     else:
@@ -245,8 +249,9 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:
     for _ in range(30):
         sine = np.minimum(spacing * diameter / pitch, 1.0)
         count = np.pi / np.arcsin(sine)
-        projected = 44e6 * page.rows * count * np.cos(alpha)
-        room = 1.0 - diameter * np.cos(alpha) / pitch
+        cosine = np.cos(alpha)
+        projected = 44e6 * page.rows * count * cosine
+        room = 1.0 - diameter * cosine / pitch
         diameter = np.sqrt(rating / (projected * slenderness * room))
         diameter = np.minimum(diameter, 0.5 * pitch)
     count = np.round(count)
@@ -261,21 +266,26 @@ def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:
         "sphere_ratio": SPHERE_RATIO.drawn(rng),
         "contact_height": diameter * CONTACT_HEIGHT.drawn(rng),
     }
-    return drawn | {"row_offset": _row_offset(page, drawn, RIB.drawn(rng), GAP.drawn(rng))}
+    rib = RIB.drawn(rng)
+    row_offset = _row_offset(page, drawn, rib, GAP.drawn(rng))
+    return drawn | {"row_offset": row_offset}
 
 
 def _angles(page: TaperedPage, rounding: NDArray) -> FloatArray:
     """Angle of the outer raceway [rad] from the axial factor, within its rounding."""
     if page.axial_factor_e is not None:
-        return np.arctan((page.axial_factor_e + rounding) / 1.5)
+        e = page.axial_factor_e + rounding
+        return np.arctan(e / 1.5)
     assert page.axial_factor_y is not None, "a page has e or Y"
-    return np.arctan(_cotangent_factor(page.rows) / (page.axial_factor_y + rounding))
+    y = page.axial_factor_y + rounding
+    return np.arctan(_cotangent_factor(page.rows) / y)
 
 
 def _pitch_of_limit(page: TaperedPage) -> float:
     """Pitch diameter [m] of C_u = C0/8.2 (100 mm/Dpw)^0.3, ISO 281."""
     assert page.fatigue_load_limit is not None, "a page has d and D, or C_u"
-    return 0.1 * (page.static_load_rating / (8.2 * page.fatigue_load_limit)) ** (1.0 / 0.3)
+    ratio = page.static_load_rating / (8.2 * page.fatigue_load_limit)
+    return 0.1 * ratio ** (1.0 / 0.3)
 
 
 def _load_centre(drawn: Mapping[str, NDArray]) -> FloatArray:
@@ -284,9 +294,11 @@ def _load_centre(drawn: Mapping[str, NDArray]) -> FloatArray:
         drawn["roller_diameter"], 2.0 * drawn["pitch_radius"], drawn["outer_angle"]
     )
     alpha = drawn["outer_angle"] - beta
+    outer_angle = drawn["outer_angle"]
     apex = drawn["pitch_radius"] / np.sin(alpha)
-    cosines = np.cos(beta) * np.cos(drawn["outer_angle"])
-    return apex / cosines - apex * np.cos(alpha)
+    cosines = np.cos(beta) * np.cos(outer_angle)
+    along_axis = apex * np.cos(alpha)
+    return apex / cosines - along_axis
 
 
 def _row_offset(
@@ -297,7 +309,8 @@ def _row_offset(
         return np.full(SAMPLES, 0.5 * page.distance)
     if page.load_centre is not None:
         centre = _load_centre(drawn)
-        return 0.5 * page.load_centre + (centre if page.arrangement == "X" else -centre)
+        towards = centre if page.arrangement == "X" else -centre
+        return 0.5 * page.load_centre + towards
     # The angle of the roller's axis is a few degrees below that of the outer raceway.
     reach = 0.5 * drawn["roller_length"] * np.cos(drawn["outer_angle"])
     if page.width is not None:
@@ -322,8 +335,9 @@ def _fitting(page: TaperedPage, drawn: dict[str, FloatArray]) -> dict[str, Float
     }
     if page.bore is not None and page.outside is not None:
         height = 0.5 * (page.outside - page.bore)
-        inner = radius - 0.5 * diameter * cosine - 0.5 * page.bore
-        outer = 0.5 * page.outside - radius - 0.5 * diameter * cosine
+        across = 0.5 * diameter * cosine
+        inner = radius - across - 0.5 * page.bore
+        outer = 0.5 * page.outside - radius - across
         passed["inner ring under the rollers"] = within(inner / height, INNER_WALL)
         passed["outer ring over the rollers"] = within(outer / height, OUTER_WALL)
     if page.width is not None:

@@ -89,7 +89,8 @@ class TaperedGeometry:
     @property
     def spin_ratio(self) -> float:
         """Spin of a roller in the frame of the cage over the speed of the inner ring [-]."""
-        return self.orbit_ratio * math.sin(self.outer_angle) / math.sin(self.half_cone_angle)
+        outer = math.sin(self.outer_angle)
+        return self.orbit_ratio * outer / math.sin(self.half_cone_angle)
 
     @property
     def inner_rolling_ratio(self) -> float:
@@ -97,11 +98,13 @@ class TaperedGeometry:
 
         It turns about their common line through the apex.
         """
-        return math.sin(self.outer_angle) / math.sin(2.0 * self.half_cone_angle)
+        cone_angle = 2.0 * self.half_cone_angle
+        return math.sin(self.outer_angle) / math.sin(cone_angle)
 
     def radius_at(self, station):
         """Radius of the roller [m] at ζ [m], (A + ζ) tan β."""
-        return (self.apex_distance + station) * math.tan(self.half_cone_angle)
+        from_apex = self.apex_distance + station
+        return from_apex * math.tan(self.half_cone_angle)
 
     def surface_speed(self, shaft_speed, station=0.0):
         """Speed of the roller's surface past the contacts in pure rolling [m/s], at ζ [m].
@@ -194,7 +197,8 @@ def half_cone_angle(roller_diameter: float, pitch_diameter: float, outer_angle: 
     for _ in range(20):
         root = math.sqrt(1.0 + tangent * tangent)
         mismatch = tangent * root - ratio * (sine - tangent * cosine)
-        tangent -= mismatch / (root + tangent * tangent / root + ratio * cosine)
+        slope = root + tangent * tangent / root + ratio * cosine
+        tangent -= mismatch / slope
     return math.atan(tangent)
 
 
@@ -210,7 +214,8 @@ def cone(roller_diameter: float, pitch_diameter: float, outer_angle: float) -> t
     0.81223
     """
     beta = half_cone_angle(roller_diameter, pitch_diameter, outer_angle)
-    return beta, pitch_diameter / 2.0 / math.sin(outer_angle - beta)
+    apex = pitch_diameter / 2.0 / math.sin(outer_angle - beta)
+    return beta, apex
 
 
 def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
@@ -253,7 +258,9 @@ def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
     epsilon = beta + lift
     on_roller = sphere * math.sin(epsilon)
     station = centre + sphere * math.cos(epsilon) - apex
-    rib_radius = bearing.pitch_radius + station * math.sin(alpha) - on_roller * math.cos(alpha)
+    from_axis = bearing.pitch_radius + station * math.sin(alpha)
+    rib_radius = from_axis - on_roller * math.cos(alpha)
+    across = radius * math.cos(alpha)
     return TaperedGeometry(
         outer_angle=bearing.outer_angle,
         axis_angle=alpha,
@@ -263,8 +270,8 @@ def tapered_geometry(bearing: TaperedBearing) -> TaperedGeometry:
         roller_radius=radius,
         roller_length=bearing.roller_length,
         pitch_radius=bearing.pitch_radius,
-        inner_radius=bearing.pitch_radius - radius * math.cos(alpha),
-        outer_radius=bearing.pitch_radius + radius * math.cos(alpha),
+        inner_radius=bearing.pitch_radius - across,
+        outer_radius=bearing.pitch_radius + across,
         sphere_radius=sphere,
         sphere_distance=centre,
         rib_angle=epsilon,
