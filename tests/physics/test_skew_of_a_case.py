@@ -15,6 +15,7 @@ from macroslip.ring.motion import elastic_loads
 from macroslip.roller.model import ring_geometry
 from macroslip.roller.skew import pocket
 from macroslip.whole.cage import Cage
+from tests.quick import COARSE
 
 SKEWED = Laws.physical().but(skew="quasi-static")
 #: Below 16 kN a roller, so that tables are small.
@@ -25,7 +26,13 @@ RACEWAYS = {"interface": ["inner", "outer"]}
 def case(laws=SKEWED, **cage):
     traces = Traces(step=0.1)
     return Case(
-        loads=LOADS, rollers=[0], laws=laws, cage=Cage(**cage), traces=traces, contact_details=False
+        loads=LOADS,
+        rollers=[0],
+        laws=laws,
+        cage=Cage(**cage),
+        traces=traces,
+        contact_details=False,
+        integrator=COARSE,
     )
 
 

@@ -65,7 +65,7 @@ def same_content(load_files, content):
     return content | {"models": {"base": {}, "said again": {"drivetrain.tilt": "5 deg"}}}
 
 
-@pytest.mark.parametrize("options", [{"threads": 8}, {"threads": 1}, {"workers": 3}])
+@pytest.mark.parametrize("options", [{"threads": 8}, {"threads": 1}, {"workers": 2}])
 def test_runs_of_one_key_are_computed_once(
     tmp_path, load_files, same_content, options, done, rows, wait_for
 ):
