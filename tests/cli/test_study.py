@@ -155,7 +155,7 @@ def test_wrong_use_is_one_paragraph_and_exit_code_2(study, macroslip, arguments,
 def test_interrupted_and_resumed_as_a_user_does(folder, workers):
     """Ctrl-C in a terminal goes to all processes of the command, its workers included."""
     (folder / "study.yaml").write_text(
-        "loads: {bundled: [14B]}\ncase: {rollers: [0, 7], oil_supply: flooded, loads: {end: 60 s}}\n"
+        "loads: {bundled: [14B]}\ncase: {laws: {model: paper}, rollers: [0, 7], loads: {end: 300 s}}\n"
         "variations: {sample: {count: 10, seed: 1, ranges: {drivetrain.tilt: {low: 3, high: 7, unit: deg}}}}\n"
     )
     # Where the tests run in the background, interrupts are ignored unless that is undone.

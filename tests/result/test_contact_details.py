@@ -10,6 +10,7 @@ from macroslip.result import heat_balance
 from macroslip.result.surface_maps import energy_density
 from macroslip.result.variables import CONTACT_DETAILS
 from macroslip.study.settings import template
+from tests.quick import COARSE
 
 LOADS = HubLoads.bundled("14B").window(30.0, 42.0)
 CASE = Case(loads=LOADS, laws=Laws.physical(), rollers=[7], traces=Traces(step=0.5))
@@ -51,7 +52,8 @@ def test_simulations_that_look_for_a_temperature_leave_them_out(monkeypatch):
 
     monkeypatch.setattr(heat_balance, "bearing_friction_power", power)
     heat = {"temperature": "balance", "heat": {"conductance": "60 W/K", "ambient": "15 degC"}}
-    case, _ = template({"laws": {"model": "physical"}, "rollers": [7], **heat}, [], {})
+    coarse = {"integrator": {"tolerance": COARSE.tolerance}}
+    case, _ = template({"laws": {"model": "physical"}, "rollers": [7], **coarse, **heat}, [], {})
     balanced = heat_balance.case_at_balance(replace(case, loads=LOADS.window(30.0, 31.0)), simulate)
     assert balanced.contact_details and seen
     assert all(names.isdisjoint(CONTACT_DETAILS) and "mechanism_energy" in names for names in seen)

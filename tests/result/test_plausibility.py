@@ -20,6 +20,7 @@ from macroslip import (
 )
 from macroslip.result.plausibility import doubtful_loads, doubtful_result
 from macroslip.result.rating import with_rating
+from tests.quick import COARSE
 
 BEARING = Bearing.read("skf-240-600-bc")
 FORCE, MOMENT = (164e3, -2e3, -263e3), (726e3, 154e3, 37e3)
@@ -142,6 +143,7 @@ def test_films_that_carry_what_the_rings_do_not_know_are_told(load, doubted):
         window=Window(start=0.0),
         traces=Traces(step=1e-3),
         contact_details=False,
+        integrator=COARSE,
     )
     result = simulate(case)
     assert any("films of oil carry" in sentence for sentence in doubtful_result(result)) == doubted

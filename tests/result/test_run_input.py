@@ -7,13 +7,22 @@ import xarray as xr
 from macroslip import BearingLoads, Case, InputError, Laws, simulate
 from macroslip.result.prepared import prepare
 from macroslip.result.run_input import run_input
+from tests.quick import COARSE
 
 LOADS = BearingLoads.constant([0.0, -300e3, 100e3], 0.0, 1.0)
 
 
 @pytest.fixture(scope="module")
 def result():
-    return simulate(Case(loads=LOADS, laws=Laws.physical(), temperature=330.0, rollers=[0]))
+    return simulate(
+        Case(
+            loads=LOADS,
+            laws=Laws.physical(),
+            temperature=330.0,
+            rollers=[0],
+            integrator=COARSE,
+        )
+    )
 
 
 def test_parts_of_a_result_share_one_input(result):

@@ -13,6 +13,7 @@ from macroslip.study.reader import open_study
 from macroslip.study.run import run_study
 from macroslip.study.store import BALANCE_RUNS
 from macroslip.study.study_file import study_of
+from tests.quick import COARSE
 
 CONDUCTANCE, AMBIENT = 60.0, 288.15
 WEIGHTS = {"field": "wind_speed", "width": 2.0, "scale": 9.5, "shape": 2.0}
@@ -25,6 +26,7 @@ def made(**more):
             "laws": {"model": "physical"},
             "rollers": [0],
             "rating": False,
+            "integrator": {"tolerance": COARSE.tolerance},
             "loads": {"end": "9 s"},
             "temperature": "balance",
             "heat": {"conductance": "60 W/K", "ambient": "15 degC"},
