@@ -133,8 +133,7 @@ class RollerLoads(History):
                 allowed=", ".join(COLUMNS),
                 remedy="Add or rename the columns.",
             )
-        texts = table.texts(table.names.index("row"))
-        rows = [str(row) for row in texts]
+        rows = [str(row) for row in table.texts(table.names.index("row"))]
         strange = sorted(set(rows) - set(ROW_NAMES))
         if strange:
             raise InputError(
@@ -144,12 +143,10 @@ class RollerLoads(History):
             indices = [table.names.index(name) for name in COLUMNS if name != "row"]
             values = np.array(table.numbers(indices))
         row = np.array([ROW_NAMES.index(name) for name in rows])
-        given_times = values[0]
-        samples = np.stack([given_times, row])
+        samples = np.stack([values[0], row])
         _, counts = np.unique(samples, axis=1, return_counts=True)
-        times = np.unique(given_times).size
-        has_every_row = counts.size == len(ROW_NAMES) * times
-        if not has_every_row or np.ptp(counts):
+        times = np.unique(values[0]).size
+        if counts.size != len(ROW_NAMES) * times or np.ptp(counts):
             raise InputError(
                 f"rows have {counts.min()} to {counts.max()} places, "
                 f"{counts.size} rows at {times} times",
@@ -157,9 +154,8 @@ class RollerLoads(History):
                 allowed="as many places in both rows at every time",
                 remedy="Give places without load as well, with 0 N.",
             )
-        order = np.lexsort((values[2], row, given_times))
-        by_place = values[:, order].reshape(4, times, len(ROW_NAMES), -1)
-        time, speed, angle, load = by_place
+        order = np.lexsort((values[2], row, values[0]))
+        time, speed, angle, load = values[:, order].reshape(4, times, len(ROW_NAMES), -1)
         if np.ptp(speed, axis=(1, 2)).any():
             raise InputError(
                 "the shaft has two speeds at one time",
@@ -172,8 +168,7 @@ class RollerLoads(History):
             "angle": np.radians(angle),
             "load": load,
         }
-        window = cut(columns, start, end, str(path))
-        return cls(**window, source=str(path))
+        return cls(**cut(columns, start, end, str(path)), source=str(path))
 
     def _forces(self) -> dict[str, FloatArray]:
         """Mean load of a row's positions (n,) [N] by the row's name."""

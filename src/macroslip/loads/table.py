@@ -192,16 +192,16 @@ def _read(
     if not speed_needed:
         del quantities["shaft_speed"]
     for field, components in vectors.items():
-        unit = _UNITS[field]
-        quantities |= {name: ((name,), unit) for name in components}
-    columns = {}
-    missing = []
-    for quantity, choice in quantities.items():
-        spellings = _spellings(*choice)
-        column = _find(names, table.names, quantity, spellings, str(path))
-        columns[quantity] = column
-        if column is None:
-            missing.append(" or ".join(spellings))
+        quantities |= {name: ((name,), _UNITS[field]) for name in components}
+    columns = {
+        quantity: _find(names, table.names, quantity, _spellings(*choice), str(path))
+        for quantity, choice in quantities.items()
+    }
+    missing = [
+        " or ".join(_spellings(*quantities[quantity]))
+        for quantity, column in columns.items()
+        if column is None
+    ]
     if missing:
         other_name, other_remedy = other_kind
         other = any(name.startswith(f"{other_name}_") for name in names)
@@ -212,16 +212,15 @@ def _read(
             remedy=other_remedy if other else _MISSING_COLUMNS + _other_sheets(path),
         )
     chosen = {quantity: column for quantity, column in columns.items() if column is not None}
-    indices = [index for index, _ in chosen.values()]
+    numbers = table.numbers([index for index, _ in chosen.values()])
     factors = [factor for _, factor in chosen.values()]
-    values = np.column_stack(table.numbers(indices)) * factors
+    values = np.column_stack(numbers) * factors
     values = values[: _filled_rows(values)]
     series = dict(zip(chosen, values.T, strict=True))
     result: dict = {name: series[name] for name in _BASE if name in series}
     for field, components in vectors.items():
-        of_field = [series[name] for name in components]
-        result[field] = np.column_stack(of_field)
-    reading = tuple(table.names[index] for index in indices)
+        result[field] = np.column_stack([series[name] for name in components])
+    reading = tuple(table.names[index] for index, _ in chosen.values())
     return result | {"reading": reading}
 
 

@@ -318,25 +318,22 @@ def _reference(history: _History) -> dict[str, tuple]:
                 load, semi_axes[k], bearing.roller_length, rating, stationary
             )
     if history.strips is not None:
-        hertz = DISTRIBUTIONS.index("hertz")
-        damages[hertz] = history.strips.damage
+        damages[DISTRIBUTIONS.index("hertz")] = history.strips.damage
 
     def hours(life: FloatArray) -> FloatArray:
         # Palmgren and Miner: the shares of life used by each load add up.
         turned = history.revolutions.sum()
-        used_by_loads = history.revolutions / life
-        used = used_by_loads.sum(axis=-1)
+        used = (history.revolutions / life).sum(axis=-1)
         with np.errstate(divide="ignore", invalid="ignore"):
             return turned / used * history.hours_a_revolution
 
     together = iso.reference_life(damages, axis=(1, 2))
-    million_revolutions = 1e6 / together
-    load = history.ratings.dynamic * million_revolutions ** (1.0 / iso.LIFE_EXPONENT)
+    load = history.ratings.dynamic * (1e6 / together) ** (1.0 / iso.LIFE_EXPONENT)
     with np.errstate(divide="ignore"):
-        ratio = history.ratings.fatigue_limit / load
-        factor = iso.life_modification(history.viscosity_ratio, history.contamination, ratio)
-    lives_of_raceways = iso.reference_life(damages, axis=())
-    by_raceway = hours(lives_of_raceways)
+        factor = iso.life_modification(
+            history.viscosity_ratio, history.contamination, history.ratings.fatigue_limit / load
+        )
+    by_raceway = hours(iso.reference_life(damages, axis=()))
     modified = hours(together * factor)
     name = "basic reference rating life, ISO/TS 16281"
     along = "load_along_roller"
@@ -358,15 +355,17 @@ def _contacts(history: _History) -> dict[str, tuple]:
     of_ellipse: list[Callable] = [np.asarray] * len(RACEWAYS)
     if _touches_along_line(bearing):
         raceways = line_interfaces(bearing, history.lubricant)
-        of_ellipse = []
-        for raceway, strips in zip(raceways, strips_of(bearing), strict=True):
-            of_ellipse.append(partial(film_load, raceway, strips))
+        of_ellipse = [
+            partial(film_load, *pair) for pair in zip(raceways, strips_of(bearing), strict=True)
+        ]
     load = history.roller_load
     largest = load.max(axis=(1, 2))
-    pressures = []
-    for roller_load in largest:
-        pressures.append([raceway.hertz.pressure * np.cbrt(roller_load) for raceway in raceways])
-    pressure = np.array(pressures)
+    pressure = np.array(
+        [
+            [raceway.hertz.pressure * np.cbrt(roller_load) for raceway in raceways]
+            for roller_load in largest
+        ]
+    )
     if history.strips is not None:
         pressure = history.strips.pressure
     inner = geometry.inner_contact_radius(bearing)
@@ -377,18 +376,16 @@ def _contacts(history: _History) -> dict[str, tuple]:
     weights = np.broadcast_to(history.duration, load.shape[1:])
     film = FILM_LAWS.named(FILM_LAW)
     for row, k in np.ndindex(low.shape):
-        load_of_row = load[row]
-        carried = (load_of_row > 0.0) & (entrainment > 0.0)
+        carried = (load[row] > 0.0) & (entrainment > 0.0)
         if carried.any():
             speed = np.broadcast_to(entrainment, carried.shape)[carried]
-            pressed = of_ellipse[k](load_of_row[carried])
+            pressed = of_ellipse[k](load[row][carried])
             ratio = film(raceways[k], pressed, speed) / bearing.composite_roughness
             quantiles = np.quantile(
                 ratio, (0.05, 0.5), weights=weights[carried], method="inverted_cdf"
             )
             low[row, k], middle[row, k] = quantiles
-    share_of_rollers = (load > 0.0).mean(axis=1)
-    loaded = share_of_rollers @ history.duration / history.duration.sum()
+    loaded = (load > 0.0).mean(axis=1) @ history.duration / history.duration.sum()
     return {
         "loaded_share": _variable(
             loaded, "1", "share of time in which a roller carries load, mean of the row", "row"

@@ -115,8 +115,7 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
             "the traces hold less than two samples of the window", remedy="Give them a later end."
         )
     power = window.power.transpose(*_ORDER, "interface").values
-    is_inside = np.isin(result.time.values, window.time.values)
-    angles = travelled(result)[is_inside]
+    angles = travelled(result)[np.isin(result.time.values, window.time.values)]
     orbits = np.ptp(angles) / (2.0 * np.pi)
     seconds = np.gradient(window.time.values)
     way = np.abs(np.gradient(angles))
@@ -126,13 +125,11 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
     sector = _sectors(angle.sel(time=window.time), sectors)
     interfaces = result.sizes["interface"]
     values = np.full((result.sizes["row"], interfaces, sectors), np.nan)
-    is_known = completed.any(axis=1) & (orbits > 0.0)
-    for row in np.flatnonzero(is_known):
+    for row in np.flatnonzero(completed.any(axis=1) & (orbits > 0.0)):
         chosen = completed[row]
         rollers = int(chosen.sum())
         sector_of_sample = sector[row, chosen].ravel()
-        ways = np.tile(way, rollers)
-        passed = np.bincount(sector_of_sample, ways, sectors)
+        passed = np.bincount(sector_of_sample, np.tile(way, rollers), sectors)
         degrees = rollers * orbits * 360.0 / sectors
         for interface in range(interfaces):
             energy = power[row, chosen, :, interface] * seconds
@@ -285,11 +282,9 @@ def scene(
     """
     angle = position(result)
     turned = np.degrees(travelled(result))
-    steps = np.diff(result.time.values)  # two samples at least
-    interval = float(np.median(steps))
+    interval = float(np.median(np.diff(result.time.values)))  # two samples at least
     every = slice(None, None, max(1, round(step / interval)))
-    of_rollers = result.power.sum("interface", skipna=False)
-    power = of_rollers.isel(time=every).transpose(*_ORDER)
+    power = result.power.sum("interface", skipna=False).isel(time=every).transpose(*_ORDER)
     window = np.isin(power.time.values, in_window(result).time.values)
     largest = np.nan_to_num(power.values, nan=-1.0).max(axis=(0, 1))
     total = np.where(window, largest, -1.0)
@@ -299,17 +294,12 @@ def scene(
     first = min(first, last_start)
     part = slice(first, first + samples)
     thin = result.isel(time=every).isel(time=part)
-    values = {
-        "slip": thin.slip,
-        "roller_load": thin.roller_load,
-        "power": power.isel(time=part),
-    }
+    values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}
     if "pocket_offset" in thin:
         values |= {name: thin[name] for name in ("cage_force", "pocket_offset")}
-    single = {}
-    for name, variable in values.items():
-        single[name] = variable.transpose(*_ORDER).astype(np.float32)
-    played = xr.Dataset(single)
+    played = xr.Dataset(
+        {name: variable.transpose(*_ORDER).astype(np.float32) for name, variable in values.items()}
+    )
     played.power.attrs = {
         "units": "W",
         "long_name": "frictional power, all interfaces, at the instant",
@@ -321,8 +311,7 @@ def scene(
         of_rows = np.broadcast_to(lead, (result.sizes["row"], lead.shape[1]))
         about = {"units": "degree", "long_name": "cage ahead of pure rolling"}
         played["cage_lead"] = (("row", "time"), of_rows, about)
-    played_angle = angle.isel(time=every).isel(time=part)
-    played["angle"] = played_angle.isel(time=0, drop=True)
+    played["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
     moved = turned[every][part]
     about = {"units": "degree", "long_name": "angle travelled since the start"}
     return played.assign(travelled=("time", moved - moved[0], about))

@@ -116,10 +116,10 @@ def prepare(case: Case) -> Prepared:
         "drag": case.drag,
         "laws": case.laws,
     }
-    models = {}
-    for row in row_names(case.bearing):
-        sign = AXIAL_SIGNS[row]
-        models[row] = roller_model(case.bearing, case.oil, sign, **options)
+    models = {
+        row: roller_model(case.bearing, case.oil, AXIAL_SIGNS[row], **options)
+        for row in row_names(case.bearing)
+    }
     model = next(iter(models.values()))
     tapered = None
     own = []
@@ -137,17 +137,17 @@ def prepare(case: Case) -> Prepared:
     ring_speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
     fastest = float(np.abs(ring_speeds).max())
     check_own_laws(case.laws, case.bearing, case.oil, fastest)
-    fastest_shaft = float(np.abs(motion.shaft_speed).max())
-    body = body_force(model, fastest_shaft)
+    body = body_force(model, float(np.abs(motion.shaft_speed).max()))
     # Free rollers drop through their pockets, even where the rings creep.
-    falling = 0.0
-    if case.dynamics == WHOLE_BEARING and case.gravity:
-        falling = math.sqrt(2.0 * GRAVITY * case.cage.gap)
-    tolerance = _FIXED_STEP_TOLERANCE
-    if isinstance(case.integrator, Radau):
-        tolerance = case.integrator.tolerance
-    has_thrust = case.laws.skew != "none" and not isinstance(loads, RollerLoads)
-    for _ in range(_BALANCED if has_thrust else 0):
+    falling = (
+        math.sqrt(2.0 * GRAVITY * case.cage.gap)
+        if case.dynamics == WHOLE_BEARING and case.gravity
+        else 0.0
+    )
+    tolerance = (
+        case.integrator.tolerance if isinstance(case.integrator, Radau) else _FIXED_STEP_TOLERANCE
+    )
+    for _ in range(0 if case.laws.skew == "none" or isinstance(loads, RollerLoads) else _BALANCED):
         box = table_box(ring_speeds, largest + body, float(tolerance), falling)
         more = thrust_on_ring(case, model, ring, motion, box)
         motion, largest = ring_motion(loads, case.bearing, ring, limit, more)

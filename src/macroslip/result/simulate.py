@@ -124,15 +124,13 @@ def _imposed_orbits(
             for row, number in left:
                 problem = problems[row]
                 if own_motions:
-                    first = names.index(row) * case.bearing.rollers_per_row
-                    index = first + number
+                    index = names.index(row) * case.bearing.rollers_per_row + number
                     problem = replace(problem, motion=own_motions[index])
                 start_angle = float(angles[row][number])
                 future = pool.submit(_roller, problem, rows[row], start_angle, stop)
                 futures[future] = (row, number)
             try:
-                done = total - len(left)
-                for future in _finished(set(futures), progress, done, total):
+                for future in _finished(set(futures), progress, total - len(left), total):
                     results[futures[future]] = future.result()
             except BaseException:
                 stop.set()
@@ -244,21 +242,26 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     count = case.bearing.rollers_per_row
     names = row_names(case.bearing)
     skews = skewing(case, ready.model.laws, ready.box)
-    rows = {}
-    for k, row in enumerate(names):
-        roller = Roller(assembly.bodies[k : k + 1], assembly.tables)
-        rows[row] = Row(bearing.models[row], roller, motion, wanted, skews.get(row))
+    rows = {
+        row: Row(
+            bearing.models[row],
+            Roller(assembly.bodies[k : k + 1], assembly.tables),
+            motion,
+            wanted,
+            skews.get(row),
+        )
+        for k, row in enumerate(names)
+    }
     chosen = [(row, number) for row in names for number in case.roller_numbers]
     indices = [names.index(row) * count + number for row, number in chosen]
-    measures = []
-    for (row, _), index in zip(chosen, indices, strict=True):
-        start_angle = float(bearing.positions["angle"][index])
-        measures.append(RollerMeasures(rows[row], start_angle))
+    measures = [
+        RollerMeasures(rows[row], float(bearing.positions["angle"][index]))
+        for (row, _), index in zip(chosen, indices, strict=True)
+    ]
     start = float(motion.time[0])
     times = ready.trace_time
     if case.traces is None:
-        ends = np.concatenate([[start], ready.edges, [ready.end]])
-        times = np.unique(ends)
+        times = np.unique(np.concatenate([[start], ready.edges, [ready.end]]))
     cages = CageMeasures(bearing, wanted, times)
     stops = np.unique(np.concatenate([times, ready.edges, [ready.end]]))
     outcome = Outcome()
@@ -283,5 +286,4 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
         )
     for measure in measures:
         measure.finish()
-    by_roller = dict(zip(chosen, measures, strict=True))
-    return outcome, by_roller, cages, report
+    return outcome, dict(zip(chosen, measures, strict=True)), cages, report

@@ -133,20 +133,16 @@ def raceway_strips(
         per_length = largest / width
         line_pressures = line_pressure(per_length, contact.curvature, contact.modulus)
         pressure[sample] = line_pressures.max(axis=1)
-        at_edges = line_pressures[:, at_edge > 0.0]
-        edge_pressure[sample] = at_edges.max(axis=1)
+        edge_pressure[sample] = line_pressures[:, at_edge > 0.0].max(axis=1)
         for k in range(rows):
-            load_of_rollers = inner[k].sum(axis=1)
-            hardest = int(load_of_rollers.argmax())
+            hardest = int(inner[k].sum(axis=1).argmax())
             loads = inner[k, hardest]
             load = loads.sum()
             if load > 0.0:
                 per_length = loads / width
                 along[sample, k] = line_pressure(per_length, contact.curvature, contact.modulus)
-                load_at_edge = (loads * at_edge).sum()
-                edge_share[sample, k] = load_at_edge / load
-                roller = k * rollers + hardest
-                tilt = _tilt(ring, balance, shaft_angle, sample, roller)
+                edge_share[sample, k] = (loads * at_edge).sum() / load
+                tilt = _tilt(ring, balance, shaft_angle, sample, k * rollers + hardest)
                 speed = abs(float(shaft_speed[sample]))
                 slip[sample, k] = microslip(row, speed, ring.profile, tilt, loads)
     return RacewayStrips(pressure, edge_pressure, edge_share, along, slip)

@@ -207,25 +207,19 @@ class FrictionTable:
         wind, speed, oil = np.broadcast_arrays(
             *(np.asarray(values, dtype=float) for values in (wind_speed, shaft_speed, temperature))
         )
-        coldest = log_torque.x[0]
-        warmest = log_torque.x[-1]
-        held = np.clip(oil, coldest, warmest)
+        held = np.clip(oil, log_torque.x[0], log_torque.x[-1])
         position = np.interp(wind, winds, np.arange(winds.size))
-        last = winds.size - 1
-        below = np.minimum(position.astype(int), max(last - 1, 0))
-        above = np.minimum(below + 1, last)
+        below = np.minimum(position.astype(int), max(winds.size - 2, 0))
+        above = np.minimum(below + 1, winds.size - 1)
         part = position - below
         at_winds = log_torque(held)
         lower = np.take_along_axis(at_winds, below[None], axis=0)[0]
         upper = np.take_along_axis(at_winds, above[None], axis=0)[0]
-        log_below = (1.0 - part) * log_speeds[below]
-        log_above = part * log_speeds[above]
-        speed_of_case = np.exp(log_below + log_above)
+        log_case = (1.0 - part) * log_speeds[below] + part * log_speeds[above]
         exponents = self.speed_exponents[supply]
-        temperatures = exponents.index.to_numpy(float)
-        exponent = np.interp(held, temperatures, exponents.to_numpy(float))
+        exponent = np.interp(held, exponents.index.to_numpy(float), exponents.to_numpy(float))
         # Towards standstill no law of powers holds, and the exponent may be negative.
-        ratio = np.maximum(speed / speed_of_case, SLOWEST)
+        ratio = np.maximum(speed / np.exp(log_case), SLOWEST)
         log_power = (1.0 - part) * lower + part * upper
         return np.exp(log_power) * ratio**exponent
 

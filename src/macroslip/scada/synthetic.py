@@ -264,13 +264,11 @@ def _bearing(
     high = friction.temperatures[-1]
     grid = np.arange(low - _BEYOND, high + _BEYOND, _CELL)
     # Beyond the table its ends are held.
-    held = np.clip(grid, low, high)
-    known, inverse = np.unique(held, return_inverse=True)
+    known, inverse = np.unique(np.clip(grid, low, high), return_inverse=True)
     powers = [friction.power(truth.supply, wind, speed, kelvin) for kelvin in known]
     seals = truth.seal_torque * speed
     powers_of_oils = np.stack(powers, axis=1)[:, inverse]
-    heat = factor[:, None] * powers_of_oils + seals[:, None]
-    heats = per_heat * heat
+    heats = per_heat * (factor[:, None] * powers_of_oils + seals[:, None])
     slopes = np.diff(heats, axis=1) / _CELL
     to_nacelle = truth.to_nacelle * (1.0 + truth.fan * wind)
     loss = to_nacelle + truth.to_ambient
@@ -281,11 +279,9 @@ def _bearing(
         cell = int((now - grid[0]) / _CELL)
         slope = slopes[row, cell]
         decay = loss[row] - slope
-        heat_at_cell = heats[row, cell] - slope * grid[cell]
-        level = (heat_at_cell + drive[row]) / decay
+        level = (heats[row, cell] - slope * grid[cell] + drive[row]) / decay
         kept = np.exp(-decay * step)
-        settled = (now - level) * (1.0 - kept)
-        means[row] = level + settled / (decay * step)
+        means[row] = level + (now - level) * (1.0 - kept) / (decay * step)
         now = level + (now - level) * kept
     return means
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import uuid
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -147,31 +147,29 @@ def _of_results(
     """Variables, coordinates and attributes of the results, opened as far as listing needs."""
     keys = _column(runs, "key")
     checksums = _column(runs, "detail")
-    layouts_of_runs = np.where(checksums != "", _column(runs, "layout"), np.array(None))
-    kinds, texts = pd.factorize(layouts_of_runs)
+    kinds, texts = pd.factorize(np.where(checksums != "", _column(runs, "layout"), np.array(None)))
     if not len(texts):
         return {}, {}, {}
     layouts = [json.loads(text) for text in texts]
     # The last result of each kind shows what variables there are.
-    last = {}
-    for kind, layout in enumerate(layouts):
-        of_kind = np.flatnonzero(kinds == kind)
-        last[layout["variables"]] = of_kind[-1]
+    last = {
+        layout["variables"]: np.flatnonzero(kinds == kind)[-1]
+        for kind, layout in enumerate(layouts)
+    }
     examples = [read_result(directory, keys[number], checksums[number]) for number in last.values()]
-    numbers = [_roller_numbers(layout) for layout in layouts]
+    numbers = [tuple(layout.get("rollers", range(layout["sizes"]["roller"]))) for layout in layouts]
     rollers = tuple(sorted(set().union(*numbers)))
-    sizes: dict[str, int] = {}
-    for layout in layouts:
-        for name, size in layout["sizes"].items():
-            sizes[name] = max(sizes.get(name, 0), size)
+    sizes = {
+        name: max(layout["sizes"].get(name, 0) for layout in layouts)
+        for name in set().union(*(layout["sizes"] for layout in layouts))
+    }
     sizes["roller"] = len(rollers)
     shared = _Shared(uuid.uuid4().hex, directory, keys, checksums, numbers, kinds, rollers, sizes)
     variables = {}
     coordinates = {}
-    all_variables: dict[Hashable, xr.Variable] = {}
-    for example in examples:
-        all_variables.update(example.variables)
-    for name, variable in all_variables.items():
+    for name, variable in {
+        name: variable for example in examples for name, variable in example.variables.items()
+    }.items():
         if (name,) == variable.dims and name not in _RAGGED:  # the same in all results
             if name != "roller":
                 coordinates[name] = (name, variable.values, variable.attrs)
@@ -181,23 +179,16 @@ def _of_results(
         lazy = indexing.LazilyIndexedArray(_Stacked(shared, str(name), variable.dims))
         dims = ("case", *(_RAGGED.get(str(dim), str(dim)) for dim in variable.dims))
         is_coordinate = any(name in example.coords for example in examples)
-        shown = coordinates if is_coordinate else variables
-        shown[name] = xr.Variable(dims, lazy, variable.attrs)
+        (coordinates if is_coordinate else variables)[name] = xr.Variable(
+            dims, lazy, variable.attrs
+        )
     example = examples[0]
     coordinates["roller"] = ("roller", np.array(rollers), example.roller.attrs)
     coordinates["orbit"] = ("orbit", np.arange(sizes["orbit"]), example.orbit.attrs)
-    attributes = {}
-    for name in ("citations", "model"):
-        if name in example.attrs:
-            attributes[name] = example.attrs[name]
+    attributes = {
+        name: example.attrs[name] for name in ("citations", "model") if name in example.attrs
+    }
     return variables, coordinates, attributes
-
-
-def _roller_numbers(layout: Mapping[str, Any]) -> tuple[int, ...]:
-    """Numbers of the rollers of a result; all from 0 where the layout names none."""
-    if "rollers" in layout:
-        return tuple(layout["rollers"])
-    return tuple(range(layout["sizes"]["roller"]))
 
 
 @dataclass(frozen=True)

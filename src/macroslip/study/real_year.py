@@ -116,17 +116,16 @@ def real_year(
         _check_length(scada)
     weighting = _weighting(study)
     runs = RunsOverTemperature.of(study)
-    centres = _centres(study, weighting)
-    joint = JointShares.of(scada, centres, weighting.width)
+    joint = JointShares.of(scada, _centres(study, weighting), weighting.width)
     measured = TemperatureShares.measured(joint)
     notes = [*scada.notes, *check_span(measured, runs.temperatures)]
     winds = wind or BinProbabilities(joint.wind_shares())
-    of_year = Year(winds, weighting.events or {})
-    aggregation = Aggregation(of_year, 1.0, weighting.field, weighting.width)
+    aggregation = Aggregation(
+        Year(winds, weighting.events or {}), 1.0, weighting.field, weighting.width
+    )
     mean = joint.mean_turning + joint.oil_offset
     standing = joint.mean_idle + joint.oil_offset
-    if not np.isfinite(standing):
-        standing = mean
+    standing = standing if np.isfinite(standing) else mean
     cases = {
         "real": measured,
         "at_mean": measured.at(mean, standing),
@@ -134,27 +133,21 @@ def real_year(
         "oil_cooler": measured.warmer(-OFFSET),
         "oil_warmer": measured.warmer(OFFSET),
     }
-    collapsed = {}
-    for name, shares in cases.items():
-        collapsed[name] = runs.mean(shares, weighting.field, weighting.width)
+    collapsed = {
+        name: runs.mean(shares, weighting.field, weighting.width) for name, shares in cases.items()
+    }
     years = {name: year(means, aggregation) for name, means in collapsed.items()}
-    real = years["real"]
-    _, notes_of_designs = designs(real)
-    notes += notes_of_designs
+    notes += designs(years["real"])[1]
     bins = aggregation.bins(collapsed["real"])
-    is_wind = np.isfinite(bins.centres)
-    of_bins = bins.probabilities(aggregation.weights)[is_wind]
+    of_bins = bins.probabilities(aggregation.weights)[np.isfinite(bins.centres)]
     share_at_wind = []
     for speed in joint.wind.tolist():
-        shares_of_wind = measured.of_wind(speed, bins.width)
-        share_at_wind.append(shares_of_wind[:-1])
-    joint_share = of_bins[:, None] * np.array(share_at_wind)
-    rates = _rates(runs, joint.oil_temperatures, bins, real)
-    names = design_names(real)
-    seeds = _seeds(collapsed["real"], aggregation)
+        share_at_wind.append(measured.of_wind(speed, bins.width)[:-1])
+    rates = _rates(runs, joint.oil_temperatures, bins, years["real"])
+    names = design_names(years["real"])
     return RealYear(
-        table=_table(years, seeds),
-        bins=_bins(rates, joint, joint_share, names),
+        table=_table(years, _seeds(collapsed["real"], aggregation)),
+        bins=_bins(rates, joint, of_bins[:, None] * np.array(share_at_wind), names),
         notes=tuple(notes),
         source=joint.source,
         mean_production=mean - ZERO_CELSIUS,

@@ -476,9 +476,11 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
 
     mapping = values.get("case", {})
     base = attempt("case", lambda: _base(mapping, source, folder))
-    loads = None
-    if "loads" in values:
-        loads = attempt("loads", lambda: load_list(folder, **asdict(values["loads"])))
+    loads = (
+        attempt("loads", lambda: load_list(folder, **asdict(values["loads"])))
+        if "loads" in values
+        else None
+    )
     records = {
         noun: attempt(
             f"{noun}s", lambda noun=noun: _records(RECORDS[noun], values[f"{noun}s"], folder)
@@ -487,8 +489,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         if f"{noun}s" in values
     }
     bearings = (records.get("bearing") or {}).values()
-    numbers_of_rows = {bearing.rows for bearing in bearings}
-    if len(numbers_of_rows) > 1:
+    if len({bearing.rows for bearing in bearings}) > 1:
         kinds = sorted({bearing.kind for bearing in bearings})
         problems.append(
             location.inside("bearings").problem(
@@ -501,9 +502,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     models = values.get("models") or {"base": []}
     sample = attempt("variations", lambda: _sample(variations.sample, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))
-    heat = None
-    if base is not None:
-        heat = attempt("case", lambda: _heat(base, parameters))
+    heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
     weights = values.get("weights")
     if weights is not None and loads is not None:
         weights = attempt("weights", partial(weights.with_measured_year, loads.loads, folder))
@@ -513,17 +512,16 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         attempt("weights", lambda: weights.check(loads.loads, lengths))
     if problems:
         raise together(problems)
-    grid = variations.grid or {}
     combinations = itertools.product(
-        itertools.product(*grid.values()),
+        itertools.product(*(variations.grid or {}).values()),
         variations.list or [[]],
         sample.points() if sample else [[]],
     )
     # The study names the base case's bearing or lubricant as the file does.
-    own = {}
-    for noun in RECORDS:
-        record = getattr(base, noun)
-        own[noun] = {mapping.get(noun) or record.name: record}
+    own = {
+        noun: {mapping.get(noun) or getattr(base, noun).name: getattr(base, noun)}
+        for noun in RECORDS
+    }
     return Study(
         title=values.get("title", ""),
         folder=folder.absolute(),

@@ -103,16 +103,14 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
     """
     bearing = evaluation.bearing
     width = bearing.roller_length / (_SLICES * STATIONS)
-    numbers = np.arange(_SLICES * STATIONS)
-    from_end = (numbers + 0.5) * width
+    from_end = (np.arange(_SLICES * STATIONS) + 0.5) * width
     along = from_end - 0.5 * bearing.roller_length
     curvatures = (geometry.inner_curvatures(bearing), geometry.outer_curvatures(bearing))
     result = evaluation.result.sel(row=row)
     laws = evaluation.run_input.models[row].laws
     skew = working_skew(result)
     contacts = []
-    raceways = zip((laws.inner, laws.outer), curvatures, strict=True)
-    for i, (law, curved) in enumerate(raceways):
+    for i, (law, curved) in enumerate(zip((laws.inner, laws.outer), curvatures, strict=True)):
         load = float(result.working_load.isel(raceway=i))
         if not load > 0.0 or not work[i].sum() > 0.0:
             nothing = np.zeros(along.size)
@@ -120,15 +118,13 @@ def _grown(evaluation: Evaluation, row: str, work: np.ndarray, on_roller: np.nda
             continue
         contour, stiffness = _slices(law, load, along, curved.lateral)
         pressed = wear.slice_loads(contour, load, stiffness, width)
-        work_of_raceway = result.surface_work.isel(raceway=i)
-        mapped = work_of_raceway.sum("angle").values
+        mapped = result.surface_work.isel(raceway=i).sum("angle").values
         slip = slip_profile(law, along, pressed, mapped, skew)
         total = (pressed * slip).sum() / _SLICES
         ring = work[i].sum() / total
         roller = on_roller[i].sum() / total
         contacts.append(wear.Pressed(load, contour, stiffness, slip, ring, roller))
-    inner, outer = contacts
-    return wear.grow((inner, outer), width)
+    return wear.grow((contacts[0], contacts[1]), width)
 
 
 def _slices(
