@@ -67,6 +67,8 @@ CHECKED = (
         f"tests/storage/test_kernels.py::test_a_damaged_archive_is_compiled_again[{damage}]"
         for damage in ("empty", "flip_first", "exchange", "unlink")
     ),
+    # Tables of rotors that stand or stop; other events have physical slices in `make test`.
+    "tests/result/test_events.py::test_a_slice_of_bundled_events[physical-",
     # A long search; the other files of tests/fuzz have shorter ones.
     "tests/fuzz/test_study_folder.py::test_damaged",
     # Five commands in a process whose doors are shut, and what they have written.

@@ -75,9 +75,10 @@ def test_the_rest_after_the_last_orbit_counts_for_the_peak_of_the_window(bearing
 
 
 @pytest.mark.parametrize("name", ["idle-6", "parked-12", "estop-20"])
-def test_a_slice_of_bundled_events_under_the_paper_s_model(name):
+@pytest.mark.parametrize("laws", [Laws.paper(), Laws.physical()], ids=["paper", "physical"])
+def test_a_slice_of_bundled_events(name, laws):
     loads = HubLoads.bundled(name)
-    result = simulate(Case(loads=loads.window(30.0, 50.0), rollers=[0, 14], laws=Laws.paper()))
+    result = simulate(Case(loads=loads.window(30.0, 50.0), rollers=[0, 14], laws=laws))
     assert (result.status == 0).all() and result.attrs["window_start"] == 30.0
     assert bool(np.isfinite(result.window_peak_power).all())
     assert "its supervisor is assumed" in result.attrs["title"]

@@ -379,8 +379,8 @@ def _sizes(bearing: Bearing, source: Source) -> Iterator[InputError]:
     limit = load_ratings.fatigue_load_limit(static, pitch)
     expected = {"static_load_rating": static, "fatigue_load_limit": limit}
     projected = bearing.roller_diameter * math.cos(bearing.contact_angle)
-    slenderness = projected / pitch
-    if 0.01 <= slenderness <= 0.30:
+    gamma = projected / pitch
+    if 0.01 <= gamma <= 0.30:
         expected["dynamic_load_rating"] = load_ratings.dynamic_load_rating_of(bearing)
     bore = bearing.bore_diameter
     outside = bearing.outside_diameter

@@ -274,8 +274,8 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:
 def _length(rating, count, diameter, alpha, pitch_radius):
     """Roller length [m] of a static load rating [N], ISO 76 solved for L."""
     projected = diameter * np.cos(alpha)
-    slenderness = 1.0 - projected / (2.0 * pitch_radius)
-    return rating / (44e6 * slenderness * ROWS * count * projected)
+    gamma = projected / (2.0 * pitch_radius)
+    return rating / (44e6 * (1.0 - gamma) * ROWS * count * projected)
 
 
 def _drop(contour, length):

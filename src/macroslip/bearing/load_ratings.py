@@ -72,8 +72,8 @@ def static_load_rating(
     16283
     """
     projected = roller_diameter * math.cos(contact_angle)
-    slenderness = 1.0 - projected / pitch
-    return 44e6 * slenderness * rows * rollers_per_row * roller_length * projected
+    gamma = projected / pitch
+    return 44e6 * (1.0 - gamma) * rows * rollers_per_row * roller_length * projected
 
 
 def geometry_factor(gamma: float) -> float:

@@ -212,8 +212,8 @@ def _with_windio(
         values = windio_values(folder / name, drivetrain)
     except InputError as problem:
         without = {key: value for key, value in data.items() if key != "drivetrain"}
-        place = location.inside("drivetrain", "windio")
-        return without, [place.blamed(problem)]
+        own_key = location.inside("drivetrain", "windio")
+        return without, [own_key.blamed(problem)]
     written = {}
     for key, value in values.items():
         written[key] = value

@@ -84,9 +84,8 @@ def load_ratio(load, speed, material, roughness, hardness):
     log_speed = np.log(speed)
     log_material = np.log(material)
     with np.errstate(divide="ignore"):
-        exponent = math.log(4470.0) + 6.015 * np.log(roughness)
-        exponent = exponent + 1.168 * np.log(hardness)
-    exponent = exponent + 0.485 * log_load - 3.741 * log_speed - 2.898 * log_material
+        of_surface = math.log(4470.0) + 6.015 * np.log(roughness) + 1.168 * np.log(hardness)
+    exponent = of_surface + 0.485 * log_load - 3.741 * log_speed - 2.898 * log_material
     log_share = -0.408 * log_load - 0.088 * log_speed + 0.103 * log_material
     share = 5e-5 * np.exp(log_share)
     return share * np.logaddexp(0.0, exponent)

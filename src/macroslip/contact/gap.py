@@ -103,8 +103,8 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
 
     load = -24.0 * (antiderivative(end) - antiderivative(start))
     rise = math.atan(end) - math.atan(start)
-    by_speed = squared(end) - squared(start)
-    rolling = 6.0 * math.sqrt(2.0) * (rise - film * by_speed)
+    squares = squared(end) - squared(start)
+    rolling = 6.0 * math.sqrt(2.0) * (rise - film * squares)
     return load / LOAD, rolling / ROLLING_AT_GAP, rise / SHEAR
 
 
@@ -199,8 +199,8 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
     length = shape.length
     curvature = length**2 / (8.0 * shape.lateral_radius)  # κ h0
     # λ² (1 + κ) = s²: s² = 8 R_x h0/l² + R_x/R_y.
-    least_square = radius / shape.lateral_radius
-    highest = (WIDEST**2 - least_square) * length**2 / (8.0 * radius)
+    radius_ratio = radius / shape.lateral_radius
+    highest = (WIDEST**2 - radius_ratio) * length**2 / (8.0 * radius)
     lowest = max(curvature / MOST_CURVED, 1e-9 * length)
     highest = min(highest, oil_gap / (_LEAST_INLET * FLOW))
     lowest = min(lowest, 1e-3 * highest)

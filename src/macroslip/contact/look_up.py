@@ -236,6 +236,25 @@ class ContactSpeeds(NamedTuple):
     ratio_by_ring: float  #: [s/m]
 
 
+@jit_inline
+def contact_speed(ring_speed, slip):
+    """Speed w of a raceway contact, by which tables are looked up, √(u2² + Δu²/4) [m/s].
+
+    Parameters
+    ----------
+    ring_speed : float
+        u2 [m/s].
+    slip : float
+        Δu [m/s].
+
+    Examples
+    --------
+    >>> contact_speed(0.3, 0.8)
+    0.5
+    """
+    return math.sqrt(ring_speed * ring_speed + 0.25 * slip * slip)
+
+
 @jit_evaluation
 def contact_speeds(ring_speed, slip, closed_form):
     """Speeds of a raceway contact.

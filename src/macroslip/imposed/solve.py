@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.look_up import REST_SPEED
+from macroslip.contact.look_up import REST_SPEED, contact_speed
 from macroslip.contact.spline import uncounted
 from macroslip.imposed import tuning
 from macroslip.imposed.control import (
@@ -200,7 +200,7 @@ def _leaves_tables(body, attempt):
     """True if the step ends in a state outside the tables."""
     at = attempt.at[2]
     slip = attempt.slip[2]
-    speed = math.sqrt(at.ring_speed * at.ring_speed + 0.25 * slip * slip)
+    speed = contact_speed(at.ring_speed, slip)
     load = max(at.inner_load, at.outer_load, abs(attempt.forces[2].cage_load))
     return load > body.highest_load or speed > body.highest_speed + 2.0 * REST_SPEED
 

@@ -36,8 +36,8 @@ def nearest(value: Any, names: Iterable[str]) -> str:
     ('14C', '')
     """
     # Comparing takes the square of the length; no name is that long.
-    nearest = get_close_matches(str(value)[:60], list(names), n=1)
-    return nearest[0] if nearest else ""
+    matches = get_close_matches(str(value)[:60], list(names), n=1)
+    return matches[0] if matches else ""
 
 
 def unknown_name(value: Any, names: Sequence[str], more: str = "") -> InputError:

@@ -334,9 +334,7 @@ def front_moment(hub_loads: HubLoads, drivetrain: Drivetrain) -> FloatArray:
     span = drivetrain.front_to_rear or 0.0
     arm = span * (drivetrain.front_moment_share or 0.0)
     none = np.zeros(len(rear))
-    moment_y = -rear[:, 1]
-    moment_z = rear[:, 0]
-    return arm * np.column_stack([moment_y, moment_z, none])
+    return arm * np.column_stack([-rear[:, 1], rear[:, 0], none])
 
 
 def _without_moments(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[FloatArray, FloatArray]:
@@ -350,7 +348,7 @@ def _without_moments(hub_loads: HubLoads, drivetrain: Drivetrain) -> tuple[Float
     _, my, mz = hub_loads.moment.T
     weight_across = weight * math.cos(drivetrain.tilt)
     weight_arm = arm - drivetrain.shaft_mass_station
-    weight_moment = weight_arm * weight * math.cos(drivetrain.tilt)
+    weight_moment = weight_arm * weight_across
     thrust = fx + weight * math.sin(drivetrain.tilt)
     x = (arm * fy - mz) / span
     y = (arm * fz + my - weight_moment) / span

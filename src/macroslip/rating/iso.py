@@ -296,10 +296,10 @@ def ring_ratings(
     >>> round(inner / 1e3), round(outer / 1e3)
     (514, 657)
     """
-    curvatures = (1.0 - gamma) / (1.0 + gamma)
-    ratio = 1.038 * curvatures ** (143 / 108)
-    rollers = rollers_per_row * math.cos(contact_angle) * rows ** (7 / 9)
-    share = dynamic_load_rating / rollers
+    diameter_ratio = (1.0 - gamma) / (1.0 + gamma)
+    ratio = 1.038 * diameter_ratio ** (143 / 108)
+    effective_rollers = rollers_per_row * math.cos(contact_angle) * rows ** (7 / 9)
+    share = dynamic_load_rating / effective_rollers
     inner = share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9)
     outer = share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9)
     return RingRatings(inner, outer)

@@ -250,13 +250,13 @@ def strip_rating(
     """
     row = tapered_geometry(bearing)
     projected = bearing.roller_diameter * math.cos(row.outer_angle)
-    slenderness = projected / (2.0 * bearing.pitch_radius)
+    gamma = projected / (2.0 * bearing.pitch_radius)
     rating = ring_ratings(
         tapered_ratings(bearing).dynamic,
         len(ROW_SIGNS),
         bearing.rollers_per_row,
         row.outer_angle,
-        slenderness,
+        gamma,
     )
     damage = np.zeros((len(ROW_SIGNS), 2, len(shaft_angle)))
     largest = np.zeros((len(ROW_SIGNS), 2))

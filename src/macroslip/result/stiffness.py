@@ -171,8 +171,8 @@ def _ring(bearing: Bearing, lubricant: Lubricant) -> RingGeometry:
 def _about(ring: RingGeometry, force: FloatArray, name: str) -> dict[str, Any]:
     """Displacement, stiffness, its variation over a pitch, and whether the ring is held."""
     pitch = 4.0 * math.pi / ring.cosine.size
-    shares = np.arange(_POSITIONS)
-    angle = pitch / ring.orbit_ratio * shares / _POSITIONS
+    numbers = np.arange(_POSITIONS)
+    angle = pitch / ring.orbit_ratio * numbers / _POSITIONS
     loads = np.tile(force, (_POSITIONS, 1))
     at_rest = np.zeros((_POSITIONS, 3))
     displacement, unbalanced = balance(ring, angle, loads, at_rest)

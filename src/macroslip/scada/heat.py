@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -316,13 +316,19 @@ def _indexed(analysed: _Analysed, chosen: HeatFit) -> Iterator[Indexed]:
     yield Indexed(RISE, "", start, rise[turning], expected[turning])
 
 
+def _means_of_windows(analysed: _Analysed, names: Iterable[str]) -> dict[str, FloatArray]:
+    """Mean of each quantity of the record in each window."""
+    means = {}
+    for name in names:
+        values = analysed.record[name].to_numpy(float)
+        means[name] = analysed.balance.windows.mean(values)
+    return means
+
+
 def _window_table(analysed: _Analysed) -> pd.DataFrame:
     """A line a window with its means."""
     balance = analysed.balance
-    means = {}
-    for name in WINDOW_UNITS:
-        values = analysed.record[name].to_numpy(float)
-        means[name] = balance.windows.mean(values)
+    means = _means_of_windows(analysed, WINDOW_UNITS)
     table = pd.DataFrame({"start": balance.start, **means, "rate": balance.rate})
     for name, units in {**WINDOW_UNITS, "rate": "K/h"}.items():
         table[name].attrs["units"] = units
@@ -340,10 +346,7 @@ def _regressed_rise(analysed: _Analysed) -> tuple[FloatArray, FloatArray]:
     balance = analysed.balance
     air = next(name for name in reversed(list(AIR)) if AIR[name] in balance.excess)
     rise = balance.excess[AIR[air]]
-    means = {}
-    for name in ("rotor_speed", "wind_speed", "power", air):
-        values = analysed.record[name].to_numpy(float)
-        means[name] = balance.windows.mean(values)
+    means = _means_of_windows(analysed, ("rotor_speed", "wind_speed", "power", air))
     means["wind_square"] = means["wind_speed"] ** 2
     constant = np.ones(rise.size)
     design = np.stack([constant, *means.values()], axis=1)

@@ -100,8 +100,10 @@ def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
 
     Those that do not exist are passed over.
     """
-    existing = [source for source in inputs if source.exists()]
-    if path.exists() and any(path.samefile(source) for source in existing):
+    if not path.exists():
+        return
+    existing = (source for source in inputs if source.exists())
+    if any(path.samefile(source) for source in existing):
         fault = "this is a file that the output is made from"
         raise InputError(fault, where=str(path), remedy="Choose another name; it would be lost.")
 
@@ -116,8 +118,8 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
     where = str(path)
     check_no_zero_byte(where)
     check_not_input(path, inputs)
-    is_study = any((folder / name).exists() for name in (MANIFEST, DATABASE))
-    if path.name in STUDY_FILES and is_study:
+    is_study_file = path.name in STUDY_FILES
+    if is_study_file and any((folder / name).exists() for name in (MANIFEST, DATABASE)):
         fault = f"{path.name} is a file of the study in this folder"
         raise InputError(fault, where=where, remedy="Choose another name; the study would be lost.")
     if path.is_dir():

@@ -13,7 +13,7 @@ from macroslip.storage.files import write_durably
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.effects import effects
 from macroslip.study.exceedance import exceedance, load_spectrum
-from macroslip.study.labels import sampled_parameters
+from macroslip.study.labels import of_runs_and_rows, sampled_parameters
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
 from macroslip.study.reader import incomplete_runs
 from macroslip.study.year import DESIGN_UNITS, EXPONENTS, LARGEST, LIVES, SUMS, designs, year
@@ -55,11 +55,7 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
     sample, `effects`; with them also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where
     results keep its variables, and, if the study counts cycles, `cycles`.
     """
-    foreign = []
-    for name, variable in study.variables.items():
-        if not set(variable.dims) <= {"case", "row"}:
-            foreign.append(name)
-    summary = study.drop_vars(foreign)
+    summary = of_runs_and_rows(study)
     by_row = []
     of_case = []
     for name, variable in summary.data_vars.items():

@@ -26,6 +26,15 @@ def labels_over(dataset: xr.Dataset | xr.DataArray, dim: str = "case") -> list[s
     return names
 
 
+def of_runs_and_rows(study: xr.Dataset) -> xr.Dataset:
+    """The study without variables over more than runs and rows of rollers."""
+    others = []
+    for name, variable in study.variables.items():
+        if not set(variable.dims) <= {"case", "row"}:
+            others.append(name)
+    return study.drop_vars(others)
+
+
 def events_of_runs(study: xr.Dataset) -> np.ndarray:
     """Name of the event of each run, empty for runs of production, shape (runs,)."""
     if "event" not in study.coords:

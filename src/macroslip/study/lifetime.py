@@ -13,6 +13,7 @@ from macroslip.errors import InputError
 from macroslip.result.surface_maps import even_energy
 from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
+from macroslip.study.labels import of_runs_and_rows
 from macroslip.study.weights import binned, weighted
 from macroslip.study.year import year
 
@@ -154,11 +155,7 @@ def worst(
         )
     if count < 1:
         raise InputError(f"the count is {count}", allowed="a whole number above 0")
-    foreign = []
-    for name, candidate in study.variables.items():
-        if not set(candidate.dims) <= {"case", "row"}:
-            foreign.append(name)
-    summary = study.drop_vars(foreign)
+    summary = of_runs_and_rows(study)
     values = study[variable].transpose("case", "row").values
     finite = np.flatnonzero(np.isfinite(values))
     sign = 1 if smallest else -1

@@ -23,7 +23,12 @@ from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.result.criteria import YEARLY
 from macroslip.scada.bins import bin_centres
-from macroslip.study.labels import events_of_runs, labels_over, stored_study
+from macroslip.study.labels import (
+    events_of_runs,
+    labels_over,
+    of_runs_and_rows,
+    stored_study,
+)
 from macroslip.study.temperature_shares import TemperatureShares
 from macroslip.study.weights import LossOfHeat, Weighting, binned, stored_weighting
 from macroslip.study.year import LIVES
@@ -228,12 +233,7 @@ class RunsOverTemperature:
         for outcomes in outcome:
             failures = outcomes[outcomes != "completed"]
             worst.append(failures[0] if failures.size else "completed")
-        kept = self.first_runs.drop_vars([LABEL, *self.study.data_vars])
-        foreign = []
-        for name, coordinate in kept.coords.items():
-            if not set(coordinate.dims) <= {"case", "row"}:
-                foreign.append(name)
-        kept = kept.drop_vars(foreign)
+        kept = of_runs_and_rows(self.first_runs.drop_vars([LABEL, *self.study.data_vars]))
         coordinates = {
             "outcome": ("case", np.array(worst, dtype=object), dict(self.study.outcome.attrs)),
             "case": ("case", np.arange(len(worst)), dict(self.study["case"].attrs)),

@@ -241,8 +241,8 @@ def palmgren_torque(
     )
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     flow = case.viscosity * case.speed
-    turbulent = 1e-7 * np.cbrt(flow) ** 2
-    by_flow = np.where(flow < SLOW, 160e-7, turbulent)
+    fast = 1e-7 * np.cbrt(flow) ** 2
+    by_flow = np.where(flow < SLOW, 160e-7, fast)
     viscous = viscous_factor * case.mean_diameter**3 * by_flow
     radial = case.radial_load
     thrust = case.axial_load / factor_e

@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.look_up import REST_SPEED
+from macroslip.contact.look_up import REST_SPEED, contact_speed
 from macroslip.errors import InputError
 from macroslip.imposed.status import (
     COMPLETED,
@@ -597,8 +597,7 @@ def _impact_step(bearing, rollers):
         speed = y[SLOPE, 2]
         depth = abs(offset) - pocket.half_gap
         if depth > 0.0 and offset * speed > 0.0:
-            energy = 1.25 * bearing.roller_mass * speed * speed
-            deepest = (energy / pocket.stiffness) ** 0.4
+            deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
             if depth < tuning.BEGUN * deepest:
                 shortest = min(shortest, tuning.IMPACT_PART * deepest / abs(speed))
     return shortest
@@ -627,12 +626,6 @@ def _cut(bearing, rollers, step, left):
 
 
 @jit_inline
-def _contact_speed(ring_speed, slip):
-    """Speed w of a contact, as the tables have it [m/s]."""
-    return math.sqrt(ring_speed * ring_speed + 0.25 * slip * slip)
-
-
-@jit_inline
 def _leaves_tables(assembly, limits, space):
     """True if a roller ends the step in a state outside its tables."""
     body = assembly.bodies[0]
@@ -644,8 +637,8 @@ def _leaves_tables(assembly, limits, space):
         own = rollers[j].y[LAST]
         if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
             return True
-        inner = _contact_speed(at.inner_speed, own[0])
-        outer = _contact_speed(at.outer_speed, own[1])
+        inner = contact_speed(at.inner_speed, own[0])
+        outer = contact_speed(at.outer_speed, own[1])
         if max(inner, outer) > highest or min(inner, outer) < limits.slowest:
             return True
     return False
@@ -774,8 +767,8 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         stop = stops[memory.next_stop]
         start = Clock(memory.time, memory.interval, memory.shaft_speed)
         left = stop - memory.time
-        longest = min(memory.step, limits.longest_step)
-        h = _cut(assembly.bearing[0], space.rollers, longest, left)
+        wanted = min(memory.step, limits.longest_step)
+        h = _cut(assembly.bearing[0], space.rollers, wanted, left)
         if h < left and h <= 4e-16 * abs(start.time) + 1e-300:
             status = STEP_TOO_SMALL
             break

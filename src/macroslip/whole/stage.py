@@ -285,6 +285,15 @@ def _add_to_border(bearing, stage, at, met, block, border):
 
 
 @jit_inline
+def _slips_without_cage(block, inner, outer):
+    """Slips v_in and v_out [m/s] of a roller by right-hand sides [N], while its cage is held."""
+    inverse = block.inverse
+    v_in = inverse[0] * inner + inverse[1] * outer
+    v_out = inverse[2] * inner + inverse[3] * outer
+    return v_in, v_out
+
+
+@jit_inline
 def eliminate(positions, size, blocks, borders):
     """Eliminate the rollers from the cages' equations: block elimination by Schur complements.
 
@@ -302,21 +311,12 @@ def eliminate(positions, size, blocks, borders):
     for j in range(positions.size):
         matrix = borders[positions[j].cage].matrix
         block = blocks[j]
-        inverse = block.inverse
         column = block.column
         row = block.row
-        i0 = inverse[0]
-        i1 = inverse[1]
-        i2 = inverse[2]
-        i3 = inverse[3]
         for k in range(size):
-            ahead = column[0, k]
-            behind = column[1, k]
-            first = i0 * ahead + i1 * behind
-            second = i2 * ahead + i3 * behind
+            v_in, v_out = _slips_without_cage(block, column[0, k], column[1, k])
             for i in range(size):
-                passed = row[0, i] * first + row[1, i] * second
-                matrix[i, k] -= passed
+                matrix[i, k] -= row[0, i] * v_in + row[1, i] * v_out
 
 
 @jit_inline
@@ -371,34 +371,29 @@ def solve(positions, size, blocks, borders):
     """
     for j in range(positions.size):
         block = blocks[j]
-        inverse = block.inverse
         residual = block.residual
         row = block.row
-        ahead = residual[0]
-        behind = residual[1]
-        first = inverse[0] * ahead + inverse[1] * behind
-        second = inverse[2] * ahead + inverse[3] * behind
-        residual[0] = first
-        residual[1] = second
+        v_in, v_out = _slips_without_cage(block, residual[0], residual[1])
+        residual[0] = v_in
+        residual[1] = v_out
         border_residual = borders[positions[j].cage].residual
         for i in range(size):
-            passed = row[0, i] * first + row[1, i] * second
-            border_residual[i] -= passed
+            border_residual[i] -= row[0, i] * v_in + row[1, i] * v_out
     for c in range(borders.size):
         _solve_border(borders[c].matrix, borders[c].residual, size)
     for j in range(positions.size):
         block = blocks[j]
-        inverse = block.inverse
         residual = block.residual
         column = block.column
         change = borders[positions[j].cage].residual
-        first = 0.0
-        second = 0.0
+        inner = 0.0
+        outer = 0.0
         for k in range(size):
-            first += column[0, k] * change[k]
-            second += column[1, k] * change[k]
-        residual[0] -= inverse[0] * first + inverse[1] * second
-        residual[1] -= inverse[2] * first + inverse[3] * second
+            inner += column[0, k] * change[k]
+            outer += column[1, k] * change[k]
+        v_in, v_out = _slips_without_cage(block, inner, outer)
+        residual[0] -= v_in
+        residual[1] -= v_out
 
 
 @jit_inline
