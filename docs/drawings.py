@@ -20,7 +20,6 @@ from macroslip import Bearing, BearingLoads, Case, Laws, Traces, simulate
 from macroslip.bearing import geometry
 from macroslip.bearing.tapered import TaperedBearing
 from macroslip.report.bearing_drawing import draw_bearing
-from macroslip.report.tapered_drawing import draw_tapered_bearing
 
 SHAFT, BEARING, FORCE, MOTION, PALE = "#1f5a96", "#b3261e", "#7a4b00", "#1b7a3d", "#e6e6e6"
 
@@ -392,7 +391,7 @@ def bearing_section() -> Figure:
 
 def tapered_section() -> Figure:
     """Section of a tapered roller main bearing, with rows, apexes and dimensions, to scale."""
-    return draw_tapered_bearing(TaperedBearing.read("tdo-main-bearing"))
+    return draw_bearing(TaperedBearing.read("tdo-main-bearing"))
 
 
 PICTURES = {

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from macroslip.bearing.tapered import TaperedBearing
+from macroslip.kinds.tapered.history import TaperedMount, TaperedState, tapered_history
 from macroslip.loads.history import HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.report.style import BLUE, GREEN, ORANGE, finish, legend_above, new_figure
-from macroslip.result.tapered import TaperedMount, TaperedState, tapered_history
 
 FIGURES = Path(__file__).parent / "figures"
 BEARING = TaperedBearing.read("tdo-main-bearing")

@@ -26,12 +26,13 @@ from matplotlib.figure import Figure
 from macroslip import Case, HubLoads, Laws, Lubricant, Turbine, simulate
 from macroslip.bearing.kinds import read_bearing
 from macroslip.constants import HOURS_A_YEAR, YEAR
+from macroslip.kinds.tapered.kind import TiltingRingBalance
+from macroslip.kinds.tapered.ribs import rib_values
 from macroslip.measures.along import FILM_EDGES
 from macroslip.report.style import BLUE, GREEN, GREY, ORANGE, finish, new_figure
 from macroslip.result.criteria import YEARLY
 from macroslip.result.damage import damage
 from macroslip.result.prepared import prepare
-from macroslip.result.tapered_ribs import rib_values
 from macroslip.study.summary import rating_values
 
 #: Results of every case, and the figure.
@@ -146,11 +147,10 @@ def measures(case: Case) -> dict[str, float]:
 def rib_measures(case: Case) -> dict[str, float]:
     """Power of all ribs [W], their wear [m/s] and least film [1] in the window, in pure rolling."""
     ready = prepare(case)
-    tapered = ready.tapered
-    assert tapered is not None, "the bearing is not a tapered one"
+    assert isinstance(ready.balance, TiltingRingBalance), "the bearing is not a tapered one"
     time = ready.motion.time
     inside = (time >= ready.edges[0]) & (time <= ready.end)
-    force = tapered.balance.rib_force[inside]
+    force = ready.balance.tapered.balance.rib_force[inside]
     by_row = force.reshape(len(force), 2, -1)
     speed = np.abs(ready.motion.shaft_speed[inside])
     ribs = rib_values(case.bearing, case.oil, by_row, speed, case.laws)

@@ -31,6 +31,12 @@ MECHANISMS = "mechanisms"
 #: Name under which a case chooses Kellström's friction at the raceways.
 KELLSTROEM = "kellstroem"
 
+#: Whether orbits of rollers are imposed, or rollers and cages move together.
+IMPOSED_ORBIT = "imposed-orbit"
+WHOLE_BEARING = "whole-bearing"
+#: The word for a temperature of a case that follows from friction and the loss of heat.
+BALANCE = "balance"
+
 #: Gap where inlets begin to be full [m] from which on they count as flooded.
 FLOODED_GAP = 1.0
 #: Part of the largest time of a history by which two of its times may differ and be the same one:

@@ -8,8 +8,8 @@ import pytest
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.rib import rib_contact, rib_state
 from macroslip.damage.rib import STEEL_EFFUSIVITY, pass_energy, rib_flash_temperature
+from macroslip.kinds.tapered.ribs import rib_values
 from macroslip.lubricant import Lubricant
-from macroslip.result.tapered_ribs import rib_values
 
 MAIN = TaperedBearing.read("tdo-main-bearing")
 OIL = Lubricant.read("vg460-pao").at(308.15)

@@ -11,13 +11,13 @@ from macroslip.bearing.tapered import tapered_geometry
 from macroslip.case.parts import Traces, Window
 from macroslip.constants import YEAR
 from macroslip.contact.rib import rib_contact
+from macroslip.kinds.tapered.of_case import tapered_ring_motion
 from macroslip.loads import Drivetrain
 from macroslip.report.answer import answer
 from macroslip.report.result_numbers import row_numbers
 from macroslip.result.damage import damage
 from macroslip.result.plausibility import doubtful_result
 from macroslip.result.rating import with_rating
-from macroslip.result.tapered_case import tapered_ring_motion
 from macroslip.ring.tapered import tapered_balance, tapered_ring
 from macroslip.whole.cage import Cage
 from tests.quick import COARSE

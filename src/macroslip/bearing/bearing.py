@@ -194,6 +194,11 @@ class Bearing(Record):
         """Number of rows of rollers: 2 in a spherical roller bearing, 1 in a cylindrical one."""
         return _ROWS[self.kind]
 
+    @property
+    def nominal_contact_angle(self) -> float:
+        """Contact angle by which the standards rate it [rad]."""
+        return self.contact_angle
+
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
         """Build a bearing from the content of a file, as `Record.from_dict` does.
@@ -227,7 +232,7 @@ class Bearing(Record):
 def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
     """Yield osculations that are missing, and values that a cylindrical bearing cannot have."""
     osculations = ("osculation_inner", "osculation_outer")
-    if bearing.kind == "spherical":
+    if bearing.kind != "cylindrical":
         if missing := [key for key in osculations if getattr(bearing, key) is None]:
             yield InputError(
                 f"{' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
@@ -312,7 +317,7 @@ def _contradictions(bearing: Bearing, source: Source) -> Iterator[InputError]:
 
 def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
     space = geometry.envelope(bearing)
-    if space.nearest < 0.0 and bearing.kind == "spherical":
+    if space.nearest < 0.0 and bearing.rows > 1:
         overlap = bearing.written("row_offset", -2.0 * space.nearest)
         coincide = bearing.row_offset == 0.0
         fault = (

@@ -22,7 +22,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +33,7 @@ from macroslip.bearing.sampled import (
     E_ROUNDING,
     SAMPLES,
     Accepted,
+    Estimated,
     Rollers,
     check_bore,
     check_positive,
@@ -152,18 +152,9 @@ class MakersPage:
             )
 
 
-class EstimatedBearing(NamedTuple):
-    """A bearing from its maker's page."""
-
-    bearing: Bearing  #: The medians, with ranges in their provenance
-    samples: Mapping[
-        str, FloatArray
-    ]  #: Every inner dimension [SI], n samples, by key of the bearing
-
-
 def estimate_bearing(
     page: MakersPage, name: str, title: str = "", *, seed: int = 1
-) -> EstimatedBearing:
+) -> Estimated[Bearing]:
     """Estimate the inside of a bearing from its maker's page.
 
     The samples are independent and uniform within the accepted ranges of this module, rejected
@@ -183,7 +174,7 @@ def estimate_bearing(
 
     Returns
     -------
-    EstimatedBearing
+    Estimated
         The bearing of the medians, and the samples in SI units.
 
     Raises
@@ -207,7 +198,7 @@ def estimate_bearing(
     tried = _draw(page, np.random.default_rng(seed))
     drawn = _fitting(page, tried)
     bearing = _record(page, drawn, name, title)
-    return EstimatedBearing(bearing, drawn)
+    return Estimated(bearing, drawn)
 
 
 def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, FloatArray]:

@@ -18,7 +18,7 @@ import numpy as np
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
-    from macroslip.bearing.bearing import Bearing
+    from macroslip.bearing.kinds import AnyBearing
 
 RATING_FACTORS = {"spherical": 1.15, "cylindrical": 1.1, "tapered": 1.1}
 """b_m by the kind of a roller bearing, ISO 281:2007, table 6."""
@@ -179,23 +179,23 @@ def fatigue_load_limit(static_load_rating: float, pitch: float) -> float:
     return static_load_rating / 8.2 * by_size
 
 
-def static_load_rating_of(bearing: Bearing) -> float:
+def static_load_rating_of(bearing: AnyBearing) -> float:
     """C0 [N] of a bearing's inside, by `static_load_rating`."""
     return static_load_rating(*_inside(bearing))
 
 
-def dynamic_load_rating_of(bearing: Bearing) -> float:
+def dynamic_load_rating_of(bearing: AnyBearing) -> float:
     """C [N] of a bearing's inside, by `dynamic_load_rating`."""
     return dynamic_load_rating(*_inside(bearing), kind=bearing.kind)
 
 
-def _inside(bearing: Bearing) -> tuple[int, int, float, float, float, float]:
-    """Rows, rollers in each, diameter and length of one [m], contact angle [rad], pitch [m]."""
+def _inside(bearing: AnyBearing) -> tuple[int, int, float, float, float, float]:
+    """Rows, rollers in each, diameter and length of one [m], nominal angle [rad], pitch [m]."""
     return (
         bearing.rows,
         bearing.rollers_per_row,
         bearing.roller_diameter,
         bearing.roller_length,
-        bearing.contact_angle,
+        bearing.nominal_contact_angle,
         2.0 * bearing.pitch_radius,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import fields
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,17 @@ _LEAST_KEPT = 100
 E_ROUNDING = 0.005
 """Half of the last printed digit of e."""
 _SCALES = {"mm": 1e3, "um": 1e6, "deg": 180.0 / math.pi, "1": 1.0}
+
+
+_Bearing = TypeVar("_Bearing")
+
+
+class Estimated(NamedTuple, Generic[_Bearing]):
+    """A bearing from its maker's page."""
+
+    bearing: _Bearing  #: The medians, with ranges in their provenance
+    #: Every inner dimension [SI], n samples, by key of the bearing
+    samples: Mapping[str, FloatArray]
 
 
 class Accepted(NamedTuple):

@@ -15,15 +15,11 @@ import numpy as np
 
 from macroslip.bearing import Bearing
 from macroslip.bearing.kinds import BEARING_KINDS, AnyBearing
-from macroslip.case.kinds import check_kind
 from macroslip.case.load_source import LoadSource
 from macroslip.case.oil_supply import OilSupply, check_supply, inlet_supply, oil_gap
 from macroslip.case.parts import (
-    BALANCE,
     DYNAMICS,
-    IMPOSED_ORBIT,
     INTEGRATORS,
-    WHOLE_BEARING,
     BackwardEuler,
     ExplicitEuler,
     Heat,
@@ -31,7 +27,7 @@ from macroslip.case.parts import (
     Traces,
     Window,
 )
-from macroslip.constants import TIME_ROUNDING
+from macroslip.constants import BALANCE, IMPOSED_ORBIT, TIME_ROUNDING, WHOLE_BEARING
 from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Context, Flag, Form, Quantity, Text
@@ -39,6 +35,7 @@ from macroslip.input.files import Location, Source
 from macroslip.input.messages import shown, together
 from macroslip.input.section import Made, OrWord, Variants, form_from, input_section
 from macroslip.input.units import TEMPERATURE, TEMPERATURE_DIFFERENCE
+from macroslip.kinds import kind_of
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads, RollerLoads, main_bearing_load
 from macroslip.loads.moment_bearing import shaft_load
 from macroslip.loads.source_file import without_folders
@@ -233,7 +230,7 @@ class Case:
             *_temperature(self),
             *_raised(check_supply, self.oil_supply, self.bearing, self.laws),
             *_dynamics(self),
-            *check_kind(self),
+            *kind_of(self.bearing).check(self),
             *_times_and_rollers(self),
         ]
         if problems:
@@ -278,7 +275,7 @@ class Case:
         The load on the inner ring, or loads of the rollers that are given.
         """
         if isinstance(self.loads, HubLoads):
-            if self.bearing.kind == "tapered":
+            if kind_of(self.bearing).carries_moments:
                 return shaft_load(self.loads, self.drivetrain)[0]
             return main_bearing_load(self.loads, self.drivetrain)
         return self.loads
@@ -289,7 +286,7 @@ class Case:
 
         None where the force on the bearing is given, or where the bearing carries no moment.
         """
-        if isinstance(self.loads, HubLoads) and self.bearing.kind == "tapered":
+        if isinstance(self.loads, HubLoads) and kind_of(self.bearing).carries_moments:
             _, moment = shaft_load(self.loads, self.drivetrain)
             return moment
         return np.zeros((self.loads.time.size, 2))
@@ -327,7 +324,7 @@ class Case:
         is_whole = self.dynamics == WHOLE_BEARING
         used = {
             "oil_supply": self.laws.asks_for_oil,
-            "temperature_difference": self.bearing.kind == "tapered",
+            "temperature_difference": kind_of(self.bearing).is_preloaded_by_heat,
             "dynamics": is_whole,
             "cage": is_whole or self.laws.skew != "none",
         }
@@ -442,9 +439,11 @@ def _dynamics(case: Case) -> Iterator[InputError]:
         used = (*SKEW_KEYS, "gap") if skews else SKEW_KEYS
         without = {name: getattr(default, name) for name in used}
         if replace(case.cage, **without) != default:
-            tapered = case.bearing.kind == "tapered"
-            never = ", which tapered roller bearings do not have" if tapered else ""
-            remedy = "Remove" if tapered else "Set dynamics: whole-bearing, or remove"
+            never = f", which {case.bearing.kind} roller bearings do not have"
+            remedy = "Remove"
+            if kind_of(case.bearing).has_free_orbits:
+                never = ""
+                remedy = "Set dynamics: whole-bearing, or remove"
             yield InputError(
                 "a cage is described, but rollers on imposed orbits do not use it",
                 where="cage",

@@ -20,6 +20,7 @@ from macroslip.constants import FLOODED_GAP
 from macroslip.errors import InputError
 from macroslip.input.fields import Context, Form
 from macroslip.input.units import is_finite_number
+from macroslip.kinds import kind_of
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -29,9 +30,6 @@ if TYPE_CHECKING:
     from macroslip.lubricant import Lubricant
 
 FLOODED, SKF = WORDS = ("flooded", "skf")
-#: K_Z of the SKF model by the kind of bearing: cylindrical roller bearings with cage, spherical and
-#: tapered ones.
-_TYPE_FACTORS = {"cylindrical": 5.1, "spherical": 5.5, "tapered": 6.0}
 #: Least film over flooded film.
 _LEAST = 0.3
 
@@ -165,7 +163,7 @@ def _gap(
         return FLOODED_GAP
     if supply == SKF:
         diameters = bearing.bore_diameter, bearing.outside_diameter
-        factor = _TYPE_FACTORS[bearing.kind]
+        factor = kind_of(bearing).replenishment_factor
         kinematic = oil.viscosity / oil.density
         filled = float(replenishment(kinematic, speed, *diameters, type_factor=factor))
         inlet = math.inf
@@ -189,23 +187,10 @@ def _inner_raceway(
 
     Under a force on the inner ring [N] and a size of the shaft's speed [rad/s].
     """
-    from macroslip.ring.balance import balance, roller_loads
-    from macroslip.ring.tapered import tapered_balance, tapered_ring
-    from macroslip.roller.model import ring_geometry, roller_model
+    from macroslip.roller.model import roller_model
 
     model = roller_model(bearing, oil, 1, tilt=0.0)
-    angle = np.zeros(1)
-    if bearing.kind == "tapered":
-        # Moments hardly change the mean load of the rollers.
-        ring = tapered_ring(bearing)
-        no_moment = np.zeros((1, 2))
-        result = tapered_balance(ring, angle, np.array([force]), no_moment)
-        loads = result.outer_load[0]
-    else:
-        ring = ring_geometry(bearing, model)
-        start = np.zeros((1, 3))
-        displacement, _ = balance(ring, angle, np.array([force]), start)
-        loads = roller_loads(ring, angle, displacement)[0]
+    loads = kind_of(bearing).roller_loads(bearing, model, np.array(force))
     row = max(loads.reshape(bearing.rows, -1), key=np.sum)
     loaded = row[row > 0.0]
     load = 0.0

@@ -7,17 +7,13 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from macroslip.constants import IMPOSED_ORBIT, WHOLE_BEARING
 from macroslip.errors import InputError
 from macroslip.input.fields import Positive, Quantity, Whole
 from macroslip.input.section import input_section
 from macroslip.input.units import CONDUCTANCE, MASS, NUMBER, TEMPERATURE, TIME
 
-#: Whether orbits are imposed, or rollers and cages move together.
-IMPOSED_ORBIT = "imposed-orbit"
-WHOLE_BEARING = "whole-bearing"
 DYNAMICS = (IMPOSED_ORBIT, WHOLE_BEARING)
-#: The word for a temperature that follows from friction and the loss of heat.
-BALANCE = "balance"
 
 _Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0)]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Sequence
 from enum import StrEnum
 from pathlib import Path
@@ -14,15 +15,16 @@ from macroslip.cli.needs import PICTURE, require
 from macroslip.cli.options import AsJson, Force
 from macroslip.cli.printing import print_json, print_table
 from macroslip.errors import InputError
+from macroslip.kinds import KINDS, kind_of
 from macroslip.storage.files import check_new_file, new_file, write_new
 
 if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.bearing.estimate import EstimatedBearing
-    from macroslip.bearing.tapered import TaperedBearing
-    from macroslip.bearing.tapered.estimate import EstimatedTaperedBearing
+    from macroslip.bearing.kinds import AnyBearing
+    from macroslip.bearing.sampled import Estimated
     from macroslip.input.record import Record
     from macroslip.input.units import Dimension
+    from macroslip.kinds.kind import Kind
+    from macroslip.kinds.makers_page import PageOption
     from macroslip.turbine import Turbine
 
 _BASE = "skf-240-600-bc"
@@ -167,68 +169,8 @@ def _show(record: Record, more: _Rows | None, as_json: bool) -> None:
         print_table(more.heading, ["quantity", "value", "meaning"], more.lines, "lrl")
 
 
-def _of_tapered(bearing: TaperedBearing) -> list[list[str]]:
-    from macroslip.bearing.tapered import tapered_geometry
-    from macroslip.result.tapered import STEEL_EXPANSION
-
-    row = tapered_geometry(bearing)
-    warmer = row.preload_per_kelvin(STEEL_EXPANSION, bearing.row_offset, bearing.arrangement)
-    sliding = 1e3 * row.inner_rolling_ratio * row.rib_contact_height
-    return [
-        ["apex", f"{1e3 * row.apex_distance:.4g} mm", "distance from the middle of a roller"],
-        ["rib share", f"{row.rib_share:.4f}", "force of the rib / load of the outer raceway"],
-        ["rib sliding", f"{sliding:.4g} mm", "sliding speed at the rib / shaft speed"],
-        ["preload by heat", f"{1e6 * warmer:.4g} um", "for each kelvin of temperature_difference"],
-        [
-            "orbit ratio",
-            f"{row.orbit_ratio:.4f}",
-            "orbital speed of rollers in pure rolling / shaft speed",
-        ],
-    ]
-
-
-def _of_bearing(bearing: Bearing | TaperedBearing) -> list[list[str]]:
-    if bearing.kind == "tapered":
-        return _of_tapered(bearing)
-    from macroslip import Lubricant
-    from macroslip.contact.interface import truncation_load
-    from macroslip.roller.model import roller_model
-
-    lubricant = Lubricant.read("vg460-pao")  # none of these depends on it
-    model = roller_model(bearing, lubricant, 1, tilt=0.0)
-    orbit = [
-        "orbit ratio",
-        f"{model.orbit_ratio:.4f}",
-        "orbital speed of rollers in pure rolling / shaft speed",
-    ]
-    if bearing.touches_along_line:
-        return [
-            [
-                "stiffness C",
-                f"{model.line_stiffness:.4g} N/m^(10/9)",
-                "load of a straight roller = C (half the approach of the raceways)^(10/9)",
-            ],
-            [
-                "profile depth d",
-                f"{1e6 * model.profile_depth:.4g} um",
-                "drop of the profile = d ln 1/(1 - (2 place/length)^2)",
-            ],
-            orbit,
-        ]
-    longest = truncation_load(bearing, lubricant)
-    return [
-        [
-            "stiffness K",
-            f"{model.stiffness:.4g} N/m^1.5",
-            "roller load = K (approach of the raceways)^1.5",
-        ],
-        [
-            "truncation load",
-            f"{longest / 1e3:.4g} kN",
-            "roller load at which a contact reaches the roller's ends",
-        ],
-        orbit,
-    ]
+def _of_bearing(bearing: AnyBearing) -> list[list[str]]:
+    return kind_of(bearing).consequences(bearing)
 
 
 def _of_turbine(turbine: Turbine) -> list[list[str]]:
@@ -265,69 +207,45 @@ def _option(help: str) -> Any:
     return typer.Option(help=help)
 
 
-class Kind(StrEnum):
-    """Kinds of bearings whose inside is estimated."""
-
-    SPHERICAL = "spherical"
-    TAPERED = "tapered"
-
-
-#: Options that each kind of bearing needs, and those of the other kind, which it does not have.
-_NEEDED = {
-    Kind.SPHERICAL: ("--bore", "--outside", "--width", "--c0", "--e"),
-    Kind.TAPERED: ("--c0",),
-}
-_OF_OTHERS = {
-    Kind.SPHERICAL: ("--rows", "--arrangement", "--y", "--a", "--distance"),
-    Kind.TAPERED: ("--shoulder", "--groove", "--y1", "--y2", "--y0", "--bpfo", "--bpfi"),
-}
+#: Kinds of bearings whose inside is estimated; the first one is meant where none is named.
+_ESTIMATED = {name: kind for name, kind in KINDS.items() if kind.page}
+_Estimated = StrEnum("_Estimated", list(_ESTIMATED))
+#: Numbers of makers' pages of all kinds, by the name of the option.
+_PAGE = {option.name: option for kind in _ESTIMATED.values() for option in kind.page}
 
 
+def _with_page(function: Callable[..., None]) -> Callable[..., None]:
+    """The function of a command with an option for every number of `_PAGE` in place of `page`."""
+    signature = inspect.signature(function, eval_str=True)
+    options = []
+    for parameter in signature.parameters.values():
+        if parameter.kind is not parameter.VAR_KEYWORD:
+            options.append(parameter.replace(kind=parameter.KEYWORD_ONLY))
+    after_kind = 1 + [option.name for option in options].index("kind")
+    options[after_kind:after_kind] = [_parameter(number) for number in _PAGE.values()]
+    function.__signature__ = signature.replace(parameters=options)  # pyright: ignore[reportFunctionMemberAccess]
+    function.__annotations__ = {option.name: option.annotation for option in options}
+    return function
+
+
+def _parameter(number: PageOption) -> inspect.Parameter:
+    """A number of a maker's page as a parameter that Typer makes an option of."""
+    least, most = number.range or (None, None)
+    about = typer.Option(help=number.help, min=least, max=most)
+    plain = str if number.dimension else number.type
+    annotation = Annotated[plain | None, about]
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    return inspect.Parameter(number.name, keyword, default=None, annotation=annotation)
+
+
+@_with_page
 def _estimate_bearing(
-    context: typer.Context,
     output: Annotated[Path, typer.Option("--output", "-o", help="The bearing file to write.")],
-    kind: Annotated[Kind, _option("Kind of the bearing.")] = Kind.SPHERICAL,
-    bore: Annotated[str | None, _option("Bore diameter d, with its unit: '630 mm'.")] = None,
-    outside: Annotated[str | None, _option("Outside diameter D: '920 mm'.")] = None,
-    width: Annotated[str | None, _option("Width B, of a tapered bearing T or B: '290 mm'.")] = None,
-    c0: Annotated[str | None, _option("Static load rating C0: '17600 kN'.")] = None,
-    e: Annotated[float | None, _option("Axial factor e: 0.30.")] = None,
-    shoulder: Annotated[
-        str | None, _option("Shoulder diameter of the outer ring D1: '828 mm'.")
-    ] = None,
-    groove: Annotated[str | None, _option("Width of the lubrication groove b: '56.5 mm'.")] = None,
-    c: Annotated[str | None, _option("Dynamic load rating C: '9307 kN'.")] = None,
-    cu: Annotated[str | None, _option("Fatigue load limit C_u or P_u: '1180 kN'.")] = None,
-    y1: Annotated[float | None, _option("Axial factor Y1.")] = None,
-    y2: Annotated[float | None, _option("Axial factor Y2.")] = None,
-    y0: Annotated[float | None, _option("Static axial factor Y0.")] = None,
-    mass: Annotated[str | None, _option("Mass: '623 kg'.")] = None,
-    bpfo: Annotated[
-        float | None, _option("Overrolling frequency of the outer ring, per turn of the shaft.")
-    ] = None,
-    bpfi: Annotated[
-        float | None, _option("Overrolling frequency of the inner ring, per turn of the shaft.")
-    ] = None,
-    rows: Annotated[
-        int | None, typer.Option(min=1, max=2, help="Tapered: rows of the page's bearing, 1 or 2.")
-    ] = None,
-    arrangement: Annotated[str | None, _option("Tapered: O or X.")] = None,
-    y: Annotated[
-        float | None, _option("Tapered: axial factor Y of a single, Y1 of a double row.")
-    ] = None,
-    a: Annotated[
-        str | None,
-        _option(
-            "Tapered: load centre from the back face of the inner ring; double row: distance of "
-            "both load centres."
-        ),
-    ] = None,
-    distance: Annotated[
-        str | None, _option("Tapered: distance of two single rows' rollers on one shaft.")
-    ] = None,
+    kind: Annotated[_Estimated, _option("Kind of the bearing.")] = next(iter(_Estimated)),
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 1,
     force: Force = False,
     as_json: AsJson = False,
+    **page: Any,
 ) -> None:
     """Estimate the inside of a bearing from its maker's page, and write a bearing file.
 
@@ -335,85 +253,51 @@ def _estimate_bearing(
     median of every inner dimension and the range in which four out of five samples lie. It is an
     estimate, not the maker's drawing.
     """
-    from macroslip.input.units import FORCE, LENGTH, MASS
-
     check_new_file(output, force=force)
-    _check_options(kind, context.params)
-    page: dict[str, Any] = {
-        "bore": si("--bore", bore, LENGTH),
-        "outside": si("--outside", outside, LENGTH),
-        "width": si("--width", width, LENGTH),
-        "static_load_rating": si("--c0", c0, FORCE),
-        "dynamic_load_rating": si("--c", c, FORCE),
-        "fatigue_load_limit": si("--cu", cu, FORCE),
-        "mass": si("--mass", mass, MASS),
-        "axial_factor_e": e,
-    }
-    if kind is Kind.TAPERED:
-        page |= {
-            "rows": rows or (1 if distance else 2),
-            "arrangement": arrangement or "O",
-            "axial_factor_y": y,
-            "load_centre": si("--a", a, LENGTH),
-            "distance": si("--distance", distance, LENGTH),
-        }
-    else:
-        page |= {
-            "shoulder": si("--shoulder", shoulder, LENGTH),
-            "groove": si("--groove", groove, LENGTH),
-            "axial_factor_y1": y1,
-            "axial_factor_y2": y2,
-            "axial_factor_y0": y0,
-            "bpfo": bpfo,
-            "bpfi": bpfi,
-        }
-    estimated = _estimate(kind, page, output.stem, seed)
+    estimated_kind = _ESTIMATED[kind]
+    _check_options(estimated_kind, page)
+    values = {}
+    for option in estimated_kind.page:
+        value = page[option.name]
+        if option.dimension:
+            value = si(f"--{option.name}", value, option.dimension)
+        values[option.field] = value
+    title = f"Estimated from its maker's page{_size(values)}"
+    estimated = estimated_kind.estimate(values, output.stem, title, seed)
     _write(output, estimated.bearing, force)
     _tell_estimate(estimated, output, as_json)
 
 
-def _check_options(kind: Kind, options: dict[str, Any]) -> None:
+def _check_options(kind: Kind, page: dict[str, Any]) -> None:
     """InputError for options that a kind of bearing needs or does not have."""
-    missing = [name for name in _NEEDED[kind] if options[name[2:]] is None]
+    needed = [f"--{name}" for name in kind.needed_of_page]
+    missing = [f"--{name}" for name in kind.needed_of_page if page[name] is None]
     if missing:
         raise InputError(
             f"{' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
-            allowed=f"with --kind {kind}: {', '.join(_NEEDED[kind])}",
+            allowed=f"with --kind {kind.name}: {', '.join(needed)}",
             remedy="Take what is missing from the maker's page.",
         )
-    foreign = [name for name in _OF_OTHERS[kind] if options[name[2:]] is not None]
+    own = {option.name for option in kind.page}
+    foreign = [f"--{name}" for name in page if page[name] is not None and name not in own]
     if foreign:
         raise InputError(
             f"{' and '.join(foreign)} {'does' if len(foreign) == 1 else 'do'} not count with --kind "
-            f"{kind}",
+            f"{kind.name}",
             remedy="Remove what does not count, or choose the other --kind.",
         )
 
 
-def _estimate(
-    kind: Kind, page: dict[str, Any], name: str, seed: int
-) -> EstimatedBearing | EstimatedTaperedBearing:
-    """The estimate of a kind of bearing from the numbers of its page."""
-    from macroslip.bearing.estimate import MakersPage, estimate_bearing
-    from macroslip.bearing.tapered.estimate import TaperedPage, estimate_tapered_bearing
-
-    given = (page["bore"], page["outside"], page["width"])
-    sizes = [length for length in given if length is not None]
-    size = ""
-    if sizes:
-        millimetres = [f"{1e3 * length:g}" for length in sizes]
-        size = f", {' x '.join(millimetres)} mm"
-    title = f"Estimated from its maker's page{size}"
-    if kind is Kind.TAPERED:
-        tapered_page = TaperedPage(**page)
-        return estimate_tapered_bearing(tapered_page, name, title, seed=seed)
-    makers_page = MakersPage(**page)
-    return estimate_bearing(makers_page, name, title, seed=seed)
+def _size(page: dict[str, Any]) -> str:
+    """Boundary dimensions of a page in words; empty if it has none."""
+    lengths = [page[key] for key in ("bore", "outside", "width") if page[key] is not None]
+    if not lengths:
+        return ""
+    millimetres = [f"{1e3 * length:g}" for length in lengths]
+    return f", {' x '.join(millimetres)} mm"
 
 
-def _tell_estimate(
-    estimate: EstimatedBearing | EstimatedTaperedBearing, output: Path, as_json: bool
-) -> None:
+def _tell_estimate(estimate: Estimated[AnyBearing], output: Path, as_json: bool) -> None:
     """Print medians and ranges of an estimate, and compare it with published values."""
     numbers = _numbers(estimate)
     if as_json:
@@ -432,38 +316,21 @@ def _tell_estimate(
     print_table(title, ["key", "median", "10 to 90 %"], rows, "lrl")
     typer.echo()
     ratio = numbers["C by ISO 281 / published [1]"]
-    if estimate.bearing.kind == "tapered":
-        typer.echo(
-            "C is no check of a tapered bearing: makers publish up to 40 % more than ISO 281. Rib and "
-            "preload are on no maker's page, and they decide friction and slip."
-        )
-    elif ratio is not None:
-        typer.echo(
-            f"C by ISO 281 from these dimensions is {ratio:.3f} of the published one; "
-            "within one family of bearings that scatters by 1 to 2 %."
-        )
-    else:
-        typer.echo(
-            "C is that of these dimensions, and lives are 0.5 to 0.9 of those by a maker's; "
-            "give it by --c."
-        )
+    typer.echo(kind_of(estimate.bearing).about_estimated_rating(ratio))
     for name in numbers["in the catalogue"]:
         typer.echo(f"The catalogue has a bearing of this size: bearing: {name}")
     typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")
 
 
-def _numbers(estimate: EstimatedBearing | EstimatedTaperedBearing) -> dict[str, Any]:
+def _numbers(estimate: Estimated[AnyBearing]) -> dict[str, Any]:
     """Every estimated value with its range, and C by ISO 281 over the published one, if known."""
-    from macroslip.bearing.load_ratings import dynamic_load_rating
+    from macroslip.bearing.load_ratings import dynamic_load_rating_of
 
     bearing = estimate.bearing
     ratio = None
     published = bearing.dynamic_load_rating
     if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
-        roller = (bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length)
-        angle = bearing.outer_angle if bearing.kind == "tapered" else bearing.contact_angle
-        pitch = 2 * bearing.pitch_radius
-        by_iso = dynamic_load_rating(2, *roller, angle, pitch, kind=bearing.kind)
+        by_iso = dynamic_load_rating_of(bearing)
         ratio = by_iso / published
     kind = type(bearing)
     known = [kind.read(name) for name in kind.catalogue()]
@@ -524,11 +391,8 @@ def _draw(
     check_new_file(output, force=force)
     require(PICTURE)
     from macroslip.report.bearing_drawing import draw_bearing
-    from macroslip.report.tapered_drawing import draw_tapered_bearing
 
-    bearing = read_bearing(name_or_file)
-    draw = draw_tapered_bearing if bearing.kind == "tapered" else draw_bearing
-    figure = draw(bearing)
+    figure = draw_bearing(read_bearing(name_or_file))
     with new_file(output, force=force) as temporary:
         figure.savefig(temporary, format=output.suffix[1:])
     typer.echo(f"written: {output}")

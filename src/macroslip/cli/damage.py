@@ -98,7 +98,7 @@ def _range_of_years(least: float, most: float) -> str:
     >>> _range_of_years(5.4, 540.0), _range_of_years(74.0, 74.0), _range_of_years(2e3, 2e5)
     ('5.4 to beyond 500', '74', 'beyond 500')
     """
-    from macroslip.report.page import number
+    from macroslip.printed import number
 
     ends = ["beyond 500" if end > _LONG else number(end, 2) for end in (least, most)]
     return " to ".join(dict.fromkeys(ends))

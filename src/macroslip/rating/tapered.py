@@ -56,20 +56,12 @@ def tapered_ratings(bearing: TaperedBearing) -> TaperedRatings:
     """
     row = tapered_geometry(bearing)
     # ISO counts diameter and pitch circle at the roller's middle, and the angle of the outer ring.
-    inside = (
-        len(ROW_SIGNS),
-        bearing.rollers_per_row,
-        bearing.roller_diameter,
-        bearing.roller_length,
-        row.outer_angle,
-        2.0 * bearing.pitch_radius,
-    )
     dynamic = bearing.dynamic_load_rating
     if dynamic is None:
-        dynamic = load_ratings.dynamic_load_rating(*inside, kind="tapered")
+        dynamic = load_ratings.dynamic_load_rating_of(bearing)
     static = bearing.static_load_rating
     if static is None:
-        static = load_ratings.static_load_rating(*inside)
+        static = load_ratings.static_load_rating_of(bearing)
     cotangent = 1.0 / math.tan(row.outer_angle)
     return TaperedRatings(
         dynamic=dynamic,

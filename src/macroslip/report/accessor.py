@@ -15,8 +15,8 @@ import xarray as xr
 
 from macroslip.errors import InputError, MacroslipError
 from macroslip.overview import html_overview
+from macroslip.printed import number
 from macroslip.report import bearing_figures as draw
-from macroslip.report.page import number
 from macroslip.report.result_numbers import row_numbers
 from macroslip.report.style import SMALL, program_style
 from macroslip.result.run_input import run_input

@@ -11,11 +11,12 @@ import numpy as np
 import xarray as xr
 
 from macroslip.damage.micropitting import share_below
+from macroslip.kinds import KINDS
 from macroslip.measures.along import FILM_EDGES
-from macroslip.report.page import number
+from macroslip.printed import number
 from macroslip.report.result_numbers import known
-from macroslip.report.tapered import tapered_sentences
 from macroslip.result.orbit import in_window
+from macroslip.result.run_input import stored_settings
 
 #: A row is said to skid if its rollers without load hardly ever come above this part of rolling
 #: speed.
@@ -69,7 +70,9 @@ def answer(result: xr.Dataset, criteria: Sequence[Mapping[str, Any]] = ()) -> li
             f"{failed} of {result.status.size} rollers FAILED; every mean they enter is missing."
         )
     sentences += [row_sentence(row_slip(result, row)) for row in result.row.values.tolist()]
-    films = " ".join([*tapered_sentences(result), *_films(result)])
+    bearing = stored_settings(result).get("bearing", {})
+    of_kind = [words for kind in KINDS.values() for words in kind.sentences(result, bearing)]
+    films = " ".join([*of_kind, *_films(result)])
     return [*sentences, *filter(None, [films]), *_nearest(criteria)]
 
 

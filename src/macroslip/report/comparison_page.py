@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.constants import HOUR
+from macroslip.printed import number
 from macroslip.report import bearing_figures as draw
-from macroslip.report.page import Opening, Table, number, render, sections, words
+from macroslip.report.page import Opening, Table, render, sections, words
 from macroslip.report.ranking import ranking_sentences
 from macroslip.report.result_numbers import usual_units
 from macroslip.report.style import (

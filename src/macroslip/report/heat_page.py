@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
+from macroslip.printed import number
 from macroslip.report import heat_figures as draw
-from macroslip.report.page import Opening, Table, number, render, sections, words
+from macroslip.report.page import Opening, Table, render, sections, words
 from macroslip.report.style import OPENING, Picture, compared, picture
 from macroslip.result.heat_balance import SPECIFIC_HEAT
 from macroslip.scada.description import ScadaDescription

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 import macroslip
+from macroslip.printed import number
 from macroslip.report.style import Picture, three_digits
 
 if TYPE_CHECKING:
@@ -151,20 +150,6 @@ def render(title: str, subtitle: str, opening: Opening, parts: Iterable[Section]
             program=f"macroslip {macroslip.__version__}",
         )
     )
-
-
-def number(value: Any, digits: int = 4) -> str:
-    """A number, or a dash where there is none; without a power of ten up to a thousand million.
-
-    Examples
-    --------
-    >>> number(1234.56), number(0.5, 3), number(2605123.0, 3), number(float("nan")), number(None)
-    ('1235', '0.5', '2,610,000', '–', '–')
-    """
-    if value is None or not np.isfinite(value):
-        return "–"
-    text = f"{value:.{digits}g}"
-    return f"{float(text):,.0f}" if "e+0" in text else text
 
 
 def _as_json(value: Any) -> Markup:

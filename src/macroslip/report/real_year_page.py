@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.page import Opening, Table, number, render, sections, words
+from macroslip.printed import number
+from macroslip.report.page import Opening, Table, render, sections, words
 from macroslip.report.real_year_figures import (
     plot_over_fixed,
     plot_over_wind_and_temperature,

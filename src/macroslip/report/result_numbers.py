@@ -11,7 +11,8 @@ import xarray as xr
 
 from macroslip.constants import HOURS_A_YEAR
 from macroslip.imposed.status import Status
-from macroslip.report.page import Table, number
+from macroslip.printed import number
+from macroslip.report.page import Table
 from macroslip.report.style import years
 from macroslip.result.run_input import stored_settings, window_length
 from macroslip.study.summary import RATING_VARIABLES

@@ -13,8 +13,9 @@ import xarray as xr
 from macroslip.constants import HOURS_A_YEAR
 from macroslip.errors import InputError
 from macroslip.loads.source_file import without_folders
+from macroslip.printed import number
 from macroslip.report.comparison import compare_designs
-from macroslip.report.page import Opening, Table, number, render, sections, words
+from macroslip.report.page import Opening, Table, render, sections, words
 from macroslip.report.provenance import provenance_section
 from macroslip.report.ranking import ranking_sentences
 from macroslip.report.result_numbers import rating_summary

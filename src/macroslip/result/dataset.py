@@ -27,17 +27,17 @@ from macroslip.contact.asperities import BOUNDED
 from macroslip.contact.laws import references
 from macroslip.imposed.run import Outcome
 from macroslip.imposed.status import Status
+from macroslip.kinds import kind_of
 from macroslip.loads import BearingLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.measures.along import STATIONS
 from macroslip.measures.cage import SIDES, CageMeasures
 from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
-from macroslip.result import skew, surface_maps, tapered_case
+from macroslip.result import skew, surface_maps
 from macroslip.result.cage_variables import cage_values, open_books
 from macroslip.result.heat_balance import operating_rings
 from macroslip.result.prepared import Prepared
-from macroslip.result.tapered_ribs import RIB_SURFACES
 from macroslip.result.variables import (
     ASPERITIES,
     COUNTS,
@@ -197,14 +197,13 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
         left_out.add(ASPERITIES)
     if not curved:
         left_out.add(CURVED_TRACES)
-    if ready.tapered is None:
+    if ready.model.rib is None:
         left_out.add(TAPERED_TRACES)
     values = _window_values(table)
     values["inlet_temperature"] = np.array(case.oil.inlet_temperature)
     values |= axial_values(ready)
-    if ready.tapered is not None:
-        ribs = _gathered(table, "rib")
-        values |= tapered_case.rib_values(ribs) | tapered_case.ring_values(ready)
+    window = (float(ready.edges[0]), ready.end)
+    values |= kind_of(case.bearing).values(case, ready.balance, window, _gathered(table, "rib"))
     if ready.edges.size == 1:
         values["peak_power_by_position"] = _peaks_by_position(table)
     if curved:
@@ -214,7 +213,7 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
         values |= _contact_details(table)
     if case.laws.skew != "none":
         skews = [[roller.measures.skew for roller in line] for line in table]
-        length = ready.end - float(ready.edges[0])
+        length = window[1] - window[0]
         values |= skew.values(case, skews, _failed(table), length)
     if case.traces is not None:
         # Up to where an integration ended its traces are kept: they show why.
@@ -225,12 +224,13 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
 def axial_values(ready: Prepared) -> dict[str, np.ndarray]:
     """Axial travel of the inner ring and reversals of the thrust in the window.
 
-    There are none where roller loads are given, which know no ring, and in a bearing of one row,
-    which carries no thrust.
+    There are none where roller loads are given, which know no ring, and in a bearing that carries no
+    thrust.
     """
     case = ready.case
-    carries_thrust = isinstance(case.ring_loads, BearingLoads)
-    if not carries_thrust or case.bearing.rows == 1:
+    knows_ring = isinstance(case.ring_loads, BearingLoads)
+    carries_thrust = knows_ring and kind_of(case.bearing).carries_thrust
+    if not carries_thrust:
         return {}
     start = float(ready.edges[0])
     motion = ready.motion
@@ -269,8 +269,7 @@ def _coordinates(ready: Prepared) -> dict[str, Any]:
     curved = ready.model.curved
     raceways = curved or case.dynamics == WHOLE_BEARING
     coordinates = roller_coordinates(case, ready.edges, curved=curved, raceways=raceways)
-    if ready.tapered is not None and case.laws.asperities != "none":
-        coordinates["rib_surface"] = list(RIB_SURFACES)
+    coordinates |= kind_of(case.bearing).coordinates(case)
     if ready.edges.size == 1 or case.laws.skew != "none":
         coordinates["position"] = _positions()
     if case.traces is not None:
@@ -429,9 +428,7 @@ def roller_coordinates(
     if curved and case.contact_details:
         parts = (np.arange(STATIONS) + 0.5) / STATIONS
         middles = (parts - 0.5) * case.bearing.roller_length
-        axis = "the roller's axis z'"
-        if case.bearing.kind == "tapered":
-            axis = "the roller from its middle to its large end"
+        axis = kind_of(case.bearing).station_axis
         about_station = described("m", f"place along {axis}")
         coordinates["station"] = ("station", middles, about_station)
         coordinates |= surface_maps.coordinates(case.bearing)

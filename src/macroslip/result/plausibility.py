@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.constants import RPM
+from macroslip.kinds import KINDS, kind_of
 from macroslip.loads import BearingLoads, HubLoads, RollerLoads
 from macroslip.result.run_input import stored_settings
 
@@ -35,8 +36,6 @@ _SIDEWAYS = 0.2
 _FILMS = 0.05
 #: Share of the most loaded roller's load beyond its ends from which on a note says so.
 _CUT = 0.01
-#: Reference life of a tapered bearing over L10h, below which a sentence says so.
-_SHORTER = 0.5
 #: Numbers of a rating that are judged.
 JUDGED = ("static_safety", "largest_pressure", "share_below_minimum_load")
 #: Share of the time, or of the loaded time, beyond which a range counts as left.
@@ -61,8 +60,8 @@ def doubtful_loads(
     """
     doubts = []
     fastest = float(np.abs(loads.shaft_speed).max())
-    is_spherical = bearing is None or bearing.kind == "spherical"
-    if fastest > _FASTEST and is_spherical:
+    carries_rotor = bearing is None or kind_of(bearing).carries_rotors_only
+    if fastest > _FASTEST and carries_rotor:
         doubts.append(
             f"the shaft turns at up to {fastest / RPM:.3g} rpm, and rotors on main bearings stay "
             "below 40 rpm; is the speed that of the generator, or in another unit?"
@@ -183,21 +182,9 @@ def _doubtful_rating(result: xr.Dataset) -> list[str]:
             "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of "
             "what makers publish: lives are 0.5 to 0.9 of those by the maker's C."
         )
-    return doubts + _preload_and_moments(result)
-
-
-def _preload_and_moments(result: xr.Dataset) -> list[str]:
-    """Sentence on a tapered bearing that preload or moments load far beyond its equivalent load."""
-    if "rib_energy" not in result or "basic_life" not in result:
-        return []
-    basic = float(result.basic_life)
-    reference = float(result.reference_life.sel(load_along_roller="hertz"))
-    if not np.isfinite(basic) or reference > _SHORTER * basic:
-        return []
-    return [
-        "static safety and L10h know neither the preload of a tapered roller bearing nor moments: the "
-        f"reference life, by the loads of all rollers, is {_plain(reference / basic)} of L10h."
-    ]
+    for kind in KINDS.values():
+        doubts += kind.doubts(result)
+    return doubts
 
 
 def _preload_by_heat(result: xr.Dataset) -> list[str]:

@@ -13,17 +13,15 @@ from macroslip.case.case import WHOLE_BEARING, Case
 from macroslip.case.oil_supply import supply_note
 from macroslip.case.parts import Radau
 from macroslip.constants import GRAVITY
-from macroslip.contact.interface import highest_load, truncated_share, truncation_load
 from macroslip.contact.registry import check_own_laws, film_range_notes
 from macroslip.contact.table import Box, table_box
 from macroslip.errors import InputError
+from macroslip.kinds import kind_of
+from macroslip.kinds.kind import RingBalance
 from macroslip.loads import RollerLoads
 from macroslip.result.plausibility import doubtful_loads
 from macroslip.result.skew import thrust_on_ring
-from macroslip.result.tapered_case import tapered_ring_motion
-from macroslip.ring.motion import elastic_loads, own_motions, ring_motion
 from macroslip.ring.orbit import Motion, merged_times, orbit_times
-from macroslip.ring.tapered_motion import TaperedMotion, tapered_own_motions
 from macroslip.roller.model import RollerModel, TableReport, body_force, ring_geometry, roller_model
 
 #: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
@@ -42,16 +40,18 @@ class Prepared:
 
     case: Case  #: At a known temperature
     models: dict[str, RollerModel]  #: By row
-    motion: Motion  #: Of the inner ring
-    own_motions: list[Motion]  #: Of every roller of both rows where roller loads are given
-    largest: float  #: Largest elastic load of a roller in the history [N]
+    balance: RingBalance  #: Of the inner ring over the loads
     heaviest: float  #: The same with weight and centrifugal force [N]
     highest_speed: float  #: Largest raceway speed |u2| of the history [m/s]
     edges: np.ndarray  #: Start of the window and ends of its complete orbits [s]
     end: float  #: End of the simulation [s]
     trace_time: np.ndarray  #: Times of traces [s]; none without traces
     box: Box  #: States that the tables of the contacts hold
-    tapered: TaperedMotion | None = None  #: Balance of the ring of a tapered roller bearing
+
+    @property
+    def motion(self) -> Motion:
+        """Motion of the inner ring."""
+        return self.balance.motion
 
     @property
     def model(self) -> RollerModel:
@@ -77,23 +77,12 @@ class Prepared:
     def notes(self, tables: TableReport) -> dict[str, Any]:
         """Attributes on films out of range, contacts cut off at the roller's ends, and tables."""
         case = self.case
-        if self.tapered is not None:
-            pressed = self.tapered.balance.outer_load
-            beyond = 0.0
-        else:
-            # Of some hundred samples.
-            every = max(1, self.motion.time.size // 200)
-            few = Motion(*(values[::every] for values in self.motion))
-            ring = ring_geometry(case.bearing, self.model)
-            pressed = elastic_loads(case.ring_loads, ring, few)
-            truncation = truncation_load(case.bearing, case.oil)
-            beyond = truncated_share(self.largest, truncation)
         laws = self.model.laws
         contacts = tuple(law.interface for law in (laws.inner, laws.outer, laws.cage))
         return {
             "film_range_notes": "\n".join(film_range_notes(case.laws.film, contacts)),
-            "mean_elastic_load": float(pressed.mean()),
-            "truncated_share": beyond,
+            "mean_elastic_load": self.balance.mean_load,
+            "truncated_share": self.balance.truncated_share,
             "oil_supply_note": supply_note(case),
             "doubtful_loads": "\n".join(doubtful_loads(case.loads, case.bearing)),
             "contact_evaluation": "tables",
@@ -121,19 +110,9 @@ def prepare(case: Case) -> Prepared:
         for row in row_names(case.bearing)
     }
     model = next(iter(models.values()))
-    tapered = None
-    own = []
-    if case.bearing.kind == "tapered":
-        tapered = tapered_ring_motion(case)
-        motion = tapered.motion
-        largest = float(tapered.balance.outer_load.max())
-        own = tapered_own_motions(tapered, model.stiffness, case.bearing.contact_angle)
-    else:
-        ring = ring_geometry(case.bearing, model)
-        limit = highest_load(case.bearing, case.oil, case.laws)
-        motion, largest = ring_motion(loads, case.bearing, ring, limit)
-        if isinstance(loads, RollerLoads):
-            own = own_motions(loads, ring, motion)
+    kind = kind_of(case.bearing)
+    balance = kind.balance(case, model)
+    motion = balance.motion
     ring_speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
     fastest = float(np.abs(ring_speeds).max())
     check_own_laws(case.laws, case.bearing, case.oil, fastest)
@@ -148,10 +127,11 @@ def prepare(case: Case) -> Prepared:
         case.integrator.tolerance if isinstance(case.integrator, Radau) else _FIXED_STEP_TOLERANCE
     )
     for _ in range(0 if case.laws.skew == "none" or isinstance(loads, RollerLoads) else _BALANCED):
-        box = table_box(ring_speeds, largest + body, float(tolerance), falling)
-        more = thrust_on_ring(case, model, ring, motion, box)
-        motion, largest = ring_motion(loads, case.bearing, ring, limit, more)
-    heaviest = largest + body
+        box = table_box(ring_speeds, balance.largest + body, float(tolerance), falling)
+        ring = ring_geometry(case.bearing, model)
+        thrust = thrust_on_ring(case, model, ring, balance.motion, box)
+        balance = kind.balance(case, model, thrust)
+    heaviest = balance.largest + body
     end = float(motion.time[-1])
     if case.window.end is not None:
         asked = np.array([min(case.window.end, end)])
@@ -160,16 +140,13 @@ def prepare(case: Case) -> Prepared:
     return Prepared(
         case=case,
         models=models,
-        motion=motion,
-        own_motions=own,
-        largest=largest,
+        balance=balance,
         heaviest=heaviest,
         highest_speed=fastest,
         edges=edges,
         end=end,
         trace_time=_trace_times(case, motion, edges, end),
         box=table_box(ring_speeds, heaviest, float(tolerance), falling),
-        tapered=tapered,
     )
 
 

@@ -8,14 +8,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from macroslip.arrays import FloatArray
 from macroslip.case.case import BALANCE, Case
 from macroslip.errors import InputError
-from macroslip.loads import BearingLoads
-from macroslip.rating import rate, roller_load_history
+from macroslip.kinds import kind_of
+from macroslip.rating import rate
 from macroslip.rating.rate import CONTAMINATION
-from macroslip.rating.tapered import StripRating, strip_rating
-from macroslip.result.tapered_case import tapered_ring_motion
 
 #: One of so many samples of the ring balance is used.
 _EVERY = 5
@@ -27,7 +24,7 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     Returns m times [s] and loads [N] of shape (m, 2, rollers), by time, row and roller. Raises
     InputError as `macroslip.rating.roller_load_history`.
     """
-    loads, roller_load, _ = _load_history(case)
+    loads, roller_load, _ = kind_of(case.bearing).load_history(case)
     is_inside = (loads.time >= start) & (loads.time <= end)
     chosen = np.flatnonzero(is_inside)[::_EVERY]
     load_of_samples = np.moveaxis(roller_load[..., chosen], -1, 0)
@@ -47,24 +44,10 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     >>> round(float(rating.static_safety), 2)
     30.64
     """
-    loads, roller_loads, strips = _load_history(case)
+    loads, roller_loads, strips = kind_of(case.bearing).load_history(case)
     return rate(
         case.bearing, case.oil, loads, roller_loads, contamination=contamination, strips=strips
     )
-
-
-def _load_history(case: Case) -> tuple[BearingLoads, FloatArray, StripRating | None]:
-    """Loads at the samples of the ring's balance, those of all rollers, and of tapered strips."""
-    if case.bearing.kind != "tapered":
-        return *roller_load_history(case.bearing, case.oil, case.ring_loads), None
-    ring_motion = tapered_ring_motion(case)
-    motion = ring_motion.motion
-    loads = case.ring_loads.resampled(motion.time, motion.shaft_speed)
-    balance = ring_motion.balance
-    pressed = np.moveaxis(balance.outer_load, 0, -1)
-    strips = strip_rating(case.bearing, ring_motion.ring, balance, motion.shaft_angle)
-    by_row = pressed.reshape(case.bearing.rows, case.bearing.rollers_per_row, -1)
-    return loads, by_row, strips
 
 
 def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:

@@ -108,7 +108,7 @@ def _imposed_orbits(
     results: dict[tuple[str, int], Measured] = {}
     total = len(left)
     report = None
-    own_motions = ready.own_motions
+    own_motions = ready.balance.own_motions
     with ThreadPoolExecutor(threads) as pool:
         for enlargement in range(_ENLARGED + 1):
             rollers, made = with_tables(ready.models, ready.box)
@@ -164,7 +164,7 @@ def _problem(ready: Prepared, roller: Roller, skewing: Skewing | None) -> Proble
     motion = ready.motion
     if isinstance(integrator, Radau):
         longest = LONGEST_TURN
-        if ready.tapered is not None:
+        if ready.model.rib is not None:
             longest = LONGEST_RIBBED_TURN
         if skewing is not None and skewing.guide.largest > 0.0:
             longest = LONGEST_SKEWED_TURN

@@ -20,6 +20,7 @@ from macroslip.arrays import FloatArray
 from macroslip.bearing import Bearing
 from macroslip.case.case import Case
 from macroslip.errors import InputError, MacroslipError
+from macroslip.kinds import kind_of
 from macroslip.loads import RollerLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
@@ -131,7 +132,7 @@ def ring_stiffness(cases: Mapping[str, Case]) -> xr.Dataset:
 
 def _points(name: str, case: Case) -> list[dict[str, Any]]:
     """Operating points of a case."""
-    if case.bearing.kind != "spherical":
+    if not kind_of(case.bearing).aligns_itself:
         raise InputError(
             f"{case.bearing.name} is a {case.bearing.kind} roller bearing, whose stiffness is not "
             "computed",

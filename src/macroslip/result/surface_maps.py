@@ -16,11 +16,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from macroslip.bearing import Bearing, geometry
+from macroslip.bearing import geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
-from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
+from macroslip.bearing.kinds import AnyBearing
 from macroslip.constants import SECTORS
 from macroslip.errors import InputError
+from macroslip.kinds import kind_of
 from macroslip.measures.along import FILM_EDGES, SLIP_EDGES, STATIONS
 from macroslip.measures.details import Details
 from macroslip.measures.maps import FILM_REGIMES, SLIP_SIGNS
@@ -57,7 +58,7 @@ def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.nda
     return maps
 
 
-def coordinates(bearing: Bearing | TaperedBearing) -> dict[str, Any]:
+def coordinates(bearing: AnyBearing) -> dict[str, Any]:
     """Angles, areas of the cells, and names of the parts of the energy."""
     sector = 2.0 * math.pi / SECTORS
     angle = (np.arange(SECTORS) + 0.5) * sector
@@ -71,19 +72,15 @@ def coordinates(bearing: Bearing | TaperedBearing) -> dict[str, Any]:
     width = bearing.roller_length / STATIONS
     inner_radius = geometry.inner_contact_radius(bearing)
     outer_radius = geometry.outer_contact_radius(bearing)
-    lean = math.sin(bearing.contact_angle)
-
-    def radii_along(row: str, radius: float) -> np.ndarray:
-        if isinstance(bearing, TaperedBearing):
-            apex_distance = tapered_geometry(bearing).apex_distance
-            return radius * (1.0 + middles / apex_distance)
-        return radius - AXIAL_SIGNS[row] * middles * lean
-
+    kind = kind_of(bearing)
     areas = []
     for row in row_names(bearing):
-        inner = radii_along(row, inner_radius) * sector * width
-        outer = radii_along(row, outer_radius) * sector * width
-        areas.append([inner, outer])
+        sign = AXIAL_SIGNS[row]
+        radii = (
+            kind.raceway_radii(bearing, sign, radius, middles)
+            for radius in (inner_radius, outer_radius)
+        )
+        areas.append([along * sector * width for along in radii])
     area = {"units": "m2", "long_name": "area of a place of the raceway"}
     return {
         "angle": ("angle", angle, about),
@@ -145,7 +142,7 @@ def energy_density(result: xr.Dataset) -> xr.DataArray:
     return density.assign_attrs(units="J/m2", long_name="frictional energy per area of the raceway")
 
 
-def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
+def roller_energy_density(result: xr.Dataset, bearing: AnyBearing) -> xr.DataArray:
     """Frictional energy per area of a roller along its axis [J/m²], of both raceways.
 
     Over row, station, slip_sign and film_regime; mean over the simulated rollers. InputError if the

@@ -199,6 +199,11 @@ class TaperedBearing(Record):
         return 2
 
     @property
+    def nominal_contact_angle(self) -> float:
+        """Contact angle by which the standards rate it [rad], that of the outer raceway."""
+        return self.outer_angle
+
+    @property
     def contact_angle(self) -> float:
         """Angle of the rollers' axes to the bearing's axis [rad], along whose normal a roller is held."""
         beta, _ = geometry.cone(self.roller_diameter, 2.0 * self.pitch_radius, self.outer_angle)

@@ -23,7 +23,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +33,7 @@ from macroslip.bearing.sampled import (
     E_ROUNDING,
     SAMPLES,
     Accepted,
+    Estimated,
     Rollers,
     check_bore,
     check_positive,
@@ -173,13 +173,6 @@ class TaperedPage:
             )
 
 
-class EstimatedTaperedBearing(NamedTuple):
-    """A tapered roller bearing from its maker's page."""
-
-    bearing: TaperedBearing  #: The medians, with ranges in their provenance
-    samples: Mapping[str, FloatArray]  #: Every inner dimension [SI], by key of the bearing
-
-
 def _cotangent_factor(rows: int) -> float:
     """Y over cot(contact angle) of a single row, Y1 over it of a double row, ISO 281."""
     return 0.4 if rows == 1 else 0.45
@@ -187,7 +180,7 @@ def _cotangent_factor(rows: int) -> float:
 
 def estimate_tapered_bearing(
     page: TaperedPage, name: str, title: str = "", *, seed: int = 1
-) -> EstimatedTaperedBearing:
+) -> Estimated[TaperedBearing]:
     """Estimate the inside of a tapered roller bearing from its maker's page.
 
     The samples are independent and uniform within the accepted ranges of this module, rejected
@@ -206,7 +199,7 @@ def estimate_tapered_bearing(
 
     Returns
     -------
-    EstimatedTaperedBearing
+    Estimated
         The bearing of the medians, and the samples in SI units.
 
     Raises
@@ -231,7 +224,7 @@ def estimate_tapered_bearing(
     tried = _draw(page, np.random.default_rng(seed))
     drawn = _fitting(page, tried)
     bearing = _record(page, drawn, name, title)
-    return EstimatedTaperedBearing(bearing, drawn)
+    return Estimated(bearing, drawn)
 
 
 def _draw(page: TaperedPage, rng: np.random.Generator) -> dict[str, FloatArray]:

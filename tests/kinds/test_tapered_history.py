@@ -6,9 +6,15 @@ import pytest
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.line_rolling import line_contacts
 from macroslip.errors import InputError
+from macroslip.kinds.tapered.history import (
+    VARIABLES,
+    TaperedMount,
+    TaperedState,
+    tapered_history,
+    warmed,
+)
 from macroslip.loads.history import HubLoads
 from macroslip.lubricant import Lubricant
-from macroslip.result.tapered import VARIABLES, TaperedMount, TaperedState, tapered_history, warmed
 
 MAIN = TaperedBearing.read("tdo-main-bearing")
 OIL = Lubricant.read("vg460-pao").at(308.15)

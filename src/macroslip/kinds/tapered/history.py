@@ -18,13 +18,13 @@ from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.line import strip_places
 from macroslip.contact.line_rolling import line_contacts, line_film, rolling_resistance
 from macroslip.errors import InputError
+from macroslip.kinds.tapered.checks import check_moment, check_preload
+from macroslip.kinds.tapered.raceways import axial_float, raceway_strips
+from macroslip.kinds.tapered.ribs import LEAST_SPEED, RIB_SURFACES, rib_values
 from macroslip.loads import Drivetrain
 from macroslip.loads.history import HubLoads
 from macroslip.loads.moment_bearing import moment_bearing_load
 from macroslip.lubricant import Lubricant
-from macroslip.result.tapered_checks import check_moment, check_preload
-from macroslip.result.tapered_raceways import axial_float, raceway_strips
-from macroslip.result.tapered_ribs import LEAST_SPEED, RIB_SURFACES, rib_values
 from macroslip.ring.grip import grip_load
 from macroslip.ring.orbit import shaft_angle
 from macroslip.ring.tapered import (

@@ -8,12 +8,12 @@ import pytest
 from macroslip import Bearing, Case
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.errors import InputError
+from macroslip.kinds.tapered.history import TaperedMount, TaperedState, tapered_history
+from macroslip.kinds.tapered.of_case import tapered_ring_motion
 from macroslip.loads import Drivetrain, support_loads
 from macroslip.loads.history import HubLoads
 from macroslip.loads.moment_bearing import shaft_load
 from macroslip.lubricant import Lubricant
-from macroslip.result.tapered import TaperedMount, TaperedState, tapered_history
-from macroslip.result.tapered_case import tapered_ring_motion
 from macroslip.ring.tapered import strip_loads, tapered_balance, tapered_ring, two_bearings
 
 MAIN = TaperedBearing.read("tdo-main-bearing")

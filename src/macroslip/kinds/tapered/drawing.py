@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,11 +11,9 @@ import numpy as np
 
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.bearing.tapered.geometry import TaperedGeometry
-from macroslip.report.style import BLUE, ORANGE, program_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     Points = NDArray[np.float64]
@@ -26,7 +25,6 @@ LINE = "#1f5a96"
 _THICKNESS = 0.5
 #: Height of a rib over that of its contact.
 _RIB = 2.0
-_COLOURS = {"downwind": BLUE, "upwind": ORANGE}
 #: Sign s of the thrust along Z0 that a row carries.
 _SIGNS = {"downwind": 1, "upwind": -1}
 
@@ -38,6 +36,7 @@ class _Row:
     bearing: TaperedBearing
     geometry: TaperedGeometry
     sign: int  #: s, direction of the thrust that the row carries
+    colour: str
 
     @property
     def middle(self) -> float:
@@ -106,8 +105,7 @@ class _Row:
         return outline_axial, outline_radial
 
 
-@program_style()
-def draw_tapered_bearing(bearing: TaperedBearing) -> Figure:
+def draw_tapered_section(axes: Axes, bearing: TaperedBearing, colours: Mapping[str, str]) -> None:
     """Draw the section of a tapered roller bearing above its axis to scale.
 
     Rows are named by the thrust that they carry, and the drawing says where each of them lies.
@@ -116,20 +114,14 @@ def draw_tapered_bearing(bearing: TaperedBearing) -> Figure:
 
     Parameters
     ----------
+    axes : Axes
+        Empty and of equal aspect.
     bearing : TaperedBearing
-
-    Returns
-    -------
-    matplotlib.figure.Figure
+    colours : mapping
+        Colours of the rows by their names.
     """
-    from macroslip.report.styled_figure import StyledFigure
-
-    figure = StyledFigure(figsize=(9.6, 6.2))
-    axes = figure.add_axes((0, 0, 1, 1))
-    axes.set_aspect("equal")
-    axes.axis("off")
     row = tapered_geometry(bearing)
-    rows = {name: _Row(bearing, row, sign) for name, sign in _SIGNS.items()}
+    rows = {name: _Row(bearing, row, sign, colours[name]) for name, sign in _SIGNS.items()}
     outside = _outside(bearing, row)
     for drawn in rows.values():
         axes.fill(*drawn.outer_ring(outside), fc=STEEL, ec="black", lw=1.0)
@@ -140,7 +132,6 @@ def draw_tapered_bearing(bearing: TaperedBearing) -> Figure:
     axes.set(xlim=(-reach, reach), ylim=(-0.22 * outside, 1.45 * outside))
     _apexes(axes, rows)
     _words(axes, bearing, rows, reach, outside)
-    return figure
 
 
 def _outside(bearing: TaperedBearing, row: TaperedGeometry) -> float:
@@ -163,7 +154,7 @@ def _bore(bearing: TaperedBearing, row: TaperedGeometry) -> float:
 
 def _apexes(axes: Axes, rows: dict[str, _Row]) -> None:
     """Lines of contact and the roller's axis up to the apex of every row."""
-    for name, row in rows.items():
+    for row in rows.values():
         geometry = row.geometry
         for angle, style in (
             (geometry.outer_angle, "-"),
@@ -175,9 +166,8 @@ def _apexes(axes: Axes, rows: dict[str, _Row]) -> None:
                 distance /= math.cos(geometry.half_cone_angle)
             axial = row.apex - row.sign * distance * math.cos(angle)
             radial = distance * math.sin(angle)
-            colour = _COLOURS[name]
-            axes.plot([axial, row.apex], [radial, 0.0], style, color=colour, lw=0.7)
-        axes.plot([row.apex], [0.0], "o", color=_COLOURS[name], ms=4)
+            axes.plot([axial, row.apex], [radial, 0.0], style, color=row.colour, lw=0.7)
+        axes.plot([row.apex], [0.0], "o", color=row.colour, ms=4)
 
 
 def _words(
@@ -214,8 +204,8 @@ def _words(
             ha="center",
             va="center",
             fontsize=9,
-            color=_COLOURS[name],
-            arrowprops={"arrowstyle": "-", "color": _COLOURS[name], "lw": 0.6},
+            color=row.colour,
+            arrowprops={"arrowstyle": "-", "color": row.colour, "lw": 0.6},
             zorder=6,
         )
     _dimensions(axes, bearing, reach, outside)

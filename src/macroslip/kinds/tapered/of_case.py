@@ -1,4 +1,4 @@
-"""Parts of a result that tapered roller bearings alone have: preload, ring balance, ribs."""
+"""A case and its result with a tapered roller bearing: preload, ring balance, ribs."""
 
 from __future__ import annotations
 
@@ -10,17 +10,16 @@ from macroslip.bearing.tapered import TaperedBearing
 from macroslip.contact.strips import load_at_pressure, strips_of
 from macroslip.contact.traction import HIGHEST_PRESSURE
 from macroslip.errors import InputError
+from macroslip.kinds.tapered.checks import check_moment, check_preload
+from macroslip.kinds.tapered.history import TaperedMount, warmed
+from macroslip.kinds.tapered.ribs import rib_values
 from macroslip.loads import HubLoads
-from macroslip.result.tapered import TaperedMount, warmed
-from macroslip.result.tapered_checks import check_moment, check_preload
-from macroslip.result.tapered_ribs import rib_values as history_of_ribs
 from macroslip.ring.grip import grip_load
 from macroslip.ring.tapered import ROW_SIGNS, tapered_ring
 from macroslip.ring.tapered_motion import TaperedMotion, tapered_motion
 
 if TYPE_CHECKING:
     from macroslip.case.case import Case
-    from macroslip.result.prepared import Prepared
 
 #: Variables of the ribs' history whose largest value in the window a result has.
 _RIB_EXTREMES = (
@@ -95,7 +94,7 @@ def _refuse(case: Case, ring_motion: TaperedMotion) -> None:
     )
 
 
-def rib_values(ribs: np.ndarray) -> dict[str, Any]:
+def rib_energies(ribs: np.ndarray) -> dict[str, Any]:
     """Energies and peaks of power at the ribs, by the name of the variable.
 
     Parameters
@@ -111,20 +110,25 @@ def rib_values(ribs: np.ndarray) -> dict[str, Any]:
     }
 
 
-def ring_values(ready: Prepared) -> dict[str, Any]:
+def ring_values(
+    case: Case, ring_motion: TaperedMotion, window: tuple[float, float]
+) -> dict[str, Any]:
     """Preload, extremes of the balance in the window, and of the ribs, by the name of the variable.
 
     Parameters
     ----------
-    ready : Prepared
-        The case made ready, of a tapered roller bearing.
+    case : Case
+        Of a tapered roller bearing.
+    ring_motion : TaperedMotion
+        Of the case.
+    window : tuple of float
+        Start and end of the window [s].
     """
-    case = ready.case
-    assert ready.tapered is not None, "the bearing is not a tapered one"
-    time = ready.motion.time
-    inside = (time >= ready.edges[0]) & (time <= ready.end)
-    balance = ready.tapered.balance
-    speed = np.abs(ready.motion.shaft_speed[inside])
+    time = ring_motion.motion.time
+    start, end = window
+    inside = (time >= start) & (time <= end)
+    balance = ring_motion.balance
+    speed = np.abs(ring_motion.motion.shaft_speed[inside])
     loads = _by_row(balance.outer_load[inside])
     mean = float(speed.mean())
     grip = np.nan
@@ -140,7 +144,7 @@ def ring_values(ready: Prepared) -> dict[str, Any]:
         "largest_tilt": np.array(np.hypot(*tilt.T).max()),
         "preload": np.array(warm.preload),
         "preload_change": np.array(warm.preload - case.bearing.preload),
-        **_rib_window(ready, _by_row(balance.rib_force[inside]), speed),
+        **_rib_window(case, _by_row(balance.rib_force[inside]), speed),
     }
 
 
@@ -149,10 +153,9 @@ def _by_row(values: np.ndarray) -> np.ndarray:
     return values.reshape(len(values), len(ROW_SIGNS), -1)
 
 
-def _rib_window(ready: Prepared, force: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
+def _rib_window(case: Case, force: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
     """Extremes and mean work at the ribs over the window, of rollers that roll."""
-    case = ready.case
-    ribs = history_of_ribs(case.bearing, case.oil, force, speed, case.laws)
+    ribs = rib_values(case.bearing, case.oil, force, speed, case.laws)
     # A shaft at rest has no film.
     turning = (speed > 0.0)[:, None]
     film_ratio = np.where(turning, ribs["rib_film_ratio"], np.inf)

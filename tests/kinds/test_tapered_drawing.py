@@ -6,7 +6,8 @@ from matplotlib.colors import to_rgba
 from matplotlib.patches import Polygon
 
 from macroslip.bearing.kinds import read_bearing
-from macroslip.report.tapered_drawing import ROLLER, draw_tapered_bearing
+from macroslip.kinds.tapered.drawing import ROLLER
+from macroslip.report.bearing_drawing import draw_bearing
 
 BEARING = read_bearing("tdo-main-bearing")
 
@@ -21,7 +22,7 @@ def words(figure) -> dict[str, str]:
 
 @pytest.mark.parametrize(("arrangement", "side"), [("O", "upwind"), ("X", "downwind")])
 def test_the_drawing_says_where_the_row_lies_that_carries_thrust_downwind(arrangement, side):
-    said = words(draw_tapered_bearing(BEARING.replace(arrangement=arrangement)))
+    said = words(draw_bearing(BEARING.replace(arrangement=arrangement)))
     assert "thrust along +Z0" in said["downwind"]
     assert f"lies {side} of the mid-plane" in said["downwind"]
     assert f"lies {side} of the mid-plane" not in said["upwind"]
@@ -30,7 +31,7 @@ def test_the_drawing_says_where_the_row_lies_that_carries_thrust_downwind(arrang
 @pytest.mark.parametrize("arrangement", ["O", "X"])
 def test_rollers_have_their_size_and_the_thick_end_away_from_the_apex(arrangement):
     """Of the outline alone: its area, its corners, and where both sides of the cone meet."""
-    figure = draw_tapered_bearing(BEARING.replace(arrangement=arrangement))
+    figure = draw_bearing(BEARING.replace(arrangement=arrangement))
     outlines = [
         patch.get_xy()
         for patch in figure.axes[0].patches
