@@ -34,7 +34,7 @@ check: $(VENV)/.ready  ## all else that has to hold: documentation, paper, valid
 	@echo "stage 2 of 5: tests of documentation, paper, validation, benchmarks and golden numbers, and second examples"
 	$(PYTEST) -m "check and not deep" $(ARGS)
 	@echo "stage 3 of 5: speed beside the last state"
-	$(BIN)/python -m benchmarks.pair
+	$(BIN)/python -m benchmarks.pair --whole --turns 1
 	@echo "stage 4 of 5: the lowest versions"
 	$(BIN)/python .ci/lowest >.lowest.txt
 	$(MAKE) test-lowest

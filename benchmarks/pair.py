@@ -2,7 +2,7 @@
 
 Both states integrate the same rollers in turns, each in a process and with compiled kernels of its own, so that a loss of
 speed is seen when it is made; with `--whole` the whole bearing too. CPU time counts, the least of several turns; a ratio
-below 1 is a loss.
+below 1 is a loss. The scatter is that of the ratios of single turns.
 """
 
 from __future__ import annotations
@@ -14,13 +14,16 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
 
 #: The state that `make check` compares with: the last one before this round of changes.
-LAST_STATE = "8cf7cf05"
+LAST_STATE = "151e2ce3"
 ROOT = Path(__file__).parents[1]
+#: Runs of each length in a process, of which the fastest counts.
+_RUNS = 2
 
 
 class Setting(NamedTuple):
@@ -44,25 +47,26 @@ WHOLE = (
     Setting("whole, physical, dry", "whole-bearing", "physical", "dry"),
 )
 
-#: What both states run. Rollers beyond the first of each row are timed by difference, or the whole
-#: bearing beyond its first two seconds: what a case costs beside them is left out.
+#: What both states run, after a run that compiles. Rollers beyond the first of each row are timed by
+#: difference, or the whole bearing beyond its first two seconds: what a case costs beside them is left out.
 _DRIVER = """
 import inspect, json, sys, time
 from macroslip import Cage, Case, HubLoads, Laws, simulate
 
 dynamics, model, impact, supply = sys.argv[1:5]
-turns = int(sys.argv[5])
+runs = int(sys.argv[5])
 loads = HubLoads.bundled("14B")
 if dynamics == "whole-bearing":
-    beyond = 3.0 if impact == "dry" else 10.0
+    beyond = 20.0 if impact == "dry" else 100.0
     common = {"dynamics": dynamics, "cage": Cage(impact=impact)}
     small = {"loads": loads.window(0.0, 2.0)}
     large = {"loads": loads.window(0.0, 2.0 + beyond)}
 else:
-    beyond = 10 * loads.duration
+    rollers = list(range(28))
+    beyond = 2 * (len(rollers) - 1) * loads.duration
     common = {"loads": loads}
-    small = {"rollers": [0]}
-    large = {"rollers": list(range(6))}
+    small = {"rollers": rollers[:1]}
+    large = {"rollers": rollers}
 
 if supply and "oil_supply" in inspect.signature(Case).parameters:
     common["oil_supply"] = supply
@@ -72,26 +76,37 @@ def spent(part):
     case = Case(laws=laws, contact_details=False, **common, **part)
     start = time.process_time()
     result = simulate(case, threads=1)
-    return time.process_time() - start, result
+    return time.process_time() - start, result["force_evaluations"].values
 
 spent(small)
-few = min(spent(small)[0] for _ in range(turns))
-many, result = min((spent(large) for _ in range(turns)), key=lambda pair: pair[0])
+spent(large)
+few = [spent(small) for _ in range(runs)]
+many = [spent(large) for _ in range(runs)]
+# A whole bearing gives each of its rollers the evaluations of all.
+count = (lambda x: int(x.max())) if dynamics == "whole-bearing" else (lambda x: int(x.sum()))
 print(json.dumps({
-    "times_real_time": beyond / (many - few),
-    "evaluations": int(result["force_evaluations"].sum()),
-    "energy": float(result["energy"].sum()),
+    "beyond": beyond,
+    "small": min(seconds for seconds, _ in few),
+    "large": min(seconds for seconds, _ in many),
+    "evaluations": count(many[0][1]) - count(few[0][1]),
 }))
 """
 
 
-class Speed(NamedTuple):
-    """What one state gave for one setting."""
+class Turn(NamedTuple):
+    """What one process measured of one state."""
 
-    #: Time of the history over CPU time, of one roller or of the whole bearing [-]
-    times_real_time: float
-    evaluations: int  #: Force evaluations
-    energy: float  #: Their frictional energy [J]
+    beyond: float  #: Time that the larger run has beyond the smaller one, of all its rollers [s]
+    small: float  #: CPU time of the smaller run [s]
+    large: float  #: CPU time of the larger run [s]
+    evaluations: int  #: Force evaluations of the larger run beyond those of the smaller one
+
+
+def times_real_time(turns: list[Turn]) -> float:
+    """Time of the history over CPU time, of one roller or of the whole bearing [-]."""
+    large = min(turn.large for turn in turns)
+    small = min(turn.small for turn in turns)
+    return turns[0].beyond / (large - small)
 
 
 def is_known(revision: str) -> bool:
@@ -118,45 +133,60 @@ def unpack(revision: str, folder: Path) -> Path:
     return folder / "src"
 
 
-def run(sources: Path, kernels: Path, setting: Setting, turns: int) -> Speed:
+def run(sources: Path, kernels: Path, setting: Setting) -> Turn:
     """Time one state in a process of its own."""
-    environment = os.environ | {"PYTHONPATH": str(sources), "NUMBA_CACHE_DIR": str(kernels)}
+    environment = os.environ | {
+        "PYTHONPATH": str(sources),
+        "NUMBA_CACHE_DIR": str(kernels),
+        "OPENBLAS_NUM_THREADS": "1",
+    }
     done = subprocess.run(
-        [sys.executable, "-c", _DRIVER, *setting[1:], str(turns)],
+        [sys.executable, "-c", _DRIVER, *setting[1:], str(_RUNS)],
         env=environment,
         capture_output=True,
         text=True,
         check=True,
     )
-    return Speed(**json.loads(done.stdout))
+    return Turn(**json.loads(done.stdout))
 
 
 def compare(
     revision: str, turns: int, settings: tuple[Setting, ...]
-) -> dict[str, tuple[Speed, Speed]]:
-    """Speeds of the earlier state and of this one, by setting, run in turns."""
-    speeds = {}
+) -> Iterator[tuple[Setting, list[Turn], list[Turn]]]:
+    """Turns of the earlier state and of this one, by setting."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        states = {
-            "before": (unpack(revision, folder / "before"), folder / "kernels_before"),
-            "now": (ROOT / "src", folder / "kernels_now"),
-        }
+        earlier = unpack(revision, folder / "before"), folder / "kernels_before"
+        present = ROOT / "src", folder / "kernels_now"
         for setting in settings:
-            runs: dict[str, list[Speed]] = {name: [] for name in states}
+            before = []
+            now = []
             for _ in range(turns):
-                for name, (sources, kernels) in states.items():
-                    runs[name].append(run(sources, kernels, setting, turns=2))
-            # By its first field, a run's speed, the largest is the fastest.
-            speeds[setting.name] = (max(runs["before"]), max(runs["now"]))
-    return speeds
+                before.append(run(*earlier, setting))
+                now.append(run(*present, setting))
+            yield setting, before, now
+
+
+def row(setting: Setting, before: list[Turn], now: list[Turn]) -> str:
+    """Line of the table that is printed."""
+    earlier = times_real_time(before)
+    present = times_real_time(now)
+    single = [
+        times_real_time([new]) / times_real_time([old])
+        for old, new in zip(before, now, strict=True)
+    ]
+    scatter = f"{min(single):.2f} to {max(single):.2f}"
+    return (
+        f"{setting.name:22s} {earlier:22,.1f} {present:9,.1f} {present / earlier:7.2f} {scatter:>14s}"
+        f" {before[0].evaluations:21,d} {now[0].evaluations:10,d}"
+    )
 
 
 def main() -> None:
     """Print a table of both states."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pair", description=__doc__)
     parser.add_argument("revision", nargs="?", default=LAST_STATE, help="the earlier state")
-    parser.add_argument("--turns", type=int, default=2, help="runs of each state")
+    parser.add_argument("--turns", type=int, default=2, help="processes of each state")
     parser.add_argument("--whole", action="store_true", help="the whole bearing too")
     wanted = parser.parse_args()
     if wanted.revision == LAST_STATE and not is_known(LAST_STATE):
@@ -164,17 +194,15 @@ def main() -> None:
         return
     settings = IMPOSED + WHOLE if wanted.whole else IMPOSED
     print(
-        f"14B, one thread; 600 s of six rollers a row, 10 s of all (dry 3 s); before: {wanted.revision}"
+        "14B, one thread; 600 s of 28 rollers a row less one, 100 s of the whole bearing (dry 20 s);"
+        f" before: {wanted.revision}"
     )
     print(
-        "setting               times real time: before      now   ratio   evaluations: before       now"
+        "setting               times real time: before       now   ratio   single turns"
+        "   evaluations: before        now"
     )
-    for name, (before, now) in compare(wanted.revision, wanted.turns, settings).items():
-        ratio = now.times_real_time / before.times_real_time
-        print(
-            f"{name:22s} {before.times_real_time:22,.1f} {now.times_real_time:8,.1f} {ratio:7.2f}"
-            f" {before.evaluations:21,d} {now.evaluations:9,d}"
-        )
+    for measured in compare(wanted.revision, wanted.turns, settings):
+        print(row(*measured), flush=True)
 
 
 if __name__ == "__main__":
