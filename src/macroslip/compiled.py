@@ -166,6 +166,23 @@ def call_at(typingctx, address, arguments):
     return numba.types.void(address, arguments), _generate
 
 
+@intrinsic
+def uncounted(typingctx, array):
+    """An array whose references are not counted.
+
+    For a call during which the caller keeps it alive.
+
+    Counting takes an eighth of an integration, whose parts hand the motion on at every stage.
+    """
+
+    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        view = context.make_array(array)(context, builder, arguments[0])
+        view.meminfo = ir.Constant(view.meminfo.type, None)
+        return view._getvalue()
+
+    return array(array), _generate
+
+
 def jit_inline(function: Callable) -> Callable:
     """Make a part of compiled functions; called from Python it is a plain function.
 

@@ -19,10 +19,12 @@ from macroslip.measures.maps import spread
 from macroslip.measures.roller import RollerMeasures, Row, Wanted
 from macroslip.measures.samples import SAMPLE, choose
 from macroslip.measures.totals import (
+    CONTACTS,
     END,
     HIGHEST_RISE,
     SPIN_RATIO_SPEED,
     book,
+    contacts_at,
     law_times,
     loaded_contacts,
     new_totals,
@@ -58,14 +60,16 @@ def walked():
 
 
 def booked(steps, cuts=()):
-    return booked_with_ends(steps, cuts)[0]
+    return booked_with_contacts(steps, cuts)[0]
 
 
-def booked_with_ends(steps, cuts=()):
-    totals, states = new_totals(EDGES, 0.4), np.zeros(steps.size, END)
-    for part, ends in zip(np.split(steps, cuts), np.split(states, cuts), strict=True):
-        book(part[:, None].copy(), 0, totals, ends)
-    return totals, states
+def booked_with_contacts(steps, cuts=()):
+    """Totals, and loads and entrainment speeds at the ends of the steps."""
+    totals = new_totals(EDGES, 0.4)
+    contacts = np.zeros(steps.size, CONTACTS)
+    for part, at_ends in zip(np.split(steps, cuts), np.split(contacts, cuts), strict=True):
+        book(part[:, None].copy(), 0, totals, np.zeros(part.size, END), at_ends)
+    return totals, contacts
 
 
 def test_totals_are_sums_over_the_steps(walked):
@@ -123,7 +127,7 @@ def test_spin_ratio_is_taken_where_rings_run(walked):
 
 def test_time_with_load_and_out_of_range(walked):
     model, _, _, steps = walked
-    times = law_times(booked_with_ends(steps)[1], model.laws)
+    times = law_times(booked_with_contacts(steps)[1], model.laws)
     inside = steps[(steps["start"] >= EDGES[0]) & (steps["weight"][:, 0] > 0.0)]
     span = inside["end"] - inside["start"]
     loaded = [
@@ -179,7 +183,7 @@ def peak_of(times, power, *, sampled=False, orbit_start=0.0):
         row["time"][0], row["weight"][0] = end, end - start
         row["power"][0, 0], row["power_before"][0] = power(end), power(start)
     totals = new_totals(np.array([orbit_start, 50.0, 60.0]), 1.0)
-    book(rows, 0, totals, np.zeros(len(rows), END))
+    book(rows, 0, totals, np.zeros(len(rows), END), np.zeros(len(rows), CONTACTS))
     return totals.peak_power[:, 0]
 
 
@@ -299,8 +303,9 @@ def test_films_at_looks_are_those_of_the_law(walked, monkeypatch):
     monkeypatch.setattr(sampling, "_spread_samples", spread_and_keep)
     looked(walked)
     samples = np.concatenate(taken)
-    contacts = loaded_contacts(samples["at"], walked[0].laws)
-    for i, (law, load, entrainment) in enumerate(contacts):
+    at_samples = np.zeros(samples.size, CONTACTS)
+    contacts_at(samples["at"], at_samples)
+    for i, (law, load, entrainment) in enumerate(loaded_contacts(at_samples, walked[0].laws)):
         loaded = load > 0.0
         state = load[loaded], entrainment[loaded]
         film = law.film_thickness(*state)

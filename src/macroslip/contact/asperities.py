@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit_inline
-from macroslip.contact.film import RANGES, line_groups
+from macroslip.contact.film import RANGES, line_groups, loads_in_range
 from macroslip.contact.interface import Interface
 
 #: Works to cite for each share, by the names in case files.
@@ -125,9 +125,8 @@ def load_group(interface: Interface, load):
 
 def load_is_in_range(interface: Interface, load):
     """True where W lies in the range of Masjedi and Khonsari's load ratio, 2e-5 to 5e-4."""
-    group = load_group(interface, load)
-    least, most = RANGES["load"]
-    return (least <= group) & (group <= most)
+    lightest, heaviest = loads_in_range(line_groups(interface))
+    return (lightest <= load) & (load <= heaviest)
 
 
 def _load_ratio_weight(group):

@@ -131,18 +131,27 @@ def masjedi_khonsari(interface: Interface, load, entrainment_speed):
     )
 
 
+def loads_in_range(groups: LineGroups) -> tuple[float, float]:
+    """Least and largest load Q of the range of W [N].
+
+    Loads of many states are compared with these bounds: powers of each would take longer than all
+    else that is computed of a state.
+    """
+    least, most = RANGES["load"]
+    return (least / groups.load) ** 1.5, (most / groups.load) ** 1.5
+
+
 def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
     """True where W and U are in `RANGES`.
 
     `masjedi_khonsari_notes` judges the groups that load and speed do not change.
     """
     groups = line_groups(interface)
-    w = groups.load * np.cbrt(load) ** 2
-    u = groups.speed * np.asarray(entrainment_speed)
-    least, most = RANGES["load"]
+    lightest, heaviest = loads_in_range(groups)
     slowest, fastest = RANGES["speed"]
-    load_is_in_range = (least <= w) & (w <= most)
-    speed_is_in_range = (slowest <= u) & (u <= fastest)
+    speed = np.asarray(entrainment_speed)
+    load_is_in_range = (lightest <= load) & (load <= heaviest)
+    speed_is_in_range = (slowest / groups.speed <= speed) & (speed <= fastest / groups.speed)
     return load_is_in_range & speed_is_in_range
 
 
@@ -229,14 +238,15 @@ def _log_moes_film(groups: LineGroups, radius: float, log_load, log_speed):
 def moes_in_range(interface: Interface, load, entrainment_speed):
     """True where M and L are at most those at which the formula was compared.
 
-    Lighter loads approach its exact limit.
+    Lighter loads approach its exact limit. M goes with Q^(2/3) u^(−1/2) and L with u^(1/4), so that
+    Q^4 and u are compared with what they are at these numbers.
     """
     groups = line_groups(interface)
     doubled = 2.0 * groups.speed * np.asarray(entrainment_speed)
-    load_group = groups.load * np.cbrt(load) ** 2
-    m = load_group / np.sqrt(doubled)
-    material = groups.material * doubled**0.25
-    return (m <= HIGHEST_COMPARED_LOAD) & (material <= HIGHEST_COMPARED_MATERIAL)
+    allowed = (HIGHEST_COMPARED_LOAD / groups.load) ** 2 * doubled
+    square = np.square(load)
+    is_light = square * square <= allowed * allowed * allowed
+    return is_light & (doubled <= (HIGHEST_COMPARED_MATERIAL / groups.material) ** 4)
 
 
 def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
@@ -297,7 +307,7 @@ def masjedi_khonsari_moes_in_range(interface: Interface, load, entrainment_speed
     That is the range of Masjedi and Khonsari's W and U, and below it that of Moes' M and L.
     """
     return np.where(
-        line_groups(interface).load * np.cbrt(load) ** 2 >= RANGES["load"][0],
+        load >= loads_in_range(line_groups(interface))[0],
         masjedi_khonsari_in_range(interface, load, entrainment_speed),
         moes_in_range(interface, load, entrainment_speed),
     )

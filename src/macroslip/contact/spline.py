@@ -198,23 +198,6 @@ def _is_flat(table: Any) -> bool:
 
 
 @intrinsic
-def uncounted(typingctx, array):
-    """An array whose references are not counted.
-
-    For a call during which the caller keeps it alive.
-
-    Counting takes an eighth of an integration, whose parts hand the motion on at every stage.
-    """
-
-    def _generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        view = context.make_array(array)(context, builder, arguments[0])
-        view.meminfo = ir.Constant(view.meminfo.type, None)
-        return view._getvalue()
-
-    return array(array), _generate
-
-
-@intrinsic
 def spline_value(typingctx, table, start, strides, positions):
     """Value of one cubic spline over three axes.
 

@@ -11,9 +11,8 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_inline, uncounted
 from macroslip.contact.look_up import REST_SPEED, contact_speed
-from macroslip.contact.spline import uncounted
 from macroslip.imposed import tuning
 from macroslip.imposed.control import (
     energy_error,
@@ -37,7 +36,7 @@ from macroslip.imposed.status import (
 )
 from macroslip.imposed.zones import EDGE, FIRM, FREE, edge_time
 from macroslip.mechanics.spin import net_force, powers
-from macroslip.ring.orbit import Motion, interval_of, last_before
+from macroslip.ring.orbit import interval_of, last_before, uncounted_motion
 from macroslip.roller.step import write_stage
 
 #: Rows that a step may take: its own, and rows of samples between its stages.
@@ -371,14 +370,12 @@ def integrate(path, stops, classes, work, steps):
     count : int
         Number of rows that were written.
     """
-    time, speed, angle, displacement = path.motion
-    motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]
     path = Path(
         path.body,
         path.forces,
         path.tables,
-        uncounted(path.flat),
-        motion,
+        uncounted(path.flat),  # pyright: ignore[reportCallIssue]
+        uncounted_motion(path.motion),
         path.start_angle,
         path.limits,
     )

@@ -53,20 +53,23 @@ class CageMeasures:
         self._trace(part)
 
     def _add_pushes(self, part: Part, counted: np.ndarray) -> None:
-        steps = part.steps[counted]
-        whole = part.bearing[counted]
+        """Add to impulses, times and largest pushes."""
+        positions = self._bearing.positions
+        rollers = np.arange(positions.size)
+        # Columns alone are copied: records of steps have much that is not asked for here.
+        pushes = part.steps["cage_load"][counted]
+        weights = part.steps["weight"][counted]
+        turns = part.bearing["turn"][counted]
         for k in range(2):
-            push = steps["cage_load"][..., k]
-            weight = steps["weight"][..., k]
-            turn = whole["turn"][:, k][:, self._bearing.positions["cage"]]
-            turns = (turn + self._bearing.positions["angle"]) / (2.0 * np.pi)
-            sector = (turns % 1.0 * SECTORS).astype(int) % SECTORS
+            push = pushes[..., k]
+            weight = weights[..., k]
+            angle = turns[:, k][:, positions["cage"]] + positions["angle"]
+            sector = (angle / (2.0 * np.pi) % 1.0 * SECTORS).astype(int) % SECTORS
             for side, here in enumerate((push < 0.0, push > 0.0)):
                 size = np.where(here, np.abs(push), 0.0)
                 self.impulse[:, side] += (weight * size).sum(axis=0)
                 self.time[:, side] += (weight * here).sum(axis=0)
                 self.largest[:, side] = np.maximum(self.largest[:, side], size.max(axis=0))
-            rollers = np.broadcast_to(np.arange(push.shape[1]), push.shape)
             np.maximum.at(self.largest_by_sector, (rollers, sector), np.abs(push))
 
     def _add_slip(self, part: Part, counted: np.ndarray) -> None:

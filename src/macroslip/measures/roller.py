@@ -13,11 +13,13 @@ from macroslip.measures.along import contacts_of
 from macroslip.measures.details import ContactSampler, Details, Wanted
 from macroslip.measures.skew import Skewing, SkewMeasures
 from macroslip.measures.totals import (
+    CONTACTS,
     END,
     INTERFACES,
     Batch,
     Totals,
     book,
+    contacts_at,
     law_times,
     loaded_contacts,
     new_totals,
@@ -56,7 +58,9 @@ class RollerMeasures:
         self.row = row
         self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
         self.law_times = np.zeros((3, 3))
-        self._states = Batch(END)
+        self._contacts = Batch(CONTACTS)
+        #: States at the ends of the steps of one buffer.
+        self._ends = np.zeros(0, END)
         self.skew = SkewMeasures(row.skewing, row.roller, wanted.edges[0]) if row.skewing else None
         places = row.contacts, row.motion, start_angle, self.skew
         self.sampler = (
@@ -81,9 +85,12 @@ class RollerMeasures:
             return
         if self.skew:
             self.skew.add(steps, j, self._places(mine))
-        states = self._states.room(mine.size, self._add_law_times)
-        book(steps, j, self.totals, states)
-        self._states.count += mine.size
+        if mine.size > self._ends.size:
+            self._ends = np.zeros(mine.size, END)
+        states = self._ends[: mine.size]
+        contacts = self._contacts.room(mine.size, self._add_law_times)
+        book(steps, j, self.totals, states, contacts)
+        self._contacts.count += mine.size
         if self.sampler:
             self.sampler.add(steps, j)
         if self.sector_power is not None:
@@ -96,13 +103,13 @@ class RollerMeasures:
         """Slip at which the integration ended [m/s], the mean of both raceways."""
         return 0.5 * float(self._last["inner_slip"] + self._last["outer_slip"])
 
-    def _add_law_times(self, states: np.ndarray) -> None:
-        self.law_times += law_times(states, self.row.model.laws)
+    def _add_law_times(self, contacts: np.ndarray) -> None:
+        self.law_times += law_times(contacts, self.row.model.laws)
 
     def finish(self) -> None:
         """Add the batches that are left, and distribute energies kept since the last sample."""
         self._last = self._last.copy()
-        self._states.empty(self._add_law_times)
+        self._contacts.empty(self._add_law_times)
         if self.sampler:
             self.sampler.finish()
 
@@ -172,7 +179,9 @@ class RollerMeasures:
 def _films(at: np.ndarray, laws: PreparedLaws) -> np.ndarray:
     """Film thickness by interface [m]; NaN without load."""
     thickness = np.full((at.size, len(INTERFACES)), np.nan)
-    for i, (law, load, speed) in enumerate(loaded_contacts(at, laws)):
+    contacts = np.zeros(at.size, CONTACTS)
+    contacts_at(at, contacts)
+    for i, (law, load, speed) in enumerate(loaded_contacts(contacts, laws)):
         loaded = load > 0.0  # not where it is NaN
         if loaded.any():
             thickness[loaded, i] = law.film_thickness(load[loaded], speed[loaded])

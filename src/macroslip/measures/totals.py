@@ -76,6 +76,45 @@ END = np.dtype(
 )
 
 
+#: Loads and entrainment speeds of the interfaces at the end of a step.
+CONTACTS = np.dtype(
+    [
+        ("span", "f8"),  # as of `END` [s]
+        ("load", "f8", (3,)),  # normal load by interface, not negative [N]
+        # Entrainment speed by interface, without sign and from `LOWEST_SPEED` on [m/s].
+        ("speed", "f8", (3,)),
+    ]
+)
+
+
+@jit_inline
+def write_contacts(end, contacts):
+    """Write a record of `CONTACTS` of the state at the end of a step, a record of `END`."""
+    contacts.span = end.span
+    contacts.load[0] = end.inner_load
+    contacts.load[1] = end.outer_load
+    contacts.load[2] = abs(end.cage_load)
+    inner = end.inner_speed - 0.5 * end.inner_slip
+    outer = end.outer_speed - 0.5 * end.outer_slip
+    contacts.speed[0] = max(abs(inner), LOWEST_SPEED)
+    contacts.speed[1] = max(abs(outer), LOWEST_SPEED)
+    contacts.speed[2] = max(abs(0.5 * end.cage_speed), LOWEST_SPEED)
+
+
+@jit
+def contacts_at(ends, contacts):
+    """Write loads and entrainment speeds of many states.
+
+    Parameters
+    ----------
+    ends : ndarray of `END`, shape (n,)
+    contacts : ndarray of `CONTACTS`, shape (n,)
+        Is filled.
+    """
+    for n in range(ends.shape[0]):
+        write_contacts(ends[n], contacts[n])
+
+
 @jit_inline
 def write_end(step, end):
     """Write the state at the end of a step to a record of `END`.
@@ -133,18 +172,13 @@ class Batch:
 
 
 def loaded_contacts(
-    at: np.ndarray, laws: PreparedLaws
+    contacts: np.ndarray, laws: PreparedLaws
 ) -> list[tuple[PreparedContact, np.ndarray, np.ndarray]]:
-    """Laws, load [N] and entrainment speed [m/s] of every interface.
-
-    Loads are not negative, and speeds are from `LOWEST_SPEED` on.
-    """
-    contacts = [
-        (getattr(laws, name), at[f"{name}_load"], at[f"{name}_speed"] - 0.5 * at[f"{name}_slip"])
-        for name in RACEWAYS
+    """Laws, load [N] and entrainment speed [m/s] of every interface, of records of `CONTACTS`."""
+    return [
+        (getattr(laws, name), contacts["load"][:, i], contacts["speed"][:, i])
+        for i, name in enumerate(INTERFACES)
     ]
-    contacts.append((laws.cage, np.abs(at["cage_load"]), 0.5 * at["cage_speed"]))
-    return [(law, load, np.maximum(np.abs(speed), LOWEST_SPEED)) for law, load, speed in contacts]
 
 
 class Totals(NamedTuple):
@@ -276,7 +310,7 @@ def _book_peaks(step, totals, orbit):
 
 
 @jit
-def book(steps, j, totals, states):
+def book(steps, j, totals, states, contacts):
     """Add the steps of roller `j` in a buffer to its energies E = ∫P dt (34) and other totals.
 
     Of the load that films carry beside that of the rings the lighter one of the two raceways'
@@ -291,6 +325,8 @@ def book(steps, j, totals, states):
         Energies [J], peaks of power [W] and other sums, which are raised.
     states : ndarray of `END`, shape (n,)
         Is filled with the states at the ends of the steps.
+    contacts : ndarray of `CONTACTS`, shape (n,)
+        Is filled with loads and entrainment speeds there.
     """
     edges = totals.edges
     for n in range(steps.shape[0]):
@@ -298,6 +334,7 @@ def book(steps, j, totals, states):
         state = states[n]
         write_end(step, state)
         state.span = 0.0
+        write_contacts(state, contacts[n])
         if step.start < edges[0]:
             continue
         orbit = orbit_at(edges, 0.5 * (step.start + step.end), totals.latest[0])
@@ -329,6 +366,7 @@ def book(steps, j, totals, states):
         totals.film_load[1] += films
         if step.weight[0] > 0.0:
             state.span = span
+            contacts[n].span = span
         _book_peaks(step, totals, orbit)
         totals.latest[0] = orbit
         totals.latest[1] = step.stretch
@@ -344,20 +382,20 @@ def book(steps, j, totals, states):
             totals.spin_ratio[2] = way
 
 
-def law_times(states: np.ndarray, laws: PreparedLaws) -> np.ndarray:
+def law_times(contacts: np.ndarray, laws: PreparedLaws) -> np.ndarray:
     """Time with load, and its parts outside the ranges of the laws [s], over (3, interface).
 
-    The laws are those of the film and of the asperities.
+    The laws are those of the film and of the asperities; `contacts` are records of `CONTACTS`.
     """
-    counted = states[states["span"] > 0.0]
+    span = contacts["span"]
     times = np.zeros((3, len(INTERFACES)))
-    for i, (law, load, speed) in enumerate(loaded_contacts(counted, laws)):
-        loaded = load > 0.0
-        span = counted["span"][loaded]
+    for i, (law, load, speed) in enumerate(loaded_contacts(contacts, laws)):
+        loaded = (load > 0.0) & (span > 0.0)
+        time = span[loaded]
         load = load[loaded]
-        times[0, i] = span.sum()
-        times[1, i] = span[~law.film_in_range(load, speed[loaded])].sum()
-        times[2, i] = span[~law.asperity_share_in_range(load)].sum()
+        times[0, i] = time.sum()
+        times[1, i] = time[~law.film_in_range(load, speed[loaded])].sum()
+        times[2, i] = time[~law.asperity_share_in_range(load)].sum()
     return times
 
 

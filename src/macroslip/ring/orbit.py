@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit_inline
+from macroslip.compiled import jit_inline, uncounted
 from macroslip.constants import TIME_ROUNDING
 
 
@@ -49,6 +49,13 @@ class Instant(NamedTuple):
     displacement_x: float
     displacement_y: float
     displacement_z: float
+
+
+@jit_inline
+def uncounted_motion(motion):
+    """The motion with arrays whose references are not counted, for compiled functions."""
+    time, speed, angle, displacement = motion
+    return Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]
 
 
 @jit_inline

@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_inline, uncounted
 from macroslip.contact.look_up import REST_SPEED, contact_speed
 from macroslip.errors import InputError
 from macroslip.imposed.status import (
@@ -37,7 +37,7 @@ from macroslip.imposed.status import (
     TOO_MANY_STEPS,
     UNDER_WAY,
 )
-from macroslip.ring.orbit import Motion, instant, interval_of
+from macroslip.ring.orbit import Motion, instant, interval_of, uncounted_motion
 from macroslip.roller.step import STEP
 from macroslip.whole import tuning
 from macroslip.whole.books import FLOWS, add_flows
@@ -51,6 +51,7 @@ from macroslip.whole.stage import (
     SLOPE,
     STAR,
     STATE,
+    Space,
     Stage,
     new_space,
     solve,
@@ -724,6 +725,35 @@ def _advance(end, space, row):
     memory.shaft_speed = end.shaft_speed
 
 
+@jit_inline
+def _uncounted_assembly(assembly):
+    """The bearing with arrays whose references are not counted."""
+    return Assembly(
+        uncounted(assembly.bearing),  # pyright: ignore[reportCallIssue]
+        uncounted(assembly.bodies),  # pyright: ignore[reportCallIssue]
+        uncounted(assembly.tables),  # pyright: ignore[reportCallIssue]
+        uncounted(assembly.positions),  # pyright: ignore[reportCallIssue]
+        assembly.evaluate_raceway,
+        assembly.evaluate_cage,
+    )
+
+
+@jit_inline
+def _uncounted_space(space):
+    """State and work space as arrays whose references are not counted."""
+    return Space(
+        uncounted(space.rollers),  # pyright: ignore[reportCallIssue]
+        uncounted(space.cages),  # pyright: ignore[reportCallIssue]
+        uncounted(space.conditions),  # pyright: ignore[reportCallIssue]
+        uncounted(space.linearisations),  # pyright: ignore[reportCallIssue]
+        uncounted(space.numbers),  # pyright: ignore[reportCallIssue]
+        uncounted(space.schedules),  # pyright: ignore[reportCallIssue]
+        uncounted(space.blocks),  # pyright: ignore[reportCallIssue]
+        uncounted(space.borders),  # pyright: ignore[reportCallIssue]
+        uncounted(space.memory),  # pyright: ignore[reportCallIssue]
+    )
+
+
 @jit
 def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
     """Integrate all rollers and cages, until the history ends or the buffers are full.
@@ -751,6 +781,13 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
     count : int
         Rows that were written.
     """
+    assembly = _uncounted_assembly(assembly)
+    motion = uncounted_motion(motion)
+    space = _uncounted_space(space)
+    stops = uncounted(stops)  # pyright: ignore[reportCallIssue]
+    steps = uncounted(steps)  # pyright: ignore[reportCallIssue]
+    wholes = uncounted(wholes)  # pyright: ignore[reportCallIssue]
+    offsets = uncounted(offsets)  # pyright: ignore[reportCallIssue]
     limits = bounds[0]
     memory = space.memory[0]
     rows = 0
