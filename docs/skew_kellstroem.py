@@ -17,13 +17,13 @@ from matplotlib.figure import Figure
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.contact.laws import prepare
 from macroslip.contact.skewed import constant_friction
-from macroslip.roller.skew import Equilibrium, equilibrium, pocket, raceways
+from macroslip.roller.skew import Equilibrium, equilibrium, raceways, skew_stop
 
 BASE = Bearing.read("skf-240-600-bc")
 OIL = Lubricant.read("vg460-pao")
 #: u2 at 20.463 rpm [m/s].
 SPEED = -0.39594
-STOP = pocket(BASE, "conforming-pocket", 0.5e-3).largest
+STOP = skew_stop(BASE, "conforming-pocket", 0.5e-3).largest
 #: Skews up to the stop at which rests are looked for [rad].
 SKEWS = 1e-4 * np.sinh(np.linspace(0.0, math.asinh(STOP / 1e-4), 25))
 LOADS = np.array([5e3, 1e4, 2e4, 3.5e4, 5e4, 8e4, 1.2e5])

@@ -16,12 +16,12 @@ from matplotlib.figure import Figure
 
 from macroslip import Bearing, BearingLoads, Case, Laws, Lubricant, simulate
 from macroslip.contact.laws import prepare
-from macroslip.roller.skew import equilibrium, pocket, raceways
+from macroslip.roller.skew import equilibrium, raceways, skew_stop
 
 BASE, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 #: u2 at 20.463 rpm [m/s], load of the maps over osculation [N], and skews [rad] up to the stop of a pocket with 0.5 mm play.
 SPEED, LOAD = -0.39594, 40e3
-STOP = pocket(BASE, "conforming-pocket", 0.5e-3).largest
+STOP = skew_stop(BASE, "conforming-pocket", 0.5e-3).largest
 SKEWS = 2e-4 * np.sinh(np.linspace(0.0, np.arcsinh(STOP / 2e-4), 13))
 INNER, OUTER = np.linspace(0.96, 0.985, 5), np.linspace(0.96, 0.985, 5)
 #: Of the last map: radial load [N], F_a/F_r, and speeds of the shaft [rpm].

@@ -28,7 +28,7 @@ from macroslip.measures.skew import _power_of_ends
 from macroslip.result.damage import damage as criteria
 from macroslip.result.prepared import prepare as prepare_case
 from macroslip.roller.model import with_tables
-from macroslip.roller.skew import equilibrium, placed, pocket, raceways
+from macroslip.roller.skew import equilibrium, placed, raceways, skew_stop
 from macroslip.whole.cage import Cage
 
 END, ROLLERS = 60.0, [0, 14]
@@ -215,7 +215,7 @@ def ends(name: str) -> None:
         roller = with_tables(ready.models, ready.box)[0]["downwind"]
         pair, stop = (
             raceways(ready.model.laws, case.bearing, 1),
-            pocket(case.bearing, "conforming-pocket", 0.5e-3),
+            skew_stop(case.bearing, "conforming-pocket", 0.5e-3),
         )
         for load in (5e3, 1e4, 2e4, 3.5e4, 5e4):
             at = equilibrium(pair, ready.model.laws, load, SPEED, stop.largest)

@@ -20,8 +20,8 @@ from macroslip.contact.rolling import (
     inlet_heating_of_rolling,
     light_contact,
     line_rolling,
-    pocket_contact,
     prepare_rolling,
+    rigid_pocket_contact,
     starvation_factor,
 )
 from macroslip.contact.starvation import film_factor
@@ -459,10 +459,10 @@ def test_a_short_inlet_lets_the_free_roller_turn_faster(contacts):
 
 def test_a_roller_in_its_pocket_floats_without_load_and_is_the_rigid_contact_under_load(laws):
     numbers, widest = laws["whole-film", "cage"], 0.25e-3
-    floating = pocket_contact(numbers, 0.0, 0.2, widest)
+    floating = rigid_pocket_contact(numbers, 0.0, 0.2, widest)
     assert floating == pytest.approx(contact_at_gap(numbers, widest)[1:], rel=1e-12)
     loads = np.geomspace(1e-3, 1e3, 200)
-    conductance, per_speed = pocket_contact(numbers, loads, 0.2, widest)
+    conductance, per_speed = rigid_pocket_contact(numbers, loads, 0.2, widest)
     assert (np.diff(conductance) > 0.0).all() and conductance[0] > floating[0]
     log_group = math.log(1e3 / (numbers.viscosity * 0.2))
     free = np.exp(film_at_load(numbers.gap, log_group)[0])

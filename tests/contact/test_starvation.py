@@ -13,8 +13,8 @@ from macroslip.contact.gap import starved_martin
 from macroslip.contact.laws import prepare
 from macroslip.contact.rolling import (
     light_contact,
-    pocket_contact,
     replenishment,
+    rigid_pocket_contact,
     starvation_factor,
 )
 from macroslip.contact.starvation import (
@@ -164,7 +164,7 @@ def test_yield_stress_of_a_grease_holds_rollers_back():
     here, there = (contacts("flooded", lubricant=grease) for grease in (plain, stiff))
     speed = 0.05
     added = [
-        pocket_contact(law.cage.rolling, 1.0, speed, 2.5e-4)[0] * 2.0 * speed
+        rigid_pocket_contact(law.cage.rolling, 1.0, speed, 2.5e-4)[0] * 2.0 * speed
         for law in (here, there)
     ]
     # A flooded pocket holds the roller on a roller's radius to either side: 2 r l τ_y.

@@ -54,7 +54,7 @@ def test_all_rows_of_two_bearings_balance_force_and_moment():
     places = bearing.roller_length * ((np.arange(41) + 0.5) / 41 - 0.5)
     along = (row.apex_distance + places) / math.cos(row.half_cone_angle)
     radius = along * math.sin(row.outer_angle)
-    apex = ring.station + ring.sign * row.apex_distance * math.cos(row.axis_angle)
+    apex = ring.axial_position + ring.sign * row.apex_distance * math.cos(row.axis_angle)
     height = apex[:, None] - ring.sign[:, None] * along * math.cos(row.outer_angle)
     radial = outer * math.cos(row.outer_angle)
     axial = outer * math.sin(row.outer_angle) * ring.sign[:, None]

@@ -16,7 +16,7 @@ from macroslip.measures.details import new_details
 from macroslip.measures.samples import SAMPLE
 from macroslip.result.criteria.wear import slip_profile, working_skew
 from macroslip.result.damage import damage
-from macroslip.roller.skew import equilibrium, pocket, raceways
+from macroslip.roller.skew import equilibrium, raceways, skew_stop
 from macroslip.whole.cage import Cage
 
 BEARING, OIL, SPEED = (
@@ -200,7 +200,7 @@ def test_work_and_wear_of_a_roller_at_its_stop(stopped, straight):
     result, laws = stopped.sel(row="downwind"), prepare(SKEWED, BEARING, OIL, 1)
     bare = prepare(SKEWED.but(asperities="none"), BEARING, OIL, 1)
     speed = float(result.spin_pure[0, -1]) * roller_radius(BEARING)
-    angle = pocket(BEARING, "conforming-pocket", 0.5e-3).largest
+    angle = skew_stop(BEARING, "conforming-pocket", 0.5e-3).largest
     at = equilibrium(raceways(laws, BEARING, 1), laws, 9e3, speed, angle)
     for i, contact in enumerate(raceways(bare, BEARING, 1, constant_friction(1.0))):
         power = resultants(

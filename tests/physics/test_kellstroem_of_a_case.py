@@ -14,7 +14,7 @@ from macroslip import Case, Laws, RollerLoads, Traces, simulate
 from macroslip.bearing import geometry
 from macroslip.contact.laws import prepare
 from macroslip.contact.patch import patch_of
-from macroslip.roller.skew import pocket
+from macroslip.roller.skew import skew_stop
 from macroslip.whole.cage import Cage
 
 pytestmark = pytest.mark.slow
@@ -89,7 +89,7 @@ def test_power_and_where_it_lies_along_the_roller_are_those_of_the_friction(resu
 
 def test_a_higher_limit_inside_turns_rollers_to_the_unfavourable_stop(results):
     case, skewed, _ = results
-    stop = pocket(case.bearing, "conforming-pocket", case.cage.gap).largest
+    stop = skew_stop(case.bearing, "conforming-pocket", case.cage.gap).largest
     for row, sign in (("downwind", 1.0), ("upwind", -1.0)):
         angles = skewed.skew_angle.sel(row=row, roller=0).values
         assert angles == pytest.approx(np.full(angles.size, sign * stop), rel=1e-9)

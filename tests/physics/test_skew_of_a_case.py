@@ -13,7 +13,7 @@ from macroslip.result.prepared import prepare
 from macroslip.result.skew import thrust_on_ring
 from macroslip.ring.motion import elastic_loads
 from macroslip.roller.model import ring_geometry
-from macroslip.roller.skew import pocket
+from macroslip.roller.skew import skew_stop
 from macroslip.whole.cage import Cage
 from tests.quick import COARSE
 
@@ -78,7 +78,7 @@ def test_energy_is_that_of_a_straight_roller_and_of_skew():
     assert added.sel(interface="cage").values == pytest.approx(skewed.stop_energy.values, rel=1e-9)
     assert (skewed.skew_energy > 0.0).all() and (skewed.stop_energy > 0.0).all()
     # The shaft turns forward: rollers turn the unfavourable way, and push the ring as the thrust that their row carries does.
-    stop = pocket(Case(loads=loads).bearing, "conforming-pocket", 0.5e-3)
+    stop = skew_stop(Case(loads=loads).bearing, "conforming-pocket", 0.5e-3)
     for row, sign in (("downwind", 1.0), ("upwind", -1.0)):
         roller = skewed.sel(row=row, roller=0)
         assert roller.skew_angle.values == pytest.approx(

@@ -140,7 +140,7 @@ def test_forces_of_the_outer_ring_balance_the_load_of_the_inner_one():
         along = row.apex_distance + places
         distance = along / math.cos(row.half_cone_angle)
         radius = distance * math.sin(row.outer_angle)
-        apex = ring.station[roller] + sign * row.apex_distance * math.cos(row.axis_angle)
+        apex = ring.axial_position[roller] + sign * row.apex_distance * math.cos(row.axis_angle)
         axial = apex - sign * distance * math.cos(row.outer_angle)
         out = np.array([math.cos(phi), math.sin(phi), 0.0])
         for strip, load in enumerate(outer[roller]):
@@ -203,7 +203,7 @@ def test_a_general_minimiser_finds_no_lower_energy():
         for roller in range(8):
             v = unknowns[5 + 3 * roller : 8 + 3 * roller] * 1e-5
             inner, outer, rib = approaches(
-                d, v, ring.angle[roller], ring.sign[roller], ring.station[roller]
+                d, v, ring.angle[roller], ring.sign[roller], ring.axial_position[roller]
             )
             pressed = np.maximum(np.concatenate([inner, outer]), 0.0)
             total += 9.0 / 19.0 * ring.strip_coefficient * (pressed ** (19.0 / 9.0)).sum()

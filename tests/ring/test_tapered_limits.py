@@ -32,7 +32,7 @@ def carried_by_the_outer_ring(ring, balance, bearing, angle):
     places = strip_places(bearing.roller_length, outer.shape[1])
     along = (row.apex_distance + places) / math.cos(row.half_cone_angle)
     sine, cosine = math.sin(row.outer_angle), math.cos(row.outer_angle)
-    apex = ring.station + ring.sign * row.apex_distance * math.cos(row.axis_angle)
+    apex = ring.axial_position + ring.sign * row.apex_distance * math.cos(row.axis_angle)
     height = apex[:, None] - ring.sign[:, None] * along * cosine
     phi = ring.angle + ring.orbit_ratio * angle
     outwards = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=1)
@@ -113,7 +113,7 @@ def test_without_contact_angle_the_rollers_carry_what_those_of_a_cylindrical_bea
     def rollers(sink, tilt, shift):
         """Loads of all strips: half of the approach of the rings is that of one contact."""
         lean = -tilt * np.sin(phi)  # of the ring's section in the plane of a roller
-        radial = sink * np.sin(phi) + ring.station * lean + ring.sign * shift
+        radial = sink * np.sin(phi) + ring.axial_position * lean + ring.sign * shift
         # ζ counts against s Z0: the large end of a roller lies on the other side of the apex.
         along = -ring.sign[:, None] * places
         half = 0.5 * (radial[:, None] + lean[:, None] * along)
@@ -122,7 +122,7 @@ def test_without_contact_angle_the_rollers_carry_what_those_of_a_cylindrical_bea
     def unbalanced(unknowns):
         strips, along = rollers(*(1e-5 * unknowns))
         force = (strips.sum(axis=1) * np.sin(phi)).sum() + load
-        arm = ring.station[:, None] + along
+        arm = ring.axial_position[:, None] + along
         turned = -((strips * arm).sum(axis=1) * np.sin(phi)).sum() - moment
         thrust = (strips.sum(axis=1) * ring.sign).sum()
         return force / load, turned / abs(moment), thrust / load
@@ -153,7 +153,7 @@ def test_finite_rotations_change_approaches_by_a_thousandth():
         axial = np.array([0.0, 0.0, sign])
         axis = math.sin(row.axis_angle) * out - math.cos(row.axis_angle) * axial
         down = -math.cos(row.axis_angle) * out - math.sin(row.axis_angle) * axial
-        middle = MAIN.pitch_radius * out + np.array([0.0, 0.0, ring.station[j]])
+        middle = MAIN.pitch_radius * out + np.array([0.0, 0.0, ring.axial_position[j]])
         # The place on the roller's surface, moved with the roller by a finite tilt.
         radius = row.radius_at(places)[:, None, None]
         round_it = np.cos(eta)[:, None] * down + np.sin(eta)[:, None] * side
@@ -167,7 +167,7 @@ def test_finite_rotations_change_approaches_by_a_thousandth():
         # In the ring's own frame its raceway is a cone about Z0; half of the preload moves the row.
         own = turned.inv().apply((point - moved).reshape(-1, 3)).reshape(shape)
         own = own - ring.preload * axial
-        height = own[..., 2] - ring.station[j]
+        height = own[..., 2] - ring.axial_position[j]
         cone = math.sin(row.inner_angle), math.cos(row.inner_angle)
         from_axis = np.hypot(own[..., 0], own[..., 1])
         apex = row.apex_distance * math.cos(row.axis_angle)

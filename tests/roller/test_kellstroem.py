@@ -14,7 +14,7 @@ from macroslip.bearing import geometry
 from macroslip.contact.interface import interfaces
 from macroslip.contact.laws import prepare
 from macroslip.contact.table import Box
-from macroslip.roller.skew import equilibrium, pocket, raceways
+from macroslip.roller.skew import equilibrium, raceways, skew_stop
 from macroslip.roller.skew_table import guide_of, skew_table, turned
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
@@ -199,7 +199,7 @@ def test_a_film_that_saturates_late_does_not_guide():
     for saturation in (0.03, 0.1):
         for load in (2e4, 3.5e4, 5e4):
             _, moment = package(load, saturation, 0.05, 0.05)
-            stop = pocket(BEARING, "conforming-pocket", 0.5e-3).largest
+            stop = skew_stop(BEARING, "conforming-pocket", 0.5e-3).largest
             assert min(moment(skew) for skew in np.linspace(0.0, stop, 4)) > 0.0
 
 
@@ -213,7 +213,7 @@ def test_unequal_limits_choose_the_side():
 def test_the_table_of_a_case_has_these_rests():
     laws, _ = package(2e4, 0.003, 0.05, 0.05)
     table = skew_table(laws, BEARING, Box(32768.0, 0.38, 0.42, 1.0))
-    guide = guide_of(pocket(BEARING, "conforming-pocket", 0.5e-3), 1)
+    guide = guide_of(skew_stop(BEARING, "conforming-pocket", 0.5e-3), 1)
     for load in (1.1e4, 2e4, 2.9e4):
         _, moment = package(load, 0.003, 0.05, 0.05)
         rest = brentq(moment, -2e-3, 2e-3, xtol=1e-8)

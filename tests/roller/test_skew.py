@@ -10,7 +10,7 @@ from macroslip import Bearing, Laws, Lubricant
 from macroslip.contact.laws import prepare
 from macroslip.contact.registry import FILM_LAWS, register_film
 from macroslip.contact.skewed import constant_friction, resultants
-from macroslip.roller.skew import LARGEST_SKEW, equilibrium, pocket, raceways
+from macroslip.roller.skew import LARGEST_SKEW, equilibrium, raceways, skew_stop
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 CHOICE = Laws.physical().but(rolling="none", asperities="none")
@@ -83,7 +83,7 @@ def test_conditions_hold_with_contacts_where_the_roller_puts_them():
 @pytest.mark.parametrize("guidance", ["conforming-pocket", "straight-bars"])
 def test_a_pocket_without_play_holds_a_roller_with_a_finite_force(guidance):
     """Roughness leaves an arm: 1 N m takes a wedge's force, 0.2 kN between conforming and 1.5 kN between straight spars."""
-    held = pocket(BEARING, guidance, 0.0)
+    held = skew_stop(BEARING, guidance, 0.0)
     assert 0.0 < held.largest < 2e-3
     assert 50.0 < 1.0 / held.arm < 2000.0
 
@@ -106,7 +106,7 @@ def test_the_law_of_shear_decides_the_side_on_which_a_roller_rests():
 
 def test_a_pressing_spar_aligns_the_roller():
     (held,) = stable_rests(
-        pair(), 5e4, 73.0 * pocket(BEARING, "conforming-pocket", 0.5e-3).effective_radius
+        pair(), 5e4, 73.0 * skew_stop(BEARING, "conforming-pocket", 0.5e-3).effective_radius
     )
     assert held == pytest.approx(1e-3, abs=0.5e-3)
 
@@ -138,6 +138,6 @@ def test_a_roller_at_its_stop_touches_its_pocket(guidance, gap):
             at(half),
         )
 
-    stop = pocket(BEARING, guidance, gap)
+    stop = skew_stop(BEARING, guidance, gap)
     touching = brentq(clearance, 1e-5, 0.1)
     assert stop.largest == pytest.approx(touching, rel=0.01)

@@ -10,12 +10,12 @@ import pytest
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.contact.laws import prepare
 from macroslip.contact.table import Box
-from macroslip.roller.skew import Pocket, equilibrium, pocket, raceways
+from macroslip.roller.skew import SkewStop, equilibrium, raceways, skew_stop
 from macroslip.roller.skew_table import guide_of, skew_table, turned
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 LAWS = prepare(Laws.physical().but(skew="quasi-static"), BEARING, OIL, 1)
-SPAR = pocket(BEARING, "conforming-pocket", 0.5e-3)
+SPAR = skew_stop(BEARING, "conforming-pocket", 0.5e-3)
 pytestmark = pytest.mark.slow
 
 
@@ -25,7 +25,7 @@ def table():
 
 
 def held(largest):
-    return guide_of(Pocket(largest, SPAR.arm, 0.0), 1)
+    return guide_of(SkewStop(largest, SPAR.arm, 0.0), 1)
 
 
 def test_the_table_gives_what_the_equilibrium_gives(table):
@@ -83,7 +83,7 @@ def test_a_straight_roller_has_nothing_added(table):
         0.0,
     )
     exact = equilibrium(raceways(LAWS, BEARING, 1), LAWS, 1e4, -0.4, 0.0)
-    assert straight.held == pytest.approx(exact.moment, rel=0.02)
+    assert straight.stop_moment == pytest.approx(exact.moment, rel=0.02)
 
 
 def test_half_the_play_leaves_half_the_skew_and_a_quarter_of_what_goes_with_its_square(table):
@@ -97,10 +97,10 @@ def test_half_the_play_leaves_half_the_skew_and_a_quarter_of_what_goes_with_its_
 def test_rows_and_directions_of_turning_are_mirrored(table):
     down, up = (turned(table, guide_of(SPAR, side), 1e4, -0.4, 10.0) for side in (1, -1))
     back = turned(table, guide_of(SPAR, 1), 1e4, 0.4, 10.0)
-    assert up == (-down.skew, -down.held, down.inner_power, down.outer_power, -down.axial, -down.tilt, -down.inner_moment,
-                  -down.outer_moment, down.left, -down.shift, down.slip, down.inner_rough, down.outer_rough)  # fmt: skip
-    assert back == (-down.skew, -down.held, down.inner_power, down.outer_power, down.axial, down.tilt, -down.inner_moment,
-                    -down.outer_moment, down.left, down.shift, -down.slip, down.inner_rough, down.outer_rough)  # fmt: skip
+    assert up == (-down.skew, -down.stop_moment, down.inner_power, down.outer_power, -down.axial, -down.tilt, -down.inner_moment,
+                  -down.outer_moment, down.unbalanced, -down.shift, down.slip, down.inner_rough, down.outer_rough)  # fmt: skip
+    assert back == (-down.skew, -down.stop_moment, down.inner_power, down.outer_power, down.axial, down.tilt, -down.inner_moment,
+                    -down.outer_moment, down.unbalanced, down.shift, -down.slip, down.inner_rough, down.outer_rough)  # fmt: skip
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -137,12 +137,12 @@ def test_spars_touch_no_farther_than_the_roller_s_ends(table):
         * (1.0 - 0.5 * BEARING.roller_diameter / BEARING.outer_raceway_radius)
     )
     farthest = reach / SPAR.effective_radius
-    moment = turned(table, held(farthest), 1e4, -0.4, 0.0).held
+    moment = turned(table, held(farthest), 1e4, -0.4, 0.0).stop_moment
     pressed = turned(table, guide, 1e4, -0.4, 1.05 * moment / reach)
-    assert pressed.held == 0.0 and 0.8 * farthest < pressed.skew < farthest
+    assert pressed.stop_moment == 0.0 and 0.8 * farthest < pressed.skew < farthest
     push = 0.95 * moment / reach
     stopped = turned(table, guide, 1e4, -0.4, push)
-    far = stopped.held / guide.arm
+    far = stopped.stop_moment / guide.arm
     near = far + push
     assert stopped.skew == pytest.approx(SPAR.largest, rel=1e-12) and far > 0.0
     assert (near + far) * reach == pytest.approx(

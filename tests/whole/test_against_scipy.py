@@ -21,7 +21,7 @@ from macroslip.mechanics.cage import cage_forces
 from macroslip.mechanics.film_sharing import film_load
 from macroslip.mechanics.raceway import raceway_forces, raceway_state
 from macroslip.whole.cage import Cage
-from macroslip.whole.pocket import guide_force, pocket_force
+from macroslip.whole.pocket import pocket_force, stop_force
 from tests.quick import COARSE
 
 pytestmark = pytest.mark.slow
@@ -69,7 +69,7 @@ def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
         cage_angle, cage_speed, a, b, p, q = y[3 * n : 3 * n + 6]
         derivative = np.zeros_like(y)
         torque, force_x, force_y = 0.0, 0.0, -prepared.cage_weight
-        push, n_x, n_y, _, _ = guide_force(prepared.radial_play, a, b, p, q)
+        push, n_x, n_y, _, _ = stop_force(prepared.radial_play, a, b, p, q)
         force_x -= push * n_x
         force_y -= push * n_y
         for j in range(n):

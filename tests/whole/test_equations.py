@@ -23,7 +23,7 @@ def angular_momentum_rate():
 
 
 def contact_moments():
-    """Moments of the tractions about the centre, from places and directions of the forces."""
+    """Moments of the forces about the roller's centre (7)-(12), and with them the steps (15) to the pair."""
     x, y = sp.Matrix([1, 0, 0]), sp.Matrix([0, 1, 0])
     inner = (-r * y).cross(F_i * x)
     outer = (r * y).cross(-F_o * x)

@@ -9,13 +9,13 @@ from macroslip import BearingLoads, Case, InputError, Laws, Traces, simulate
 from macroslip.bearing.geometry import roller_radius
 from macroslip.compiled import jit
 from macroslip.contact.laws import prepare
-from macroslip.contact.rolling import pocket_contact
+from macroslip.contact.rolling import rigid_pocket_contact
 from macroslip.measures.skew import SkewMeasures, _power_of_ends
 from macroslip.measures.totals import END
 from macroslip.result.prepared import prepare as prepare_case
 from macroslip.result.skew import skewing
 from macroslip.roller.model import with_tables
-from macroslip.roller.skew import equilibrium, pocket, raceways
+from macroslip.roller.skew import equilibrium, raceways, skew_stop
 from macroslip.whole.cage import Cage
 from tests.quick import COARSE
 from tests.whole.conftest import losses_of_closed_books
@@ -100,7 +100,7 @@ def test_spar_and_ends_carry_what_the_contacts_leave(skewed):
     load, skew = states.roller_load.values, states.skew_angle.values
     laws, stop = (
         prepare(SKEWED, bearing, case().oil, 1),
-        pocket(bearing, "conforming-pocket", 0.5e-3),
+        skew_stop(bearing, "conforming-pocket", 0.5e-3),
     )
     speed = states.spin_pure.values * roller_radius(bearing)
     exact = equilibrium(raceways(laws, bearing, 1), laws, load, speed, skew)
@@ -165,7 +165,7 @@ def test_friction_of_the_ends_is_that_of_the_cage_s_law(stop, push):
     roller = with_tables(ready.models, ready.box)[0]["downwind"]
     law = ready.model.laws.cage
     loads = np.maximum([stop + abs(push), stop, abs(push)], 1e-4)
-    drag, _ = pocket_contact(law.rolling, loads, 0.5 * speed, 0.25e-3)
+    drag, _ = rigid_pocket_contact(law.rolling, loads, 0.5 * speed, 0.25e-3)
     expected = float(np.array([1.0, 1.0, -1.0]) @ drag) * speed**2
     for sign in (1.0, -1.0):
         power, rough = ends(roller.body, roller.tables.ctypes.data, stop, push, sign * speed)

@@ -15,7 +15,7 @@ from macroslip.contact.table import table_box
 from macroslip.whole.model import whole_bearing, with_tables
 from macroslip.whole.stage import FIRST, ROLLER, SCHEDULE
 from macroslip.whole.tractions import (
-    CONDITIONS,
+    COUPLED_CONDITIONS,
     LINEARISATION,
     address,
     cage_from,
@@ -45,7 +45,7 @@ def linearisations_at(assembly, load, speed, slip):
     """The linearised tractions of a roller whose both raceways are at this load [N], ring speed and slip [m/s]."""
     count = assembly.positions.size
     conditions, (linearisations, _), schedules = (
-        np.zeros((2, count), CONDITIONS),
+        np.zeros((2, count), COUPLED_CONDITIONS),
         new_linearisations(count),
         np.zeros(count, SCHEDULE),
     )

@@ -35,7 +35,7 @@ POCKET_GAP = 0.25e-3
 #: Largest S of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an
 #: engineering estimate.
 _SPAR_END = 7.0
-#: What is read of a contact as one of another kind.
+#: A subclass of `PreparedContact`.
 Kind = TypeVar("Kind", bound="PreparedContact")
 
 
@@ -44,8 +44,8 @@ class PreparedContact:
     """One contact with the laws chosen by `Laws`, and the numbers of its bearing and oil."""
 
     name: str  #: `inner`, `outer` or `cage`
-    interface: Interface
-    shape: ContactShape
+    interface: Interface  #: Its bodies and Hertz coefficients
+    shape: ContactShape  #: Its geometry along the roller
     film_name: str  #: Name of the film law
     #: Gap where the inlet begins to be full [m], which thins the film; infinite where flooded
     oil_gap: float
@@ -68,9 +68,19 @@ class PreparedContact:
     curved: bool
 
     def film_thickness(self, load, entrainment_speed) -> np.ndarray:
-        """Film thickness [m] with starvation and inlet heating, at Q > 0 [N] and u_e [m/s].
+        """Film thickness with starvation and inlet heating.
 
-        The speed is floored at `LOWEST_ENTRAINMENT_SPEED`.
+        Parameters
+        ----------
+        load : array_like
+            Q > 0 [N].
+        entrainment_speed : array_like
+            u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`.
+
+        Returns
+        -------
+        ndarray
+            h [m], of the broadcast shape.
         """
         speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
         height = FILM_LAWS.named(self.film_name)(self.interface, load, speed)
@@ -84,11 +94,27 @@ class PreparedContact:
 
     @property
     def inlet_gap(self) -> float:
-        """Gap where the inlet begins to be full [m], of film or rolling; infinite where flooded."""
+        """Smaller of the gaps from which on the inlet of film and rolling resistance is full [m].
+
+        Returns
+        -------
+        float
+            Gap [m]; infinite where the inlet is flooded.
+        """
         return self.oil_gap if self.rolling is None else min(self.oil_gap, self.rolling.oil_gap)
 
     def at_gap(self, oil_gap: float) -> PreparedContact:
-        """The same raceway with inlets full from another gap on [m], where they are not flooded."""
+        """The same contact with inlets full from another gap on, where they are not flooded.
+
+        Parameters
+        ----------
+        oil_gap : float
+            Gap [m].
+
+        Returns
+        -------
+        PreparedContact
+        """
         rolling = self.rolling
         if rolling is not None and math.isfinite(rolling.oil_gap):
             rolling = at_oil_gap(rolling, oil_gap)
@@ -96,37 +122,99 @@ class PreparedContact:
         return replace(self, oil_gap=film, rolling=rolling)
 
     def as_kind(self, kind: type[Kind], **changes: Any) -> Kind:
-        """The same contact as one of another kind, with these values changed or added."""
+        """Copy converted to another `PreparedContact` subclass.
+
+        Parameters
+        ----------
+        kind : type
+            The subclass.
+        **changes
+            Values of fields that differ, and those of fields that the subclass adds.
+
+        Returns
+        -------
+        PreparedContact
+            An object of that class.
+        """
         values = {member.name: getattr(self, member.name) for member in fields(PreparedContact)}
         return kind(**(values | changes))
 
     def film_in_range(self, load, entrainment_speed) -> np.ndarray:
-        """Whether the film law, without its corrections, is in its range."""
+        """True where the film law, without its corrections, is in its range.
+
+        Parameters
+        ----------
+        load : array_like
+            Q > 0 [N].
+        entrainment_speed : array_like
+            u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`.
+
+        Returns
+        -------
+        ndarray of bool
+        """
         speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
         return FILM_LAWS.named(self.film_name).inside(self.interface, load, speed)
 
     def asperity_share(self, load, entrainment_speed, film_thickness) -> np.ndarray:
-        """Share of the load that asperities carry [-], 0 to 1, at Q, u_e and h > 0 [N, m/s, m]."""
+        """Share of the load that asperities carry.
+
+        Parameters
+        ----------
+        load : array_like
+            Q > 0 [N].
+        entrainment_speed : array_like
+            u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`.
+        film_thickness : array_like
+            h > 0 [m].
+
+        Returns
+        -------
+        ndarray
+            Share [-], 0 to 1.
+        """
         speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
         return asperities.asperity_share(
             self.asperity_name, self.interface, load, speed, film_thickness
         )
 
     def asperity_share_in_range(self, load) -> np.ndarray:
-        """True where the law of asperities holds at Q > 0 [N].
+        """True where the law of asperities is in its range.
 
-        Outside its range the share by Λ bounds its own.
+        Outside of it the share by the film ratio Λ bounds the law's.
+
+        Parameters
+        ----------
+        load : array_like
+            Q > 0 [N].
+
+        Returns
+        -------
+        ndarray of bool
         """
         if self.asperity_name in asperities.BOUNDED:
             return asperities.load_is_in_range(self.interface, load)
         return np.ones(np.shape(load), dtype=bool)
 
     def uniform_traction(self, load, film_thickness, slip) -> np.ndarray:
-        """Force of the film [N] with the sign of the slip, which is the same all over the contact.
+        """Traction of the film under a slip that is the same all over the contact.
 
-        Of every traction but Kellström's, which has no film: `kellstroem.saturating_patch`.
-        At loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]; the ellipse ends at the roller's
-        ends.
+        Kellström's friction has no film: see `macroslip.contact.kellstroem.saturating_patch`. The
+        contact ellipse is cut off at the roller's ends.
+
+        Parameters
+        ----------
+        load : array_like
+            Q > 0 [N].
+        film_thickness : array_like
+            h > 0 [m].
+        slip : array_like
+            Δu [m/s].
+
+        Returns
+        -------
+        ndarray
+            F [N], with the sign of the slip.
         """
         if self.closed_form is not None:
             return barus_crook_traction(self.closed_form, load, film_thickness, slip)
@@ -143,7 +231,13 @@ class PreparedContact:
 
     @property
     def own_sources(self) -> str:
-        """Text that changes whenever a law of one's own in this contact may; empty without one."""
+        """Source text of the user's own laws in this contact, a key of tables made from them.
+
+        Returns
+        -------
+        str
+            Empty without such a law.
+        """
         own = (
             TRACTION_LAWS.named(self.traction_name).source
             if self.traction_name not in (MECHANISMS, KELLSTROEM)
@@ -158,10 +252,10 @@ class PreparedLaws(NamedTuple):
     Three contacts of every roller, and the rib of a tapered one.
     """
 
-    inner: PreparedContact
-    outer: PreparedContact
-    cage: PreparedContact
-    rib: PreparedContact | None = None
+    inner: PreparedContact  #: Of the inner raceway
+    outer: PreparedContact  #: Of the outer raceway
+    cage: PreparedContact  #: Of the cage
+    rib: PreparedContact | None = None  #: Of a tapered roller's rib
 
 
 def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int) -> PreparedLaws:
@@ -275,7 +369,22 @@ def _raceway_friction(laws: Laws, interface: str) -> SaturatingFriction | None:
 
 
 def references(laws: Laws) -> list[str]:
-    """Works to cite for the chosen mechanisms."""
+    """Works to cite for the chosen mechanisms.
+
+    Parameters
+    ----------
+    laws : Laws
+
+    Returns
+    -------
+    list of str
+        Author, journal, year and DOI of each.
+
+    Examples
+    --------
+    >>> len(references(Laws.paper()))
+    3
+    """
     works = [FILM_LAWS.named(laws.film).reference]
     if laws.inlet_heating:
         works.append(film.INLET_HEATING_REFERENCE)

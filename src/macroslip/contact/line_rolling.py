@@ -41,7 +41,7 @@ class LineContact(NamedTuple):
     modulus: float  #: Effective modulus E' [Pa]
     roughness: float  #: Composite RMS roughness [m]
     hardness: float  #: Hardness of the softer surface [Pa]
-    lubricant: Lubricant
+    lubricant: Lubricant  #: Oil at its temperature
 
 
 def line_contacts(bearing: TaperedBearing, lubricant: Lubricant) -> tuple[LineContact, LineContact]:

@@ -90,14 +90,12 @@ class Traction(NamedTuple):
     lag: float
     skew: float  #: ∫τ ζ dA [N m]
     asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
-    #: ∂/∂v at constant u2 and ∂/∂u2 at constant v [N s/m].
-    pull_by_slip: float
-    lag_by_slip: float
-    pull_by_speed: float
-    lag_by_speed: float
-    #: ∂/∂Q [-].
-    pull_by_load: float
-    lag_by_load: float
+    pull_by_slip: float  #: Slope of the pull by v at constant u2 [N s/m]
+    lag_by_slip: float  #: Slope of the lag by v at constant u2 [N s/m]
+    pull_by_speed: float  #: Slope of the pull by u2 at constant v [N s/m]
+    lag_by_speed: float  #: Slope of the lag by u2 at constant v [N s/m]
+    pull_by_load: float  #: Slope of the pull by Q [-]
+    lag_by_load: float  #: Slope of the lag by Q [-]
 
 
 @jit_evaluation
@@ -218,22 +216,21 @@ def along_load(plane, tables, log_load, log_speed):
 class ContactSpeeds(NamedTuple):
     """Speeds of a raceway contact, and the coordinates of the tables that follow from them.
 
-    Contacts of the same ring speed u2 and slip v share them.
+    Contacts of the same ring speed u2 and slip v share them. From `speed` on all are 0 where the
+    closed form of traction serves.
     """
 
     ring: float  #: u2 [m/s]
     slip: float  #: v = Δu in the middle of the contact [m/s]
     mean: float  #: Mean speed of the surfaces u2 − v/2, with its sign [m/s]
     log_mean: float  #: Logarithm of its magnitude [ln m/s]
-    #: w [m/s] and w^(1/4), y [-], and their derivatives by v and u2 at |u2| and v sign u2; all 0
-    #: where the closed form serves.
-    speed: float
-    root_speed: float
-    ratio: float
-    speed_by_slip: float  #: [-]
-    speed_by_ring: float  #: [-]
-    ratio_by_slip: float  #: [s/m]
-    ratio_by_ring: float  #: [s/m]
+    speed: float  #: w [m/s]
+    root_speed: float  #: w^(1/4) [(m/s)^(1/4)]
+    ratio: float  #: y [-]
+    speed_by_slip: float  #: ∂w/∂v at |u2| and v sign u2 [-]
+    speed_by_ring: float  #: ∂w/∂u2 at |u2| and v sign u2 [-]
+    ratio_by_slip: float  #: ∂y/∂v at |u2| and v sign u2 [s/m]
+    ratio_by_ring: float  #: ∂y/∂u2 at |u2| and v sign u2 [s/m]
 
 
 @jit_inline

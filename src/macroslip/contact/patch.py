@@ -51,20 +51,16 @@ class Patch(NamedTuple):
     """A contact ellipse over which slip varies, as a compiled function takes it."""
 
     microslip: bool  #: Whether slip varies; otherwise the middle's serves everywhere
-    #: R_d, r and half the roller's length [m].
-    contour_radius: float
-    roller_radius: float
-    half_length: float
-    #: κ/u2 and s/u2 in pure rolling [1/m].
-    curvature_ratio: float
-    spin_ratio: float
-    #: Semi-axes of the ellipse per Q^(1/3) [m/N^(1/3)].
-    across: float
-    along: float
+    contour_radius: float  #: R_d [m]
+    roller_radius: float  #: r [m]
+    half_length: float  #: Half the roller's length [m]
+    curvature_ratio: float  #: κ/u2 in pure rolling [1/m]
+    spin_ratio: float  #: s/u2 in pure rolling [1/m]
+    across: float  #: Semi-axis across rolling per Q^(1/3) [m/N^(1/3)]
+    along: float  #: Semi-axis along rolling per Q^(1/3) [m/N^(1/3)]
     pressure: float  #: p0 per Q^(1/3) [Pa/N^(1/3)]
-    #: µ_b [-], and slip from which on asperities slide [m/s].
-    boundary_friction: float
-    full_slip: float
+    boundary_friction: float  #: µ_b [-]
+    full_slip: float  #: Slip from which on asperities slide [m/s]
 
 
 def patch_of(contact: PreparedContact) -> Patch:
@@ -117,12 +113,12 @@ def _on_line(coefficients, cell, t):
 
 
 class FilmNode(NamedTuple):
-    """A film in the table of chords."""
+    """Position of a film thickness in the table of chords."""
 
     film: float  #: h [m]
-    logarithm: float
-    cell: int
-    position: float  #: In the cell, 0 to 1
+    logarithm: float  #: ln h [ln m]
+    cell: int  #: Cell of the table's axis of films
+    position: float  #: Position in the cell, 0 to 1 [-]
 
 
 @jit_inline

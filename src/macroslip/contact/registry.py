@@ -42,10 +42,10 @@ _begun = [0.0]
 
 
 class Law(NamedTuple):
-    """A law by name."""
+    """A film or traction law that a case chooses by its name."""
 
-    kind: str
-    name: str
+    kind: str  #: `film` or `traction`
+    name: str  #: Name in a case
     function: Callable  #: Of an interface and arrays
     reference: str  #: Work to cite
     #: Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed);

@@ -34,7 +34,7 @@ class RibContact(NamedTuple):
     modulus: float  #: Effective modulus E' [Pa]
     roughness: float  #: Composite RMS roughness [m]
     oil_supply: float  #: Film over the film with a full inlet [-]
-    lubricant: Lubricant
+    lubricant: Lubricant  #: Oil at its temperature
 
 
 class RibState(NamedTuple):

@@ -233,7 +233,7 @@ class RollingNumbers(NamedTuple):
     #: Gap where inlets begin to be full [m], which starves every contact by its own film; infinite
     #: where flooded.
     oil_gap: float = math.inf
-    plug: Plug = Plug()
+    plug: Plug = Plug()  #: Plug of grease; none by default
 
 
 def prepare_rolling(
@@ -446,7 +446,7 @@ def contact_at_gap(numbers: RollingNumbers, gap):
     )
 
 
-def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):
+def rigid_pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):
     """Rigid, isoviscous contact of a roller in its cage pocket, which bounds the gap.
 
     h0^−4 = h0(Q)^−4 + widest^−4: under no load the roller floats in the middle of its pocket.

@@ -59,19 +59,15 @@ class SkewedContact(NamedTuple):
     shear: Shear  #: The stress, see `Shear`
     #: Slide-roll ratio at which the stress has a corner [-]; 0 if it has none.
     corner: float
-    side: int  #: k
-    #: r, R_roller, the contact's distance from the bearing axis r~_k, and half the roller's length
-    #: [m].
-    roller_radius: float
-    roller_contour: float
-    raceway_radius: float
-    half_length: float
-    #: κ_z and κ_x of the raceway [1/m].
-    along: float
-    across: float
-    #: s sin α and cos α.
-    sine: float
-    cosine: float
+    side: int  #: k, +1 at the outer and −1 at the inner raceway
+    roller_radius: float  #: r [m]
+    roller_contour: float  #: R_roller [m]
+    raceway_radius: float  #: Distance of the contact from the bearing axis r~_k [m]
+    half_length: float  #: Half the roller's length [m]
+    along: float  #: κ_z of the raceway [1/m]
+    across: float  #: κ_x of the raceway [1/m]
+    sine: float  #: s sin α [-]
+    cosine: float  #: cos α [-]
 
     @property
     def lateral(self) -> float:
@@ -104,9 +100,8 @@ class Resultants(NamedTuple):
     axial: np.ndarray  #: Force of the tractions along z' [N]
     moment: np.ndarray  #: Moment of the tractions about +y' [N m]
     pressure_moment: np.ndarray  #: Moment of the pressure on the turned ellipse about +y' [N m]
-    #: Frictional power, ∫ τ·v dA, and the asperities' part of it [W].
-    power: np.ndarray
-    asperity_power: np.ndarray
+    power: np.ndarray  #: Frictional power, ∫ τ·v dA [W]
+    asperity_power: np.ndarray  #: Part of that power by asperities [W]
     ring_torque: np.ndarray  #: Torque of the tractions on the ring about Z0 [N m]
 
 
@@ -345,10 +340,9 @@ class _Points(NamedTuple):
     drop: np.ndarray  #: h [m]
     chord: np.ndarray  #: ξ from the long axis of the ellipse [m]
     area: np.ndarray  #: Weights [m²]
-    pressure: np.ndarray  #: [Pa]
-    #: Slip in rolling and along the roller [m/s].
-    v: np.ndarray
-    w: np.ndarray
+    pressure: np.ndarray  #: Hertzian pressure [Pa]
+    v: np.ndarray  #: Slip in rolling [m/s]
+    w: np.ndarray  #: Slip along the roller [m/s]
 
 
 def _points(contact: SkewedContact, load, lines: SlipLines, shift, mean_speed) -> _Points:

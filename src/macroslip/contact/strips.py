@@ -214,7 +214,7 @@ class StripStates(NamedTuple):
 class PreparedStrips(PreparedContact):
     """The laws of a line contact of a roller with a raceway."""
 
-    strips: Strips
+    strips: Strips  #: Geometry of the line contact
 
     def _middle(self, load):
         """Load of the ellipse that stands for the middle strip under loads Q > 0 [N]."""

@@ -19,7 +19,7 @@ from macroslip.contact.kellstroem import SaturatingFriction, saturating_patch
 from macroslip.contact.laws import PreparedContact
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.patch import Patch, patch_of, traction_values
-from macroslip.contact.rolling import light_contact, pocket_contact
+from macroslip.contact.rolling import light_contact, rigid_pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.starvation import shared_gaps
 from macroslip.contact.strips import PreparedStrips
@@ -74,9 +74,8 @@ class Box(NamedTuple):
     """States that the tables of a case hold."""
 
     load: float  #: Highest load of a raceway or the cage [N]
-    #: Of w, the speed of a contact (`macroslip.contact.look_up`) [m/s].
-    slowest: float
-    fastest: float
+    slowest: float  #: Least w, the speed of a contact (`macroslip.contact.look_up`) [m/s]
+    fastest: float  #: Largest w [m/s]
     fineness: float  #: Distances between nodes over those at the default tolerance
 
 
@@ -238,7 +237,7 @@ def cage_values(
     if contact.rolling is None:
         return friction, rough
     mean_speed = 0.5 * speed
-    oil = pocket_contact(contact.rolling, load, mean_speed, pocket_gap)
+    oil = rigid_pocket_contact(contact.rolling, load, mean_speed, pocket_gap)
     return friction, rough, *oil
 
 
@@ -303,12 +302,14 @@ def _saturating_tractions(
 
 
 class _Grid(NamedTuple):
-    load: Axis
-    speed: Axis
-    ratio: Axis
-    stretch: float
-    middle: float
-    scale: float
+    """Axes of a traction table and the numbers of their coordinates."""
+
+    load: Axis  #: Of ln Q + k Q^(1/3), Q in N
+    speed: Axis  #: Of w^(1/4), w in m/s
+    ratio: Axis  #: Of asinh((y − y_m)/y_0)
+    stretch: float  #: k [N^(−1/3)]
+    middle: float  #: y_m [-]
+    scale: float  #: y_0 [-]
 
     def loads(self, coordinates: np.ndarray) -> np.ndarray:
         """Loads of coordinates [N], by Newton's iteration in their logarithm.
@@ -430,10 +431,10 @@ def contact_parts(contact: PreparedContact) -> tuple:
 
 
 class TableErrors(NamedTuple):
-    """Relative errors of force and power of a traction table: median and largest."""
+    """Relative errors of force and power of a traction table."""
 
-    typical: float
-    worst: float
+    typical: float  #: Median of the errors [-]
+    worst: float  #: Largest error [-]
 
 
 def table_gaps(contact: PreparedContact, box: Box) -> tuple[tuple[float, float], ...]:
@@ -447,7 +448,10 @@ def table_gaps(contact: PreparedContact, box: Box) -> tuple[tuple[float, float],
 
 
 class _Made(NamedTuple):
-    coefficients: np.ndarray
+    """Splines of a traction table, and the slips up to which its force rises."""
+
+    coefficients: np.ndarray  #: Coefficients of the splines
+    #: Slip as part of w up to which the moment on the roller rises with slip on either side [-]
     rising: np.ndarray
 
 

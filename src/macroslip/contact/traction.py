@@ -226,10 +226,10 @@ class Fluid(NamedTuple):
 
     rheology: int  #: See `limited_stress`
     viscosity: float  #: η0 at inlet temperature and ambient pressure [Pa s]
-    #: ln η = ln η0 + exponent·[(1 + p/reference_pressure)^index − 1]; an index of 1 is Barus' law.
+    #: Factor e in ln η = ln η0 + e [(1 + p/p_r)^z − 1] [-]
     exponent: float
-    index: float
-    reference_pressure: float
+    index: float  #: z [-]; 1 for Barus' law
+    reference_pressure: float  #: p_r [Pa]
     #: γ = τ_L/p [-] for limiting shear, τ_E [Pa] for Eyring; 1 for a Newtonian film
     characteristic: float
     heating: float  #: β/(8k) [m/W]; 0 without shear heating
@@ -476,14 +476,13 @@ class ChordTable(NamedTuple):
     functions look it up (`macroslip.contact.patch`).
     """
 
-    fluid: Fluid
+    fluid: Fluid  #: The sheared film
     shape: tuple[int, int, int]  #: Of the coefficients, over pressures, films and slips
     coefficients: np.ndarray  #: Flat
     log_viscosities: np.ndarray  #: Shape (pressures + 2,). Of the spline of ln η.
     pressure_spacing: float  #: In p1^¼ [Pa^¼]
-    #: In the logarithms [-].
-    slip_spacing: float
-    film_spacing: float
+    slip_spacing: float  #: In the logarithm of slip [-]
+    film_spacing: float  #: In ln h [-]
     lowest_film: float  #: ln h of the first node
 
 

@@ -217,7 +217,7 @@ def slip_error(path, now, zone, attempt, sample, sums):
         Class of the sample interval: `FREE`, `EDGE` or `FIRM`.
     attempt : record of `macroslip.imposed.state.ATTEMPT`
         The step, solved.
-    sample : record of `macroslip.imposed.state.SAMPLE`
+    sample : record of `macroslip.imposed.state.STEP_SAMPLE`
         Room for the samples.
     sums : record of `macroslip.imposed.state.SUMS`
         Counts the evaluations.
@@ -313,7 +313,7 @@ def energy_error(path, now, zone, attempt, sample, sums):
         Class of the sample interval: `FREE`, `EDGE` or `FIRM`.
     attempt : record of `macroslip.imposed.state.ATTEMPT`
         The step, solved.
-    sample : record of `macroslip.imposed.state.SAMPLE`
+    sample : record of `macroslip.imposed.state.STEP_SAMPLE`
         Room for a sample.
     sums : record of `macroslip.imposed.state.SUMS`
         Counts the evaluations.

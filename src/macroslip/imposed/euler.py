@@ -40,11 +40,11 @@ RULE = np.dtype(
 #: Mutable state of an integration at a fixed step, from which the next call goes on.
 FIXED_WORK = np.dtype(
     [
-        ("now", STATE),
-        ("end", CONDITIONS),  # at the end of the step
-        ("forces", FORCES),  # there, at a spin that is tried
+        ("now", STATE),  # state of the roller
+        ("end", CONDITIONS),  # conditions at the end of the step
+        ("forces", FORCES),  # forces there, at a spin that is tried
         ("spin", "f8"),  # ω relative to the orbiting frame [rad/s]
-        ("sums", SUMS),
+        ("sums", SUMS),  # running totals
     ]
 )
 

@@ -44,7 +44,7 @@ def follows_loads(path, now, zone, length):
 
 
 @jit_inline
-def held_update(scale, d2, d3, rest_2, rest_3):
+def held_update(scale, d2, d3, residual_2, residual_3):
     """Newton correction of the two stage slips of a held step.
 
     It solves the linearised equations R_2 = scale (v_3 − …) + F_2 and R_3 = scale (3 v_3 − 4 v_2 +
@@ -56,7 +56,7 @@ def held_update(scale, d2, d3, rest_2, rest_3):
         1/(h r²/I_z') [N s/m].
     d2, d3 : float
         Slopes of the net force by slip at the middle and at the end, > 0 [N s/m].
-    rest_2, rest_3 : float
+    residual_2, residual_3 : float
         Residuals R_2 and R_3 [N].
 
     Returns
@@ -71,8 +71,8 @@ def held_update(scale, d2, d3, rest_2, rest_3):
     """
     last = 3.0 * scale + d3
     determinant = last * d2 + 4.0 * scale * scale
-    change_3 = (-rest_3 * d2 - 4.0 * scale * rest_2) / determinant
-    return (-rest_2 - scale * change_3) / d2, change_3
+    change_3 = (-residual_3 * d2 - 4.0 * scale * residual_2) / determinant
+    return (-residual_2 - scale * change_3) / d2, change_3
 
 
 @jit_inline
@@ -87,7 +87,7 @@ def solve_held(path, now, attempt, before, sums):
     now : record of `macroslip.imposed.state.STATE`
         State at the start of the step.
     attempt : record of `macroslip.imposed.state.ATTEMPT`
-        Slips, increments, forces and what is left are written.
+        Its slips, increments, forces and residual are written.
     before : record of `macroslip.imposed.state.BEFORE`
         Its exponent is used; its bend is used and renewed.
     sums : record of `macroslip.imposed.state.SUMS`
@@ -113,11 +113,10 @@ def solve_held(path, now, attempt, before, sums):
     evaluate(path, middle, attempt.slip[1], second)
     # The middle first, with the end as far ahead as the middle: its solution makes a good guess of
     # the end.
-    rest = scale * 2.0 * (attempt.slip[1] - slip - (middle.ring_speed - at.ring_speed)) + net_force(
-        second
-    )
+    increment = attempt.slip[1] - slip - (middle.ring_speed - at.ring_speed)
+    residual = scale * 2.0 * increment + net_force(second)
     stiffness = 2.0 * scale + second.slope
-    ahead = attempt.slip[1] - rest / stiffness
+    ahead = attempt.slip[1] - residual / stiffness
     attempt.slip[2] = held_slip(
         path.body.microslip,
         ahead,
@@ -130,33 +129,33 @@ def solve_held(path, now, attempt, before, sums):
     for k in range(1, 3):
         ring_change = attempt.at[k].ring_speed - at.ring_speed
         attempt.increment[k] = attempt.slip[k] - slip - ring_change
-    attempt.left = math.inf
+    attempt.unbalanced = math.inf
     change = 0.0
     foreseen = math.inf
     for iteration in range(tuning.HELD_ITERATIONS):
-        rest_2 = scale * attempt.increment[2] + net_force(second)
-        rest_3 = scale * (3.0 * attempt.increment[2] - 4.0 * attempt.increment[1]) + net_force(
+        residual_2 = scale * attempt.increment[2] + net_force(second)
+        residual_3 = scale * (3.0 * attempt.increment[2] - 4.0 * attempt.increment[1]) + net_force(
             third
         )
-        size = max(abs(rest_2), abs(rest_3))
+        size = max(abs(residual_2), abs(residual_3))
         allowed = force_part * min(magnitude(second), magnitude(third))
         if not math.isfinite(size) or second.slope <= 0.0 or third.slope <= 0.0:
             return False
         if iteration > 0:
             if iteration == 1:
                 before.bend = new_bend(before.bend, size, change)
-            if size > 0.9 * attempt.left and size > allowed:
+            if size > 0.9 * attempt.unbalanced and size > allowed:
                 return False
-            foreseen = min(size, size * size / attempt.left)
-        update = held_update(scale, second.slope, third.slope, rest_2, rest_3)
+            foreseen = min(size, size * size / attempt.unbalanced)
+        update = held_update(scale, second.slope, third.slope, residual_2, residual_3)
         change = max(abs(update[0]), abs(update[1]))
         if iteration == 0:
             foreseen = tuning.BEND_SAFETY * before.bend * change * change
-        attempt.left = size
+        attempt.unbalanced = size
         last = foreseen <= allowed
         correct(now, attempt, (0.0, update[0], update[1]), 1, last)
         if last:
-            attempt.left = foreseen
+            attempt.unbalanced = foreseen
             return True
         evaluate_stages(path, now, attempt, sums, 1)
     return False
@@ -176,7 +175,7 @@ def held_slip(microslip, slip, at, later, exponent):
     slip : float
         Slip now [m/s].
     at, later : record of `macroslip.mechanics.spin.CONDITIONS`
-        Stations now and later.
+        Conditions now and later.
     exponent : float
         Power of the elastic load that slip follows [-].
 
@@ -204,9 +203,9 @@ def held_exponent(at, slip, later, later_slip, exponent):
     Parameters
     ----------
     at, later : record of `macroslip.mechanics.spin.CONDITIONS`
-        Stations before and after the change.
+        Conditions before and after the change.
     slip, later_slip : float
-        Slips at these stations [m/s].
+        Slips under these conditions [m/s].
     exponent : float
         Power known from before [-].
 

@@ -223,7 +223,7 @@ def sample_between(path, now, attempt, part, sample):
         The step, solved.
     part : float
         Part of the step, 0 to 1 [-].
-    sample : record of `macroslip.imposed.state.SAMPLE`
+    sample : record of `macroslip.imposed.state.STEP_SAMPLE`
         Its conditions, slip and rate are written.
     """
     time = now.time + part * attempt.length
@@ -336,7 +336,7 @@ def solve_stages(path, now, zone, attempt, before, sums):
     # Without microslip a roller that grips slips too little for its forces to bend in the same way
     # twice.
     smooth = path.body.microslip or zone == FREE
-    attempt.left = math.inf
+    attempt.unbalanced = math.inf
     change = 0.0
     foreseen = math.inf
     first = attempt.forces[0]
@@ -360,27 +360,27 @@ def solve_stages(path, now, zone, attempt, before, sums):
             allowed = force_part * magnitude(forces) + limits.grain * abs(forces.slope) + round_off
             solved = solved and abs(residual[k]) <= allowed
         if solved:
-            attempt.left = size
+            attempt.unbalanced = size
             return True
-        if not math.isfinite(size) or (iteration > 2 and size > 0.9 * attempt.left):
+        if not math.isfinite(size) or (iteration > 2 and size > 0.9 * attempt.unbalanced):
             return False
         # Newton's residuals shrink quadratically: the next one is predicted from the last two, or
         # with a known bend from the first correction, and where it is small enough the forces
         # follow to first order, without an evaluation.
         if iteration > 0:
-            foreseen = size * size / attempt.left
+            foreseen = size * size / attempt.unbalanced
             if iteration == 1:
                 before.bend = new_bend(before.bend, size, change)
         update = newton_update(scale, first.slope, second.slope, third.slope, residual)
         change = max(abs(update[0]), abs(update[1]), abs(update[2]))
         if iteration == 0:
             foreseen = tuning.BEND_SAFETY * before.bend * change * change if smooth else math.inf
-        attempt.left = size
+        attempt.unbalanced = size
         least = min(magnitude(first), magnitude(second), magnitude(third))
-        is_close = iteration == 0 or size <= tuning.LAST_REST * least + round_off
+        is_close = iteration == 0 or size <= tuning.LAST_RESIDUAL * least + round_off
         last = is_close and foreseen <= force_part * least + round_off
         correct(now, attempt, update, 0, last)
         if last:
-            attempt.left = foreseen
+            attempt.unbalanced = foreseen
             return True
     return False

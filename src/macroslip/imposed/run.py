@@ -25,20 +25,19 @@ class Outcome:
     """Outcome of an integration: its status, its effort and where it ended."""
 
     status: int = UNDER_WAY  #: A `Status`
-    steps: int = 0
-    rejections: int = 0
-    evaluations: int = 0
-    unbalanced: float = 0.0  #: Largest force left unbalanced by an accepted implicit step [N]
-    #: Time [s] and slip [m/s] at which it ended.
-    time: float = 0.0
-    slip: float = 0.0
+    steps: int = 0  #: Accepted steps
+    rejections: int = 0  #: Rejected steps
+    evaluations: int = 0  #: Evaluations of the forces
+    unbalanced: float = 0.0  #: Largest unbalanced force of an accepted implicit step [N]
+    time: float = 0.0  #: Time at which it ended [s]
+    slip: float = 0.0  #: Slip at which it ended [m/s]
 
 
 @dataclass(frozen=True)
 class Problem:
     """Numbers common to all rollers of a row."""
 
-    roller: Roller
+    roller: Roller  #: With its tables
     motion: Motion  #: Of the inner ring
     limits: np.ndarray  #: Shape (1,). From `radau_limits` or `fixed_step`.
     #: Times at which a step must end [s], rising, the last being the end; not used at a fixed step.

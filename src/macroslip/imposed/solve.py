@@ -55,8 +55,8 @@ def _rebalance(path, now, sums, forces):
     """Take a firmly held roller to just after a sample, where the shaft's acceleration jumps.
 
     The transition takes the relaxation time, for which `firm_approach` gives a bound; here it
-    takes none. A roller that still skids, or has not settled yet, is left as it is. `forces` is
-    room for the search.
+    takes none. A roller that still skids, or has not settled yet, stays as it is. `forces` is
+    overwritten.
     """
     body = path.body
     motion = path.motion
@@ -75,13 +75,11 @@ def _rebalance(path, now, sums, forces):
 
 
 @jit_inline
-def _next_stretch(path, stops, classes, work):
-    """Find the class of the interval that begins at a barrier, and the next barrier.
+def _next_stretch(path, stops, classes, now, stretch, sums, forces):
+    """Find the class of the sample interval that begins at a barrier, and the next barrier.
 
-    None is left after the last stop.
+    There is none after the last stop. `forces` is overwritten.
     """
-    now = work.now
-    stretch = work.stretch
     time = now.time
     motion = path.motion
     while stretch.next_stop < stops.size and stops[stretch.next_stop] <= time:
@@ -114,7 +112,7 @@ def _next_stretch(path, stops, classes, work):
             last -= 1
     stretch.barrier = min(motion.time[last + 1], stop)
     if jumps and now.at.approach > path.limits.firm and time == motion.time[interval]:
-        _rebalance(path, now, work.sums, work.sample.forces)
+        _rebalance(path, now, sums, forces)
     if zone == EDGE:
         stretch.barrier = edge_time(
             path.body, motion, path.start_angle, interval, time, stretch.barrier
@@ -126,20 +124,17 @@ def _next_stretch(path, stops, classes, work):
 
 
 @jit_inline
-def _attempt(path, work):
+def _attempt(path, now, attempt, before, stretch, sample, sums):
     """Solve the step; returns error / tolerance.
 
     It is infinite where the step was not solved on the continuous root.
     """
-    now = work.now
-    attempt = work.attempt
-    sums = work.sums
-    zone = work.stretch.zone
+    zone = stretch.zone
     if attempt.held:
-        solved = solve_held(path, now, attempt, work.before, sums)
+        solved = solve_held(path, now, attempt, before, sums)
     else:
-        guess(path, now, zone, work.before, attempt)
-        solved = solve_stages(path, now, zone, attempt, work.before, sums)
+        guess(path, now, zone, before, attempt)
+        solved = solve_stages(path, now, zone, attempt, before, sums)
     attempt.totals[0] = now.powers[0] + now.powers[1] + now.powers[2]
     attempt.energy = 0.0
     for k in range(3):
@@ -156,13 +151,13 @@ def _attempt(path, work):
             attempt.energy, attempt.length, attempt.totals[0], attempt.totals[3]
         )
     else:
-        slip_off = slip_error(path, now, zone, attempt, work.sample, sums)
-        energy_off = energy_error(path, now, zone, attempt, work.sample, sums)
+        slip_off = slip_error(path, now, zone, attempt, sample, sums)
+        energy_off = energy_error(path, now, zone, attempt, sample, sums)
     since = path.limits.window if now.time >= path.limits.window else path.motion.time[0]
     mean_power = (sums.spent + attempt.energy) / (attempt.times[2] - since)
     # Power jumps with the shaft's acceleration at every sample; its error in a short part of a
     # sample interval may reach the tolerance of that part.
-    share = max(attempt.length, tuning.SHORT_PART * work.stretch.sample_step)
+    share = max(attempt.length, tuning.SHORT_PART * stretch.sample_step)
     limits = path.limits
     worth = max(mean_power * share, attempt.energy, tuning.NO_ENERGY * limits.energy_scale)
     allowed_slip = tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
@@ -171,12 +166,9 @@ def _attempt(path, work):
 
 
 @jit_inline
-def _reject(path, work, error):
-    """Prepare another attempt: a held step with three stages, another one shorter."""
-    now = work.now
-    attempt = work.attempt
-    stretch = work.stretch
-    work.sums.rejections += 1
+def _reject(path, now, attempt, stretch, sums, error):
+    """Prepare another attempt: three stages in place of a held step's two, or a shorter step."""
+    sums.rejections += 1
     stretch.failed = 1
     if attempt.held:
         return
@@ -205,24 +197,29 @@ def _leaves_tables(body, attempt):
 
 
 @jit_inline
-def _may_peak_inside(path, work, resolved):
+def _resolved_slip(limits):
+    """Slip [m/s] below which the error that a step may have hides the power of sliding."""
+    return tuning.RESOLVED * tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale
+
+
+@jit_inline
+def _may_peak_inside(path, now, attempt, zone, top_power):
     """True if the roller snaps back in the step, or slides with a power near its largest.
 
-    The largest is that since the roller had no load.
+    The largest, `top_power` [W], is that since the roller had no load.
     """
-    if path.body.microslip or work.stretch.zone != EDGE:
+    if path.body.microslip or zone != EDGE:
         return False
-    slip = work.now.slip
-    attempt = work.attempt
+    slip = now.slip
     sliding = 0.0
     for k in range(3):
         forces = attempt.forces[k]
         larger = max(abs(forces.inner), abs(forces.outer))
         sliding = max(sliding, larger * abs(attempt.slip[k]))
-    slides = sliding > 0.5 * work.sums.top_power
+    slides = sliding > 0.5 * top_power
     before = abs(slip)
     after = abs(attempt.slip[2])
-    snaps_back = before > resolved and after < tuning.SNAP * before
+    snaps_back = before > _resolved_slip(path.limits) and after < tuning.SNAP * before
     return slides or snaps_back
 
 
@@ -244,15 +241,13 @@ def _film_ends_at(now, attempt, resolved):
 
 
 @jit_inline
-def _write_samples(path, work, resolved, cusp, rows):
+def _write_samples(path, now, attempt, sample, number, cusp, rows):
     """Write rows without weight between the stages, where power may have a peak; returns how many.
 
-    One of them is at the part `cusp` of the step. A slip that is small against what a step may be
-    off says nothing of the power there.
+    One of them is at the part `cusp` of the step; `number` is that of the stretch of smooth loads.
+    `sample` is overwritten.
     """
-    now = work.now
-    attempt = work.attempt
-    sample = work.sample
+    resolved = _resolved_slip(path.limits)
     filled = 0
     stage = 0
     parts = tuning.PEAK_PARTS
@@ -270,44 +265,51 @@ def _write_samples(path, work, resolved, cusp, rows):
         row.weight[stage] = 0.0
         write_stage(row, stage, path.body, sample.at, sample.forces, slip, sample.powers[:])
         stage += 1
-        frame(now, work.stretch.number, row, stage, row.time[stage - 1])
+        frame(now, number, row, stage, row.time[stage - 1])
         if stage == 3:
             filled += 1
             stage = 0
-    work.sums.evaluations += parts
     return filled + (1 if stage > 0 else 0)
 
 
 @jit_inline
-def _accept(path, work, end, rows):
-    """Write a step, which ends at `end` [s], and go on to there; returns the number of rows."""
-    now = work.now
-    attempt = work.attempt
-    sums = work.sums
-    zone = work.stretch.zone
-    limits = path.limits
-    resolved = tuning.RESOLVED * tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale
-    count = 0
-    cusp = _film_ends_at(now, attempt, resolved) if path.body.closed_form else 1.0
-    sampled = cusp < 1.0 or _may_peak_inside(path, work, resolved)
-    if sampled:
-        count = _write_samples(path, work, resolved, cusp, rows)
-    row = rows[count]
-    frame(now, work.stretch.number, row, 3, end)
+def _sample_peak(path, now, attempt, stretch, sample, sums, rows):
+    """Sample a step in which power may have a peak.
+
+    Returns whether the step was sampled, and how many rows were written.
+    """
+    cusp = 1.0
+    if path.body.closed_form:
+        cusp = _film_ends_at(now, attempt, _resolved_slip(path.limits))
+    if cusp == 1.0 and not _may_peak_inside(path, now, attempt, stretch.zone, sums.top_power):
+        return False, 0
+    sums.evaluations += tuning.PEAK_PARTS
+    return True, _write_samples(path, now, attempt, sample, stretch.number, cusp, rows)
+
+
+@jit_inline
+def _write_step(path, now, attempt, number, end, sampled, row):
+    """Write an accepted step, which ends at `end` [s]; `sampled` if it was sampled for a peak."""
+    frame(now, number, row, 3, end)
     row.sampled = 1 if sampled else 0
-    top = 0.0 if zone == FREE else sums.top_power
     for k in range(3):
         row.time[k] = end if k == 2 else attempt.times[k]
         row.weight[k] = attempt.length * attempt.weights[k]
         write_stage(
             row, k, path.body, attempt.at[k], attempt.forces[k], attempt.slip[k], attempt.powers[k]
         )
+
+
+@jit_inline
+def _advance(now, attempt, before, zone, sums, end):
+    """Make the end of an accepted step, at `end` [s], the state of the roller."""
+    top = 0.0 if zone == FREE else sums.top_power
+    for k in range(3):
         top = max(top, attempt.powers[k, 0], attempt.powers[k, 1])
     sums.steps += 1
     sums.spent += attempt.energy
     sums.top_power = top
-    sums.unbalanced = max(sums.unbalanced, attempt.left)
-    before = work.before
+    sums.unbalanced = max(sums.unbalanced, attempt.unbalanced)
     if zone == FIRM:
         before.exponent = held_exponent(
             now.at, now.slip, attempt.at[2], attempt.slip[2], before.exponent
@@ -322,16 +324,12 @@ def _accept(path, work, end, rows):
     now.slip = attempt.slip[2]
     now.at = attempt.at[2]
     now.forces = attempt.forces[2]
-    return count + 1
 
 
 @jit_inline
-def _begin(path, work, row):
+def _begin(path, now, before, stretch, sums, row):
     """Start at the first sample, at which no step ends: it has a row of its own."""
-    now = work.now
-    stretch = work.stretch
-    before = work.before
-    work.sums.begun = 1
+    sums.begun = 1
     now.time = path.motion.time[0]
     now.interval = 0
     stretch.step = min(path.limits.longest_step, tuning.FIRST_STEP)
@@ -340,7 +338,7 @@ def _begin(path, work, row):
     stretch.run_end = -1
     before.exponent = tuning.LIMIT_EXPONENT
     before.bend = math.inf
-    start_at(path, now, work.sums)
+    start_at(path, now, sums)
     write_point(path, now, stretch.number, row)
 
 
@@ -359,7 +357,7 @@ def integrate(path, stops, classes, work, steps):
     classes : ndarray of int8, shape (n − 1,)
         Classes of the n − 1 sample intervals, as `classify` writes them.
     work : record of `macroslip.imposed.state.WORK`
-        Zeros but for the slip at the first sample, and in later calls as the last call left it.
+        Zeros but for the slip at the first sample, and in later calls as the last call wrote it.
     steps : ndarray of `macroslip.roller.step.STEP`, shape (k,)
         Buffer, which is filled from the start.
 
@@ -385,18 +383,20 @@ def integrate(path, stops, classes, work, steps):
     limits = path.limits
     now = work.now
     attempt = work.attempt
+    before = work.before
     stretch = work.stretch
+    sample = work.sample
     sums = work.sums
     count = 0
     if sums.begun == 0:
-        _begin(path, work, steps[0])
+        _begin(path, now, before, stretch, sums, steps[0])
         count = 1
     while count + _ROWS <= steps.size:
         if now.time >= stretch.barrier:
             if now.time == limits.window:
                 # Errors in the window are bounded as if the history began with it.
                 sums.spent = 0.0
-            _next_stretch(path, stops, classes, work)
+            _next_stretch(path, stops, classes, now, stretch, sums, sample.forces)
             # Loads have a kink at every sample; no parabola for a peak should reach across it.
             stretch.number += 1
             if stretch.next_stop == stops.size:
@@ -404,16 +404,16 @@ def integrate(path, stops, classes, work, steps):
         if sums.steps + sums.rejections >= limits.max_steps:
             return TOO_MANY_STEPS, count
         stretch.step = min(stretch.step, limits.longest_step)
-        left = stretch.barrier - now.time
-        if left <= 1e-15 * abs(now.time):
+        ahead = stretch.barrier - now.time
+        if ahead <= 1e-15 * abs(now.time):
             # Rounding has put the roller on the barrier.
             now.time = stretch.barrier
             continue
         length = stretch.step
-        if length >= 0.95 * left:
-            length = left
-        elif length > 0.6 * left:
-            length = 0.5 * left
+        if length >= 0.95 * ahead:
+            length = ahead
+        elif length > 0.6 * ahead:
+            length = 0.5 * ahead
         if length <= 4e-16 * abs(now.time) + 1e-300:
             return STEP_TOO_SMALL, count
         held = stretch.failed == 0 and follows_loads(path, now, stretch.zone, length)
@@ -424,17 +424,20 @@ def integrate(path, stops, classes, work, steps):
                 stretch.step = part * length
                 stretch.barrier = min(stretch.barrier, now.time + part * length)
                 continue
-        error = _attempt(path, work)
+        error = _attempt(path, now, attempt, before, stretch, sample, sums)
         if error < math.inf and not math.isfinite(attempt.energy):
             return NOT_FINITE, count
         if not error <= 1.0:
-            _reject(path, work, error)
+            _reject(path, now, attempt, stretch, sums, error)
             continue
         if _leaves_tables(path.body, attempt):
             return OUTSIDE_TABLES, count
-        count += _accept(
-            path, work, stretch.barrier if length == left else attempt.times[2], steps[count:]
-        )
+        end = stretch.barrier if length == ahead else attempt.times[2]
+        rows = steps[count:]
+        sampled, filled = _sample_peak(path, now, attempt, stretch, sample, sums, rows)
+        _write_step(path, now, attempt, stretch.number, end, sampled, rows[filled])
+        _advance(now, attempt, before, stretch.zone, sums, end)
+        count += filled + 1
         growth = 1.0 if stretch.failed else tuning.GROWTH
         stretch.step = length * min(growth, step_factor(error))
         stretch.failed = 0

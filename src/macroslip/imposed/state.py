@@ -1,4 +1,4 @@
-"""State of one roller on its imposed orbit while its slip is integrated, and its rows of steps."""
+"""Records of the integration of one roller on its imposed orbit, and how they are filled."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Path(NamedTuple):
     #: Address of the flat array of its tables: an array would be counted at every look-up
     tables: int
     flat: np.ndarray  #: The array itself
-    motion: Any
+    motion: Any  #: `macroslip.ring.orbit.Motion` of the inner ring
     start_angle: float  #: Position φ at the first sample [rad]
     limits: Any  #: Record of `LIMITS`, or of `macroslip.imposed.euler.RULE`
 
@@ -52,46 +52,46 @@ LIMITS = np.dtype(
     ]
 )
 
-#: The roller now.
+#: State of the roller.
 STATE = np.dtype(
     [
         ("time", "f8"),  # [s]
         ("interval", "i8"),  # index of the sample interval that holds it
         ("slip", "f8"),  # Δu [m/s]
-        ("at", CONDITIONS),
-        ("forces", FORCES),
+        ("at", CONDITIONS),  # loads and speeds
+        ("forces", FORCES),  # tangential forces
         ("powers", "f8", (3,)),  # frictional powers of the interfaces [W]
     ]
 )
 #: A step that is tried, and its solution.
 ATTEMPT = np.dtype(
     [
-        ("length", "f8"),  # [s]
+        ("length", "f8"),  # length of the step [s]
         ("scale", "f8"),  # 1/(h r²/I_z') [N s/m]
         ("end_interval", "i8"),  # index of the sample interval in which it ends
-        # 1 where the step is held, that is of two stages at its middle and end beside its start.
+        # 1 where the step has two stages, at its middle and end, beside its start (a held step).
         ("held", "i8"),
         ("times", "f8", (3,)),  # of its stages [s]
         ("weights", "f8", (3,)),  # of its stages, as parts of the step [-]
-        ("at", CONDITIONS, (3,)),  # at its stages
-        ("slip", "f8", (3,)),  # at its stages [m/s]
+        ("at", CONDITIONS, (3,)),  # loads and speeds at its stages
+        ("slip", "f8", (3,)),  # Δu at its stages [m/s]
         # Increments of slip by forces, s = v − v0 − (u2 − u2_0) [m/s].
         ("increment", "f8", (3,)),
-        ("forces", FORCES, (3,)),  # at its stages
-        ("left", "f8"),  # largest force left unbalanced at a stage [N]
+        ("forces", FORCES, (3,)),  # tangential forces at its stages
+        ("unbalanced", "f8"),  # largest force left unbalanced at a stage [N]
         ("powers", "f8", (3, 3)),  # by stage and interface [W]
         # Sums of the powers over the interfaces, at the start and at the stages [W].
         ("totals", "f8", (4,)),
-        ("energy", "f8"),  # [J]
+        ("energy", "f8"),  # frictional energy of the step [J]
     ]
 )
 #: A sample between the stages of a step.
-SAMPLE = np.dtype(
+STEP_SAMPLE = np.dtype(
     [
-        ("at", CONDITIONS),
-        ("slip", "f8"),  # [m/s]
+        ("at", CONDITIONS),  # loads and speeds
+        ("slip", "f8"),  # Δu [m/s]
         ("rate", "f8"),  # derivative of the increment of slip by the part of the step [m/s]
-        ("forces", FORCES),
+        ("forces", FORCES),  # tangential forces
         ("powers", "f8", (3,)),  # of the interfaces [W]
     ]
 )
@@ -121,13 +121,13 @@ STRETCH = np.dtype(
         ("number", "i8"),  # changes where loads have a kink
     ]
 )
-#: What an integration has come to so far.
+#: Running totals of one integration.
 SUMS = np.dtype(
     [
         ("begun", "i8"),  # 1 where the integration has begun
-        ("steps", "i8"),
-        ("rejections", "i8"),
-        ("evaluations", "i8"),  # of the forces
+        ("steps", "i8"),  # accepted steps
+        ("rejections", "i8"),  # rejected steps
+        ("evaluations", "i8"),  # evaluations of the forces
         ("unbalanced", "f8"),  # largest force left unbalanced by an accepted step [N]
         ("spent", "f8"),  # energy [J]; in the window from there on
         ("top_power", "f8"),  # largest raceway power since the roller had no load [W]
@@ -136,12 +136,12 @@ SUMS = np.dtype(
 #: Mutable state of one integration, from which the next call goes on.
 WORK = np.dtype(
     [
-        ("now", STATE),
-        ("attempt", ATTEMPT),
-        ("sample", SAMPLE),
-        ("before", BEFORE),
-        ("stretch", STRETCH),
-        ("sums", SUMS),
+        ("now", STATE),  # state of the roller
+        ("attempt", ATTEMPT),  # step that is tried
+        ("sample", STEP_SAMPLE),  # sample between the stages of a step
+        ("before", BEFORE),  # numbers of the steps before
+        ("stretch", STRETCH),  # stretch of sample intervals of one class
+        ("sums", SUMS),  # running totals
     ]
 )
 
@@ -176,7 +176,7 @@ def path_of(roller: Roller, motion: Motion, start_angle: float, limits: Any) -> 
 
 @jit_inline
 def locate(path, time, interval, at):
-    """Write the conditions of the roller at a time.
+    """Write loads and speeds of the roller at a time.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ def locate(path, time, interval, at):
 
 @jit_inline
 def evaluate(path, at, slip, forces):
-    """Write the forces on the roller under conditions and a slip.
+    """Write the tangential forces on the roller at given loads, speeds and slip.
 
     Parameters
     ----------
@@ -220,7 +220,7 @@ def start_at(path, now, sums):
 
 @jit_inline
 def frame(now, stretch_number, row, stages, end):
-    """Write the fields of a row that concern its whole step.
+    """Write the start, end and number of stages of a row of steps.
 
     Parameters
     ----------
@@ -246,7 +246,7 @@ def frame(now, stretch_number, row, stages, end):
 
 @jit_inline
 def write_point(path, now, stretch_number, row):
-    """Write a row without weight of the roller now.
+    """Write the present state of the roller as a row of steps without weight.
 
     Parameters
     ----------

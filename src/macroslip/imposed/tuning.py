@@ -102,7 +102,7 @@ FORGET = 0.5
 #: first was: but for the forces the stage equations are linear in slip, so a correction removes
 #: most of a residual that a poor guess made; and where the forces are at their limit on the wrong
 #: side, what it leaves is twice their magnitude.
-LAST_REST = 0.5
+LAST_RESIDUAL = 0.5
 #: Step over relaxation time from which on a held roller's step has two stages, and the part of the
 #: sum of force magnitudes up to which it counts as being at its balance. Judgement: FIRM rollers at
 #: the bundled 20 Hz have 50 and more.

@@ -16,7 +16,7 @@ from macroslip.contact.look_up import contact_load, contact_speeds
 from macroslip.imposed import tuning
 from macroslip.mechanics.elastic import approach_under_load
 from macroslip.mechanics.loads import elastic_approach
-from macroslip.mechanics.raceway import raceway_state, raceway_traction
+from macroslip.mechanics.raceway import raceway_state, raceway_traction, spin_traction
 from macroslip.ring.orbit import instant
 
 FREE = 0
@@ -55,16 +55,18 @@ def relaxation_rate(body, tables, load, ring_speed):
         speeds = contact_speeds(ring_speed, slip, body.closed_form)
         at_inner = raceway_state(body.inner, tables, body.closed_form, normal, speeds)
         at_outer = raceway_state(body.outer, tables, body.closed_form, normal, speeds)
-        inner = raceway_traction(body.inner, tables, body.closed_form, at_inner, speeds)
-        outer = raceway_traction(body.outer, tables, body.closed_form, at_outer, speeds)
-        rest = inner.pull - inner.lag + outer.pull - outer.lag
-        slope = inner.pull_by_slip - inner.lag_by_slip + outer.pull_by_slip - outer.lag_by_slip
+        inner_film = raceway_traction(body.inner, tables, body.closed_form, at_inner, speeds)
+        outer_film = raceway_traction(body.outer, tables, body.closed_form, at_outer, speeds)
+        inner = spin_traction(inner_film)
+        outer = spin_traction(outer_film)
+        residual = inner.force + outer.force
+        slope = inner.by_slip + outer.by_slip
         rate = body.mobility * slope
-        if rest > 0.0:
+        if residual > 0.0:
             high = slip
         else:
             low = slip
-        following = slip - rest / slope if slope > 0.0 else slip
+        following = slip - residual / slope if slope > 0.0 else slip
         if not low <= following <= high:
             following = 0.5 * (low + high)
         if abs(following - slip) <= 1e-6 * abs(slip) or not math.isfinite(following):

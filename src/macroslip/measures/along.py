@@ -122,17 +122,17 @@ def _covered(k, width, half_length, middle, across):
 
 
 class Station(NamedTuple):
-    """A station along the roller as it is booked."""
+    """State of the contact at a station, a slice across the roller's axis."""
 
-    number: int
+    number: int  #: Its number, from 0
     covered: float  #: Part of it that touches [-]
-    width: float  #: Of a whole station [m]
-    load: float  #: Per length [N/m]
-    half_width: float  #: Of the contact along rolling [m]
-    slip: float  #: With its sign [m/s]
-    speed: float  #: Of slip, across rolling too [m/s]
-    power: float  #: Per length [W/m]
-    asperities: float  #: Their part of the power per length [W/m]
+    width: float  #: Width of a whole station [m]
+    load: float  #: Load per length [N/m]
+    half_width: float  #: Half-width of the contact along rolling [m]
+    slip: float  #: Slip along rolling, with its sign [m/s]
+    speed: float  #: Size of the slip, across rolling too [m/s]
+    power: float  #: Frictional power per length [W/m]
+    asperities: float  #: Part of that power by asperities [W/m]
 
 
 @jit_inline

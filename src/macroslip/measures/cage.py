@@ -6,6 +6,7 @@ import numpy as np
 
 from macroslip.constants import SECTORS
 from macroslip.measures.roller import Wanted
+from macroslip.mechanics.speeds import cage_speed
 from macroslip.whole.books import Books
 from macroslip.whole.model import WholeBearing
 from macroslip.whole.sdirk import Part
@@ -96,8 +97,8 @@ class CageMeasures:
         every = np.arange(rows.size)
         speed = whole["shaft_speed"][every, last]
         cages = whole["cages"][:, : bearing.cages]
-        lead_speed = cages[..., 0] + 0.5 * speed[:, None] * bearing.inner_radius
-        self.traces[samples, :, 0] = lead_speed / bearing.pitch_radius
+        turning = cage_speed(cages[..., 0], speed[:, None], bearing.inner_radius)
+        self.traces[samples, :, 0] = turning / bearing.pitch_radius
         self.traces[samples, :, 1] = cages[..., 1]
         self.traces[samples, :, 2] = cages[..., 4]
         self.traces[samples, :, 3] = cages[..., 5]

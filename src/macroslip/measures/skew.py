@@ -1,6 +1,6 @@
 """Skew of one roller, from its steps.
 
-It adds to their power and makes its contacts slide; mean values are taken by place on the orbit.
+It adds to their power and makes its contacts slide; mean values are taken by position on the orbit.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ BY_SECTOR = ("skew_by_position", "axial_force_by_position", "skew_power_by_posit
 
 
 class Skewing(NamedTuple):
-    """Skew of the rollers of a row: table of rests, guidance by the cage, and raceways."""
+    """Skew of the rollers of a row: table of forces, guidance by the cage, and raceways."""
 
-    table: SkewTable
-    guide: Guide
-    pair: Pair
+    table: SkewTable  #: Forces and moments of a skewed roller
+    guide: Guide  #: Guidance by the cage
+    pair: Pair  #: Both raceway contacts
 
 
 @jit_inline
 def _power_of_ends(roller, stop, push, speed):
-    """Power of friction that a stop adds at the cage, and the asperities' part of it [W].
+    """Power of friction that a skew stop adds at the cage, and the asperities' part of it [W].
 
     Spars hold the roller with an end each, by the force `stop` [N]; one of them presses with `push`
     [N] beside. The roller's surface passes them at `speed` [m/s].
@@ -74,7 +74,7 @@ def _add(skewing, roller, steps, j, places, window, totals):
                 outer = turned_roller.outer_power
                 ends, rough = _power_of_ends(
                     roller,
-                    abs(turned_roller.held) / guide.arm,
+                    abs(turned_roller.stop_moment) / guide.arm,
                     step.cage_load[k],
                     step.cage_speed[k],
                 )
@@ -87,7 +87,7 @@ def _add(skewing, roller, steps, j, places, window, totals):
                 if counted:
                     sums[0] += weight * inner
                     sums[1] += weight * outer
-                    sums[2] = max(sums[2], turned_roller.left)
+                    sums[2] = max(sums[2], turned_roller.unbalanced)
                     sums[3] += weight * ends
                     of_sector = by_sector[places[n, k]]
                     of_sector[0] += weight
@@ -116,7 +116,7 @@ def _follow(table, guide, loads, speeds, pushes, states):
             states[n, 2] = at.axial
             states[n, 3] = at.inner_moment
             states[n, 4] = at.outer_moment
-            states[n, 5] = abs(at.held) / guide.arm
+            states[n, 5] = abs(at.stop_moment) / guide.arm
             states[n, 6] = at.shift
             states[n, 7] = at.slip
         elif not math.isnan(loads[n]):
@@ -178,7 +178,7 @@ class SkewMeasures:
 
     @property
     def residual(self) -> float:
-        """Largest moment about the contact normal that a rest in the window leaves [N m]."""
+        """Largest unbalanced moment about the contact normal at equilibria in the window [N m]."""
         return float(self._sums[2])
 
     @property

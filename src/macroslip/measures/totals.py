@@ -68,10 +68,9 @@ END = np.dtype(
         ("rolling", "f8", (3,)),
         # Part of the raceways' power by the contact angle [W].
         ("skew_power", "f8", (2,)),
-        # Friction of a tapered roller's rib, positive where it drives the spin up [N], and its
-        # power [W].
+        # Friction of a tapered roller's rib, positive where it drives the spin up [N].
         ("rib_force", "f8"),
-        ("rib_power", "f8"),
+        ("rib_power", "f8"),  # power of the rib's friction [W]
     ]
 )
 
@@ -186,7 +185,7 @@ class Totals(NamedTuple):
 
     #: Times at which orbits of the window begin and end [s]; the window opens at the first
     edges: np.ndarray
-    energy: np.ndarray  #: Dissipated by friction (34) in the window by interface [J]
+    energy: np.ndarray  #: Energy dissipated by friction (34) in the window by interface [J]
     rolling_energy: np.ndarray  #: Dissipated by rolling resistance, apart from friction [J]
     asperity_energy: np.ndarray  #: Part of the energy of friction by asperities [J]
     mechanism_energy: np.ndarray  #: Energy of friction by interface and mechanism [J]
@@ -311,7 +310,7 @@ def _book_peaks(step, totals, orbit):
 
 @jit
 def book(steps, j, totals, states, contacts):
-    """Add the steps of roller `j` in a buffer to its energies E = ∫P dt (34) and other totals.
+    """Add a roller's steps to its frictional energy E = ∫P dt (34) and to its other totals.
 
     Of the load that films carry beside that of the rings the lighter one of the two raceways'
     counts, which the roller's body force does not load.

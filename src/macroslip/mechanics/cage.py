@@ -1,33 +1,34 @@
-"""The contact of a roller with the cage: its load (32) and its friction."""
+"""The contact of a roller with the cage: its load (32), its friction, and what guides the cage."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
-from macroslip.compiled import jit_evaluation
+from macroslip.compiled import jit_evaluation, jit_inline
 from macroslip.contact.look_up import contact_load, in_plane, log_load
+from macroslip.mechanics.power import rolling_power
 from macroslip.mechanics.traction import uniform_traction
 
 
 class CageFriction(NamedTuple):
     """Friction of the cage's contact without the oil of its pocket."""
 
-    force: float  #: In (16) [N]
+    force: float  #: Friction in the spin equation (16) [N]
     by_slip: float  #: Slope by the roller's slip Δu [N s/m]
     by_load: float  #: Slope by load [-]
     asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
 
 
 class CageForces(NamedTuple):
-    """Forces of the cage's contact in (16), with slopes by slip Δu [N s/m] and by load [-]."""
+    """Forces of the cage's contact in the spin equation (16), with their slopes."""
 
     friction: float  #: F_c [N]
     resistance: float  #: Rolling resistance [N]
-    friction_by_slip: float
-    resistance_by_slip: float
-    friction_by_load: float
-    resistance_by_load: float
+    friction_by_slip: float  #: ∂F_c/∂Δu [N s/m]
+    resistance_by_slip: float  #: Slope of rolling resistance by Δu [N s/m]
+    friction_by_load: float  #: ∂F_c/∂F_n,cage [-]
+    resistance_by_load: float  #: Slope of rolling resistance by F_n,cage [-]
     rolling_power: float  #: Power of rolling resistance [W]
     asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
 
@@ -37,9 +38,25 @@ NO_CAGE_FORCES = CageForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @jit_evaluation
 def cage_load(tangential, inner_pull, outer_pull):
-    """Normal force of the cage F_n,cage (32) [N], positive where it pushes along the orbit.
+    """Normal load of the cage on an imposed orbit (32), F_n,cage = F_g,x' + F_d,x' + F_i − F_o.
 
-    On an imposed orbit the cage balances everything tangential: F_g,x' + F_d,x' + F_i − F_o.
+    Parameters
+    ----------
+    tangential : float
+        F_g,x' + F_d,x', against a positive orbit [N].
+    inner_pull, outer_pull : float
+        Pulls of the raceways on the roller's centre [N], which are F_i and F_o without rolling
+        resistance and microslip.
+
+    Returns
+    -------
+    float
+        F_n,cage [N], positive where the cage pushes the roller along the orbit.
+
+    Examples
+    --------
+    >>> cage_load(30.0, 5.0, 2.0)
+    33.0
     """
     return tangential + inner_pull - outer_pull
 
@@ -141,6 +158,49 @@ def cage_forces(body, tables, load, surface_speed, log_surface):
         0.5 * (resistance + by_speed[3]),
         friction.by_load - surface_speed * by_load[2] * per_load,
         -0.5 * surface_speed * by_load[3] * per_load,
-        -shear * surface_speed,
+        rolling_power(shear, 0.5 * surface_speed),
         friction.asperity_power,
+    )
+
+
+#: Speed over which the friction of the cage's guide turns its sign [m/s].
+GUIDE_SPEED = 1e-3
+
+
+class CageGuide(NamedTuple):
+    """Forces of what guides a cage on it, at the pitch radius; both brake where they are positive."""
+
+    friction: float  #: Friction of the guide [N]
+    drag: float  #: Shear of the oil film at a ring's land [N]
+    land_speed: float  #: Speed of that land at the pitch radius [m/s]
+    by_speed: float  #: Slope of both by the cage's speed [N s/m]
+
+
+@jit_inline
+def cage_guide(bearing, speed, shaft_speed):
+    """Friction of a cage's guide, T_guide/r~, and drag of the ring's land that guides it.
+
+    Friction is µ-like, of one size, tanh(r~ Ω_c/`GUIDE_SPEED`) of it near standstill; the drag is
+    Petroff's.
+
+    Parameters
+    ----------
+    bearing : record of `macroslip.whole.model.BEARING`
+    speed : float
+        r~ Ω_c of the cage [m/s].
+    shaft_speed : float
+        Ω_in [rad/s].
+
+    Returns
+    -------
+    CageGuide
+    """
+    turned = math.tanh(speed / GUIDE_SPEED)
+    land_speed = bearing.land_turns * shaft_speed * bearing.pitch_radius
+    friction_slope = bearing.guide_friction * (1.0 - turned * turned) / GUIDE_SPEED
+    return CageGuide(
+        bearing.guide_friction * turned,
+        bearing.land_drag * (speed - land_speed),
+        land_speed,
+        friction_slope + bearing.land_drag,
     )

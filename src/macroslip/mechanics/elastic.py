@@ -1,4 +1,4 @@
-"""Elastic load of a roller between its rings over their approach, and the approach over the load.
+"""Elastic load of a roller between its rings by their approach, and the approach by the load.
 
 Crowned and barrel rollers touch in ellipses, whose contacts in series have Q = K δ^1.5; those that
 touch along a line have the law of `macroslip.contact.line_approach`.
@@ -14,7 +14,19 @@ from macroslip.contact.line_approach import line_approach, line_load
 
 @jit_evaluation
 def elastic_load(body, approach):
-    """Load Q of both contacts in series [N] at an elastic approach [m]; 0 with play."""
+    """Load of both raceway contacts in series at an elastic approach, Q = K δ^1.5 of ellipses.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    approach : float
+        δ [m]; negative where there is play.
+
+    Returns
+    -------
+    float
+        Q [N]; 0 with play.
+    """
     if approach <= 0.0:
         return 0.0
     if body.line_stiffness > 0.0:
@@ -24,7 +36,19 @@ def elastic_load(body, approach):
 
 @jit_inline
 def approach_under_load(body, load):
-    """Elastic approach [m] of both contacts in series under a load Q > 0 [N]."""
+    """Elastic approach of both raceway contacts in series under a load, δ = (Q/K)^(2/3) of ellipses.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    load : float
+        Q > 0 [N].
+
+    Returns
+    -------
+    float
+        δ [m].
+    """
     if body.line_stiffness > 0.0:
         return line_approach(body.line_stiffness, body.profile_depth, math.log(load)).approach
     return body.compliance * load ** (2.0 / 3.0)

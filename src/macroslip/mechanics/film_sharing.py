@@ -8,14 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.gap import FLOW
 from macroslip.contact.line_approach import line_approach
 from macroslip.contact.look_up import along_load, in_plane, log_load
 from macroslip.elementary import exponential, logarithm
 
 #: Entrainment speed below which film formulas are not followed further [m/s].
 LOWEST_SPEED = 1e-6
-#: Film of the volume flow over the smallest gap of a rigid contact (Martin) [-].
-FLOW = 1.2257
 #: Film loads below this fraction of the elastic load are neglected [-]. They enter as e^−20, so that
 #: loads jump there by 1e-10 of themselves, far below what any tolerance sees.
 NEGLIGIBLE = 1.0 / 20.0
@@ -29,8 +28,8 @@ _ITERATIONS = 60
 _CONVERGED = 2e-5
 
 
-#: Number of body forces for which the play is known from which on films carry nothing, and a margin
-#: on that play for the splines of the films.
+#: Number of body forces for which the largest play that films bridge is tabulated, and a margin on
+#: that play for the splines of the films.
 REACH_NODES = 32
 _REACH_MARGIN = 1.001
 
@@ -46,7 +45,7 @@ class _Films(NamedTuple):
 
 @jit_inline
 def _films_under(body, tables, log_q, outward, log_u):
-    """Films and elastic approach under a load q of the lighter raceway, whose ln is given."""
+    """Films and elastic approach under a load q of the lighter raceway, given by ln q."""
     root = exponential(log_q * (1.0 / 3.0))
     lighter = root * root * root
     heavier = lighter + abs(outward)
@@ -72,7 +71,7 @@ def _films_under(body, tables, log_q, outward, log_u):
 
 @jit_inline
 def _log_excess(films, play):
-    """Ln of the films' height over their space in a play [m], and its slope by ln q."""
+    """Ln of the films' height over the space that a play [m] leaves them, and its slope by ln q."""
     space = play + films.approach
     slope = films.growth - films.exponent * films.approach / space
     return logarithm(films.height / (FLOW * space)), slope
@@ -80,7 +79,7 @@ def _log_excess(films, play):
 
 @jit_inline
 def _reach(body, outward):
-    """Play [m] from which on films carry nothing: that of the next smaller body force known."""
+    """Play above which film load is zero, tabulated at the next smaller body force [m]."""
     part = abs(outward) * body.per_body_force
     # A force that is no number must not lead beyond the nodes.
     part = part if part < 1.0 else 1.0
@@ -90,9 +89,9 @@ def _reach(body, outward):
 
 @jit
 def log_film_balance(body, tables, play, outward, ring_speed, log_q):
-    """Ln q of the load of the lighter of a roller's two films that fill the space between rings.
+    """Load at which the two films of a roller fill the space between the rings, as its logarithm.
 
-    A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the
+    It is the load of the raceway that the body force does not press on. A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the
     body force,
 
         [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
@@ -118,8 +117,7 @@ def log_film_balance(body, tables, play, outward, ring_speed, log_q):
     Returns
     -------
     float
-        ln q, q in N, to an error of 1e-9; that of 1e-9 N where the play is wider than the oil
-        reaches.
+        ln q, q in N, to an error of 1e-9; that of 1e-9 N where films do not bridge the play.
     """
     if play >= _reach(body, outward):
         return _LIGHTEST
@@ -149,7 +147,17 @@ def log_film_balance(body, tables, play, outward, ring_speed, log_q):
 
 
 def reach_forces(largest: float) -> np.ndarray:
-    """Body forces for which the reach of films is kept, from 0 to the largest [N].
+    """Body forces at which the play that films bridge is tabulated.
+
+    Parameters
+    ----------
+    largest : float
+        Largest body force along the contact normal [N].
+
+    Returns
+    -------
+    ndarray, shape (REACH_NODES,)
+        Forces from 0 to the largest [N], denser where they are small.
 
     Examples
     --------
@@ -161,7 +169,7 @@ def reach_forces(largest: float) -> np.ndarray:
 
 @jit
 def film_reach(body, tables, outward, ring_speed):
-    """Play that films fill under the lightest load that the search for their load knows [m].
+    """Largest play bridged by the films at the search's lower load bound [m].
 
     Parameters
     ----------
@@ -176,7 +184,7 @@ def film_reach(body, tables, outward, ring_speed):
     Returns
     -------
     float
-        The play [m], from which on films carry nothing; it is less at lower speeds.
+        Play [m], above which film load is zero; it is smaller at lower speeds.
     """
     log_u = logarithm(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     inner_load = _LIGHTEST_LOAD + max(-outward, 0.0)
@@ -215,8 +223,8 @@ class FilmLoad(NamedTuple):
     """Load that the films on both raceways of a roller carry beside elastic load and body force."""
 
     load: float  #: q ≥ 0 [N]
-    #: Logarithm of the load at which films and space are equal [ln N], where the search a moment
-    #: later begins: q where there is play, that of closed play where the rings press on the roller
+    #: Logarithm of the load at which films fill the space between the rings [ln N], where the next
+    #: search begins: ln q where there is play, that of closed play where the rings press
     log_balance: float
 
 

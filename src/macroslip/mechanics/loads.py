@@ -25,7 +25,7 @@ class OrbitLoads(NamedTuple):
 
 @jit_evaluation
 def elastic_approach(body, cosine, sine, now):
-    """Elastic approach δ = (dX cos φ + dY sin φ − c(φ)) cos α + s dZ sin α of a roller [m].
+    """Elastic approach of a roller, δ = (dX cos φ + dY sin φ − c(φ)) cos α + s dZ sin α.
 
     Parameters
     ----------
@@ -47,25 +47,101 @@ def elastic_approach(body, cosine, sine, now):
 
 @jit_evaluation
 def normal_body_force(body, sine, orbital_speed):
-    """Weight (18)-(20) and centrifugal force (21)-(23) along the contact normal [N].
+    """Weight (18)-(20) and centrifugal force (21)-(23) of a roller along the contact normal.
 
-    They are positive outward. Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along
+    Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along
     Z0. Both forces are summed first; a sum that points outward loads the outer raceway, inward the
     inner one. A roller with play can lean on only one ring, so that the sum and not each force for
     itself is what a raceway feels.
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    sine : float
+        sin φ of the orbital position [-].
+    orbital_speed : float
+        Ω [rad/s].
+
+    Returns
+    -------
+    float
+        Sum of both forces [N], positive outward.
     """
     radial = body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine
     return radial * body.cos_contact_angle + body.weight_along_axis * body.sin_contact_angle
 
 
 @jit_evaluation
-def tangential_body_force(body, cosine, orbital_speed):
-    """Weight F_g,x' (18)-(20) and drag F_d,x' (24)-(26) along +x', against a positive orbit [N]."""
-    return body.weight_in_plane * cosine + body.drag * orbital_speed * abs(orbital_speed)
+def drag_force(coefficient, orbital_speed):
+    """Drag of the lubricant on a roller (24)-(26), F_d,x' = ½ C_D ρ f A (Ω r~)² [N].
+
+    Parameters
+    ----------
+    coefficient : float
+        ½ C_D ρ f A r~² [N s²], `drag` of `macroslip.roller.model.RollerModel`.
+    orbital_speed : float or ndarray
+        Ω [rad/s].
+
+    Returns
+    -------
+    float or ndarray
+        F_d,x' along +x' [N], positive against a positive orbit.
+
+    Examples
+    --------
+    >>> drag_force(2.0, -0.5)
+    -0.5
+    """
+    return coefficient * orbital_speed * abs(orbital_speed)
+
+
+def drag_power(coefficient, pitch_radius, orbital_speed):
+    """Power that the drag (24)-(26) takes from a roller, F_d,x' r~ Ω [W].
+
+    Parameters
+    ----------
+    coefficient : float
+        ½ C_D ρ f A r~² [N s²].
+    pitch_radius : float
+        r~ [m].
+    orbital_speed : float or ndarray
+        Ω [rad/s].
+
+    Returns
+    -------
+    float or ndarray
+        Power [W], ≥ 0 in either direction of the orbit.
+
+    Examples
+    --------
+    >>> drag_power(2.0, 0.4, -0.5)
+    0.1
+    """
+    return drag_force(coefficient, orbital_speed) * pitch_radius * orbital_speed
 
 
 @jit_evaluation
-def roller_loads(body, tables, cosine, sine, now, orbital_speed, log_balance):
+def tangential_body_force(body, cosine, orbital_speed):
+    """Weight F_g,x' (18)-(20) and drag F_d,x' (24)-(26) of a roller along +x' [N].
+
+    Parameters
+    ----------
+    body : record of `macroslip.roller.model.BODY`
+    cosine : float
+        cos φ of the orbital position [-].
+    orbital_speed : float
+        Ω [rad/s].
+
+    Returns
+    -------
+    float
+        G = F_g,x' + F_d,x' [N], positive against a positive orbit.
+    """
+    return body.weight_in_plane * cosine + drag_force(body.drag, orbital_speed)
+
+
+@jit_evaluation
+def orbit_loads(body, tables, cosine, sine, now, orbital_speed, log_balance):
     """Loads on a roller at the orbital position cos φ, sin φ.
 
     Parameters

@@ -17,29 +17,29 @@ from macroslip.contact.look_up import (
     traction_cell,
 )
 from macroslip.mechanics.film_sharing import LOWEST_SPEED
+from macroslip.mechanics.power import rolling_power
 from macroslip.mechanics.traction import uniform_traction
 
 
 class RacewayForces(NamedTuple):
     """Forces of a raceway contact on the roller, with slopes by slip Δu, ring speed u2 and load Q.
 
-    Slopes by slip and by speed are in N s/m, those by load without unit; each is taken with the
-    others constant.
+    S is the shear of rolling resistance, P the pull.
     """
 
-    #: F in (16), the moment about the roller's axis over r, without rolling resistance [N]
+    #: F in the spin equation (16), a moment about the roller's axis over r, without S [N]
     friction: float
-    pull: float  #: Force on the roller's centre, along the friction [N]
-    shear: float  #: Rolling resistance in (16) [N]
-    friction_by_slip: float
-    pull_by_slip: float
-    shear_by_slip: float
-    friction_by_speed: float
-    pull_by_speed: float
-    shear_by_speed: float
-    friction_by_load: float
-    pull_by_load: float
-    shear_by_load: float
+    pull: float  #: Force P on the roller's centre, along the friction [N]
+    shear: float  #: Rolling resistance S in the spin equation (16) [N]
+    friction_by_slip: float  #: ∂F/∂Δu [N s/m]
+    pull_by_slip: float  #: ∂P/∂Δu [N s/m]
+    shear_by_slip: float  #: ∂S/∂Δu [N s/m]
+    friction_by_speed: float  #: ∂F/∂u2 [N s/m]
+    pull_by_speed: float  #: ∂P/∂u2 [N s/m]
+    shear_by_speed: float  #: ∂S/∂u2 [N s/m]
+    friction_by_load: float  #: ∂F/∂Q [-]
+    pull_by_load: float  #: ∂P/∂Q [-]
+    shear_by_load: float  #: ∂S/∂Q [-]
     lag: float  #: ∫τ h/r dA, by which the moment over r falls short of the traction [N]
     skew: float  #: ∫τ ζ dA, moment about the contact normal [N m]
     asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
@@ -53,37 +53,36 @@ _NO_TRACTION = Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class RacewayOil(NamedTuple):
-    """Forces of the oil beside the traction in (16) [N]; slopes are as in `RacewayForces`."""
+    """Forces of the oil beside the traction, with slopes by slip Δu, ring speed u2 and load Q."""
 
-    sliding: float  #: Of the film outside the ellipse
-    shear: float  #: Rolling resistance
-    sliding_by_slip: float
-    shear_by_slip: float
-    sliding_by_speed: float
-    shear_by_speed: float
-    sliding_by_load: float
-    shear_by_load: float
-    power: float  #: Of rolling resistance [W]
+    sliding: float  #: Shear F_s of the film outside the ellipse [N]
+    shear: float  #: Rolling resistance S [N]
+    sliding_by_slip: float  #: ∂F_s/∂Δu [N s/m]
+    shear_by_slip: float  #: ∂S/∂Δu [N s/m]
+    sliding_by_speed: float  #: ∂F_s/∂u2 [N s/m]
+    shear_by_speed: float  #: ∂S/∂u2 [N s/m]
+    sliding_by_load: float  #: ∂F_s/∂Q [-]
+    shear_by_load: float  #: ∂S/∂Q [-]
+    power: float  #: Power of rolling resistance [W]
 
 
 _NO_OIL = RacewayOil(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class RacewayState(NamedTuple):
-    """State of a raceway contact: its load, and what of its tables is looked up by it."""
+    """Load of a raceway contact, and its position in the tables."""
 
-    load: ContactLoad
-    #: Cell in the table of traction
-    cell: TractionCell
+    load: ContactLoad  #: Normal load
+    cell: TractionCell  #: Cell in the table of traction
     #: Film and share of asperities by `in_plane`, where the closed form of traction serves
     film: tuple[Any, Any, Any]
 
 
 @jit_evaluation
 def raceway_state(law, tables, closed_form, load, speeds):
-    """State of a raceway contact.
+    """Position of a raceway contact in its tables.
 
-    Those of both raceways are found before the forces of either, so that the processor works at
+    It is looked up for both raceways before the forces of either, so that the processor works on
     both at once.
 
     Parameters
@@ -148,6 +147,42 @@ def raceway_traction(law, tables, closed_form, state, speeds):
     return traction(law.traction, tables, state.load, speeds, state.cell)
 
 
+class SpinTraction(NamedTuple):
+    """Traction of a raceway contact in the spin equation (16), a moment about the axis over r."""
+
+    force: float  #: F = ∫τ (1 − h/r) dA, with the sign of the slip [N]
+    by_slip: float  #: ∂F/∂Δu [N s/m]
+    by_speed: float  #: ∂F/∂u2 [N s/m]
+    by_load: float  #: ∂F/∂Q [-]
+
+
+@jit_evaluation
+def spin_traction(film):
+    """Traction of a raceway contact in the spin equation (16), F_i or F_o, with its slopes.
+
+    Parameters
+    ----------
+    film : macroslip.contact.look_up.Traction
+        Pull ∫τ dA and lag ∫τ h/r dA of the contact [N].
+
+    Returns
+    -------
+    SpinTraction
+
+    Examples
+    --------
+    >>> film = Traction(5.0, 1.0, 0.0, 0.0, 8.0, 2.0, 0.0, 0.0, 0.5, 0.25)
+    >>> spin_traction(film)
+    SpinTraction(force=4.0, by_slip=6.0, by_speed=0.0, by_load=0.25)
+    """
+    return SpinTraction(
+        film.pull - film.lag,
+        film.pull_by_slip - film.lag_by_slip,
+        film.pull_by_speed - film.lag_by_speed,
+        film.pull_by_load - film.lag_by_load,
+    )
+
+
 @jit_evaluation
 def raceway_oil(law, tables, load, speeds):
     """Shear of the film outside the contact ellipse and rolling resistance of a raceway contact.
@@ -190,7 +225,7 @@ def raceway_oil(law, tables, load, speeds):
         shear_by_speed,
         slip * by_load[0] * per_load,
         -sign * by_load[1] * per_load,
-        -2.0 * shear * mean,
+        rolling_power(shear, mean),
     )
 
 
@@ -211,7 +246,7 @@ def raceway_forces(body, law, tables, state, speeds):
     state : RacewayState
         Of a load > 0.
     speeds : macroslip.contact.look_up.ContactSpeeds
-        u2 and Δu in the middle of the contact, (28)-(31).
+        u2 and Δu in the middle of the contact, by the speeds of the surfaces (28)-(31).
 
     Returns
     -------
@@ -221,18 +256,19 @@ def raceway_forces(body, law, tables, state, speeds):
     oil = _NO_OIL
     if body.oily:
         oil = raceway_oil(law, tables, state.load, speeds)
+    turning = spin_traction(film)
     push = law.push
     return RacewayForces(
-        film.pull - film.lag + oil.sliding,
+        turning.force + oil.sliding,
         film.pull + oil.sliding + push * oil.shear,
         oil.shear,
-        film.pull_by_slip - film.lag_by_slip + oil.sliding_by_slip,
+        turning.by_slip + oil.sliding_by_slip,
         film.pull_by_slip + oil.sliding_by_slip + push * oil.shear_by_slip,
         oil.shear_by_slip,
-        film.pull_by_speed - film.lag_by_speed + oil.sliding_by_speed,
+        turning.by_speed + oil.sliding_by_speed,
         film.pull_by_speed + oil.sliding_by_speed + push * oil.shear_by_speed,
         oil.shear_by_speed,
-        film.pull_by_load - film.lag_by_load + oil.sliding_by_load,
+        turning.by_load + oil.sliding_by_load,
         film.pull_by_load + oil.sliding_by_load + push * oil.shear_by_load,
         oil.shear_by_load,
         film.lag,

@@ -29,7 +29,7 @@ NO_RIB_FORCES = RibForces(0.0, 0.0, 0.0, 0.0)
 
 @jit_evaluation
 def rib_forces(rib, tables, elastic_load, ring_speed, slip):
-    """Friction of the rib under a load of the rings.
+    """Friction of a tapered roller's rib at a load of the rings and a slip of the raceways.
 
     Parameters
     ----------

@@ -1,7 +1,8 @@
 """Speeds of the surfaces in a roller's contacts, in the frame that orbits with it (28)-(31).
 
-The spin in (31) is the one relative to that frame, ω_rel = ω_z' − Ω cos α. The cage's spar is at
-rest in it.
+The spin that makes the roller's surface speed (31) is the one relative to that frame, ω_rel = ω_z' − Ω cos α. The cage's spar is at
+rest in it. The speeds of an orbit follow from the slips, v_in = r~ Ω − r ω − Ω_in r~_in and v_out = −r~ Ω − r ω
+with ω = ω_z' in the inertial frame.
 """
 
 from __future__ import annotations
@@ -64,3 +65,77 @@ def surface_speed(ring_speed, slip):
     -0.25
     """
     return ring_speed - slip
+
+
+@jit_inline
+def centre_speed(inner_slip, outer_slip, ring_surface):
+    """Speed of a roller's centre along its orbit, r~ Ω = (v_in − v_out + Ω_in r~_in)/2 [m/s].
+
+    Parameters
+    ----------
+    inner_slip, outer_slip : float or ndarray
+        v_in and v_out [m/s].
+    ring_surface : float or ndarray
+        Ω_in r~_in [m/s].
+
+    Returns
+    -------
+    float or ndarray
+        r~ Ω [m/s], positive along +φ.
+
+    Examples
+    --------
+    >>> centre_speed(0.25, -0.25, 1.0)
+    0.75
+    """
+    return 0.5 * (inner_slip - outer_slip + ring_surface)
+
+
+@jit_inline
+def spin_surface_speed(inner_slip, outer_slip, ring_surface):
+    """Speed of a roller's surface by its spin, r ω_z' = −(v_in + v_out + Ω_in r~_in)/2 [m/s].
+
+    Parameters
+    ----------
+    inner_slip, outer_slip : float or ndarray
+        v_in and v_out [m/s].
+    ring_surface : float or ndarray
+        Ω_in r~_in [m/s].
+
+    Returns
+    -------
+    float or ndarray
+        r ω_z' in the inertial frame [m/s]; negative with the shaft forward.
+
+    Examples
+    --------
+    >>> spin_surface_speed(0.25, -0.25, 1.0)
+    -0.5
+    """
+    return -0.5 * (inner_slip + outer_slip + ring_surface)
+
+
+@jit_inline
+def cage_speed(lead, shaft_speed, inner_radius):
+    """Speed of a cage at the pitch radius, r~ Ω_c = w + Ω_in r~_in/2 [m/s].
+
+    Parameters
+    ----------
+    lead : float or ndarray
+        Lead w of the cage over pure rolling [m/s].
+    shaft_speed : float or ndarray
+        Ω_in [rad/s].
+    inner_radius : float
+        r~_in [m].
+
+    Returns
+    -------
+    float or ndarray
+        r~ Ω_c [m/s], positive along +φ.
+
+    Examples
+    --------
+    >>> cage_speed(-0.1, 2.0, 0.4)
+    0.30000000000000004
+    """
+    return lead + 0.5 * shaft_speed * inner_radius

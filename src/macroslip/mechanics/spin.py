@@ -11,8 +11,8 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import ContactLoad, contact_speeds, log_load, log_speed
 from macroslip.elementary import cosine_and_sine, exponential
 from macroslip.mechanics.cage import cage_forces, cage_load
-from macroslip.mechanics.loads import roller_loads
-from macroslip.mechanics.power import raceway_power
+from macroslip.mechanics.loads import orbit_loads
+from macroslip.mechanics.power import cage_power, raceway_power, total_power
 from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces, raceway_state
 from macroslip.mechanics.rib import NO_RIB_FORCES, rib_forces
 from macroslip.mechanics.speeds import outer_ring_speed, surface_speed
@@ -20,67 +20,55 @@ from macroslip.mechanics.speeds import outer_ring_speed, surface_speed
 #: Conditions of a roller at one position and time, whatever its spin: loads and speeds.
 CONDITIONS = np.dtype(
     [
-        # Speed of both raceway surfaces past the roller's centre (28)-(30):
-        # u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s].
+        # Speed of inner raceway (28) and outer raceway (29) past the roller's centre, which on an
+        # imposed orbit are the same, u2 = −(Ω_in − Ω) r~_in = −Ω r~_out [m/s].
         ("ring_speed", "f8"),
         # Elastic approach δ of ring, roller and ring [m]; negative where there is play.
         ("approach", "f8"),
-        # Load Q that the rings press on the roller [N].
-        ("elastic_load", "f8"),
-        # Normal loads with body forces, and those of films that share a roller's play [N].
-        ("inner_load", "f8"),
-        ("outer_load", "f8"),
-        # F_g,x' + F_d,x', along +x' [N].
-        ("tangential", "f8"),
+        ("elastic_load", "f8"),  # load Q that the rings press on the roller [N]
+        ("inner_load", "f8"),  # normal load of the inner raceway, with body forces and films [N]
+        ("outer_load", "f8"),  # normal load of the outer raceway, with body forces and films [N]
+        ("tangential", "f8"),  # F_g,x' + F_d,x', along +x' [N]
         # Logarithm of the load at which films fill the space between the rings [ln N], where the
         # next search for the films' load begins.
         ("log_film_balance", "f8"),
-        # Logarithms [ln N] and cube roots [N^(1/3)] of the normal loads.
-        ("log_inner_load", "f8"),
-        ("log_outer_load", "f8"),
-        ("root_inner_load", "f8"),
-        ("root_outer_load", "f8"),
+        ("log_inner_load", "f8"),  # logarithm of the inner raceway's load [ln N]
+        ("log_outer_load", "f8"),  # logarithm of the outer raceway's load [ln N]
+        ("root_inner_load", "f8"),  # cube root of the inner raceway's load [N^(1/3)]
+        ("root_outer_load", "f8"),  # cube root of the outer raceway's load [N^(1/3)]
     ]
 )
-#: Tangential forces on a roller at a given slip Δu, and their slopes by it.
+#: Tangential forces on a roller at a given slip Δu, and their slopes by it. Those in the spin
+#: equation (16) are moments over r, positive where they drive the spin ω up.
 FORCES = np.dtype(
     [
-        # F_i, F_o, F_c in (16), that is moments over r, positive where they drive the spin ω up
-        # [N].
-        ("inner", "f8"),
-        ("outer", "f8"),
-        ("cage", "f8"),
-        # Rolling resistance of all three contacts and friction of a rib in (16) [N].
+        ("inner", "f8"),  # F_i in (16) [N]
+        ("outer", "f8"),  # F_o in (16) [N]
+        ("cage", "f8"),  # F_c in (16) [N]
+        # Rolling resistance of all contacts and friction of a rib in the spin equation (16) [N].
         ("resistance", "f8"),
-        # d(F_i + F_o + F_c + resistance)/dΔu, dF_i/dΔu and dF_o/dΔu [N s/m].
-        ("slope", "f8"),
-        ("inner_slope", "f8"),
-        ("outer_slope", "f8"),
-        # F_n,cage (32) with its sign, positive where the cage pushes the roller along +φ [N],
-        # and its slope [N s/m].
+        ("slope", "f8"),  # d(F_i + F_o + F_c + resistance)/dΔu [N s/m]
+        ("inner_slope", "f8"),  # dF_i/dΔu [N s/m]
+        ("outer_slope", "f8"),  # dF_o/dΔu [N s/m]
+        # F_n,cage (32) with its sign, positive where the cage pushes the roller along +φ [N].
         ("cage_load", "f8"),
-        ("cage_load_slope", "f8"),
-        # ∫τ h/r dA [N] and skew moment ∫τ ζ dA [N m] of inner and outer raceway.
-        ("lag", "f8", (2,)),
-        ("skew", "f8", (2,)),
-        # Power of rolling resistance, and power that asperities dissipate, by interface [W].
-        ("rolling", "f8", (3,)),
-        ("rough", "f8", (3,)),
-        # Friction of a tapered roller's rib F_f [N], its slope by Δu [N s/m], what the inner
-        # raceway's friction is below `inner` and the outer one's above `outer` by it [N], its power,
-        # and the part of it by asperities [W].
-        ("rib", "f8"),
-        ("rib_by_slip", "f8"),
-        ("rib_held", "f8"),
-        ("rib_power", "f8"),
-        ("rib_rough", "f8"),
+        ("cage_load_slope", "f8"),  # dF_n,cage/dΔu [N s/m]
+        ("lag", "f8", (2,)),  # ∫τ h/r dA of inner and outer raceway [N]
+        ("skew", "f8", (2,)),  # skew moment ∫τ ζ dA of inner and outer raceway [N m]
+        ("rolling", "f8", (3,)),  # power of rolling resistance by interface [W]
+        ("rough", "f8", (3,)),  # power that asperities dissipate by interface [W]
+        ("rib", "f8"),  # friction F_f of a tapered roller's rib [N]
+        ("rib_by_slip", "f8"),  # dF_f/dΔu [N s/m]
+        ("rib_correction", "f8"),  # correction of F_i (−) and F_o (+) by rib friction [N]
+        ("rib_power", "f8"),  # power of the rib's friction [W]
+        ("rib_rough", "f8"),  # part of that power that asperities dissipate [W]
     ]
 )
 
 
 @jit
 def write_conditions(body, tables, start_angle, now, at):
-    """Write the conditions of a roller: its loads, and the speed of the rings past it.
+    """Write the loads of a roller on its imposed orbit, and the speed of the rings past it.
 
     Parameters
     ----------
@@ -97,7 +85,7 @@ def write_conditions(body, tables, start_angle, now, at):
     orbital_speed = body.orbit_ratio * now.shaft_speed
     angle = start_angle + body.orbit_ratio * now.shaft_angle
     cosine, sine = cosine_and_sine(angle)
-    loads = roller_loads(body, tables, cosine, sine, now, orbital_speed, at.log_film_balance)
+    loads = orbit_loads(body, tables, cosine, sine, now, orbital_speed, at.log_film_balance)
     at.ring_speed = outer_ring_speed(orbital_speed, body.outer_radius)
     at.approach = loads.approach
     at.elastic_load = loads.elastic_load
@@ -113,13 +101,13 @@ def write_conditions(body, tables, start_angle, now, at):
 
 @jit
 def slip_forces(body, tables, at, slip, forces):
-    """Write the forces of the raceways and the cage for the raceway slip Δu_in = Δu_out.
+    """Write the forces of raceways and cage at a slip that both raceways have in common.
 
     The roller's surface speed is u1 = u2 − Δu (31). The cage is at rest in the orbiting frame, Δu_c
-    = −u1, and its normal force balances everything tangential (32), F_i and F_o with what rolling
-    resistance does: its shear and the push of the inclined pressure. What the rib of a tapered
+    = −u1, and its load (32) balances everything tangential, F_i and F_o with what rolling resistance
+    does: its shear and the push of the inclined pressure. What the rib of a tapered
     roller does to the orbit the raceways hold, by slips of their own that an imposed orbit does not
-    have: F_i and F_o are here those of the common slip, and `rib_held` is what they differ by.
+    have: F_i and F_o are here those of the common slip, without `rib_correction`.
 
     Parameters
     ----------
@@ -185,7 +173,7 @@ def slip_forces(body, tables, at, slip, forces):
 
 @jit
 def _add_rib(law, tables, at, slip, near, far, forces):
-    """Write the friction of the rib; returns what the cage is spared of the raceways' pulls [N].
+    """Write the friction of the rib; returns the reduction of cage load by rib friction [N].
 
     The raceways pass e F_f on, at a common slip in the ratio of their slopes a and b, `near` and
     `far` [N s/m]. On an orbit of its own a gripped roller shares it evenly: no cage holds what is
@@ -200,7 +188,7 @@ def _add_rib(law, tables, at, slip, near, far, forces):
         spared = law.arm * rib.friction * (near - far) / (near + far)
     forces.rib = rib.friction
     forces.rib_by_slip = rib.by_slip
-    forces.rib_held = 0.5 * (law.pull * rib.friction - spared)
+    forces.rib_correction = 0.5 * (law.pull * rib.friction - spared)
     forces.rib_power = rib.power
     forces.rib_rough = rib.asperity_power
     return spared
@@ -208,13 +196,35 @@ def _add_rib(law, tables, at, slip, near, far, forces):
 
 @jit_inline
 def net_force(forces):
-    """Force by which the spin changes (16), F_i + F_o + F_c with rolling resistance [N]."""
+    """Force by which the spin changes (16), F_i + F_o + F_c with rolling resistance.
+
+    Parameters
+    ----------
+    forces : record of `FORCES`
+
+    Returns
+    -------
+    float
+        I_z'/r dω/dt [N], positive where the spin ω grows.
+    """
     return forces.inner + forces.outer + forces.cage + forces.resistance
 
 
 @jit_inline
 def magnitude(forces):
-    """|F_i| + |F_o| + |F_c| with rolling resistance, the scale of rounding in the net force [N]."""
+    """Sum of the magnitudes |F_i| + |F_o| + |F_c| and of rolling resistance.
+
+    It is the scale of rounding in the net force.
+
+    Parameters
+    ----------
+    forces : record of `FORCES`
+
+    Returns
+    -------
+    float
+        Sum [N].
+    """
     return abs(forces.inner) + abs(forces.outer) + abs(forces.cage) + abs(forces.resistance)
 
 
@@ -241,7 +251,8 @@ def powers(body, at, forces, slip, power):
     ring_speed = at.ring_speed
     inner = raceway_power(body.inner, slip, ring_speed, forces.inner, forces.lag[0], forces.skew[0])
     outer = raceway_power(body.outer, slip, ring_speed, forces.outer, forces.lag[1], forces.skew[1])
-    power[0] = inner.slip + inner.curvature + inner.contact_spin
-    power[1] = outer.slip + outer.curvature + outer.contact_spin
-    power[2] = abs(forces.cage * surface_speed(ring_speed, slip))
+    power[0] = total_power(inner)
+    power[1] = total_power(outer)
+    # A force that follows a last correction to first order may have passed zero.
+    power[2] = abs(cage_power(forces.cage, -surface_speed(ring_speed, slip)))
     return power[0] + power[1] + power[2]

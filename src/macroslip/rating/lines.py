@@ -104,7 +104,7 @@ def line_rating(
 def line_interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Interface]:
     """Raceways with ellipses that have the load per length of line contacts, for film laws.
 
-    The load of the ellipse is that of `film_load`.
+    The load of the ellipse is that of `ellipse_load_for_film`.
     """
     load = REFERENCE_LOAD_PER_LENGTH * bearing.roller_length
     inner, outer = (
@@ -116,7 +116,7 @@ def line_interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, 
     return inner, outer
 
 
-def film_load(interface: Interface, strips: Strips, load) -> NDArray[np.float64]:
+def ellipse_load_for_film(interface: Interface, strips: Strips, load) -> NDArray[np.float64]:
     """Load of the ellipse whose load per length is that of a line's middle strip [N].
 
     At loads Q > 0 [N] of the roller.

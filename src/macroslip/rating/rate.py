@@ -23,7 +23,7 @@ from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.lubricant import Lubricant
 from macroslip.rating import iso
 from macroslip.rating.kinds import EquivalentLoads, LoadRatings, equivalent_loads, ratings_of
-from macroslip.rating.lines import film_load, line_interfaces, line_rating
+from macroslip.rating.lines import ellipse_load_for_film, line_interfaces, line_rating
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.rating.tapered import StripRating
 from macroslip.ring.motion import elastic_loads, ring_motion
@@ -356,7 +356,8 @@ def _contacts(history: _History) -> dict[str, tuple]:
     if _touches_along_line(bearing):
         raceways = line_interfaces(bearing, history.lubricant)
         of_ellipse = [
-            partial(film_load, *pair) for pair in zip(raceways, strips_of(bearing), strict=True)
+            partial(ellipse_load_for_film, *pair)
+            for pair in zip(raceways, strips_of(bearing), strict=True)
         ]
     load = history.roller_load
     largest = load.max(axis=(1, 2))

@@ -19,6 +19,7 @@ from macroslip.errors import InputError
 from macroslip.kinds import kind_of
 from macroslip.kinds.kind import RingBalance
 from macroslip.loads import RollerLoads
+from macroslip.mechanics.loads import drag_power
 from macroslip.result.plausibility import doubtful_loads
 from macroslip.result.skew import thrust_on_ring
 from macroslip.ring.orbit import Motion, merged_times, orbit_times
@@ -59,7 +60,7 @@ class Prepared:
         return next(iter(self.models.values()))
 
     def drag_power(self) -> float:
-        """Mean power of the lubricant's drag (24) on all rollers in the window [W]."""
+        """Mean power of the lubricant's drag on all rollers in the window [W]."""
         motion = self.motion
         model = self.model
         start = self.edges[0]
@@ -67,9 +68,9 @@ class Prepared:
         inside = motion.time[is_inside]
         time = np.concatenate([[start], inside, [self.end]])
         shaft_speed = np.interp(time, motion.time, motion.shaft_speed)
-        speed = np.abs(model.orbit_ratio * shaft_speed)
         bearing = self.case.bearing
-        power = model.drag * speed**3 * bearing.pitch_radius
+        orbital_speed = model.orbit_ratio * shaft_speed
+        power = drag_power(model.drag, bearing.pitch_radius, orbital_speed)
         rollers = bearing.rows * bearing.rollers_per_row
         energy = float(np.trapezoid(power, time))
         return rollers * energy / (self.end - start)

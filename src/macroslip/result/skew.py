@@ -10,7 +10,7 @@ import numpy as np
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.measures.skew import BY_SECTOR, Skewing
 from macroslip.ring.orbit import Motion
-from macroslip.roller.skew import pocket, raceways
+from macroslip.roller.skew import raceways, skew_stop
 from macroslip.roller.skew_table import guide_of, skew_table
 from macroslip.roller.thrust import thrust
 
@@ -29,7 +29,7 @@ def skewing(case: Case, laws: PreparedLaws, box: Box) -> dict[str, Skewing]:
         return {}
     table = skew_table(laws, case.bearing, box)
     cage = case.cage
-    stop = pocket(case.bearing, cage.guidance, cage.gap, cage.skew_play)
+    stop = skew_stop(case.bearing, cage.guidance, cage.gap, cage.skew_play)
     if cage.alignment == "none":
         stop = stop._replace(effective_radius=0.0)
     skewings = {}

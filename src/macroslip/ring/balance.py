@@ -41,27 +41,35 @@ _LONGEST_PUSH = 1e3
 class RingGeometry(NamedTuple):
     """Geometry and stiffness of a bearing, for the balance."""
 
-    #: Shape (n,). cos φ and sin φ of every roller of both rows at shaft angle zero.
-    cosine: np.ndarray
-    sine: np.ndarray
-    axial: np.ndarray  #: Shape (n,). s sin α of every roller
-    cos_contact_angle: float  #: cos α
+    cosine: np.ndarray  #: Shape (n,). cos φ of every roller of both rows at shaft angle zero [-]
+    sine: np.ndarray  #: Shape (n,). sin φ of these rollers [-]
+    axial: np.ndarray  #: Shape (n,). s sin α of every roller [-]
+    cos_contact_angle: float  #: cos α [-]
     radial_play: float  #: Half the diametral clearance [m]
     stiffness: float  #: K [N/m^1.5]
     orbit_ratio: float  #: Ω/Ω_in [-]
-    #: c2 cos 2ψ, c2 sin 2ψ, c3 cos 3ψ and c3 sin 3ψ of the clearance's waves [m].
-    second_x: float = 0.0
-    second_y: float = 0.0
-    third_x: float = 0.0
-    third_y: float = 0.0
-    #: C of line contacts [N/m^(10/9)] and depth of their profile [m]; C is 0 with elliptical ones.
-    line_stiffness: float = 0.0
-    profile_depth: float = 0.0
+    second_x: float = 0.0  #: c2 cos 2ψ of the clearance's waves [m]
+    second_y: float = 0.0  #: c2 sin 2ψ of the clearance's waves [m]
+    third_x: float = 0.0  #: c3 cos 3ψ of the clearance's waves [m]
+    third_y: float = 0.0  #: c3 sin 3ψ of the clearance's waves [m]
+    line_stiffness: float = 0.0  #: C of line contacts [N/m^(10/9)]; 0 with elliptical ones
+    profile_depth: float = 0.0  #: Depth of the profile of line contacts [m]
 
 
 @jit_inline
 def radial_clearance(ring, cosine, sine):
-    """Radial clearance [m] at the position cos φ, sin φ of a ring or of a roller's record.
+    """Radial clearance c(φ) of a bearing, with the waves of an outer ring out of round.
+
+    Parameters
+    ----------
+    ring : RingGeometry, or record of `macroslip.roller.model.BODY`
+    cosine, sine : float or ndarray
+        cos φ and sin φ of the position [-].
+
+    Returns
+    -------
+    float or ndarray
+        c [m].
 
     Examples
     --------
@@ -84,7 +92,7 @@ class _Contacts(NamedTuple):
 
     normals: np.ndarray  #: n_j [-], shape (n, 3, rollers)
     play: np.ndarray  #: c(φ_j) cos α [m], shape (n, rollers)
-    ring: RingGeometry
+    ring: RingGeometry  #: The bearing
 
     def rows(self, index: np.ndarray) -> _Contacts:
         """The contacts at some of the samples."""
@@ -127,11 +135,11 @@ def _line_loads(ring: RingGeometry, approach: np.ndarray) -> np.ndarray:
 
 
 class _Balance(NamedTuple):
-    """Π [J] at n samples, its gradient, the unbalanced force [N], and its Hessian [N/m]."""
+    """Π at n samples with its derivatives by d."""
 
-    energy: np.ndarray  #: Shape (n,)
-    gradient: np.ndarray  #: Shape (n, 3)
-    hessian: np.ndarray  #: Shape (n, 3, 3)
+    energy: np.ndarray  #: Π [J], shape (n,)
+    gradient: np.ndarray  #: Gradient, the unbalanced force [N], shape (n, 3)
+    hessian: np.ndarray  #: Hessian [N/m], shape (n, 3, 3)
 
     def replace(self, index: np.ndarray, other: _Balance, chosen: np.ndarray) -> None:
         """Replace the samples at the indices by the chosen samples of another balance."""
@@ -235,7 +243,7 @@ def _descend(
     displacement: np.ndarray,
     most_iterations: int,
 ) -> np.ndarray:
-    """Damped Newton steps downhill in Π; returns the unbalanced forces left [N].
+    """Minimise Π by damped Newton steps; returns the unbalanced forces [N].
 
     They start from `displacement`, which is changed in place.
     """
@@ -288,7 +296,7 @@ def balance(
     Returns
     -------
     displacement : ndarray, shape (n, 3)
-        Where the rollers carry the load [m].
+        Displacements at which the rollers carry the load [m].
     unbalanced : ndarray, shape (n,)
         Unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver
         converged.
@@ -334,7 +342,7 @@ def balance_series(
     Returns
     -------
     displacement : ndarray, shape (n, 3)
-        Where the rollers carry the load [m].
+        Displacements at which the rollers carry the load [m].
     unbalanced : ndarray, shape (n,)
         Unbalanced force that is left [N].
     """
@@ -363,8 +371,8 @@ def tangent_stiffness(
 ) -> np.ndarray:
     """Change of the rollers' force on the ring with its displacement, the Hessian of Π.
 
-    K = Σ_j dQ_j/dδ_j n_j n_jᵀ, with dQ/dδ = 1.5 K √δ of elliptical contacts, over the loaded rollers; it is symmetric, and singular where they
-    do not hold the ring.
+    It is Σ_j dQ_j/dδ_j n_j n_jᵀ over the loaded rollers, with dQ/dδ = 1.5 K √δ of elliptical
+    contacts; it is symmetric, and singular where the rollers do not hold the ring.
 
     Parameters
     ----------
@@ -394,9 +402,20 @@ def tangent_stiffness(
 def roller_loads(
     ring: RingGeometry, shaft_angle: np.ndarray, displacement: np.ndarray
 ) -> np.ndarray:
-    """Load of every roller [N], shape (n, rollers), at n positions of the ring.
+    """Load of every roller at n positions of the ring.
 
-    They are given by shaft angles [rad], shape (n,), and displacements [m], shape (n, 3).
+    Parameters
+    ----------
+    ring : RingGeometry
+    shaft_angle : ndarray, shape (n,)
+        Shaft angles [rad].
+    displacement : ndarray, shape (n, 3)
+        Displacements of the ring [m].
+
+    Returns
+    -------
+    ndarray, shape (n, rollers)
+        Q [N], ≥ 0.
 
     Examples
     --------

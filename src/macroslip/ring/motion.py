@@ -1,8 +1,8 @@
 """Motion of the inner ring under a load history: the ring balance at every sample.
 
-Roller loads above the permissible one are refused. Loads of rollers that are given take the place
-of the balance; every roller then has a motion of its own, whose "displacement" is what gives it its
-approach where it is.
+Roller loads above the permissible one are refused. Given roller loads take the place of the
+balance; every roller then has a motion of its own, whose displacement is the one that gives the
+roller its elastic approach at its position.
 """
 
 from __future__ import annotations
@@ -34,7 +34,30 @@ _SAMPLES_AT_A_TIME = 20_000
 def largest_load(
     ring: RingGeometry, angle: np.ndarray, displacement: np.ndarray
 ) -> tuple[float, int]:
-    """Largest roller load in a series [N], and the index of its sample."""
+    """Largest roller load in a series.
+
+    Parameters
+    ----------
+    ring : RingGeometry
+    angle : ndarray, shape (n,)
+        Shaft angles [rad].
+    displacement : ndarray, shape (n, 3)
+        Displacements of the ring [m].
+
+    Returns
+    -------
+    load : float
+        Largest load [N].
+    sample : int
+        Index of its sample.
+
+    Examples
+    --------
+    >>> ring = RingGeometry(np.array([0.0]), np.array([-1.0]), np.zeros(1), 1.0, 1e-4, 1e11, 0.45)
+    >>> load, sample = largest_load(ring, np.zeros(2), np.array([[0.0, 0.0, 0.0], [0.0, -2e-4, 0.0]]))
+    >>> round(load, 6), sample
+    (100000.0, 1)
+    """
     largest = roller_loads(ring, angle, displacement).max(axis=1)
     sample = int(largest.argmax())
     return float(largest[sample]), sample
@@ -139,9 +162,19 @@ def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -
 def elastic_loads(
     loads: BearingLoads | RollerLoads, ring: RingGeometry, motion: Motion
 ) -> np.ndarray:
-    """Elastic load of every roller of both rows [N], shape (n, rollers).
+    """Elastic load of every roller of both rows at the samples of a motion.
 
-    It is given at the samples of a motion.
+    Parameters
+    ----------
+    loads : BearingLoads or RollerLoads
+    ring : RingGeometry
+    motion : Motion
+        With n samples.
+
+    Returns
+    -------
+    ndarray, shape (n, rollers)
+        Loads [N], ≥ 0.
     """
     if isinstance(loads, RollerLoads):
         approach = np.maximum(_given_approach(loads, ring, motion), 0.0)
@@ -150,9 +183,19 @@ def elastic_loads(
 
 
 def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[Motion]:
-    """Motions that give every roller of both rows the loads of its positions.
+    """Motions that give every roller of both rows the given load at its position.
 
-    They take the place of the motion of `ring_motion`.
+    Parameters
+    ----------
+    loads : RollerLoads
+    ring : RingGeometry
+    motion : Motion
+        Of the shaft, as `ring_motion` returns it for given roller loads.
+
+    Returns
+    -------
+    list of Motion
+        One a roller, downwind row first.
     """
     approach = _given_approach(loads, ring, motion)
     start = np.arctan2(ring.sine, ring.cosine)
@@ -200,7 +243,22 @@ def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> n
 def finely_sampled(
     loads: BearingLoads | RollerLoads, orbit_ratio: float, rollers_per_row: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Time and shaft speed of the same piecewise linear loads, sampled finely for the balance."""
+    """Times and shaft speeds of the same loads, sampled finely enough for the balance.
+
+    Parameters
+    ----------
+    loads : BearingLoads or RollerLoads
+    orbit_ratio : float
+        Ω/Ω_in [-].
+    rollers_per_row : int
+
+    Returns
+    -------
+    time : ndarray, shape (n,)
+        Rising times [s], with those of the loads among them.
+    shaft_speed : ndarray, shape (n,)
+        Ω_in [rad/s].
+    """
     part = _SAMPLED_GIVEN if isinstance(loads, RollerLoads) else _SAMPLED_PITCH
     path = np.diff(travel(loads.time, loads.shaft_speed, orbit_ratio))
     longest = part * 2.0 * np.pi / rollers_per_row

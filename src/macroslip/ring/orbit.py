@@ -27,9 +27,19 @@ class Motion(NamedTuple):
 
 
 def shaft_angle(time: np.ndarray, shaft_speed: np.ndarray) -> np.ndarray:
-    """Exact integral [rad] of a piecewise linear shaft speed [rad/s] over time [s].
+    """Angle turned by a shaft whose speed is linear between samples, the exact integral ∫Ω_in dt.
 
-    It is zero at the first sample.
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        Rising times [s].
+    shaft_speed : ndarray, shape (n,)
+        Ω_in [rad/s].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Angle [rad], zero at the first sample.
 
     Examples
     --------
@@ -42,13 +52,13 @@ def shaft_angle(time: np.ndarray, shaft_speed: np.ndarray) -> np.ndarray:
 
 
 class Instant(NamedTuple):
-    """Shaft speed [rad/s], shaft angle [rad] and ring displacement [m] at one time."""
+    """Motion of the inner ring at one time."""
 
-    shaft_speed: float
-    shaft_angle: float
-    displacement_x: float
-    displacement_y: float
-    displacement_z: float
+    shaft_speed: float  #: Ω_in [rad/s]
+    shaft_angle: float  #: Angle turned since the first sample [rad]
+    displacement_x: float  #: dX [m]
+    displacement_y: float  #: dY [m]
+    displacement_z: float  #: dZ [m]
 
 
 @jit_inline
@@ -60,7 +70,25 @@ def uncounted_motion(motion):
 
 @jit_inline
 def last_before(times, time):
-    """Index of the last of rising times that is not after `time`; −1 if there is none."""
+    """Index of the last of rising times that is not after a time.
+
+    Parameters
+    ----------
+    times : ndarray, shape (n,)
+        Rising times [s].
+    time : float
+        [s]
+
+    Returns
+    -------
+    int
+        Index; −1 if all times are later.
+
+    Examples
+    --------
+    >>> last_before(np.array([0.0, 1.0, 2.0]), 1.5)
+    1
+    """
     low = 0
     high = times.size
     while low < high:
@@ -74,9 +102,26 @@ def last_before(times, time):
 
 @jit_inline
 def interval_of(motion, time, start):
-    """Index of the sample interval that holds `time` [s].
+    """Index of the sample interval that holds a time.
 
-    It is searched from interval `start` in either direction.
+    Parameters
+    ----------
+    motion : Motion
+    time : float
+        [s]
+    start : int
+        Index of the interval from which the search goes in either direction.
+
+    Returns
+    -------
+    int
+        Index; the first or last one for a time outside the history.
+
+    Examples
+    --------
+    >>> motion = Motion(np.array([0.0, 1.0, 2.0]), np.ones(3), np.arange(3.0), np.zeros((3, 3)))
+    >>> interval_of(motion, 1.5, 0)
+    1
     """
     last = motion.time.size - 2
     k = start
@@ -89,7 +134,19 @@ def interval_of(motion, time, start):
 
 @jit_inline
 def instant(motion, interval, time):
-    """The ring's motion at `time` [s] inside sample interval `interval`.
+    """The ring's motion at a time, linear in speed and displacement between samples.
+
+    Parameters
+    ----------
+    motion : Motion
+    interval : int
+        Index of the sample interval that holds the time.
+    time : float
+        [s]
+
+    Returns
+    -------
+    Instant
 
     Examples
     --------
@@ -150,7 +207,18 @@ def merged_times(times: np.ndarray, anchors: np.ndarray) -> np.ndarray:
 
 
 def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
-    """Angle that the shaft has turned since the first sample [rad], at times [s] of the history.
+    """Angle that the shaft has turned since the first sample, at times of the history.
+
+    Parameters
+    ----------
+    motion : Motion
+    time : ndarray
+        Times [s].
+
+    Returns
+    -------
+    ndarray
+        Angles [rad], of the shape of the times.
 
     Examples
     --------
@@ -172,8 +240,21 @@ def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
 def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
     """Angle travelled by the rollers along their orbit, ∫|Ω| dt [rad].
 
-    It is exact for a piecewise linear shaft speed [rad/s]. It is zero at the first of the times [s]
-    and never falls; `orbit_ratio` is Ω/Ω_in.
+    It is exact for a shaft speed that is linear between samples.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        Rising times [s].
+    shaft_speed : ndarray, shape (n,)
+        Ω_in [rad/s].
+    orbit_ratio : float
+        Ω/Ω_in [-].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Angle [rad], zero at the first time; it never falls.
 
     Examples
     --------
@@ -195,7 +276,19 @@ def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.
 def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
     """Times at which the rollers have completed 1, 2, 3, … orbits [s].
 
-    There is none if not one is completed; arguments are those of `travel`.
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        Rising times [s].
+    shaft_speed : ndarray, shape (n,)
+        Ω_in [rad/s].
+    orbit_ratio : float
+        Ω/Ω_in [-].
+
+    Returns
+    -------
+    ndarray, shape (orbits,)
+        Times [s]; empty if no orbit is completed.
 
     Examples
     --------

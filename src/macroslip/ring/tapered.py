@@ -57,7 +57,7 @@ class TaperedRing(NamedTuple):
 
     angle: np.ndarray  #: Shape (n,). Position φ of every roller at shaft angle zero [rad]
     sign: np.ndarray  #: Shape (n,). s of its row [-]
-    station: np.ndarray  #: Shape (n,). Z of its middle from the bearing's middle [m]
+    axial_position: np.ndarray  #: Shape (n,). Z of its middle from the bearing's middle [m]
     preload: float  #: Axial interference of one row [m], half that of the bearing
     pitch_radius: float  #: R̃ [m]
     orbit_ratio: float  #: Ω/Ω_in [-]
@@ -76,7 +76,7 @@ class TaperedRing(NamedTuple):
 
 
 class TaperedBalance(NamedTuple):
-    """Where the ring carries its loads, and the forces of all rollers."""
+    """Ring displacements and roller forces in equilibrium."""
 
     displacement: np.ndarray  #: Shape (n, 5). d [m, m, m, rad, rad]
     inner_load: np.ndarray  #: Shape (n, rollers). Q_i of the inner raceway [N]
@@ -183,7 +183,7 @@ def tapered_ring(
     return TaperedRing(
         angle=np.concatenate([initial_angles(row, count) for row in ROWS]),
         sign=signs,
-        station=towards * signs * bearing.row_offset,
+        axial_position=towards * signs * bearing.row_offset,
         preload=bearing.preload / 2.0,
         pitch_radius=bearing.pitch_radius,
         orbit_ratio=row.orbit_ratio,
@@ -241,13 +241,15 @@ def two_bearings(ring: TaperedRing, distance: float) -> TaperedRing:
     Examples
     --------
     >>> four_rows = two_bearings(tapered_ring(TaperedBearing.read("tdo-main-bearing")), 2.0)
-    >>> [round(float(station), 3) for station in four_rows.station[::34]]
+    >>> [round(float(position), 3) for position in four_rows.axial_position[::34]]
     [-1.085, -0.915, 0.915, 1.085]
     """
     return ring._replace(
         angle=np.tile(ring.angle, 2),
         sign=np.tile(ring.sign, 2),
-        station=np.concatenate([ring.station - 0.5 * distance, ring.station + 0.5 * distance]),
+        axial_position=np.concatenate(
+            [ring.axial_position - 0.5 * distance, ring.axial_position + 0.5 * distance]
+        ),
     )
 
 
@@ -353,7 +355,7 @@ def ring_at_rollers(ring: TaperedRing, displacement: np.ndarray, shaft_angle) ->
     tilt = turn_y * np.cos(angle) - turn_x * np.sin(angle)
     return np.stack(
         [
-            dx * np.cos(angle) + dy * np.sin(angle) + ring.station * tilt,
+            dx * np.cos(angle) + dy * np.sin(angle) + ring.axial_position * tilt,
             ring.sign * (dz - ring.pitch_radius * tilt) + ring.preload,
             ring.sign * tilt,
         ],

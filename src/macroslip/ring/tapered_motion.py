@@ -24,11 +24,10 @@ class TaperedMotion(NamedTuple):
     """Motion of the ring and loads of all rollers of both rows at its samples."""
 
     motion: Motion  #: Of the inner ring's middle, without its tilt
-    balance: TaperedBalance
-    play: (
-        np.ndarray
-    )  #: Shape (n, rollers). Room of rollers without load along their normal, ≥ 0 [m]
-    ring: TaperedRing
+    balance: TaperedBalance  #: Displacements and forces at the samples
+    #: Shape (n, rollers). Play of rollers without load along their contact normal, ≥ 0 [m]
+    play: np.ndarray
+    ring: TaperedRing  #: Geometry and stiffness of the bearing
 
 
 def tapered_motion(loads: BearingLoads, moment: np.ndarray, ring: TaperedRing) -> TaperedMotion:

@@ -36,12 +36,12 @@ def _motion_map(ring, roller, angle, motion):
     cosine = math.cos(angle)
     sine = math.sin(angle)
     sign = ring.sign[roller]
-    station = ring.station[roller]
+    axial_position = ring.axial_position[roller]
     motion[:] = 0.0
     motion[0, 0] = cosine
     motion[0, 1] = sine
-    motion[0, 3] = -station * sine
-    motion[0, 4] = station * cosine
+    motion[0, 3] = -axial_position * sine
+    motion[0, 4] = axial_position * cosine
     motion[1, 2] = sign
     motion[1, 3] = ring.pitch_radius * sine * sign
     motion[1, 4] = -ring.pitch_radius * cosine * sign

@@ -1,9 +1,9 @@
-"""Numbers and laws of a roller that do not change with time, also as compiled code takes them."""
+"""Numbers and laws of a roller that do not change with time, and their record for compiled code."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
 from typing import NamedTuple
 
@@ -48,60 +48,73 @@ CONTACT = np.dtype(
         ("traction", TRACTION),  # table of a raceway's traction
         ("oil", PLANE),  # table of a raceway's oil, or of friction and oil at the cage
         ("film", PLANE),  # table of ln h and the asperities' share
-        # Of the paper's closed form, as in `macroslip.contact.closed_form.BarusCrook`.
-        ("conductance", "f8"),  # [N^(1/3) s]
-        ("pressure_exponent", "f8"),  # [N^(−1/3)]
-        ("heating", "f8"),  # [s/m]
+        # Of the paper's closed form, see `macroslip.contact.closed_form.BarusCrook`:
+        ("conductance", "f8"),  # 2π a b η0 over Q^(2/3) [N^(1/3) s]
+        ("pressure_exponent", "f8"),  # α_p p0 over Q^(1/3) [N^(−1/3)]
+        ("heating", "f8"),  # √(β η0/(8k)) [s/m]; zero without heating
         ("boundary_friction", "f8"),  # µ_b [-]
         ("full_slip", "f8"),  # slip from which on asperities slide [m/s]
-        ("push", "f8"),  # part of rolling resistance's shear along the ring's motion [-]
-        ("curvature", "f8"),  # κ r/u2 [-]: power by the lag, over lag and ring speed
-        ("spin_ratio", "f8"),  # s/u2 [1/m]: −power by the skew moment, over moment and ring speed
+        ("push", "f8"),  # pull of rolling resistance on the roller's centre over its shear [-]
+        ("curvature", "f8"),  # κ r/u2, power by the lag over lag and ring speed [-]
+        ("spin_ratio", "f8"),  # s/u2, −power by the skew moment over moment and ring speed [1/m]
     ]
-)  # fmt: skip
+)
 #: The contact of a tapered roller with its rib.
 RIB = np.dtype(
     [
         ("traction", TRACTION),  # table of its traction
-        # With the meaning of `RibNumbers` [-].
-        *((name, "f8") for name in ("share", "speed", "arm", "pull")),
+        ("share", "f8"),  # load of the rib over that of the outer raceway [-]
+        ("speed", "f8"),  # speed of the rib over that of the raceways past the roller [-]
+        ("arm", "f8"),  # e, arm of its friction about the roller's axis over r [-]
+        ("pull", "f8"),  # g, arm of its friction about the bearing's axis over R̃ [-]
     ]
 )
 #: Waves of an outer ring out of round, as `RingGeometry` has them.
 WAVES = ("second_x", "second_y", "third_x", "third_y")
-_NUMBERS = (
-    "radius", "mobility", "stiffness", "cos_contact_angle", "sin_contact_angle", "radial_play",
-    "orbit_ratio", "outer_radius", "weight_in_plane", "weight_along_axis", "centrifugal", "drag",
-    "line_stiffness", "profile_depth", *WAVES,
-)  # fmt: skip
-#: A roller.
+#: Numbers of a `RollerModel` as compiled functions take them, and what tables and laws add.
 BODY = np.dtype(
     [
-        *((name, "f8") for name in _NUMBERS),  # with the meaning and units of `RollerModel`
+        ("radius", "f8"),  # r [m]
+        ("mobility", "f8"),  # r²/I_z' [1/kg]
+        ("stiffness", "f8"),  # K of inner and outer contact in series [N/m^1.5]
+        ("cos_contact_angle", "f8"),  # cos α [-]
+        ("sin_contact_angle", "f8"),  # s sin α, s the row's axial sign [-]
+        ("radial_play", "f8"),  # half the diametral clearance [m]
+        ("orbit_ratio", "f8"),  # Ω/Ω_in of pure rolling [-]
+        ("outer_radius", "f8"),  # r~_out [m]
+        ("weight_in_plane", "f8"),  # weight's part along −Y0 [N]
+        ("weight_along_axis", "f8"),  # weight's part along +Z0 [N]
+        ("centrifugal", "f8"),  # m r~ [kg m]
+        ("drag", "f8"),  # ½ C_D ρ f A r~² [N s²]
+        ("line_stiffness", "f8"),  # C of line contacts [N/m^(10/9)]; 0 with elliptical ones
+        ("profile_depth", "f8"),  # depth of the profile of line contacts [m]
+        ("second_x", "f8"),  # c2 cos 2ψ of an outer ring out of round [m]
+        ("second_y", "f8"),  # c2 sin 2ψ of an outer ring out of round [m]
+        ("third_x", "f8"),  # c3 cos 3ψ of an outer ring out of round [m]
+        ("third_y", "f8"),  # c3 sin 3ψ of an outer ring out of round [m]
         ("closed_form", "i8"),  # 1 where traction has the paper's closed form
         ("microslip", "i8"),  # 1 where slip varies over the raceway contacts
         ("oily", "i8"),  # 1 with rolling resistance
-        # K^(−2/3): elastic approach over load^(2/3) [m/N^(2/3)]
-        ("compliance", "f8"),
+        ("compliance", "f8"),  # K^(−2/3): elastic approach over load^(2/3) [m/N^(2/3)]
         ("faded_load", "f8"),  # elastic load from which on the films' load is negligible [N]
         # Reciprocal of the largest body force along the contact normal [1/N], 0 without one.
         ("per_body_force", "f8"),
-        # Play from which on films carry nothing at any speed, by raceway that the body force loads
-        # (outer, inner) and by its size, as `reach_forces` has it [m].
+        # Play above which film load is zero at any speed [m], by raceway that the body force loads
+        # (outer, inner) and by body force, as `reach_forces` returns it.
         ("film_reach", "f8", (2, REACH_NODES)),
-        ("highest_load", "f8"),  # of the tables [N]
-        ("highest_speed", "f8"),  # of the tables, w [m/s]
-        ("inner", CONTACT),
-        ("outer", CONTACT),
-        ("cage", CONTACT),
+        ("highest_load", "f8"),  # largest load of the tables [N]
+        ("highest_speed", "f8"),  # largest speed w of the tables [m/s]
+        ("inner", CONTACT),  # contact with the inner raceway
+        ("outer", CONTACT),  # contact with the outer raceway
+        ("cage", CONTACT),  # contact with the cage
         ("ribbed", "i8"),  # 1 for a tapered roller
-        ("rib", RIB),
+        ("rib", RIB),  # contact with the rib
     ]
-)  # fmt: skip
+)
 
 
 class RibNumbers(NamedTuple):
-    """Rib contact of a tapered roller, whatever its load."""
+    """Numbers of a tapered roller's rib contact that do not depend on its load."""
 
     share: float  #: Load of the rib over that of the outer raceway [-]
     speed: float  #: Speed of the rib over that of the raceways past the roller, R_P/R_i [-]
@@ -118,25 +131,21 @@ class RollerModel:
     mobility: float
     #: K of inner and outer contact in series [N/m^1.5]; with line contacts of the ellipses for them
     stiffness: float
-    #: Of the contact angle α [-]; the sine carries the row's axial sign s.
-    cos_contact_angle: float
-    sin_contact_angle: float
+    cos_contact_angle: float  #: cos α [-]
+    sin_contact_angle: float  #: s sin α, s the row's axial sign [-]
     radial_play: float  #: Half the diametral clearance [m]
     orbit_ratio: float  #: Ω/Ω_in = r~_in/(r~_in + r~_out) [-]
     outer_radius: float  #: r~_out [m]
-    #: Roller weight's part in the bearing plane (along −Y0) and along +Z0 [N].
-    weight_in_plane: float
-    weight_along_axis: float
-    centrifugal: float  #: m r~ [kg m]; times Ω² gives the centrifugal force (18)
-    drag: float  #: ½ C_D ρ_eff 2 r l r~² [N s²]; times Ω² gives the drag (24)
-    #: Waves of the clearance, as in `macroslip.ring.balance.RingGeometry` [m].
-    second_x: float
-    second_y: float
-    third_x: float
-    third_y: float
-    #: Of line contacts, as in `macroslip.ring.balance.RingGeometry` [N/m^(10/9), m].
-    line_stiffness: float
-    profile_depth: float
+    weight_in_plane: float  #: Part of the roller's weight in the bearing plane, along −Y0 [N]
+    weight_along_axis: float  #: Part of the roller's weight along +Z0 [N]
+    centrifugal: float  #: m r~ [kg m]; times Ω² it is the centrifugal force (21)-(23)
+    drag: float  #: ½ C_D ρ f A r~² [N s²]; times Ω² it is the drag (24)-(26)
+    second_x: float  #: c2 cos 2ψ of an outer ring out of round [m]
+    second_y: float  #: c2 sin 2ψ of an outer ring out of round [m]
+    third_x: float  #: c3 cos 3ψ of an outer ring out of round [m]
+    third_y: float  #: c3 sin 3ψ of an outer ring out of round [m]
+    line_stiffness: float  #: C of line contacts [N/m^(10/9)]; 0 with elliptical ones
+    profile_depth: float  #: Depth of the profile of line contacts [m]
     laws: PreparedLaws  #: Of the three contacts
     rib: RibNumbers | None = None  #: Of a tapered roller
 
@@ -149,12 +158,12 @@ class RollerModel:
 class Roller(NamedTuple):
     """A roller as compiled functions take it."""
 
-    body: np.ndarray  #: Shape (1,), of `BODY`. Its numbers
+    body: np.ndarray  #: Shape (1,), of `BODY`. Its numbers and laws
     tables: np.ndarray  #: The flat array of its tables
 
 
 class TableReport(NamedTuple):
-    """Numbers on tables for a result: relative errors of force and power, and size [bytes]."""
+    """Errors and size of a roller's tables, as a result reports them."""
 
     typical_error: float  #: Median of the relative errors of force and power [-]
     worst_error: float  #: Largest of these [-]
@@ -162,7 +171,18 @@ class TableReport(NamedTuple):
 
 
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
-    """Geometry and stiffness for the ring balance; `model` is a roller of the first row."""
+    """Geometry and stiffness of a bearing for the balance of its ring.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    model : RollerModel
+        A roller of the first row.
+
+    Returns
+    -------
+    macroslip.ring.balance.RingGeometry
+    """
     count = bearing.rollers_per_row
     rows = row_names(bearing)
     angles = np.concatenate([initial_angles(row, count) for row in rows])
@@ -193,7 +213,8 @@ def roller_model(
 ) -> RollerModel:
     """Numbers and laws of a roller of one row on its imposed orbit.
 
-    The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
+    The drag (24)-(26) acts on the area 2 r l with the density of the lubricant times its fill
+    factor.
 
     Parameters
     ----------
@@ -292,10 +313,22 @@ def with_tables(
 ) -> tuple[dict[str, Roller], TableReport]:
     """Rollers of both rows with the tables of their contacts.
 
-    The tables hold the states of the box; they are made or come from store.
+    Tables are made, or read from the cache.
 
-    Takes the models by row, of the same bearing, oil and laws, and the largest gap between a roller
-    and its spar [m].
+    Parameters
+    ----------
+    models : dict of RollerModel
+        By row, of the same bearing, oil and laws.
+    box : Box
+        States that the tables hold.
+    pocket_gap : float
+        Largest gap between a roller and its spar [m].
+
+    Returns
+    -------
+    rollers : dict of Roller
+        By row.
+    report : TableReport
     """
     tables = Tables()
     rollers = {}
@@ -374,8 +407,9 @@ def _write_contact(
 
 
 def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
-    for name in _NUMBERS:
-        body[name] = getattr(model, name)
+    for member in fields(model):
+        if member.type == "float":
+            body[member.name] = getattr(model, member.name)
     laws = model.laws
     body["closed_form"] = laws.inner.closed_form is not None
     body["microslip"] = laws.inner.shape.microslip
@@ -417,7 +451,7 @@ def _faded_load(rollers: dict[str, Roller], most: float, box: Box) -> float:
 
 
 def _film_reach(rollers: dict[str, Roller], most: float, box: Box) -> np.ndarray:
-    """Plays from which on films carry no load, as `film_reach` of `BODY` has them [m].
+    """Plays above which film load is zero, as `film_reach` of `BODY` has them [m].
 
     Films grow with speed, and shrink with the body force, up to `most` [N], that presses on one of
     them.

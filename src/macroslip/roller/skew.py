@@ -1,4 +1,4 @@
-"""Equilibrium of a skewed roller on an imposed orbit, and the moment that turns it on.
+"""Equilibrium of a skewed roller on an imposed orbit, and its skew moment.
 
 The equilibrium fixes its slip, tilt and shift.
 
@@ -11,7 +11,7 @@ tractions):
 * couple about x: Σ k [r (F − Q σ) + Q (ζ + k r θ)] = 0.
 
 What is left is the net moment about the contact normal. It turns the roller within tenths of a
-second, an orbit being seconds, until it vanishes (rest) or a stop carries it.
+second, an orbit being seconds, until it vanishes (equilibrium) or a stop carries it.
 """
 
 from __future__ import annotations
@@ -48,33 +48,31 @@ LARGEST_SKEW = 0.06
 
 
 class Equilibrium(NamedTuple):
-    """A roller in equilibrium but for the moment about the contact normal; arrays of one shape."""
+    """A roller in equilibrium but for its skew moment; arrays of one shape."""
 
     slip: np.ndarray  #: Δu at the middle of the roller [m/s]; NaN where none was found
     tractions: np.ndarray  #: Shape (2, ...). Tractions of the raceways along z' [N]
-    #: θ [rad], positive about +x, and δ of the roller's middle along z' [m].
-    tilt: np.ndarray
-    shift: np.ndarray
+    tilt: np.ndarray  #: θ [rad], positive about +x
+    shift: np.ndarray  #: δ of the roller's middle along z' [m]
     #: Net moment about +y' [N m], tractions and pressure of both raceways; positive turns the
     #: roller to positive skew.
     moment: np.ndarray
     moments: np.ndarray  #: Shape (..., 2). The same by raceway
-    #: Shape (..., 2). Frictional power of the raceways, and the asperities' part of it [W].
-    power: np.ndarray
-    asperity_power: np.ndarray
+    power: np.ndarray  #: Shape (..., 2). Frictional power of the raceways [W]
+    asperity_power: np.ndarray  #: Shape (..., 2). Part of that power by asperities [W]
     #: Axial force on the inner ring along z' [N], of friction and of the turned normal force
     axial: np.ndarray
     #: Force of the raceways on the roller along +x [N], of tractions and rolling resistance; a spar
     #: bears it, with weight and drag.
     push: np.ndarray
-    unbalanced: np.ndarray  #: Spin moment left over radius and load [-]
+    unbalanced: np.ndarray  #: Unbalanced spin moment over radius and load [-]
 
 
 class Pair(NamedTuple):
     """Both raceway contacts of a roller that may be skewed."""
 
-    inner: SkewedContact
-    outer: SkewedContact
+    inner: SkewedContact  #: With the inner raceway
+    outer: SkewedContact  #: With the outer raceway
 
 
 def raceways(
@@ -366,7 +364,7 @@ def equilibrium(
     )
 
 
-class Pocket(NamedTuple):
+class SkewStop(NamedTuple):
     """Guidance of a roller by the cage against skew, by the shape of its spars."""
 
     largest: float  #: Largest skew [rad]
@@ -376,7 +374,7 @@ class Pocket(NamedTuple):
     effective_radius: float
 
 
-def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = None) -> Pocket:
+def skew_stop(bearing: Bearing, guidance: str, gap: float, play: float | None = None) -> SkewStop:
     """The stop of a pocket whose spars follow the outer raceway's contour, or are straight.
 
     A roller that turns by ψ in a pocket of curvature κ slides along it at its radius r, so that its
@@ -398,11 +396,11 @@ def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = Non
     --------
     >>> from macroslip import Bearing
     >>> base = Bearing.read("skf-240-600-bc")
-    >>> [round(1e3 * pocket(base, one, 0.5e-3).largest, 2) for one in ("conforming-pocket", "straight-bars")]
+    >>> [round(1e3 * skew_stop(base, one, 0.5e-3).largest, 2) for one in ("conforming-pocket", "straight-bars")]
     [6.58, 36.68]
     """
     if guidance == "none":
-        return Pocket(LARGEST_SKEW if play is None else play, np.inf, 0.0)
+        return SkewStop(LARGEST_SKEW if play is None else play, np.inf, 0.0)
     r = geometry.roller_radius(bearing)
     half = 0.5 * bearing.roller_length
     bend = 1.0 / bearing.outer_raceway_radius if guidance == "conforming-pocket" else 0.0
@@ -411,12 +409,12 @@ def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = Non
     effective = nearer * (nearer / curvature - r)
     arm_of_ends = 2.0 * half * nearer
     if play is not None:
-        return Pocket(play, arm_of_ends, effective)
+        return SkewStop(play, arm_of_ends, effective)
     # Without play spars would hold a roller with no arm; rough surfaces leave it some.
     gap = max(gap, bearing.composite_roughness)
     inside = float(np.sqrt(gap / effective))
     if inside * nearer / curvature < half:
-        return Pocket(inside, 2.0 * effective * inside, effective)
+        return SkewStop(inside, 2.0 * effective * inside, effective)
     # Way and drop of the contour at the roller's end.
     way = 0.5 * gap + 0.5 * curvature * half**2
-    return Pocket(way / (half * nearer), arm_of_ends, effective)
+    return SkewStop(way / (half * nearer), arm_of_ends, effective)

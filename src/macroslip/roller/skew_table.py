@@ -1,6 +1,6 @@
 """Skew of a roller as a table over load, speed and skew, for compiled functions.
 
-From it follows where a straight roller that turns comes to rest.
+From it follows the skew at which a roller is in equilibrium.
 
 The table is made for a roller of the downwind row with the shaft forward (u2 < 0). Skew and moment
 change their signs with the row, and with the direction of turning; tilt, shift and axial force with
@@ -23,7 +23,7 @@ from macroslip.contact.look_up import cell_of
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients, splines_in_cube
 from macroslip.contact.table import Box, contact_parts, table_gaps
 from macroslip.errors import MacroslipError
-from macroslip.roller.skew import LARGEST_SKEW, Equilibrium, Pocket, equilibrium, raceways
+from macroslip.roller.skew import LARGEST_SKEW, Equilibrium, SkewStop, equilibrium, raceways
 from macroslip.storage.tables import remembered, stored, table_key
 from macroslip.storage.waiting import TABLES, tell
 
@@ -40,25 +40,27 @@ _SCALE = 2e-4
 #: Least speed of a table as part of the fastest; below it, powers are in proportion to speed, and
 #: moments do not change.
 _SLOWEST = 0.1
-#: Iterations for a rest between two nodes.
+#: Iterations for an equilibrium between two nodes.
 _ITERATIONS = 6
 
 
 class SkewTable(NamedTuple):
-    """Tables of a skewed roller's forces, moments and powers: cubes of four splines each.
+    """Tables of a skewed roller's forces, moments and powers: three cubes of four splines each.
 
-    Moment, power and force; place and moments; and what slip and asperities' power change by.
+    The first has the moment about the contact normal, the added powers of both raceways and the
+    axial force; the second tilt, moment of the inner raceway, push along the orbit and axial shift;
+    the third the added slip and the added powers of the asperities.
     """
 
-    tables: np.ndarray
-    more: int  #: Size of a cube
-    load: Axis
-    speed: Axis
-    skew: Axis
+    tables: np.ndarray  #: Coefficients of the three cubes, one after another
+    size: int  #: Numbers of a cube
+    load: Axis  #: Of ln Q, Q in N
+    speed: Axis  #: Of u^¼, u = |u2| in m/s
+    skew: Axis  #: Of asinh(ψ/ψ0)
 
 
 class Guide(NamedTuple):
-    """Guidance of the rollers of one row, by the numbers of `Pocket`."""
+    """Guidance of the rollers of one row, by the numbers of `SkewStop`."""
 
     side: float  #: Axial sign s of the row [-]
     largest: float  #: Largest skew [rad]
@@ -70,21 +72,18 @@ class Turned(NamedTuple):
     """A roller at its equilibrium skew, or against a stop."""
 
     skew: float  #: ψ [rad]
-    held: float  #: Moment about +y' that its stop carries [N m]; 0 away from it
-    #: What skew adds to the power of inner and outer raceway [W].
-    inner_power: float
-    outer_power: float
+    stop_moment: float  #: Moment about +y' that its stop carries [N m]; 0 away from it
+    inner_power: float  #: Power that skew adds at the inner raceway [W]
+    outer_power: float  #: Power that skew adds at the outer raceway [W]
     axial: float  #: Force on the inner ring along z' [N]
     tilt: float  #: θ [rad]
-    #: Moments of the raceways about +y' [N m].
-    inner_moment: float
-    outer_moment: float
-    left: float  #: Size of the moment about +y' that neither spar nor stop carries [N m]
+    inner_moment: float  #: Moment of the inner raceway about +y' [N m]
+    outer_moment: float  #: Moment of the outer raceway about +y' [N m]
+    unbalanced: float  #: Size of the moment about +y' that neither spar nor stop carries [N m]
     shift: float  #: δ [m]
-    slip: float  #: What skew adds to Δu [m/s]
-    #: What skew adds to the power of the raceways' asperities [W].
-    inner_rough: float
-    outer_rough: float
+    slip: float  #: Slip that skew adds to Δu [m/s]
+    inner_rough: float  #: Power that skew adds to the inner raceway's asperities [W]
+    outer_rough: float  #: Power that skew adds to the outer raceway's asperities [W]
 
 
 def skew_table(laws: PreparedLaws, bearing: Bearing, box: Box) -> SkewTable:
@@ -203,7 +202,7 @@ def _at(table, part, load, speed, coordinate):
     outer = inner * (table.speed.cells + 3)
     row, t = load
     column, s = speed
-    start = part * table.more + row * outer + column * inner + CHANNELS * j
+    start = part * table.size + row * outer + column * inner + CHANNELS * j
     value, _, _, _ = splines_in_cube(table.tables, start, (outer, inner), (t, s, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     return value
 
@@ -228,17 +227,17 @@ def _arm(guide, coordinate):
 
 
 @jit_inline
-def _left(table, guide, row, column, way, press, coordinate):
-    """Moment that drives the roller on at a coordinate of skew, over Q^(4/3) [N m/N^(4/3)]."""
+def _net_moment(table, guide, row, column, way, press, coordinate):
+    """Net skew moment over Q^(4/3) at a coordinate of skew [N m/N^(4/3)]; > 0 turns it further."""
     moment, _, _, _ = _at(table, 0, row, column, way * coordinate)
     return way * moment - press * _arm(guide, coordinate)
 
 
 @jit_inline
-def _rest(table, guide, row, column, way, press, moment):
-    """Coordinate of skew of the first rest from none on, and whether it is the stop.
+def _equilibrium_skew(table, guide, row, column, way, press, moment):
+    """Smallest equilibrium skew, as a coordinate; True if the roller is at the stop.
 
-    `moment` is the driving moment without skew, > 0 where the roller turns.
+    `moment` is the net skew moment without skew over Q^(4/3), > 0 where the roller turns.
     """
     end = math.asinh(guide.largest / _SCALE)
     low = 0.0
@@ -249,22 +248,22 @@ def _rest(table, guide, row, column, way, press, moment):
         low = high
         excess = beyond
         high = min(low + 1.0 / table.skew.per_spacing, end)
-        beyond = _left(table, guide, row, column, way, press, high)
+        beyond = _net_moment(table, guide, row, column, way, press, high)
     if beyond > 0.0 or high <= 0.0:
         return high, beyond > 0.0
     # Regula falsi, which halves the value at an end that stays (Illinois).
     side = 0
     coordinate = low + (high - low) * excess / (excess - beyond)
     for _ in range(_ITERATIONS):
-        left = _left(table, guide, row, column, way, press, coordinate)
-        if left > 0.0:
+        net = _net_moment(table, guide, row, column, way, press, coordinate)
+        if net > 0.0:
             low = coordinate
-            excess = left
+            excess = net
             beyond = 0.5 * beyond if side > 0 else beyond
             side = 1
         else:
             high = coordinate
-            beyond = left
+            beyond = net
             excess = 0.5 * excess if side < 0 else excess
             side = -1
         coordinate = low + (high - low) * excess / (excess - beyond)
@@ -273,15 +272,18 @@ def _rest(table, guide, row, column, way, press, moment):
 
 @jit
 def turned(table, guide, load, ring_speed, push):
-    """Rest position of a roller that its net moment turns against a spar.
-
-    The elastic load is Q > 0 [N] at u2 [m/s], and the spar presses with `push` [N].
+    """Equilibrium skew of a roller under its skew moment and a spar, with the forces there.
 
     Parameters
     ----------
     table : SkewTable
     guide : Guide
-    load, ring_speed, push : float
+    load : float
+        Elastic load Q > 0 [N].
+    ring_speed : float
+        u2 [m/s].
+    push : float
+        Force with which a spar presses on the roller [N], of either sign.
 
     Returns
     -------
@@ -296,7 +298,9 @@ def turned(table, guide, load, ring_speed, push):
     press = abs(push) / heavy
     straight_moment, _, _, _ = _at(table, 0, row, column, 0.0)
     way = math.copysign(1.0, straight_moment)
-    coordinate, stops = _rest(table, guide, row, column, way, press, way * straight_moment)
+    coordinate, stops = _equilibrium_skew(
+        table, guide, row, column, way, press, way * straight_moment
+    )
     at = way * coordinate
     # As `_scaled` has them: moment, powers and force; tilt, moment, push and shift; changes.
     forces = _at(table, 0, row, column, at)
@@ -306,8 +310,8 @@ def turned(table, guide, load, ring_speed, push):
     inner_moment = stance[1]
     angle = way * _SCALE * math.sinh(coordinate)
     residual = heavy * (moment - way * press * _arm(guide, coordinate))
-    held = residual if stops else 0.0
-    left = 0.0 if stops else abs(residual)
+    stop_moment = residual if stops else 0.0
+    unbalanced = 0.0 if stops else abs(residual)
     # Straight, nothing is added, not even by rounding.
     tilt = 0.0
     shift = 0.0
@@ -322,12 +326,12 @@ def turned(table, guide, load, ring_speed, push):
         slip = -ring_speed * changes[0]
     mirror = -guide.side * math.copysign(1.0, ring_speed)
     return Turned(
-        mirror * angle, mirror * held, power * forces[1], power * forces[2], axial, tilt,
-        mirror * heavy * inner_moment, mirror * heavy * (moment - inner_moment), left,
+        mirror * angle, mirror * stop_moment, power * forces[1], power * forces[2], axial, tilt,
+        mirror * heavy * inner_moment, mirror * heavy * (moment - inner_moment), unbalanced,
         shift, slip, power * changes[1], power * changes[2],
     )  # fmt: skip
 
 
-def guide_of(pocket: Pocket, axial_sign: int) -> Guide:
+def guide_of(stop: SkewStop, axial_sign: int) -> Guide:
     """Cage guidance of the rollers of a row."""
-    return Guide(float(axial_sign), pocket.largest, pocket.arm, pocket.effective_radius)
+    return Guide(float(axial_sign), stop.largest, stop.arm, stop.effective_radius)

@@ -32,21 +32,20 @@ STEP = np.dtype(
         ("ahead", "f8"),
         ("time", "f8", _AT_STAGES),  # of the stages [s]
         ("weight", "f8", _AT_STAGES),  # [s]; Σ weight · power is the energy of the step
-        # Δu at the middle of the raceway contacts [m/s].
-        ("inner_slip", "f8", _AT_STAGES),
-        ("outer_slip", "f8", _AT_STAGES),
-        # u2 of the rings past the roller's centre [m/s].
-        ("inner_speed", "f8", _AT_STAGES),
-        ("outer_speed", "f8", _AT_STAGES),
+        ("inner_slip", "f8", _AT_STAGES),  # Δu at the middle of the inner raceway's contact [m/s]
+        ("outer_slip", "f8", _AT_STAGES),  # Δu at the middle of the outer raceway's contact [m/s]
+        ("inner_speed", "f8", _AT_STAGES),  # u2 of the inner ring past the roller's centre [m/s]
+        ("outer_speed", "f8", _AT_STAGES),  # u2 of the outer ring past the roller's centre [m/s]
         # Speed of the roller's surface past the cage, u1 relative to the spar [m/s].
         ("cage_speed", "f8", _AT_STAGES),
-        # Normal loads with body forces and films [N].
+        # Normal load of the inner raceway, with body forces and films [N].
         ("inner_load", "f8", _AT_STAGES),
+        # Normal load of the outer raceway, with body forces and films [N].
         ("outer_load", "f8", _AT_STAGES),
         ("elastic_load", "f8", _AT_STAGES),  # normal load of the rings alone [N]
         # F_n,cage with its sign [N], positive where the cage pushes the roller along the orbit.
         ("cage_load", "f8", _AT_STAGES),
-        # F_i, F_o, F_c in the spin equation without rolling resistance [N].
+        # F_i, F_o, F_c in the spin equation (16) without rolling resistance [N].
         ("force", "f8", _BY_INTERFACE),
         ("power", "f8", _BY_INTERFACE),  # frictional power (33) [W]
         ("rolling", "f8", _BY_INTERFACE),  # power of rolling resistance [W]
@@ -54,11 +53,10 @@ STEP = np.dtype(
         ("lag_power", "f8", _BY_RACEWAY),  # part of the power by the contact's curvature [W]
         ("skew_power", "f8", _BY_RACEWAY),  # part of the power by the contact angle [W]
         ("power_before", "f8", (3,)),  # frictional power at the start [W]
-        # Friction of a tapered roller's rib F_f [N], its power, and the part of it by asperities
-        # [W]; 0 without one.
+        # Friction F_f of a tapered roller's rib [N]; 0 without one.
         ("rib_force", "f8", _AT_STAGES),
-        ("rib_power", "f8", _AT_STAGES),
-        ("rib_rough", "f8", _AT_STAGES),
+        ("rib_power", "f8", _AT_STAGES),  # power of the rib's friction [W]
+        ("rib_rough", "f8", _AT_STAGES),  # part of that power by asperities [W]
     ]
 )
 #: Size of a buffer of steps [bytes].
@@ -102,8 +100,8 @@ def write_stage(row, k, body, at, forces, slip, power):
     row.outer_load[k] = at.outer_load
     row.elastic_load[k] = at.elastic_load
     row.cage_load[k] = forces.cage_load
-    row.force[k, 0] = forces.inner - forces.rib_held
-    row.force[k, 1] = forces.outer + forces.rib_held
+    row.force[k, 0] = forces.inner - forces.rib_correction
+    row.force[k, 1] = forces.outer + forces.rib_correction
     row.force[k, 2] = forces.cage
     for i in range(3):
         row.power[k, i] = power[i]

@@ -7,6 +7,7 @@ import xarray as xr
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.errors import InputError
+from macroslip.mechanics.loads import drag_power
 from macroslip.result.run_input import run_input
 from macroslip.roller.model import RollerModel
 
@@ -16,11 +17,11 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
 
     It is given at the times of the traces.
 
-        T = (Σ P + Σ P_r + P_drag)/Ω_in                                          (33)
-        P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²          (24)
+        T = (Σ P + Σ P_r + Σ P_drag)/Ω_in,    P_drag = F_d,x' r~ Ω
 
-    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu|
-    in one without, P_r the power of rolling resistance. It is the torque a drive has to supply for
+    The sums run over the rollers of both rows; P is the frictional power (33), ∫τ v dA in a contact
+    with microslip and |F Δu| in one without, P_r the power of rolling resistance, F_d,x' the drag
+    (24)-(26). It is the torque a drive has to supply for
     the dissipation of that moment. Kinetic energy of the rollers and the work of their weight,
     whose mean over an orbit vanishes, are left out, and so is what the model does not have:
     churning beyond the rollers' drag, hysteresis of the steel, seals.
@@ -76,15 +77,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         per_power = np.where(shaft != 0.0, per_speed, np.nan)
     contacts = _per_speed(result.power, per_power)
     rolling = _per_speed(result.rolling_power, per_power)
-    drag_force = model.drag * orbital**2
-    drag = (
-        bearing.rows
-        * bearing.rollers_per_row
-        * drag_force
-        * bearing.pitch_radius
-        * np.abs(orbital)
-        * per_power
-    )
+    rollers = bearing.rows * bearing.rollers_per_row
+    drag = rollers * drag_power(model.drag, bearing.pitch_radius, orbital) * per_power
 
     contacts.attrs = {"units": "N m", "long_name": "torque of the friction at the interface"}
     rolling.attrs = {"units": "N m", "long_name": "torque of rolling resistance at the interface"}

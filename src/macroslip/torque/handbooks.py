@@ -92,18 +92,15 @@ _WHERE = "friction torque"
 
 
 class _Operation(NamedTuple):
-    """Dimensions, speed, viscosity and loads in the handbooks' units.
+    """Dimensions, speed, viscosity and loads in the handbooks' units, all without sign."""
 
-    d, D, B [mm], n [r/min], ν [mm²/s], F_r and F_a [N]; none has a sign.
-    """
-
-    bore: float
-    outside: float
-    width: float
-    speed: FloatArray
-    viscosity: float
-    radial_load: FloatArray
-    axial_load: FloatArray
+    bore: float  #: d [mm]
+    outside: float  #: D [mm]
+    width: float  #: B [mm]
+    speed: FloatArray  #: n [r/min]
+    viscosity: float  #: ν [mm²/s]
+    radial_load: FloatArray  #: F_r [N]
+    axial_load: FloatArray  #: F_a [N]
 
     @property
     def mean_diameter(self) -> float:
@@ -476,10 +473,10 @@ def _oil_bath_drag(case: _Operation, bath: OilBath) -> FloatArray:
 
 
 class TorqueHistory(NamedTuple):
-    """A torque [N m], against the rotation, at times [s]."""
+    """A friction torque over time."""
 
-    time: FloatArray
-    torque: FloatArray
+    time: FloatArray  #: [s]
+    torque: FloatArray  #: Torque against the rotation [N m]
 
 
 def torque_histories(

@@ -10,35 +10,42 @@ the method.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.lib.recfunctions import structured_to_unstructured
 
 from macroslip.compiled import jit_inline
-from macroslip.whole.pocket import elastic_energy, guide_energy, guide_force
-from macroslip.whole.stage import FIRST, GUIDE_SPEED
+from macroslip.mechanics.cage import cage_guide
+from macroslip.mechanics.power import cage_power
+from macroslip.mechanics.speeds import cage_speed, centre_speed, spin_surface_speed
+from macroslip.whole.pocket import elastic_energy, stop_energy, stop_force
+from macroslip.whole.stage import FIRST
 
 if TYPE_CHECKING:
     from macroslip.whole.model import WholeBearing
     from macroslip.whole.sdirk import Part
 
-#: Flows that are booked over time: angular impulses and energies.
-FLOWS = (
-    "inner_impulse",  # of the inner raceway [N m s]
-    "outer_impulse",  # of the outer raceway [N m s]
-    "body_impulse",  # of weight and drag of the rollers [N m s]
-    "guide_impulse",  # of the cages' guides [N m s]
-    "eccentric_impulse",  # of pushes on a cage off the axis [N m s]
-    "shaft_work",  # of the shaft [J]
-    "body_work",  # of weight and drag of the rollers [J]
-    "cage_weight_work",  # of the cages' weight [J]
-    "raceway_loss",  # dissipated in the raceway contacts [J]
-    "friction_loss",  # dissipated by friction in the pockets [J]
-    "guide_loss",  # dissipated by the cages' guides [J]
-    "pocket_work",  # into the pockets, stored or dissipated [J]
-    "support_work",  # into the radial stop, stored or dissipated [J]
+#: Flows during a step: angular impulses and energies.
+STEP_FLOWS = np.dtype(
+    [
+        ("inner_impulse", "f8"),  # of the inner raceway [N m s]
+        ("outer_impulse", "f8"),  # of the outer raceway [N m s]
+        ("body_impulse", "f8"),  # of weight and drag of the rollers [N m s]
+        ("guide_impulse", "f8"),  # of the cages' guides [N m s]
+        ("eccentric_impulse", "f8"),  # of pushes on a cage off the axis [N m s]
+        ("shaft_work", "f8"),  # of the shaft [J]
+        ("body_work", "f8"),  # of weight and drag of the rollers [J]
+        ("cage_weight_work", "f8"),  # of the cages' weight [J]
+        ("raceway_loss", "f8"),  # dissipated in the raceway contacts [J]
+        ("friction_loss", "f8"),  # dissipated by friction in the pockets [J]
+        ("guide_loss", "f8"),  # dissipated by the cages' guides [J]
+        ("pocket_work", "f8"),  # into the pockets, stored or dissipated [J]
+        ("support_work", "f8"),  # into the radial stop, stored or dissipated [J]
+    ]
 )
+#: Names of the flows, in the order of the columns of `Books.flows`.
+FLOWS: tuple[str, ...] = tuple(STEP_FLOWS.names or ())
 #: Stocks of the bearing.
 STOCKS = (
     "momentum",  # angular momentum [N m s]
@@ -50,6 +57,29 @@ _ENERGY_SIGNS = {
     "shaft_work": 1.0, "body_work": 1.0, "cage_weight_work": 1.0, "raceway_loss": -1.0, "friction_loss": -1.0,
     "guide_loss": -1.0, "pocket_work": -1.0, "support_work": -1.0,
 }  # fmt: skip
+
+
+@jit_inline
+def clear_flows(flows):
+    """Set all flows of a step to zero.
+
+    Parameters
+    ----------
+    flows : record of `STEP_FLOWS`
+    """
+    flows.inner_impulse = 0.0
+    flows.outer_impulse = 0.0
+    flows.body_impulse = 0.0
+    flows.guide_impulse = 0.0
+    flows.eccentric_impulse = 0.0
+    flows.shaft_work = 0.0
+    flows.body_work = 0.0
+    flows.cage_weight_work = 0.0
+    flows.raceway_loss = 0.0
+    flows.friction_loss = 0.0
+    flows.guide_loss = 0.0
+    flows.pocket_work = 0.0
+    flows.support_work = 0.0
 
 
 @jit_inline
@@ -67,8 +97,8 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
         Weight of the stage in its step [s].
     space : macroslip.whole.stage.Space
         With the solved stage.
-    flows : ndarray, shape (13,)
-        Impulses [N m s] and energies [J], by `FLOWS`, to which those of the stage are added.
+    flows : record of `STEP_FLOWS`
+        The stage's impulses [N m s] and energies [J] are added.
     """
     bearing = assembly.bearing[0]
     positions = assembly.positions
@@ -81,40 +111,38 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
         position = positions[j]
         at = conditions[j]
         own = rollers[j].y[FIRST + k]
-        orbital = 0.5 * (own[0] - own[1] + at.ring)
+        orbital = centre_speed(own[0], own[1], at.ring)
         lag_in = at.pull_inner - at.turning_inner
         lag_out = at.pull_outer - at.turning_outer
         cage = cages[position.cage].y[FIRST + k]
         off_axis = cage[4] * at.cosine + cage[5] * at.sine
         shaft_torque = position.inner_radius * at.turning_inner + pitch * lag_in
-        flows[0] -= span * (pitch * at.pull_inner - arm * at.turning_inner)
-        flows[1] += span * (pitch * at.pull_outer + arm * at.turning_outer)
-        flows[2] -= span * pitch * at.tangential
-        flows[4] += span * at.push * off_axis
-        flows[5] -= span * shaft_speed * shaft_torque
-        flows[6] -= span * at.tangential * orbital
+        flows.inner_impulse -= span * (pitch * at.pull_inner - arm * at.turning_inner)
+        flows.outer_impulse += span * (pitch * at.pull_outer + arm * at.turning_outer)
+        flows.body_impulse -= span * pitch * at.tangential
+        flows.eccentric_impulse += span * at.push * off_axis
+        flows.shaft_work -= span * shaft_speed * shaft_torque
+        flows.body_work -= span * at.tangential * orbital
         passing = shaft_speed * pitch - orbital
         loss = at.turning_inner * own[0] - lag_in * passing
         loss += at.turning_outer * own[1] - lag_out * orbital
-        flows[8] += span * loss
-        flows[9] += span * at.friction * at.sliding
-        flows[11] -= span * at.push * at.pocket_speed
+        flows.raceway_loss += span * loss
+        flows.friction_loss += span * cage_power(at.friction, at.sliding)
+        flows.pocket_work -= span * at.push * at.pocket_speed
     for c in range(cages.size):
         cage = cages[c].y[FIRST + k]
-        turning = cage[0] + 0.5 * shaft_speed * bearing.inner_radius
-        drag = bearing.guide_friction * math.tanh(turning / GUIDE_SPEED)
-        ring = bearing.land_turns * shaft_speed * pitch
-        past = turning - ring
-        sheared = bearing.land_drag * past
-        flows[3] -= span * pitch * (drag + sheared)
-        flows[5] -= span * sheared * ring
-        flows[7] -= span * bearing.cage_weight * cage[3]
-        flows[10] += span * (drag * turning + sheared * past)
+        speed = cage_speed(cage[0], shaft_speed, bearing.inner_radius)
+        guide = cage_guide(bearing, speed, shaft_speed)
+        flows.guide_impulse -= span * pitch * (guide.friction + guide.drag)
+        flows.shaft_work -= span * guide.drag * guide.land_speed
+        flows.cage_weight_work -= span * bearing.cage_weight * cage[3]
+        land_loss = guide.drag * (speed - guide.land_speed)
+        flows.guide_loss += span * (guide.friction * speed + land_loss)
         if bearing.translates:
-            push, n_x, n_y, _, _ = guide_force(
+            push, n_x, n_y, _, _ = stop_force(
                 bearing.radial_play, cage[4], cage[5], cage[2], cage[3]
             )
-            flows[12] += span * push * (n_x * cage[2] + n_y * cage[3])
+            flows.support_work += span * push * (n_x * cage[2] + n_y * cage[3])
 
 
 class Books:
@@ -148,11 +176,9 @@ class Books:
         if not part.bearing.size:
             return
         flows = part.bearing["flows"]
-        raceway_loss = flows[:, FLOWS.index("raceway_loss")]
-        friction_loss = flows[:, FLOWS.index("friction_loss")]
-        lost = raceway_loss + friction_loss
+        lost = flows["raceway_loss"] + flows["friction_loss"]
         self.driven -= float(np.minimum(lost, 0.0).sum())
-        sums = self._sum + np.cumsum(flows, axis=0)
+        sums = self._sum + np.cumsum(structured_to_unstructured(flows), axis=0)
         self._sum = sums[-1]
         _, rows, places = np.intersect1d(part.bearing["end"], self.times, return_indices=True)
         self.flows[places] = sums[rows]
@@ -195,10 +221,10 @@ def _stocks(bearing: WholeBearing, part: Part, rows: np.ndarray) -> np.ndarray:
     slip_out = steps["outer_slip"][every, :, last]
     shaft_speed = whole["shaft_speed"][every, last][:, None]
     ring = shaft_speed * bearing.positions["inner_radius"]
-    orbital = 0.5 * (slip_in - slip_out + ring)
-    spinning = -0.5 * (slip_in + slip_out + ring)
+    orbital = centre_speed(slip_in, slip_out, ring)
+    spinning = spin_surface_speed(slip_in, slip_out, ring)
     cages = whole["cages"][:, : bearing.cages]
-    turning = cages[..., 0] + 0.5 * shaft_speed * bearing.inner_radius
+    turning = cage_speed(cages[..., 0], shaft_speed, bearing.inner_radius)
     pitch = bearing.pitch_radius
     mass = bearing.roller_mass
     of_rollers = orbital + 0.5 * bearing.lever * spinning
@@ -210,6 +236,6 @@ def _stocks(bearing: WholeBearing, part: Part, rows: np.ndarray) -> np.ndarray:
     kinetic += 0.5 * bearing.cage_mass * cage_squares.sum(axis=1)
     elastic = elastic_energy(bearing.pocket, part.offset[rows]).sum(axis=1)
     if bearing.translates:
-        of_stop = guide_energy(bearing.radial_play, cages[..., 4], cages[..., 5])
+        of_stop = stop_energy(bearing.radial_play, cages[..., 4], cages[..., 5])
         elastic += of_stop.sum(axis=1)
     return np.stack([momentum, kinetic, elastic], axis=-1)

@@ -1,6 +1,6 @@
-"""A bearing with its cages: all that does not change with time.
+"""A bearing with its cages: the numbers that do not change with time.
 
-It is prepared as a frozen object and as records for compiled functions.
+They are prepared as a frozen object and as records for compiled functions.
 """
 
 from __future__ import annotations
@@ -23,17 +23,25 @@ from macroslip.whole.cage import Cage, inner_radii
 from macroslip.whole.pocket import POCKET, Pocket, prepare_pocket
 from macroslip.whole.tractions import addresses_of_evaluations
 
-_NUMBERS = (
-    "roller_mass", "radius", "pitch_radius", "inner_radius", "outer_radius", "orbit_ratio", "lever", "cage_mass",
-    "cage_weight", "radial_play", "guide_friction", "land_drag", "land_turns",
-)  # fmt: skip
-#: The numbers of a `WholeBearing`.
+#: Numbers of a `WholeBearing` as compiled functions take them.
 BEARING = np.dtype(
     [
-        *((name, "f8") for name in _NUMBERS),
-        ("cages", "i8"),
-        ("translates", "i8"),
-        ("pocket", POCKET),
+        ("roller_mass", "f8"),  # m [kg]
+        ("radius", "f8"),  # r [m]
+        ("pitch_radius", "f8"),  # r~ [m]
+        ("inner_radius", "f8"),  # nominal r~_in [m]
+        ("outer_radius", "f8"),  # r~_out [m]
+        ("orbit_ratio", "f8"),  # Ω/Ω_in of pure rolling [-]
+        ("lever", "f8"),  # r cos α/r~ [-]
+        ("cage_mass", "f8"),  # M_c, mass of one cage [kg]
+        ("cage_weight", "f8"),  # weight of one cage in the bearing plane, along −Y0 [N]
+        ("radial_play", "f8"),  # distance from the axis at which rollers hold a cage [m]
+        ("guide_friction", "f8"),  # friction of each cage's guide at the pitch radius [N]
+        ("land_drag", "f8"),  # drag of a ring's land on each cage at the pitch radius [N s/m]
+        ("land_turns", "f8"),  # 1 where that ring is the inner one, which turns; otherwise 0
+        ("cages", "i8"),  # number of cages
+        ("translates", "i8"),  # 1 where the cages can leave the bearing's axis; otherwise 0
+        ("pocket", POCKET),  # forces between a roller and the spars of its pocket
     ]
 )
 #: Numbers that differ between rollers.
@@ -51,11 +59,11 @@ POSITION = np.dtype(
 
 @dataclass(frozen=True)
 class WholeBearing:
-    """All rollers, pockets and cages."""
+    """Rollers, pockets and cages of a bearing."""
 
     models: dict[str, RollerModel]  #: By row
     positions: np.ndarray  #: Shape (n,). Rollers, downwind row first.
-    pocket: Pocket
+    pocket: Pocket  #: Forces between a roller and its spars
     roller_mass: float  #: m [kg]
     radius: float  #: r [m]
     pitch_radius: float  #: r~ [m]
@@ -78,14 +86,12 @@ class WholeBearing:
 class Assembly(NamedTuple):
     """A bearing with its cages as compiled functions take it."""
 
-    bearing: np.ndarray  #: shape (1,)
-    bodies: np.ndarray  #: Shape (rows,). A roller of each row.
+    bearing: np.ndarray  #: Shape (1,), of `BEARING`. Numbers of the bearing
+    bodies: np.ndarray  #: Shape (rows,), of `macroslip.roller.model.BODY`. A roller of each row
     tables: np.ndarray  #: The flat array of their tables
-    positions: np.ndarray  #: shape (n,)
-    #: Addresses of the evaluations of a raceway contact and of a cage's contact, see
-    #: `macroslip.whole.tractions`.
-    evaluate_raceway: int
-    evaluate_cage: int
+    positions: np.ndarray  #: Shape (n,), of `POSITION`. Numbers of each roller
+    evaluate_raceway: int  #: Address of the function that evaluates a raceway contact
+    evaluate_cage: int  #: Address of the function that evaluates a cage's contact
 
 
 def whole_bearing(
@@ -183,9 +189,9 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
         bearing.models, box, max(pocket.half_gap, pocket.least_film)
     )
     numbers = np.zeros(1, BEARING)
-    for name in (*_NUMBERS, "cages", "translates"):
-        numbers[name] = getattr(bearing, name)
-    numbers["pocket"] = tuple(pocket)
+    for name in BEARING.names or ():
+        value = getattr(bearing, name)
+        numbers[name] = tuple(value) if name == "pocket" else value
     bodies = np.concatenate([roller.body for roller in rollers.values()])
     tables = next(iter(rollers.values())).tables
     return Assembly(numbers, bodies, tables, bearing.positions, *addresses_of_evaluations()), report

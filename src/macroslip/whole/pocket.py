@@ -1,4 +1,4 @@
-"""Forces between a roller and the two spars of its pocket, and the cage's radial guidance.
+"""Forces between a roller and the two spars of its pocket, and the radial stop of the cage.
 
 The pocket offset x is the roller's way ahead of the middle of its pocket, along the orbit. The
 front spar is at x = c/2, the rear one at −c/2; N is their push on the roller along the orbit. A
@@ -45,7 +45,7 @@ DAMPING = 1e5
 
 
 class Pocket(NamedTuple):
-    """Numbers of the spars' forces."""
+    """Stiffness, damping and oil film of the spars of a pocket."""
 
     half_gap: float  #: c/2 [m]
     stiffness: float  #: K of the roller on a spar [N/m^1.5]
@@ -56,8 +56,17 @@ class Pocket(NamedTuple):
     oil_gap: float = math.inf
 
 
-#: A pocket as compiled functions take it.
-POCKET = np.dtype([(name, "f8") for name in Pocket._fields])
+#: A `Pocket` as compiled functions take it.
+POCKET = np.dtype(
+    [
+        ("half_gap", "f8"),  # c/2 [m]
+        ("stiffness", "f8"),  # K of the roller on a spar [N/m^1.5]
+        ("damping", "f8"),  # D [s/m]; zero with a squeeze film
+        ("film", "f8"),  # 3√2 π η l R^1.5 [N s √m]; zero without film
+        ("least_film", "f8"),  # h_m [m]
+        ("oil_gap", "f8"),  # h_e, gap from which on pockets hold no oil [m]; infinite where flooded
+    ]
+)
 
 
 def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float:
@@ -85,7 +94,7 @@ def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float
 
 
 def prepare_pocket(cage: Cage, bearing: Bearing, lubricant: Lubricant, stiffness: float) -> Pocket:
-    """Prepare the numbers of the forces between a roller and the spars of its pocket.
+    """Stiffness, damping and oil film of a pocket, from cage, bearing and oil.
 
     Parameters
     ----------
@@ -238,8 +247,8 @@ def elastic_energy(pocket: Pocket, offset: np.ndarray) -> np.ndarray:
 
 
 @jit_inline
-def guide_force(play, a, b, p, q):
-    """Push of the rollers on a cage that has left the bearing's axis.
+def stop_force(play, a, b, p, q):
+    """Push of the radial stop on a cage that has left the bearing's axis.
 
     Parameters
     ----------
@@ -256,12 +265,12 @@ def guide_force(play, a, b, p, q):
         Towards the axis [N], never below zero.
     n_x, n_y : float
         Direction in which the cage has left it.
-    by_sector, by_speed : float
+    by_distance, by_speed : float
         Derivatives of the push by the distance [N/m] and by its rate [N s/m].
 
     Examples
     --------
-    >>> push, n_x, n_y, _, _ = guide_force(1e-4, 0.0, -1.05e-4, 0.0, 0.0)
+    >>> push, n_x, n_y, _, _ = stop_force(1e-4, 0.0, -1.05e-4, 0.0, 0.0)
     >>> round(push), n_y
     (500, -1.0)
     """
@@ -277,7 +286,7 @@ def guide_force(play, a, b, p, q):
     return push, n_x, n_y, STIFFNESS, DAMPING
 
 
-def guide_energy(play: float, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+def stop_energy(play: float, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Elastic energy of the stop [J] of cages that have left the axis by (a, b) [m]."""
     depth = np.maximum(np.hypot(a, b) - play, 0.0)
     return 0.5 * STIFFNESS * depth**2

@@ -37,10 +37,11 @@ from macroslip.imposed.status import (
     TOO_MANY_STEPS,
     UNDER_WAY,
 )
+from macroslip.mechanics.power import cage_power, rolling_power, total_power
 from macroslip.ring.orbit import Motion, instant, interval_of, uncounted_motion
 from macroslip.roller.step import STEP
 from macroslip.whole import tuning
-from macroslip.whole.books import FLOWS, add_flows
+from macroslip.whole.books import STEP_FLOWS, add_flows, clear_flows
 from macroslip.whole.cage import Cage
 from macroslip.whole.model import Assembly, WholeBearing
 from macroslip.whole.stage import (
@@ -79,22 +80,17 @@ _INSTANT = 1e-12
 #: Size of the buffer of steps [bytes].
 _BUFFER = 6 * 2**20
 
-#: Tolerance and bounds.
+#: Tolerance and bounds of the integration.
 LIMITS = np.dtype(
     [
-        *(
-            (name, "f8")
-            for name in (
-                "allowed_speed",  # error of speed that a step may make [m/s]
-                "power",  # allowed relative error of power where slopes predict it [-]
-                "force",  # largest force an iteration may leave unbalanced [N]
-                # Of speeds [m/s]; times mass over step it is the force below which no iteration
-                # can get.
-                "rounding",
-                "longest_step",  # longest step [s]
-                "longest_interval",  # longest time between evaluations of tractions [s]
-            )
-        ),
+        ("allowed_speed", "f8"),  # error of speed that a step may make [m/s]
+        ("power", "f8"),  # allowed relative error of power where slopes predict it [-]
+        ("force", "f8"),  # largest force an iteration may leave unbalanced [N]
+        # Rounding of speeds [m/s]; times mass over step it is the force below which no iteration
+        # can get.
+        ("rounding", "f8"),
+        ("longest_step", "f8"),  # longest step [s]
+        ("longest_interval", "f8"),  # longest time between evaluations of tractions [s]
         # Relative change of load or slip within which the slopes of a cage's contact serve [-].
         ("cage_reach", "f8"),
         # Change of a raceway's force by slip over its load within which its slopes serve [-].
@@ -134,8 +130,7 @@ BEARING_STEP = np.dtype(
         ("cages", "f8", (2, 6)),
         # Of the rollers on the cages at the end, positive along the orbit [N m].
         ("torque", "f8", (2,)),
-        # Angular impulses [N m s] and energies [J], by `macroslip.whole.books.FLOWS`.
-        ("flows", "f8", (len(FLOWS),)),
+        ("flows", STEP_FLOWS),  # angular impulses [N m s] and energies [J]
     ]
 )
 
@@ -340,12 +335,12 @@ def _write_stage(assembly, k, time, weight, space, row):
         force[0] = at.turning_inner - shear_in
         force[1] = at.turning_outer - shear_out
         force[2] = at.friction - shear_cage
-        power[0] = inner.slip + inner.curvature + inner.contact_spin
-        power[1] = outer.slip + outer.curvature + outer.contact_spin
-        power[2] = force[2] * at.sliding
+        power[0] = total_power(inner)
+        power[1] = total_power(outer)
+        power[2] = cage_power(force[2], at.sliding)
         rolling[0] = rolling_in
         rolling[1] = rolling_out
-        rolling[2] = shear_cage * at.sliding
+        rolling[2] = rolling_power(shear_cage, -0.5 * at.sliding)
         rough[0] = rough_in
         rough[1] = rough_out
         rough[2] = 0.0
@@ -659,8 +654,7 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
     whole.start = start.time
     whole.end = end.time
-    for i in range(whole.flows.size):
-        whole.flows[i] = 0.0
+    clear_flows(whole.flows)
     for k in range(last + 1):
         span = row[0].weight[k]
         add_flows(assembly, whole.shaft_speed[k], k, span, space, whole.flows)

@@ -18,12 +18,14 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
+from macroslip.mechanics.cage import cage_guide
 from macroslip.mechanics.orbit import slip_drive
+from macroslip.mechanics.speeds import cage_speed, spin_surface_speed
 from macroslip.whole import tuning
 from macroslip.whole.model import Assembly
-from macroslip.whole.pocket import guide_force, pocket_force
+from macroslip.whole.pocket import pocket_force, stop_force
 from macroslip.whole.tractions import (
-    CONDITIONS,
+    COUPLED_CONDITIONS,
     address,
     cage_from,
     evaluate_marked,
@@ -32,8 +34,6 @@ from macroslip.whole.tractions import (
     raceway_from,
 )
 
-#: Speed over which the guide's friction turns its sign [m/s].
-GUIDE_SPEED = 1e-3
 #: Sets of unknowns or their rates: at the step's start, y*, at both stages.
 STATE, SLOPE, STAR, FIRST, LAST, FIRST_RATE, LAST_RATE = range(7)
 #: State of a roller.
@@ -70,7 +70,7 @@ BLOCK = np.dtype(
         ("inverse", "f8", (4,)),  # of its 2 × 2 block [m/(N s)]
         ("column", "f8", (2, 3)),  # derivatives of its residuals by w, p, q [N s/m]
         ("row", "f8", (2, 3)),  # derivatives of the cage's residuals by v_in, v_out [N s/m]
-        ("give", "f8"),  # derivative of N by x' [N s/m]
+        ("push_by_speed", "f8"),  # derivative of N by x' [N s/m]
         ("by_sliding", "f8"),  # derivative of F_c by slip [N s/m]
         ("by_push", "f8"),  # derivative of F_c by N [-]
         ("residual", "f8", (2,)),  # residuals, or the right-hand side of a solution [N]
@@ -109,7 +109,7 @@ def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     return Space(
         rollers=np.zeros(count, ROLLER),
         cages=np.zeros(cages, CAGE),
-        conditions=np.zeros((2, count), CONDITIONS),
+        conditions=np.zeros((2, count), COUPLED_CONDITIONS),
         linearisations=linearisations,
         numbers=numbers,
         schedules=np.zeros(count, SCHEDULE),
@@ -132,13 +132,13 @@ class Stage(NamedTuple):
     slip_reach: float
 
 
-class Meeting(NamedTuple):
+class PocketContact(NamedTuple):
     """Contact of a roller with its pocket."""
 
     push: float  #: N [N]
     friction: float  #: F_c [N]
-    #: Derivative of N by x', with the offset that follows from it in this stage [N s/m]
-    give: float
+    #: ∂N/∂x', with the change of the offset that follows from x' in this stage [N s/m]
+    push_by_speed: float
     by_sliding: float  #: Derivative of F_c by the slip against the cage [N s/m]
     by_push: float  #: Derivative of F_c by N [-]
     arm: float  #: Lever of N about the cage's own axis over the pitch radius [-]
@@ -146,7 +146,7 @@ class Meeting(NamedTuple):
 
 
 @jit_inline
-def meet(bearing, contact, stage, at, own, star, cage, linear):
+def pocket_contact(bearing, contact, stage, at, own, star, cage, linear):
     """Push and friction of a roller's pocket at the speeds of a stage.
 
     Parameters
@@ -156,7 +156,7 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
         A roller's body, record of `macroslip.roller.model.BODY`, the address of its tables, and
         the address of the evaluation of its contact with the cage.
     stage : Stage
-    at : record of `macroslip.whole.tractions.CONDITIONS`
+    at : record of `macroslip.whole.tractions.COUPLED_CONDITIONS`
         The roller at the stage's time; `push`, `friction` and the speeds in its pocket are filled.
     own : ndarray, shape (3,)
         v_in, v_out [m/s] and x [m] of the roller; the offset x is filled, as its speed gives it.
@@ -169,13 +169,12 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
 
     Returns
     -------
-    Meeting
+    PocketContact
     """
     shaft_speed = stage.shaft_speed
     v_in = own[0]
     v_out = own[1]
-    cage_speed = cage[0] + 0.5 * shaft_speed * bearing.inner_radius
-    cage_turn = cage_speed / bearing.pitch_radius
+    cage_turn = cage_speed(cage[0], shaft_speed, bearing.inner_radius) / bearing.pitch_radius
     off_axis = cage[4] * at.cosine + cage[5] * at.sine
     speed = (
         0.5 * (v_in - v_out)
@@ -187,25 +186,24 @@ def meet(bearing, contact, stage, at, own, star, cage, linear):
     speed += 0.5 * (at.ring - shaft_speed * bearing.inner_radius)
     own[2] = star[2] + stage.step * speed
     push, by_offset, by_speed = pocket_force(bearing.pocket, own[2], speed)
-    # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
-    spinning = 0.5 * (v_in + v_out + at.ring)
-    sliding = spinning + bearing.lever * bearing.pitch_radius * cage_turn
+    sliding = bearing.lever * bearing.pitch_radius * cage_turn
+    sliding -= spin_surface_speed(v_in, v_out, at.ring)
     friction, by_sliding, by_push = cage_from(contact, linear.cage, push, sliding, stage.cage_reach)
     at.friction = friction
     at.push = push
     at.sliding = sliding
     at.pocket_speed = speed
-    give = by_speed + stage.step * by_offset
+    push_by_speed = by_speed + stage.step * by_offset
     arm = 1.0 - off_axis / bearing.pitch_radius
-    return Meeting(push, friction, give, by_sliding, by_push, arm, cage_turn)
+    return PocketContact(push, friction, push_by_speed, by_sliding, by_push, arm, cage_turn)
 
 
 @jit_inline
-def _write_block(inertia, at, linear, met, block):
+def _write_block(inertia, at, linear, pocket, block):
     """Inverse of a roller's block, and the derivatives by which its pocket's forces follow."""
-    block.give = met.give
-    block.by_sliding = met.by_sliding
-    block.by_push = met.by_push
+    block.push_by_speed = pocket.push_by_speed
+    block.by_sliding = pocket.by_sliding
+    block.by_push = pocket.by_push
     turning_in = 0.0
     pull_in = 0.0
     turning_out = 0.0
@@ -217,9 +215,9 @@ def _write_block(inertia, at, linear, met, block):
         turning_out = linear.outer.turning_by_slip
         pull_out = linear.outer.pull_by_slip
     # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
-    shared = met.by_sliding
-    tilted = met.by_push * met.give
-    half_push = 0.5 * met.give
+    shared = pocket.by_sliding
+    tilted = pocket.by_push * pocket.push_by_speed
+    half_push = 0.5 * pocket.push_by_speed
     spin_in = 2.0 * turning_in
     spin_out = 2.0 * turning_out
     j11 = inertia + pull_in + spin_in + shared + tilted - half_push
@@ -235,37 +233,37 @@ def _write_block(inertia, at, linear, met, block):
 
 
 @jit_inline
-def _add_to_border(bearing, stage, at, met, block, border):
+def _add_to_border(bearing, stage, at, pocket, block, border):
     """Add a roller to its cage's equations, and the cage to the roller's."""
     matrix = border.matrix
     residual = border.residual
     row = block.row
     column = block.column
     lever = bearing.lever
-    arm = met.arm
-    give = met.give
-    by_push = met.by_push
-    by_w = -give
-    residual[0] += met.push * arm + met.friction * lever
+    arm = pocket.arm
+    push_by_speed = pocket.push_by_speed
+    by_push = pocket.by_push
+    by_w = -push_by_speed
+    residual[0] += pocket.push * arm + pocket.friction * lever
     # Derivatives of the torque on the cage by v_in and v_out: of the push, and of friction by its
     # slip and by the push.
-    half_push = 0.5 * give
-    half_sliding = 0.5 * met.by_sliding
-    half_friction = 0.5 * by_push * give
+    half_push = 0.5 * push_by_speed
+    half_sliding = 0.5 * pocket.by_sliding
+    half_friction = 0.5 * by_push * push_by_speed
     row[0, 0] = half_push * arm + lever * (half_sliding + half_friction)
     row[1, 0] = -half_push * arm + lever * (half_sliding - half_friction)
-    friction_by_w = met.by_sliding * lever + by_push * by_w
+    friction_by_w = pocket.by_sliding * lever + by_push * by_w
     column[0, 0] = 2.0 * friction_by_w - by_w
     column[1, 0] = 2.0 * friction_by_w + by_w
     matrix[0, 0] += arm * by_w + lever * friction_by_w
     if bearing.translates:
         cosine = at.cosine
         sine = at.sine
-        residual[1] -= met.push * sine
-        residual[2] += met.push * cosine
-        turned = stage.step * met.cage_turn
-        by_p = give * (sine + turned * cosine)
-        by_q = give * (-cosine + turned * sine)
+        residual[1] -= pocket.push * sine
+        residual[2] += pocket.push * cosine
+        turned = stage.step * pocket.cage_turn
+        by_p = push_by_speed * (sine + turned * cosine)
+        by_q = push_by_speed * (-cosine + turned * sine)
         row[0, 1] = -sine * half_push
         row[1, 1] = sine * half_push
         row[0, 2] = cosine * half_push
@@ -405,14 +403,10 @@ def _begin_cage(bearing, stage, cage, star, border):
     for i in range(3):
         for k in range(3):
             matrix[i, k] = inertia if i == k else 0.0
-    turning = cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius
-    drive = math.tanh(turning / GUIDE_SPEED)
-    past = turning - bearing.land_turns * stage.shaft_speed * bearing.pitch_radius
-    friction = bearing.guide_friction * drive
-    drag = bearing.land_drag * past
-    residual[0] = inertia * (cage[0] - star[0]) + friction + drag
-    friction_slope = bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED
-    matrix[0, 0] += friction_slope + bearing.land_drag
+    speed = cage_speed(cage[0], stage.shaft_speed, bearing.inner_radius)
+    guide = cage_guide(bearing, speed, stage.shaft_speed)
+    residual[0] = inertia * (cage[0] - star[0]) + guide.friction + guide.drag
+    matrix[0, 0] += guide.by_speed
     p = cage[2]
     q = cage[3]
     residual[1] = inertia * (p - star[2])
@@ -420,10 +414,10 @@ def _begin_cage(bearing, stage, cage, star, border):
     if bearing.translates:
         a = cage[4]
         b = cage[5]
-        push, n_x, n_y, by_sector, by_speed = guide_force(bearing.radial_play, a, b, p, q)
+        push, n_x, n_y, by_distance, by_speed = stop_force(bearing.radial_play, a, b, p, q)
         residual[1] += push * n_x
         residual[2] += push * n_y
-        radial = by_speed + stage.step * by_sector
+        radial = by_speed + stage.step * by_distance
         turning_push = 0.0
         if push > 0.0:
             turning_push = stage.step * push / math.sqrt(a**2 + b**2)
@@ -513,9 +507,9 @@ def _assemble(assembly, stage, k, size, space):
         own = rollers[j].y[present]
         star = rollers[j].y[STAR]
         cage = cages[c].y[present]
-        met = meet(bearing, contact, stage, at, own, star, cage, linear)
-        friction = at.turning_inner + at.turning_outer + met.friction
-        drive = slip_drive(friction, at.pull_inner, at.pull_outer, met.push, at.tangential)
+        pocket = pocket_contact(bearing, contact, stage, at, own, star, cage, linear)
+        friction = at.turning_inner + at.turning_outer + pocket.friction
+        drive = slip_drive(friction, at.pull_inner, at.pull_outer, pocket.push, at.tangential)
         residual_in = inertia * (own[0] - star[0]) + drive.turning - drive.driving
         residual_out = inertia * (own[1] - star[1]) + drive.turning + drive.driving
         block.residual[0] = residual_in
@@ -523,8 +517,8 @@ def _assemble(assembly, stage, k, size, space):
         worst = max(worst, abs(residual_in), abs(residual_out))
         # `max` may ignore a NaN.
         finite = finite and abs(residual_in) + abs(residual_out) < math.inf
-        _write_block(inertia, at, linear, met, block)
-        _add_to_border(bearing, stage, at, met, block, borders[c])
+        _write_block(inertia, at, linear, pocket, block)
+        _add_to_border(bearing, stage, at, pocket, block, borders[c])
     for c in range(cages.size):
         for i in range(size):
             unbalanced = abs(borders[c].residual[i])
@@ -582,16 +576,12 @@ def _follow(assembly, stage, k, space):
             at.pull_outer += linear.outer.pull_by_slip * v_out
         speed = 0.5 * (v_in - v_out) + border[0]
         if bearing.translates:
-            turn = (
-                stage.step
-                * (cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius)
-                / bearing.pitch_radius
-            )
-            speed -= (at.sine + turn * at.cosine) * border[1] + (
-                turn * at.sine - at.cosine
-            ) * border[2]
+            of_cage = cage_speed(cage[0], stage.shaft_speed, bearing.inner_radius)
+            turn = stage.step * of_cage / bearing.pitch_radius
+            speed -= (at.sine + turn * at.cosine) * border[1]
+            speed -= (turn * at.sine - at.cosine) * border[2]
         sliding = 0.5 * (v_in + v_out) - bearing.lever * border[0]
-        push = block.give * speed
+        push = block.push_by_speed * speed
         at.push += push
         at.friction += block.by_sliding * sliding + block.by_push * push
         at.sliding += sliding

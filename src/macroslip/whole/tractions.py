@@ -14,88 +14,79 @@ import numpy as np
 from macroslip.compiled import address_of, call_at, jit, jit_inline
 from macroslip.contact.look_up import contact_load, contact_speeds, log_speed
 from macroslip.mechanics.cage import cage_forces
-from macroslip.mechanics.loads import roller_loads
-from macroslip.mechanics.power import RacewayPower, raceway_power
+from macroslip.mechanics.loads import orbit_loads
+from macroslip.mechanics.power import RacewayPower, raceway_power, rolling_power
 from macroslip.mechanics.raceway import NO_RACEWAY_FORCES, raceway_forces, raceway_state
-from macroslip.mechanics.speeds import inner_ring_speed, outer_ring_speed
+from macroslip.mechanics.speeds import centre_speed, inner_ring_speed, outer_ring_speed
 from macroslip.roller.model import BODY, CONTACT
 from macroslip.whole import tuning
 
 #: Tractions of a raceway contact and their slopes, at the state in which they were evaluated.
 LINEARISATION = np.dtype(
     [
-        (name, "f8")
-        for name in (
-            "slip",  # Δu of the evaluation [m/s]
-            "load",  # normal load Q of the evaluation [N]
-            "speed",  # ring speed u2 of the evaluation [m/s]
-            "turning",  # force that turns the roller, S_i or S_o [N]
-            "pull",  # force that moves the roller's centre, P_i or P_o [N]
-            "turning_by_slip",  # [N s/m]
-            "pull_by_slip",  # [N s/m]
-            "turning_by_load",  # [-]
-            "pull_by_load",  # [-]
-            "turning_by_speed",  # [N s/m]
-            "pull_by_speed",  # [N s/m]
-            "skew",  # skew moment ∫τ ζ dA [N m]
-            "shear",  # rolling resistance, which both forces hold [N]
-            "shear_by_slip",  # [N s/m]
-            "shear_by_load",  # [-]
-            "shear_by_speed",  # [N s/m]
-            "rough",  # frictional power of asperities [W]
-        )
+        ("slip", "f8"),  # Δu of the evaluation [m/s]
+        ("load", "f8"),  # normal load Q of the evaluation [N]
+        ("speed", "f8"),  # ring speed u2 of the evaluation [m/s]
+        ("turning", "f8"),  # force that turns the roller, S_i or S_o [N]
+        ("pull", "f8"),  # force that moves the roller's centre, P_i or P_o [N]
+        ("turning_by_slip", "f8"),  # ∂S/∂Δu [N s/m]
+        ("pull_by_slip", "f8"),  # ∂P/∂Δu [N s/m]
+        ("turning_by_load", "f8"),  # ∂S/∂Q [-]
+        ("pull_by_load", "f8"),  # ∂P/∂Q [-]
+        ("turning_by_speed", "f8"),  # ∂S/∂u2 [N s/m]
+        ("pull_by_speed", "f8"),  # ∂P/∂u2 [N s/m]
+        ("skew", "f8"),  # skew moment ∫τ ζ dA [N m]
+        ("shear", "f8"),  # rolling resistance, which both forces hold [N]
+        ("shear_by_slip", "f8"),  # slope of rolling resistance by slip [N s/m]
+        ("shear_by_load", "f8"),  # slope of rolling resistance by load [-]
+        ("shear_by_speed", "f8"),  # slope of rolling resistance by u2 [N s/m]
+        ("rough", "f8"),  # frictional power of asperities [W]
     ]
 )
 #: Friction of the cage's contact and its slopes, at the state in which it was evaluated.
 CAGE_LINEARISATION = np.dtype(
     [
-        (name, "f8")
-        for name in (
-            "slip",  # against the cage, of the evaluation [m/s]
-            "load",  # |N| of the evaluation [N]; below 0 before the first
-            "force",  # friction F_c, rolling resistance included [N]
-            "by_slip",  # slope of F_c [N s/m]
-            "by_load",  # slope of F_c [-]
-            "shear",  # rolling resistance [N]
-            "shear_by_slip",  # [N s/m]
-            "shear_by_load",  # [-]
-            "rough",  # frictional power of asperities [W]
-        )
+        ("slip", "f8"),  # against the cage, of the evaluation [m/s]
+        ("load", "f8"),  # |N| of the evaluation [N]; below 0 before the first
+        ("force", "f8"),  # friction F_c, rolling resistance included [N]
+        ("by_slip", "f8"),  # slope of F_c [N s/m]
+        ("by_load", "f8"),  # slope of F_c [-]
+        ("shear", "f8"),  # rolling resistance [N]
+        ("shear_by_slip", "f8"),  # slope of rolling resistance by slip [N s/m]
+        ("shear_by_load", "f8"),  # slope of rolling resistance by load [-]
+        ("rough", "f8"),  # frictional power of asperities [W]
     ]
 )
 #: Tractions of a roller in its three contacts.
 LINEARISATIONS = np.dtype(
     [
-        ("inner", LINEARISATION),
-        ("outer", LINEARISATION),
-        ("cage", CAGE_LINEARISATION),
+        ("inner", LINEARISATION),  # inner raceway
+        ("outer", LINEARISATION),  # outer raceway
+        ("cage", CAGE_LINEARISATION),  # cage
         ("when", "f8"),  # time of the last evaluation of the raceways [s]
     ]
 )
-#: Conditions of a roller at one time: loads and speeds, and the forces that it meets.
-CONDITIONS = np.dtype(
+#: Conditions of a roller of the whole bearing at one time: loads, speeds and forces.
+COUPLED_CONDITIONS = np.dtype(
     [
-        (name, "f8")
-        for name in (
-            "cosine",  # of its pocket's angle θ
-            "sine",  # of its pocket's angle θ
-            "inner_load",  # normal load of the inner raceway, with body forces and films [N]
-            "outer_load",  # normal load of the outer raceway, with body forces and films [N]
-            "elastic_load",  # load of the rings alone [N]
-            "tangential",  # G = F_g,x' + F_d,x', against the orbit [N]
-            "inner_speed",  # speed u2 of the inner raceway past its centre [m/s]
-            "outer_speed",  # speed u2 of the outer raceway past its centre [m/s]
-            "ring",  # speed Ω_in r~_in of the inner ring's surface [m/s]
-            "log_film_balance",  # where the next search for the films' load begins [ln N]
-            "turning_inner",  # S_i [N]
-            "turning_outer",  # S_o [N]
-            "pull_inner",  # P_i [N]
-            "pull_outer",  # P_o [N]
-            "friction",  # F_c of its pocket [N]
-            "push",  # N of its pocket, along the orbit [N]
-            "sliding",  # slip against the cage [m/s]
-            "pocket_speed",  # x', speed ahead in its pocket [m/s]
-        )
+        ("cosine", "f8"),  # cos θ of its pocket's angle [-]
+        ("sine", "f8"),  # sin θ of its pocket's angle [-]
+        ("inner_load", "f8"),  # normal load of the inner raceway, with body forces and films [N]
+        ("outer_load", "f8"),  # normal load of the outer raceway, with body forces and films [N]
+        ("elastic_load", "f8"),  # load of the rings alone [N]
+        ("tangential", "f8"),  # G = F_g,x' + F_d,x', against the orbit [N]
+        ("inner_speed", "f8"),  # speed u2 of the inner raceway past its centre [m/s]
+        ("outer_speed", "f8"),  # speed u2 of the outer raceway past its centre [m/s]
+        ("ring", "f8"),  # speed Ω_in r~_in of the inner ring's surface [m/s]
+        ("log_film_balance", "f8"),  # where the next search for the films' load begins [ln N]
+        ("turning_inner", "f8"),  # S_i [N]
+        ("turning_outer", "f8"),  # S_o [N]
+        ("pull_inner", "f8"),  # P_i [N]
+        ("pull_outer", "f8"),  # P_o [N]
+        ("friction", "f8"),  # F_c of its pocket [N]
+        ("push", "f8"),  # N of its pocket, along the orbit [N]
+        ("sliding", "f8"),  # slip against the cage [m/s]
+        ("pocket_speed", "f8"),  # x', speed ahead in its pocket [m/s]
     ]
 )
 
@@ -160,7 +151,7 @@ def locate(assembly, now, which, rollers, cages, conditions, turn):
         Slips [m/s] and pocket offsets [m].
     cages : ndarray of `macroslip.whole.stage.CAGE`, shape (c,)
         Lags and displacements [m].
-    conditions : ndarray of `CONDITIONS`, shape (n,)
+    conditions : ndarray of `COUPLED_CONDITIONS`, shape (n,)
         Filled with angles, loads [N] and speeds [m/s]; the search for the films' load begins with
         the `log_film_balance` there.
     turn : ndarray, shape (2,)
@@ -194,8 +185,8 @@ def locate(assembly, now, which, rollers, cages, conditions, turn):
             x = cosine * half - sine * ahead
             y = sine * half + cosine * ahead
             ring = now.shaft_speed * position.inner_radius
-            orbit = 0.5 * (own[0] - own[1] + ring) / pitch
-            loads = roller_loads(body, tables, x, y, now, orbit, at.log_film_balance)
+            orbit = centre_speed(own[0], own[1], ring) / pitch
+            loads = orbit_loads(body, tables, x, y, now, orbit, at.log_film_balance)
             at.ring = ring
             at.log_film_balance = loads.log_film_balance
             at.elastic_load = loads.elastic_load
@@ -263,7 +254,7 @@ def evaluate_marked(assembly, time, conditions, rollers, which, schedules, linea
     assembly : macroslip.whole.model.Assembly
     time : float
         Time of the evaluation [s].
-    conditions : ndarray of `CONDITIONS`, shape (n,)
+    conditions : ndarray of `COUPLED_CONDITIONS`, shape (n,)
         Loads [N] and ring speeds [m/s] at that time.
     rollers : ndarray of `macroslip.whole.stage.ROLLER`, shape (n,)
         Slips [m/s].
@@ -395,7 +386,7 @@ def is_out_of_reach(linear, at, slips, slip_reach):
     ----------
     linear : record of `LINEARISATIONS`
         Tractions and slopes at the last evaluation.
-    at : record of `CONDITIONS`
+    at : record of `COUPLED_CONDITIONS`
         Loads [N] and ring speeds [m/s] now.
     slips : ndarray
         v_in and v_out now [m/s], as its first two numbers.
@@ -447,7 +438,7 @@ def extrapolated_power(linear, law, turning, pull, shear, load, speed, slip):
     skew = linear.skew * (1.0 + 1.5 * growth)
     return (
         raceway_power(law, slip, speed, turning - shear, lag, skew),
-        -shear * (2.0 * speed - slip),
+        rolling_power(shear, speed - 0.5 * slip),
         linear.rough * (1.0 + growth),
     )
 

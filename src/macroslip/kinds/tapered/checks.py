@@ -76,7 +76,7 @@ def check_moment(bearing: TaperedBearing, ring: TaperedRing, moment: np.ndarray)
         About X0 and Y0 through the middle of all rows [N m].
     """
     centre = tapered_geometry(bearing).load_centre
-    centres = ring.station - ring.sign * centre
+    centres = ring.axial_position - ring.sign * centre
     spread = float(np.ptp(centres))
     moments = np.linalg.norm(moment, axis=1)
     largest = float(moments.max())

@@ -189,7 +189,7 @@ def axial_float(
     sine = np.sin(angle)
     dx, dy, dz, turn_x, turn_y = balance.displacement.T[..., None]
     tilt = turn_y * cosine - turn_x * sine
-    radial = dx * cosine + dy * sine + ring.station * tilt
+    radial = dx * cosine + dy * sine + ring.axial_position * tilt
     axial_at_row = dz - ring.pitch_radius * tilt
     axial = ring.sign * axial_at_row + ring.preload
     lean = row.axis_angle - row.rib_angle
