@@ -60,8 +60,8 @@ def test_the_closed_form_serves_the_papers_traction_alone():
         ({"microslip": "yes"}, "laws.microslip: it is 'yes'. Allowed: true or false."),
         (
             {"traction": "coulomb"},
-            "laws.traction: the traction law 'coulomb' has no viscosity (roelands) and rheology (eyring) and "
-            "microslip (on), which stand beside it: a traction law of one's own takes the place of these mechanisms. "
+            "laws.traction: the traction law 'coulomb' excludes viscosity (roelands) and rheology (eyring) and "
+            "microslip (on): a traction law of one's own replaces these mechanisms. "
             "Allowed: mechanisms, or a law of one's own without these. With your law, set model: paper and name the "
             "mechanisms you want to add to it, or keep the model and set viscosity: barus, rheology: newtonian, "
             "microslip: false.",

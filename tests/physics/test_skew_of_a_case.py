@@ -114,7 +114,11 @@ def test_the_ring_feels_the_force_that_a_result_shows():
 @pytest.mark.parametrize(
     ("laws", "cage", "part"),
     [
-        (SKEWED, {"guidance": "guide-ring"}, "guide ring stops skew by its play"),
+        (
+            SKEWED,
+            {"guidance": "guide-ring"},
+            "guidance is guide-ring, and its skew_play is not given",
+        ),
         (SKEWED, {"mass": 40.0}, "imposed orbits do not use it"),
         (Laws.physical(), {"skew_play": 5e-3}, "held straight"),
         (Laws.physical(), {"gap": 2e-4}, "imposed orbits do not use it"),

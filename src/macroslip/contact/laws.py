@@ -41,7 +41,20 @@ Kind = TypeVar("Kind", bound="PreparedContact")
 
 @dataclass(frozen=True)
 class PreparedContact:
-    """One contact with the laws chosen by `Laws`, and the numbers of its bearing and oil."""
+    """One contact with the laws chosen by `Laws`, and the numbers of its bearing and oil.
+
+    Examples
+    --------
+    >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+    >>> inner = prepare(Laws.physical(), bearing, oil, axial_sign=1).inner
+    >>> film = inner.film_thickness(2e4, 0.4)
+    >>> round(1e6 * float(film), 3), round(float(inner.asperity_share(2e4, 0.4, film)), 5)
+    (1.308, 0.00113)
+    >>> round(float(inner.uniform_traction(2e4, film, 1e-2)), 2)
+    356.35
+    >>> bool(inner.film_in_range(2e4, 0.4)), bool(inner.asperity_share_in_range(2e4))
+    (True, True)
+    """
 
     name: str  #: `inner`, `outer` or `cage`
     interface: Interface  #: Its bodies and Hertz coefficients

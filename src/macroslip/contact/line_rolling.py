@@ -121,7 +121,7 @@ def rolling_resistance(contact: LineContact, load, speed, law: str = "zhou-hoepr
     """
     if law not in ROLLING_LAWS:
         raise InputError(
-            f"there is no rolling resistance {law!r}",
+            f"there is no law of rolling resistance {law!r}",
             allowed=" or ".join(ROLLING_LAWS),
             remedy="Choose one of them.",
         )

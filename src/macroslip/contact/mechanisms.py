@@ -137,7 +137,7 @@ class Laws:
         self._check_kellstroem()
         if self.skew != "none" and not self.microslip:
             raise InputError(
-                "skew follows from how slip lies over a contact, and these laws have the same slip all over it",
+                "skew needs slip that varies over the contacts, and these laws have no microslip",
                 where="laws.skew",
                 allowed="none, or laws with microslip",
                 remedy="Choose model: physical, or set microslip: true beside model: paper.",
@@ -150,8 +150,8 @@ class Laws:
                 chosen = " and ".join(choices)
                 beside = ", ".join(defaults)
                 raise InputError(
-                    f"the traction law '{self.traction}' has no {chosen}, which stand beside it: a traction law of one's "
-                    "own takes the place of these mechanisms",
+                    f"the traction law '{self.traction}' excludes {chosen}: a traction law of one's own replaces these "
+                    "mechanisms",
                     where="laws.traction",
                     allowed=f"{MECHANISMS}, or a law of one's own without these",
                     remedy="With your law, set model: paper and name the mechanisms you want to add to it, or keep "

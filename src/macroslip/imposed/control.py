@@ -140,7 +140,7 @@ def crossing(g0, g1, g2, g3):
 
 @jit_inline
 def _lean(at):
-    """Body force along the contact normal, positive outward [N]."""
+    """Body force along the contact normal from the raceway loads, positive outward [N]."""
     return at.outer_load - at.inner_load
 
 
@@ -203,7 +203,7 @@ def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
 
 @jit_inline
 def slip_error(path, now, zone, attempt, sample, sums):
-    """Estimated error of slip of a step [m/s].
+    """Error estimate of the slip of a step [m/s].
 
     The embedded estimate is one number and may vanish by accident, especially where grip ceases
     between two stages; so the equation's defect is sampled between them.
@@ -268,7 +268,7 @@ def slip_error(path, now, zone, attempt, sample, sums):
 
 @jit
 def missed_way(path, now, attempt):
-    """Error of the method's quadrature for the way of the rings past the roller in a step [m].
+    """Quadrature error of the distance by which the rings pass the roller in a step [m].
 
     The way is known exactly. Speed is linear between the samples of the loads, and friction follows
     it: kinks of both lie at the same instants.
@@ -285,7 +285,7 @@ def missed_way(path, now, attempt):
 
 @jit_inline
 def _kink_error(path, now, attempt):
-    """Error of the energy [J] by kinks of the speed inside a step that spans samples."""
+    """Energy error of a step that spans samples, where speed has kinks [J]."""
     if attempt.end_interval == now.interval:
         return 0.0
     fastest = abs(now.at.ring_speed)
@@ -302,7 +302,7 @@ def _kink_error(path, now, attempt):
 
 @jit_inline
 def energy_error(path, now, zone, attempt, sample, sums):
-    """Estimated error of the energy of a step [J].
+    """Error estimate of the energy of a step [J].
 
     Parameters
     ----------
@@ -379,5 +379,5 @@ def held_energy_error(energy, length, before, after):
 
 @jit_inline
 def step_factor(error):
-    """Factor on the step from error / tolerance; the estimates are of third order."""
+    """Factor for the next step from error / tolerance of a third-order estimate."""
     return tuning.SAFETY / math.sqrt(math.sqrt(max(error, 1e-8)))

@@ -1,4 +1,4 @@
-"""The paper's two Euler methods on the spin, over a whole history at a fixed step.
+"""The paper's explicit and backward Euler method for the spin, with a fixed step.
 
 Explicit Euler is unstable in the load zone (the paper's Appendix A). Backward Euler has a hidden
 parameter, where its iteration stops: a change of spin that looks negligible is a large force in a
@@ -51,7 +51,7 @@ FIXED_WORK = np.dtype(
 
 @jit_inline
 def _defect(path, work, spin, step):
-    """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s] after a step [s], for a spin [rad/s]."""
+    """Residual of backward Euler, ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s]."""
     body = path.body
     at = work.end
     evaluate(path, at, at.ring_speed - body.radius * spin, work.forces)

@@ -1,4 +1,4 @@
-"""First guess of the slip at the stages of a step of three stages."""
+"""First guess of the slips at the stages of a Radau step."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from macroslip.mechanics.spin import net_force
 
 @jit_inline
 def guess(path, now, zone, before, attempt):
-    """Write the slip at the stages [m/s] to start Newton's iteration from.
+    """Write a first guess of the slips at the stages [m/s], from which Newton's method starts.
 
     Where slip is smooth, the polynomial of the step before is continued. Otherwise a roller that
     drifts under small forces continues with the acceleration of the forces at the start, and one

@@ -1,4 +1,4 @@
-"""Held steps: collocation at two stages, for a firmly held roller with microslip.
+"""Two-stage collocation steps for a firmly held roller with microslip (held steps).
 
 Its slip is what the balance of the instant asks. There collocation at the middle and the end of the
 step, with the energy by Simpson's rule, takes two force evaluations in place of three, and is no
@@ -20,7 +20,7 @@ from macroslip.mechanics.spin import magnitude, net_force
 
 @jit_inline
 def follows_loads(path, now, zone, length):
-    """True if a roller is at its balance and forgets its slip within a small part of a step.
+    """True if a roller is in balance and its slip relaxes within a small part of a step.
 
     Parameters
     ----------
@@ -198,7 +198,7 @@ def held_slip(microslip, slip, at, later, exponent):
 
 @jit_inline
 def held_exponent(at, slip, later, later_slip, exponent):
-    """Power of the elastic load that the slip of a held roller has just followed.
+    """Power of the elastic load in proportion to which the slip of a held roller has changed.
 
     Parameters
     ----------

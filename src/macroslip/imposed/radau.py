@@ -1,4 +1,4 @@
-"""Steps of a roller's slip by Radau IIA (order 5, L-stable), and the set-up of all steps.
+"""Steps of a roller's slip by the Radau IIA method of order 5, and the set-up of all steps.
 
 The stage equations are those of v(t) = v0 + [u2(t) − u2(t0)] − (r²/I_z') ∫ F dt: the ring's speed
 u2 enters by its exact difference and only the forces are integrated numerically. Multiplied by the
@@ -212,7 +212,7 @@ def collocation(part, z1, z2, z3):
 
 @jit_inline
 def sample_between(path, now, attempt, part, sample):
-    """Write conditions, slip and the rate of its increment at a part of a step that was solved.
+    """Write conditions, slip and its rate at a point within a solved step.
 
     Parameters
     ----------
@@ -237,7 +237,7 @@ def sample_between(path, now, attempt, part, sample):
 
 @jit_inline
 def force_tolerance(tolerance, microslip):
-    """Part of the sum of force magnitudes that may stay unbalanced.
+    """Unbalanced force that is allowed, over the sum of the force magnitudes [-].
 
     It goes with the tolerance of the integration.
     """
@@ -250,7 +250,7 @@ def force_tolerance(tolerance, microslip):
 
 @jit_inline
 def new_bend(bend, size, change):
-    """The bend after a correction has left a residual of `size` [N].
+    """Curvature of the residual, renewed from what a Newton correction has left [N s²/m²].
 
     Half of what was known is forgotten.
     """
@@ -260,7 +260,7 @@ def new_bend(bend, size, change):
 
 @jit_inline
 def evaluate_stages(path, now, attempt, sums, first):
-    """Write the forces at the stages from `first` on, and the increments of slip by forces.
+    """Write forces and increments of slip at the stages of a step, from one stage on.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Check that the stages of a step are the root that is continuous with the slip before it."""
+"""Check that a step was solved on the root that is continuous with the slip before it."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _steady_slip(law, tables, closed_form, load, speed):
 
 @jit
 def surely_rising(body, tables, inner_load, outer_load, speed):
-    """Slip up to which the friction of both raceways rises with slip.
+    """Slip up to which the friction of both raceways surely rises with slip [m/s].
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def surely_rising(body, tables, inner_load, outer_load, speed):
 
 @jit
 def is_continuous(path, now, attempt):
-    """True if the stages of a step are sure to be the root continuous with the slip before it.
+    """True if a step was surely solved on the root continuous with the slip before it.
 
     Below the slip at which some part of a contact passes its peak of traction, forces rise with
     slip and the stage equations have one root. Above it, a step is accepted only where slip changes

@@ -35,7 +35,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Problem:
-    """Numbers common to all rollers of a row."""
+    """Input of an integration that all rollers of a row share."""
 
     roller: Roller  #: With its tables
     motion: Motion  #: Of the inner ring
@@ -54,7 +54,7 @@ def radau_limits(
     window: float,
     longest_turn: float = tuning.LONGEST_TURN,
 ) -> np.ndarray:
-    """Bounds of the Radau integrator that hold for all rollers of a case.
+    """Tolerance and bounds of the Radau integrator for all rollers of a case.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def radau_limits(
 def fixed_step(
     roller: Roller, motion: Motion, *, step: float, end: float, tolerance: float | None = None
 ) -> np.ndarray:
-    """Rule of the Euler methods at a fixed step.
+    """Settings of the Euler methods with a fixed step.
 
     Parameters
     ----------

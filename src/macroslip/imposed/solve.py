@@ -45,14 +45,14 @@ _ROWS = 2 + tuning.PEAK_PARTS // 3
 
 @jit_inline
 def _follows_acceleration(now):
-    """True if tractions make up the cage's load: they jump with the shaft's acceleration."""
+    """True if tractions make up the cage's load, so that it jumps with acceleration."""
     load = now.forces.cage_load
     return abs(load - now.at.tangential) > tuning.INERTIA_PART * abs(load)
 
 
 @jit_inline
 def _rebalance(path, now, sums, forces):
-    """Take a firmly held roller to just after a sample, where the shaft's acceleration jumps.
+    """Set the slip of a firmly held roller to its balance just after a sample.
 
     The transition takes the relaxation time, for which `firm_approach` gives a bound; here it
     takes none. A roller that still skids, or has not settled yet, stays as it is. `forces` is
@@ -225,7 +225,7 @@ def _may_peak_inside(path, now, attempt, zone, top_power):
 
 @jit_inline
 def _film_ends_at(now, attempt, resolved):
-    """Part of the step at which the entrainment of a sliding roller passes zero, else 1.
+    """Part of a step at which the entrainment speed of a sliding roller passes zero, else 1.
 
     The film ends there, and power has a cusp, but in tables, which smooth it. A gripped roller's
     passes zero with the ring's speed, and its slip between the stages is far from balance.

@@ -14,7 +14,7 @@ from macroslip.roller.step import write_stage
 
 
 class Path(NamedTuple):
-    """Motion of one roller on its orbit, and the settings of its integration."""
+    """A roller on its orbit: its numbers, tables, the ring's motion and integration settings."""
 
     body: Any  #: Record of a roller
     #: Address of `slip_forces`: half of all machine code would else be copies of it.
@@ -147,7 +147,7 @@ WORK = np.dtype(
 
 
 def path_of(roller: Roller, motion: Motion, start_angle: float, limits: Any) -> Path:
-    """Motion of a roller on its orbit, and the settings of its integration.
+    """Record of a roller on its orbit for the integrator.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ class Status(IntEnum):
     COMPLETED = 0, "completed"
     STEP_TOO_SMALL = (
         1,
-        "the step fell below what time resolves; loosen the tolerance or look at the load at that time",
+        "the step became shorter than time resolves; loosen the tolerance or check the load at that time",
     )
     NOT_FINITE = (
         2,
@@ -37,7 +37,7 @@ class Status(IntEnum):
     )
     OUTSIDE_TABLES = (
         6,
-        "load or speed left the range of the contacts' tables; look at the loads at that time",
+        "load or speed left the range of the contacts' tables; check the loads at that time",
     )
 
     def __new__(cls, value: int, sentence: str):

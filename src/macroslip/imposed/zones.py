@@ -1,4 +1,4 @@
-"""Classes of load along a roller's way: without load, at the edge of the load zone, firmly held.
+"""Load classes of the sample intervals: without load, at the edge of the load zone, firmly held.
 
 No step of an integrator can pass over a load zone or over its edge. Every interval between load
 samples belongs to one of three classes. `FREE`: no elastic load throughout; only the smooth body
@@ -26,7 +26,7 @@ FIRM = 2
 
 @jit
 def relaxation_rate(body, tables, load, ring_speed):
-    """Relaxation rate of slip about its balance, (r²/I_z') d(F_i + F_o)/dv at F_i + F_o = 0.
+    """Relaxation rate of the slip, (r²/I_z') d(F_i + F_o)/dv at F_i + F_o = 0.
 
     Without microslip the slip of balance is zero; with it, a Newton iteration held within the slips
     that occur in the contact finds it.
@@ -174,7 +174,7 @@ def classify(body, motion, start_angle, firm, classes):
 
 @jit
 def edge_time(body, motion, start_angle, interval, start, end):
-    """Time just after the elastic approach changes sign within a sample interval.
+    """Time within a sample interval just after the elastic approach has changed its sign.
 
     Parameters
     ----------

@@ -50,7 +50,7 @@ ALONG = np.dtype(
 
 
 class Contact(NamedTuple):
-    """A contact as compiled functions of samples take it."""
+    """A contact's numbers as compiled functions of samples take them."""
 
     patch: Patch  #: Geometry
     chords: ChordTable  #: Stresses of its oil
@@ -83,7 +83,7 @@ def contacts_of(laws: PreparedLaws) -> tuple[Contact, Contact, Contact]:
 
 @jit_inline
 def class_of(edges, value):
-    """Class of a value between rising edges: the number of edges that it is not below."""
+    """Index of the class that holds a value: the number of rising edges at or below it."""
     number = 0
     while number < len(edges) and value >= edges[number]:
         number += 1
@@ -98,7 +98,7 @@ def _parabola(line, first, station):
 
 @jit_inline
 def signed_entrainment(ring_speed, slip):
-    """Entrainment speed with its sign, not slower than films are followed [m/s]."""
+    """Entrainment speed with its sign, at least the lowest one of the film laws [m/s]."""
     mean = ring_speed - 0.5 * slip
     return math.copysign(max(abs(mean), LOWEST_SPEED), mean)
 
@@ -111,7 +111,7 @@ def _saturating_friction(contact, slip, entrainment):
 
 @jit_inline
 def _covered(k, width, half_length, middle, across):
-    """Middle [m] of the part of a station under the ellipse, and that part [-].
+    """Middle [m] of the part of a station that the ellipse covers, and that part [-].
 
     So the lightest contact too lies in the two middle stations.
     """
@@ -146,7 +146,7 @@ def begin_along(along):
 
 @jit_inline
 def leave_station(along, k):
-    """Note that a station does not touch."""
+    """Mark a station as not in contact."""
     along.power[k] = 0.0
     along.rough[k] = 0.0
     along.work[k] = 0.0
@@ -155,7 +155,7 @@ def leave_station(along, k):
 
 @jit_inline
 def book_station(along, station, hot, times, passed):
-    """Add a station's power to those along the roller.
+    """Add a station's power to the distribution along the roller.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def book_station(along, station, hot, times, passed):
 
 @jit
 def power_along(maps, interface, contact, state, sample, passes, along):
-    """Distribution of power along the roller at a loaded raceway, and its hottest station.
+    """Write the distribution of power along the roller at a loaded elliptical contact.
 
     Parameters
     ----------

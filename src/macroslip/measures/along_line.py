@@ -52,7 +52,7 @@ STRIP = np.dtype(
 def strips_along(
     law: PreparedStrips, load: np.ndarray, ring_speed: np.ndarray, slip: np.ndarray
 ) -> np.ndarray:
-    """Strips of a line contact, station by station.
+    """Load, film and asperity share of the strips of a line contact, by station.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def strips_along(
 
 @jit
 def line_power_along(maps, interface, contact, state, sample, passes, strips, along):
-    """Find how power lies along a roller that touches a raceway along a line.
+    """Write the distribution of power along a roller at a line contact.
 
     Parameters
     ----------

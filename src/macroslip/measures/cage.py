@@ -1,4 +1,4 @@
-"""Pockets and cages over the window, and their traces, from the steps of the whole bearing."""
+"""Pocket forces and cage motion in the window, from the steps of the whole bearing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SIDES = ("front", "rear")
 
 
 class CageMeasures:
-    """Measures of pockets and cages."""
+    """Pocket forces and cage motion in the window, and their traces."""
 
     def __init__(self, bearing: WholeBearing, wanted: Wanted, times: np.ndarray):
         count = bearing.positions.size
@@ -43,7 +43,7 @@ class CageMeasures:
         self.offset, self.deviation = (np.full((times.size, count), np.nan) for _ in range(2))
 
     def add(self, part: Part) -> None:
-        """Take up a part of the integration."""
+        """Process a part of the integration."""
         self.books.add(part)
         in_window = part.bearing["start"] >= self._window
         has_length = part.bearing["end"] > part.bearing["start"]

@@ -1,4 +1,4 @@
-"""Details of the contacts: where on them energy is dissipated, and their extremes.
+"""Where on the contacts energy is dissipated, and the extremes of their states.
 
 By stations along the roller and places of the raceways, with the part of asperities and the work of
 pressure times slip; the largest flash temperature, power per area and slide-roll ratio and the
@@ -42,7 +42,7 @@ _FINE = 4096
 
 @dataclass(frozen=True)
 class Wanted:
-    """Measures that are wanted."""
+    """Measures that a result asks for."""
 
     #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
     edges: np.ndarray
@@ -98,7 +98,7 @@ def new_details(edges: np.ndarray) -> Details:
 
 @jit_inline
 def _over(part, total):
-    """A part over the total; 0 where there is none."""
+    """Quotient of a part and a total; 0 where the total is 0."""
     return part / total if total > 0.0 else 0.0
 
 
@@ -112,7 +112,7 @@ def _power_along(maps, interface, contact, state, sample, passes, strips, along)
 
 @jit_inline
 def _look_up_films(body, tables, sample):
-    """Look up the films, and the asperities' shares of the load, of the loaded contacts of a sample."""
+    """Write films and asperity shares of the loaded contacts of samples."""
     at = sample.at
     planes = (body.inner.film, body.outer.film, body.cage.film)
     loads = (at.inner_load, at.outer_load, abs(at.cage_load))
@@ -130,7 +130,7 @@ def _look_up_films(body, tables, sample):
 
 @jit
 def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extreme, entry_extreme):
-    """Spread the energies of samples and raise the extremes.
+    """Distribute the energies of samples over the maps, and update the extremes.
 
     What is hottest is written to the samples. Strips are those of line contacts, over sample,
     raceway and station; an ellipse has none.
@@ -199,7 +199,7 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
 
 
 class ContactSampler:
-    """Samples of the contacts of one roller, taken buffer after buffer.
+    """Takes samples of the contacts of one roller from buffers of its steps.
 
     `contacts` are those of `macroslip.measures.along.contacts_of`, of the same laws; the roller is at φ = `start_angle` at the
     first sample [rad], and has `skew` if it skews.
@@ -229,7 +229,7 @@ class ContactSampler:
         self._entering = np.zeros((0, 11))
 
     def add(self, steps: np.ndarray, j: int) -> None:
-        """Take up the steps of roller `j` in a buffer."""
+        """Process the steps of one roller in a buffer."""
         self._last = steps[-1:, j].copy()
         samples = self._samples.room(len(steps), self._sample)
         memory = self.details.memory[0]
@@ -240,7 +240,7 @@ class ContactSampler:
         )
 
     def finish(self) -> None:
-        """Distribute energies that have been kept since the last sample."""
+        """Distribute the energies since the last sample."""
         memory = self.details.memory[0]
         last = self._last[0]
         if memory["time"] < last["end"]:
@@ -312,11 +312,11 @@ class ContactSampler:
         return strips
 
     def _heat(self, rows: np.ndarray) -> None:
-        """Find how hot the raceways became in entries that have ended."""
+        """Compute the largest temperatures of the raceways in finished load-zone entries."""
         heat_entries(rows, self._contacts[0].effusivity, self.details.entry_extreme)
 
     def _check_quadrature(self, samples: np.ndarray) -> None:
-        """Compare power by the quadrature in use with a much finer one, in some of the samples."""
+        """Compare the power of some samples with that of a much finer quadrature."""
         for sample in samples[samples["number"] % _FINE == 0]:
             for i, name in enumerate(RACEWAYS):
                 law: PreparedContact = getattr(self._laws, name)

@@ -17,7 +17,7 @@ EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_rati
 
 @jit_inline
 def raise_extremes(extremes, orbit, interface, density, ratio, film_ratio):
-    """Raise the extremes of an orbit.
+    """Update the extremes of an orbit with those of a sample.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def raise_extremes(extremes, orbit, interface, density, ratio, film_ratio):
 
 @jit_inline
 def sample_cage(body, tables, contact, sample, extreme):
-    """Find power and extremes of the cage's contact, without the oil of its pocket.
+    """Write power and extremes of the cage's contact, without the oil of its pocket.
 
     The force of that oil is far larger than the force of a light contact.
 
@@ -80,7 +80,7 @@ def sample_cage(body, tables, contact, sample, extreme):
 
 
 def heat_entries(rows: np.ndarray, effusivity: float, extreme: np.ndarray) -> None:
-    """Raise the temperatures of entries to the load zone [K].
+    """Update the largest temperatures of load-zone entries [K].
 
     Rows have entry, orbit, time [s] and, by raceway, what is hottest as `SAMPLE` has it.
     """

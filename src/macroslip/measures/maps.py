@@ -56,7 +56,7 @@ MAPS = np.dtype(
 
 @jit_inline
 def _share(way, sector, mean_time):
-    """Part of a way [sectors] in a sector, passed linearly faster or slower with the mean time."""
+    """Share of a sector in a way through sectors that is passed with linearly varying speed."""
     start = min(way)
     end = max(way)
     if math.floor(start) == math.floor(end):
@@ -69,7 +69,7 @@ def _share(way, sector, mean_time):
 
 @jit
 def spread(maps, interface, way, mean_time, spent, before, after):
-    """Distribute energies over the stations, and over the sectors of the raceway that were passed.
+    """Distribute energies over the stations and over the raceway sectors that were passed.
 
     They are spread as power lay at the sample before and as it lies now. Along the roller they are
     in proportion to the powers; along the way, from one sector to another, they are linear, with

@@ -29,7 +29,7 @@ from macroslip.roller.model import Roller, RollerModel
 
 
 class Row:
-    """Models, laws and compiled contacts that the measures of a row's rollers share."""
+    """Models, laws and contacts that the measures of a row's rollers share."""
 
     def __init__(
         self,
@@ -48,7 +48,7 @@ class Row:
 
 
 class RollerMeasures:
-    """Measures of one roller.
+    """Measures of one roller, from buffers of its steps.
 
     The roller is at φ = `start_angle` at the first sample [rad].
     """
@@ -79,7 +79,7 @@ class RollerMeasures:
         return self.sampler.details if self.sampler else None
 
     def add(self, steps: np.ndarray, j: int) -> None:
-        """Take up the steps of roller `j` in a buffer of shape (n, rollers)."""
+        """Process the steps of one roller in a buffer of shape (n, rollers)."""
         mine = steps[:, j]
         if not mine.size:
             return
@@ -107,14 +107,14 @@ class RollerMeasures:
         self.law_times += law_times(contacts, self.row.model.laws)
 
     def finish(self) -> None:
-        """Add the batches that are left, and distribute energies kept since the last sample."""
+        """Process remaining records, and distribute the energies since the last sample."""
         self._last = self._last.copy()
         self._contacts.empty(self._add_law_times)
         if self.sampler:
             self.sampler.finish()
 
     def _add_sectors(self, steps: np.ndarray, largest: np.ndarray) -> None:
-        """Raise the largest powers of the orbit's sectors that the roller passes."""
+        """Update the largest powers in the orbit's sectors."""
         counted = np.arange(steps["time"].shape[1]) < steps["stages"][:, None]
         np.maximum.at(largest, self._places(steps)[counted], steps["power"][counted])
 
@@ -129,7 +129,7 @@ class RollerMeasures:
         return np.floor(angle / (2.0 * np.pi) % 1.0 * SECTORS).astype(int) % SECTORS
 
     def _trace(self, steps: np.ndarray, states: np.ndarray) -> None:
-        """Keep the states at the times of the traces: at the first step end not before each."""
+        """Keep the states at the first step ends at or after the times of the traces."""
         times = self.row.wanted.trace_time
         if self._next_trace == times.size:
             return

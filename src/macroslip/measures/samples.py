@@ -1,4 +1,4 @@
-"""Samples of the contacts of a roller: their times, and the record of one.
+"""Samples of the contacts of a roller: when they are taken, and their record.
 
 A sample is an evaluation of a contact by station. It is taken where its power has changed, a
 value is a new highest one, or some way has been travelled: at every step it would cost more than
@@ -106,7 +106,7 @@ def _density(power, load):
 
 @jit_inline
 def _compared(step, last):
-    """The values that are compared with `highest`."""
+    """Values of a step that decide whether a new sample is due."""
     power = step.power[last]
     speed = step.outer_speed[last]
     slip = step.outer_slip[last]
@@ -142,7 +142,7 @@ def _is_due(step, last, memory, outer_radius, spacing):
 
 @jit_inline
 def _remember(step, last, orbit, memory):
-    """Keep the numbers that decide on the next sample."""
+    """Keep the values that decide when the next sample is due."""
     values = _compared(step, last)
     highest = memory.highest
     if orbit != memory.orbit:
@@ -162,7 +162,7 @@ def _remember(step, last, orbit, memory):
 
 @jit_inline
 def _enter(step, last, memory, outer_radius):
-    """Notice that the rings begin to press the roller, and when it is gripped or let go again."""
+    """Detect load-zone entry, grip and exit."""
     load = step.elastic_load[last]
     speed = step.outer_speed[last]
     if memory.pressed == 0.0 and load > 0.0:
@@ -182,7 +182,7 @@ def _enter(step, last, memory, outer_radius):
 
 @jit
 def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
-    """Begin the samples of a buffer.
+    """Begin the samples that are due in a buffer of steps.
 
     Parameters
     ----------
@@ -246,7 +246,7 @@ def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
 
 @jit
 def begin(sample, memory, step):
-    """Begin a sample at the end of a step: energies since the one before, and the state."""
+    """Begin a sample at the end of a step: its state, and the energies since the one before."""
     sample.since = memory.time
     sample.time = step.end
     sample.entry = memory.entry

@@ -34,7 +34,7 @@ class Skewing(NamedTuple):
 
 @jit_inline
 def _power_of_ends(roller, stop, push, speed):
-    """Power of friction that a skew stop adds at the cage, and the asperities' part of it [W].
+    """Frictional power that a skew stop adds at the cage, with its asperity part [W].
 
     Spars hold the roller with an end each, by the force `stop` [N]; one of them presses with `push`
     [N] beside. The roller's surface passes them at `speed` [m/s].
@@ -52,7 +52,7 @@ def _power_of_ends(roller, stop, push, speed):
 
 @jit
 def _add(skewing, roller, steps, j, places, window, totals):
-    """Add skew's power to steps, and sum up.
+    """Add the power of skew to the steps of a buffer and to the totals.
 
     The first of `totals` holds what was added at the end of the last step [W].
     """
@@ -150,7 +150,7 @@ class SkewMeasures:
         self.by_sector = np.zeros((SECTORS, 1 + len(BY_SECTOR)))
 
     def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
-        """Add skew's power to the steps of roller `j`, in the buffer itself.
+        """Add the power of skew to the steps of one roller, in the buffer itself.
 
         The stages of the steps are at these places on the orbit.
         """
@@ -159,7 +159,7 @@ class SkewMeasures:
         _add(self._skewing[:2], roller, steps, j, places, self._window, totals)
 
     def turn(self, samples: np.ndarray) -> None:
-        """Let sampled contacts slide as those of the skewed roller, where the rings press it."""
+        """Write the slip of the skewed roller into samples in which the rings press it."""
         at = samples["at"]
         states = self._states(at)
         pressed = at["elastic_load"] > 0.0

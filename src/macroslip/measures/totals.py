@@ -142,14 +142,14 @@ def write_end(step, end):
 
 
 class Batch:
-    """Records that are gathered until they are enough for work on arrays."""
+    """Buffer of records that are processed together once there are enough."""
 
     def __init__(self, kind: np.dtype):
         self._records = np.zeros(0, kind)
         self.count = 0
 
     def room(self, count: int, work: Callable[[np.ndarray], None]) -> np.ndarray:
-        """Room for `count` records behind the `self.count` ones.
+        """Free rows for new records behind those in the buffer.
 
         Where there is none, `work` takes these first.
         """
@@ -160,7 +160,7 @@ class Batch:
         return self._records[self.count : self.count + count]
 
     def empty(self, work: Callable[[np.ndarray], None]) -> None:
-        """Have `work` take what was gathered, and keep no room."""
+        """Process remaining records and release the buffer."""
         self._hand_over(work)
         self._records = self._records[:0].copy()
 
@@ -231,7 +231,7 @@ def orbit_at(edges, time, likely):
 
 @jit
 def vertex(ta, pa, tb, pb, tc, pc):
-    """Largest value of the parabola through three samples of which the middle one is the largest.
+    """Largest value of the parabola through three samples of which the middle one is largest.
 
     Parameters
     ----------
@@ -261,7 +261,7 @@ def vertex(ta, pa, tb, pb, tc, pc):
 
 @jit_inline
 def _follow(samples, peak, time, powers):
-    """Take up the powers at a new time and raise the orbit's peaks.
+    """Update the peaks of power of the orbit with the powers at a new time.
 
     Peaks are raised to the powers and to the parabolas through three of them.
     """
@@ -289,7 +289,7 @@ def _follow(samples, peak, time, powers):
 
 @jit_inline
 def _book_peaks(step, totals, orbit):
-    """Follow the powers over a step."""
+    """Update the peaks of power over a step."""
     samples = totals.samples
     if step.stretch != totals.latest[1]:
         for row in range(2):
@@ -382,7 +382,7 @@ def book(steps, j, totals, states, contacts):
 
 
 def law_times(contacts: np.ndarray, laws: PreparedLaws) -> np.ndarray:
-    """Time with load, and its parts outside the ranges of the laws [s], over (3, interface).
+    """Time with load, and its parts outside the laws' ranges [s], shape (3, interface).
 
     The laws are those of the film and of the asperities; `contacts` are records of `CONTACTS`.
     """

@@ -168,7 +168,7 @@ GUIDE_SPEED = 1e-3
 
 
 class CageGuide(NamedTuple):
-    """Forces of what guides a cage on it, at the pitch radius; both brake where they are positive."""
+    """Forces on a cage by what guides it, at the pitch radius; positive against its motion."""
 
     friction: float  #: Friction of the guide [N]
     drag: float  #: Shear of the oil film at a ring's land [N]
@@ -180,8 +180,8 @@ class CageGuide(NamedTuple):
 def cage_guide(bearing, speed, shaft_speed):
     """Friction of a cage's guide, T_guide/r~, and drag of the ring's land that guides it.
 
-    Friction is µ-like, of one size, tanh(r~ Ω_c/`GUIDE_SPEED`) of it near standstill; the drag is
-    Petroff's.
+    Dry friction has one size at all speeds but near standstill, where it goes with
+    tanh(r~ Ω_c/`GUIDE_SPEED`); the drag is Petroff's, in proportion to the speed past the land.
 
     Parameters
     ----------
@@ -194,6 +194,13 @@ def cage_guide(bearing, speed, shaft_speed):
     Returns
     -------
     CageGuide
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> bearing = SimpleNamespace(guide_friction=5.0, land_drag=10.0, land_turns=0.0, pitch_radius=0.4)
+    >>> cage_guide(bearing, 0.3, 2.0)
+    CageGuide(friction=5.0, drag=3.0, land_speed=0.0, by_speed=10.0)
     """
     turned = math.tanh(speed / GUIDE_SPEED)
     land_speed = bearing.land_turns * shaft_speed * bearing.pitch_radius

@@ -26,6 +26,12 @@ def elastic_load(body, approach):
     -------
     float
         Q [N]; 0 with play.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> elastic_load(SimpleNamespace(line_stiffness=0.0, stiffness=1e11), 1e-4)
+    100000.0
     """
     if approach <= 0.0:
         return 0.0
@@ -48,6 +54,13 @@ def approach_under_load(body, load):
     -------
     float
         δ [m].
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> body = SimpleNamespace(line_stiffness=0.0, compliance=1e11 ** (-2 / 3))
+    >>> round(approach_under_load(body, 1e5), 12)
+    0.0001
     """
     if body.line_stiffness > 0.0:
         return line_approach(body.line_stiffness, body.profile_depth, math.log(load)).approach

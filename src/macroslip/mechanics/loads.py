@@ -39,6 +39,15 @@ def elastic_approach(body, cosine, sine, now):
     -------
     float
         δ [m]; negative where there is play.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> from macroslip.ring.orbit import Instant
+    >>> waves = dict.fromkeys(("second_x", "second_y", "third_x", "third_y"), 0.0)
+    >>> body = SimpleNamespace(radial_play=1e-4, cos_contact_angle=0.98, sin_contact_angle=0.2, **waves)
+    >>> round(elastic_approach(body, 0.0, -1.0, Instant(2.0, 0.0, 0.0, -2e-4, 1e-4)), 9)
+    0.000118
     """
     radial = now.displacement_x * cosine + now.displacement_y * sine
     radial -= radial_clearance(body, cosine, sine)
@@ -66,6 +75,15 @@ def normal_body_force(body, sine, orbital_speed):
     -------
     float
         Sum of both forces [N], positive outward.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> body = SimpleNamespace(
+    ...     centrifugal=1.2, weight_in_plane=30.0, weight_along_axis=0.0, cos_contact_angle=1.0, sin_contact_angle=0.0
+    ... )
+    >>> normal_body_force(body, -1.0, 1.0)
+    31.2
     """
     radial = body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine
     return radial * body.cos_contact_angle + body.weight_along_axis * body.sin_contact_angle
@@ -136,6 +154,12 @@ def tangential_body_force(body, cosine, orbital_speed):
     -------
     float
         G = F_g,x' + F_d,x' [N], positive against a positive orbit.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> tangential_body_force(SimpleNamespace(weight_in_plane=30.0, drag=3.0), 1.0, -1.0)
+    27.0
     """
     return body.weight_in_plane * cosine + drag_force(body.drag, orbital_speed)
 

@@ -18,7 +18,7 @@ class RacewayPower(NamedTuple):
 
 @jit_evaluation
 def raceway_power(law, slip, ring_speed, friction, lag, skew):
-    """Frictional power P = ∫τ v dA of a raceway contact (33) [W].
+    """Frictional power of a raceway contact (33), P = ∫τ v dA, by what makes its surfaces slide.
 
     Where slip is the same all over, it is F Δu.
 
@@ -37,6 +37,12 @@ def raceway_power(law, slip, ring_speed, friction, lag, skew):
     Returns
     -------
     RacewayPower
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> raceway_power(SimpleNamespace(curvature=1.0, spin_ratio=0.5), 1e-3, -0.5, 2.0, 0.5, -0.1)
+    RacewayPower(slip=0.002, curvature=-0.25, contact_spin=-0.025)
     """
     return RacewayPower(
         slip * friction,

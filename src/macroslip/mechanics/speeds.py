@@ -21,6 +21,11 @@ def inner_ring_speed(shaft_speed, orbital_speed, inner_radius):
     inner_radius : float
         r~_in [m].
 
+    Returns
+    -------
+    float
+        u2 [m/s]; negative where the ring turns ahead of the orbit.
+
     Examples
     --------
     >>> inner_ring_speed(2.0, 0.75, 0.4)
@@ -40,6 +45,11 @@ def outer_ring_speed(orbital_speed, outer_radius):
     outer_radius : float
         r~_out [m].
 
+    Returns
+    -------
+    float
+        u2 [m/s]; negative on a positive orbit.
+
     Examples
     --------
     >>> outer_ring_speed(0.75, 0.4)
@@ -58,6 +68,11 @@ def surface_speed(ring_speed, slip):
     ----------
     ring_speed, slip : float
         u2 and Δu at a raceway [m/s].
+
+    Returns
+    -------
+    float
+        u1 [m/s]; negative with the shaft forward.
 
     Examples
     --------

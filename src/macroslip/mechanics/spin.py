@@ -206,6 +206,12 @@ def net_force(forces):
     -------
     float
         I_z'/r dω/dt [N], positive where the spin ω grows.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> net_force(SimpleNamespace(inner=1.0, outer=-3.0, cage=0.5, resistance=-0.25))
+    -1.75
     """
     return forces.inner + forces.outer + forces.cage + forces.resistance
 
@@ -224,6 +230,12 @@ def magnitude(forces):
     -------
     float
         Sum [N].
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> magnitude(SimpleNamespace(inner=1.0, outer=-3.0, cage=0.5, resistance=-0.25))
+    4.75
     """
     return abs(forces.inner) + abs(forces.outer) + abs(forces.cage) + abs(forces.resistance)
 

@@ -23,7 +23,7 @@ class UniformTraction(NamedTuple):
 
 @jit_evaluation
 def asperity_friction(law, share, load, slip):
-    """Friction of asperities under uniform slip [N], its slopes by slip [N s/m] and load [-].
+    """Friction of asperities under a slip that is the same all over the contact, with its slopes.
 
     The friction coefficient of asperities rises to µ_b in proportion to slip.
 
@@ -45,6 +45,13 @@ def asperity_friction(law, share, load, slip):
         Its slope by slip [N s/m]; 0 at full slip.
     by_load : float
         Its slope by load at constant share [-].
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> law = SimpleNamespace(boundary_friction=0.1, full_slip=1e-4)
+    >>> [round(float(value), 9) for value in asperity_friction(law, 0.2, 1e3, -2e-4)]
+    [-20.0, 0.0, -0.02]
     """
     coefficient = law.boundary_friction * share
     if abs(slip) < law.full_slip:

@@ -298,13 +298,13 @@ def balance(
     displacement : ndarray, shape (n, 3)
         Displacements at which the rollers carry the load [m].
     unbalanced : ndarray, shape (n,)
-        Unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver
+        Unbalanced force |Σ Q n − F| [N], at most 1e-10 |F| + 1e-7 N where the solver
         converged.
 
     Examples
     --------
     >>> ring = RingGeometry(np.array([0.0]), np.array([-1.0]), np.zeros(1), 1.0, 1e-4, 1e11, 0.45)
-    >>> found, left = balance(ring, np.zeros(1), np.array([[0.0, -1e5, 0.0]]), np.zeros((1, 3)))
+    >>> found, unbalanced = balance(ring, np.zeros(1), np.array([[0.0, -1e5, 0.0]]), np.zeros((1, 3)))
     >>> float(round(1e6 * found[0, 1], 6))
     -200.0
     """
@@ -344,7 +344,15 @@ def balance_series(
     displacement : ndarray, shape (n, 3)
         Displacements at which the rollers carry the load [m].
     unbalanced : ndarray, shape (n,)
-        Unbalanced force that is left [N].
+        Unbalanced force |Σ Q n − F| [N].
+
+    Examples
+    --------
+    >>> ring = RingGeometry(np.array([0.0]), np.array([-1.0]), np.zeros(1), 1.0, 1e-4, 1e11, 0.45)
+    >>> loads = np.array([[0.0, -1e5, 0.0], [0.0, -8e5, 0.0]])
+    >>> displacement, _ = balance_series(ring, np.zeros(2), loads)
+    >>> (1e6 * displacement[:, 1]).round(6).tolist()
+    [-200.0, -500.0]
     """
     count = shaft_angle.size
     displacement = np.zeros((count, 3))

@@ -85,7 +85,7 @@ def grip_load(
         raise InputError(
             f"no load up to {_LOADS[1] / 1e6:g} MN grips a roller of {bearing.name} at "
             f"{shaft_speed:.4g} rad/s",
-            allowed="a lubricant and a speed at which films pass on traction",
+            allowed="a lubricant and a speed whose film transmits more traction",
             remedy="Check the lubricant's viscosity and the speed.",
         )
     if missing(least) >= 0.0:

@@ -129,8 +129,8 @@ def ring_motion(
     worst = int(np.argmax(excess))
     if not excess[worst] <= 0.0:
         raise MacroslipError(
-            f"{loads.source}, t = {time[worst]:g} s: the ring balance left {unbalanced[worst]:g} N of the load "
-            f"{force[worst]} N unbalanced. This is a defect of the solver; please report it with the bearing and this "
+            f"{loads.source}, t = {time[worst]:g} s: the ring balance did not converge, {unbalanced[worst]:g} N of the load "
+            f"{force[worst]} N are unbalanced. This is a defect of the solver; please report it with the bearing and this "
             "load."
         )
     _refuse(largest, highest_load, f"{loads.source}, t = {time[sample]:g} s", bearing)
@@ -141,8 +141,8 @@ def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -
     if largest > highest_load:
         if bearing.touches_along_line:
             raise InputError(
-                f"a roller carries {largest / 1e3:.4g} kN, with a pressure beyond all for which the "
-                "shear of oil is known",
+                f"a roller carries {largest / 1e3:.4g} kN, with a contact pressure above the range "
+                "of the oil's shear laws",
                 where=where,
                 allowed=f"roller loads up to {highest_load / 1e3:.4g} kN for {bearing.name}",
                 remedy="Check units and signs of the loads, and the bearing's size.",
@@ -175,6 +175,13 @@ def elastic_loads(
     -------
     ndarray, shape (n, rollers)
         Loads [N], ≥ 0.
+
+    Examples
+    --------
+    >>> ring = RingGeometry(np.array([0.0]), np.array([-1.0]), np.zeros(1), 1.0, 1e-4, 1e11, 0.45)
+    >>> down = Motion(np.zeros(1), np.zeros(1), np.zeros(1), np.array([[0.0, -2e-4, 0.0]]))
+    >>> elastic_loads(BearingLoads.constant([0.0, -1e5, 0.0], 2.0, 1.0), ring, down).round(6).tolist()
+    [[100000.0]]
     """
     if isinstance(loads, RollerLoads):
         approach = np.maximum(_given_approach(loads, ring, motion), 0.0)
@@ -258,6 +265,12 @@ def finely_sampled(
         Rising times [s], with those of the loads among them.
     shaft_speed : ndarray, shape (n,)
         Ω_in [rad/s].
+
+    Examples
+    --------
+    >>> time, _ = finely_sampled(BearingLoads.constant([0.0, -1e5, 0.0], 2.0, 1.0), 0.45, 28)
+    >>> time.size
+    21
     """
     part = _SAMPLED_GIVEN if isinstance(loads, RollerLoads) else _SAMPLED_PITCH
     path = np.diff(travel(loads.time, loads.shaft_speed, orbit_ratio))

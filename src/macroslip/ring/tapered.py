@@ -203,7 +203,7 @@ def tapered_ring(
 
 
 def gearbox_support(stiffness: float, distance: float) -> np.ndarray:
-    """Stiffness of a gearbox's elastic support behind the bearing, shape (5, 5).
+    """Stiffness of a gearbox's elastic support behind the bearing.
 
     Its energy is ½ k [(dX + L_g θY)² + (dY − L_g θX)²].
 
@@ -213,6 +213,11 @@ def gearbox_support(stiffness: float, distance: float) -> np.ndarray:
         k [N/m] across the shaft, not negative.
     distance : float
         Distance L_g of the support from the bearing's middle along +Z0 [m].
+
+    Returns
+    -------
+    ndarray, shape (5, 5)
+        Stiffness by d = (dX, dY, dZ, θX, θY) [N/m, N, N m].
 
     Examples
     --------

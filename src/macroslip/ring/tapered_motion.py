@@ -61,8 +61,8 @@ def tapered_motion(loads: BearingLoads, moment: np.ndarray, ring: TaperedRing) -
     if failed.size:
         worst = int(failed[0])
         raise MacroslipError(
-            f"{loads.source}, t = {time[worst]:g} s: the ring balance left "
-            f"{balance.unbalanced[worst]:g} N of the load {force[worst]} N unbalanced. This is a "
+            f"{loads.source}, t = {time[worst]:g} s: the ring balance did not converge, "
+            f"{balance.unbalanced[worst]:g} N of the load {force[worst]} N are unbalanced. This is a "
             "defect of the solver; please report it with the bearing and this load."
         )
     normal = ring_at_rollers(ring, balance.displacement, angle)

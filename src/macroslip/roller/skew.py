@@ -121,7 +121,7 @@ def _resistance_on(laws: PreparedLaws, load, speed) -> tuple[np.ndarray, np.ndar
 
 
 def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Axial shift and tilt of a roller under axial tractions, by balance of axial force and couple.
+    """Axial shift and tilt of a roller in balance with axial tractions.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class _States(NamedTuple):
-    """States of a roller, arrays of shape (n,)."""
+    """Loads, speeds and skews of rollers, arrays of shape (n,)."""
 
     load: np.ndarray  #: Q [N]
     ring_speed: np.ndarray  #: u2 [m/s]
@@ -184,7 +184,7 @@ _KNOWN = np.dtype(
 
 
 class _SlipSearch:
-    """Newton's search for the slips at which spin moments vanish, one a state.
+    """Newton's method for the slips at which spin moments vanish, one for each state.
 
     Behind a zero a step goes at most half of the way back: where the slope falls to both sides,
     whole steps would swing for ever. From iteration `_BRACKETED` on it stays between the slips at
@@ -268,7 +268,7 @@ def _contacts_at(
 
 
 def _known_at(both: list[Resultants], tilt: np.ndarray, shift: np.ndarray) -> np.ndarray:
-    """Records of `_KNOWN` with forces and moments of both raceways at a tilt [rad] and a shift [m]."""
+    """Forces and moments of both raceways at a tilt [rad] and a shift [m]."""
     known = np.zeros(tilt.size, _KNOWN)
     known["tilt"] = tilt
     known["shift"] = shift
@@ -290,7 +290,7 @@ def _fields(known: np.ndarray, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
 def equilibrium(
     pair: Pair, laws: PreparedLaws, load, ring_speed, skew, start: Equilibrium | None = None
 ) -> Equilibrium:
-    """The slip, tilt and shift of a roller at a given skew.
+    """Slip, tilt and axial shift of a roller in equilibrium at a given skew.
 
     Parameters
     ----------
@@ -365,7 +365,7 @@ def equilibrium(
 
 
 class SkewStop(NamedTuple):
-    """Guidance of a roller by the cage against skew, by the shape of its spars."""
+    """Skew stop of a pocket, by the shape of its spars."""
 
     largest: float  #: Largest skew [rad]
     arm: float  #: Moment of the two spars over the force of either, with the roller at its stop [m]
@@ -375,7 +375,7 @@ class SkewStop(NamedTuple):
 
 
 def skew_stop(bearing: Bearing, guidance: str, gap: float, play: float | None = None) -> SkewStop:
-    """The stop of a pocket whose spars follow the outer raceway's contour, or are straight.
+    """Skew stop of a pocket whose spars follow the outer raceway's contour or are straight.
 
     A roller that turns by ψ in a pocket of curvature κ slides along it at its radius r, so that its
     contour comes nearer by ψ ζ (1 − κ r) at the station ζ. It touches first at ζ = ψ (1 − κ r)/C,

@@ -60,7 +60,7 @@ class SkewTable(NamedTuple):
 
 
 class Guide(NamedTuple):
-    """Guidance of the rollers of one row, by the numbers of `SkewStop`."""
+    """Skew guidance of the rollers of one row by the cage."""
 
     side: float  #: Axial sign s of the row [-]
     largest: float  #: Largest skew [rad]
@@ -87,7 +87,7 @@ class Turned(NamedTuple):
 
 
 def skew_table(laws: PreparedLaws, bearing: Bearing, box: Box) -> SkewTable:
-    """The table of a bearing's rollers, made or from store.
+    """Skew table of a bearing's rollers, made or read from the cache.
 
     Raises MacroslipError where no equilibrium was found.
 
@@ -153,7 +153,7 @@ def _cubes(
 def _sheet(
     laws: PreparedLaws, bearing: Bearing, load: Axis, skew: Axis, speed: float
 ) -> np.ndarray:
-    """Quantities at all loads and skews at one speed [m/s], shape (loads, skews, 12)."""
+    """Quantities of the table at all loads and skews at one speed, shape (loads, skews, 12)."""
     loads = np.exp(load.nodes)
     angles = _SCALE * np.sinh(skew.nodes[skew.cells // 2 :])
     pair = raceways(laws, bearing, 1)
@@ -196,7 +196,7 @@ def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: flo
 
 @jit_inline
 def _at(table, part, load, speed, coordinate):
-    """Four quantities of a cube at positions of load and speed, and at a coordinate of skew."""
+    """Four quantities of a cube of the table at given load, speed and skew."""
     j, u, _ = cell_of(table.skew, coordinate)
     inner = CHANNELS * (table.skew.cells + 3)
     outer = inner * (table.speed.cells + 3)
@@ -221,7 +221,7 @@ def raceway_push(table, load, ring_speed):
 
 @jit_inline
 def _arm(guide, coordinate):
-    """Moment by which a spar straightens a roller over its force [m], at a coordinate of skew."""
+    """Straightening moment of a spar over its force at a coordinate of skew [m]."""
     skew = _SCALE * math.sinh(coordinate)
     return min(guide.effective_radius * skew, 0.5 * guide.arm)
 

@@ -1,4 +1,4 @@
-"""Step of a roller, as every solver returns it: all results are computed from these."""
+"""Record of a roller's step, as both solvers return it; all results follow from these."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def new_steps() -> np.ndarray:
 
 @jit_inline
 def write_stage(row, k, body, at, forces, slip, power):
-    """Write one stage of a step on an imposed orbit, but for its time.
+    """Write one stage of a step on an imposed orbit, except its time.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Force of skewed rollers on the inner ring, which its balance feels beside the load."""
+"""Force of skewed rollers on the inner ring, which acts beside its load in the balance."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit
+from macroslip.mechanics.loads import drag_force
 from macroslip.ring.balance import RingGeometry, roller_loads
 from macroslip.ring.orbit import Motion
 from macroslip.roller.model import RollerModel
@@ -15,7 +16,10 @@ from macroslip.roller.skew_table import Guide, SkewTable, raceway_push, turned
 
 @jit
 def _forces(table, guides, ring, body, angle, speed, roller_load, forces):
-    """Sum forces over both rows, downwind first; `body` is weight [N], drag [N s²], u2/−Ω [m]."""
+    """Write the force of all skewed rollers on the inner ring at every sample [N].
+
+    `body` is weight [N], drag coefficient [N s²] and u2/−Ω [m]; the downwind row is first.
+    """
     weight, drag, radius = body
     for k in range(angle.size):
         orbit_speed = ring.orbit_ratio * speed[k]
@@ -31,7 +35,7 @@ def _forces(table, guides, ring, body, angle, speed, roller_load, forces):
             guide = guides[0] if 2 * j < loads.size else guides[1]
             cosine = ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine
             sine = ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine
-            push = weight * cosine + drag * orbit_speed * abs(orbit_speed)
+            push = weight * cosine + drag_force(drag, orbit_speed)
             push += raceway_push(table, loads[j], -orbit_speed * radius)
             axial = turned(table, guide, loads[j], -orbit_speed * radius, push).axial
             forces[k, 0] -= axial * ring.axial[j] * cosine

@@ -1,4 +1,4 @@
-"""Balances of angular momentum and energy of the bearing: stocks, flows and residuals.
+"""Balances of angular momentum and energy of the bearing.
 
 Momentum Σ(m r~² Ω + I_z' cos α ω_z') + Σ I_c Ω_c changes by the torques alone that raceways,
 weight, drag and guide exert, and by that of the pushes on a cage off the axis. A step's torques are
@@ -146,7 +146,7 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
 
 
 class Books:
-    """Books at given times.
+    """Balances of angular momentum and energy at given times.
 
     Attributes
     ----------
@@ -172,7 +172,7 @@ class Books:
         self.driven = 0.0
 
     def add(self, part: Part) -> None:
-        """Book a part of the integration."""
+        """Add a part of the integration to the balances."""
         if not part.bearing.size:
             return
         flows = part.bearing["flows"]

@@ -1,4 +1,4 @@
-"""The cage as a user describes it, and rollers off their nominal position and size."""
+"""Input section of the cage, and deviations of the rollers' positions and diameters."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from macroslip.input.fields import Choice, Flag, Quantity, Whole
 from macroslip.input.section import input_section
 from macroslip.input.units import ANGLE, FORCE, INVERSE_SPEED, LENGTH, MASS
 
-#: How a roller meets a spar.
+#: Contact of a roller with a spar: with an oil film or dry.
 IMPACTS = ("squeeze-film", "dry")
 #: One cage for both rows, or one a row.
 ARRANGEMENTS = ("one", "per-row")
 #: Whether a cage is free to move off the bearing's axis.
 AXES = ("free", "pinned")
-#: What holds rollers against skew, and whether a spar that presses straightens them.
+#: Skew guidance of a pocket; whether spars align rollers.
 GUIDANCES = ("conforming-pocket", "straight-bars", "guide-ring", "none")
 ALIGNMENTS = ("spar", "none")
-#: Keys that go with skew alone.
+#: Keys that only cases with skew take.
 SKEW_KEYS = ("guidance", "skew_play", "alignment")
-#: What guides the cage, and keys of a ring's land that does.
+#: Guidance of the cage by rollers or a ring's land; keys of such a land.
 GUIDED_BY = ("rollers", "inner-ring", "outer-ring")
 _LAND = ("land_diameter", "land_width", "land_clearance")
 #: Damping of dry contacts by default [s/m].
@@ -98,7 +98,9 @@ class Cage:
     gap: Annotated[
         float, Quantity("play of a roller between the two spars of its pocket", LENGTH, 0.0, 0.1)
     ] = 0.5e-3
-    impact: Annotated[str, Choice("how a roller meets a spar", lambda: IMPACTS)] = "squeeze-film"
+    impact: Annotated[
+        str, Choice("contact of roller and spar, with an oil film or dry", lambda: IMPACTS)
+    ] = "squeeze-film"
     damping: Annotated[
         float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)
     ] = _DAMPING
@@ -117,9 +119,7 @@ class Cage:
     guide_friction: Annotated[
         float, Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6)
     ] = 0.0
-    guided_by: Annotated[str, Choice("what holds the cage in the middle", lambda: GUIDED_BY)] = (
-        "rollers"
-    )
+    guided_by: Annotated[str, Choice("radial guidance of the cage", lambda: GUIDED_BY)] = "rollers"
     land_diameter: Annotated[
         float | None, Quantity("diameter of the land that guides", LENGTH, 1e-3, 10.0)
     ] = None
@@ -136,24 +136,22 @@ class Cage:
         float, Quantity("standard deviation of the roller diameters", LENGTH, 0.0, 1e-4)
     ] = 0.0
     seed: Annotated[int, Whole("seed of the random offsets and diameters")] = 1
-    guidance: Annotated[str, Choice("what stops the skew of rollers", lambda: GUIDANCES)] = (
+    guidance: Annotated[str, Choice("skew guidance of a pocket", lambda: GUIDANCES)] = (
         "conforming-pocket"
     )
     skew_play: Annotated[
         float | None,
         Quantity("largest skew; without it, from gap, length and contour", ANGLE, 0.0, 0.06),
     ] = None
-    alignment: Annotated[
-        str, Choice("whether a pressing spar straightens its roller", lambda: ALIGNMENTS)
-    ] = "spar"
+    alignment: Annotated[str, Choice("whether spars align rollers", lambda: ALIGNMENTS)] = "spar"
 
     def __post_init__(self) -> None:
         if self.guidance == "guide-ring" and self.skew_play is None:
             raise InputError(
-                "a guide ring stops skew by its play, which is not given",
+                "guidance is guide-ring, and its skew_play is not given",
                 where="skew_play",
                 allowed="the largest skew, such as 5 mrad, with guidance: guide-ring",
-                remedy="Its axial play over the distance of its edges is that angle.",
+                remedy="It is the axial play of the guide ring over the length that guides a roller.",
             )
         if self.impact != "dry" and self.damping != _DAMPING:
             raise InputError(
@@ -180,7 +178,7 @@ class Cage:
             )
 
     def land_drag(self, pitch_radius: float, viscosity: float) -> float:
-        """Coefficient of the drag of the oil film at a ring's land, by Petroff's law.
+        """Drag coefficient of the oil film at a ring's land by Petroff's law [N s/m].
 
         4 π η R³ b/(c r~²), with c the diametral clearance: Petroff's shear η ΔΩ R/(c/2) on 2πRb.
 

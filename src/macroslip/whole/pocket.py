@@ -241,7 +241,7 @@ def pocket_force(pocket, offset, speed):
 
 
 def elastic_energy(pocket: Pocket, offset: np.ndarray) -> np.ndarray:
-    """Energy stored in the spars ⅖ K δ^2.5 [J], of offsets [m] of any shape."""
+    """Elastic energy ⅖ K δ^2.5 of the spars [J] at pocket offsets [m] of any shape."""
     depth = np.maximum(np.abs(offset) - pocket.half_gap, 0.0)
     return 0.4 * pocket.stiffness * depth**2.5
 
@@ -287,6 +287,6 @@ def stop_force(play, a, b, p, q):
 
 
 def stop_energy(play: float, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Elastic energy of the stop [J] of cages that have left the axis by (a, b) [m]."""
+    """Elastic energy of the radial stop [J] for displacements (a, b) of cages [m]."""
     depth = np.maximum(np.hypot(a, b) - play, 0.0)
     return 0.5 * STIFFNESS * depth**2

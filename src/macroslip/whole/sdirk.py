@@ -136,7 +136,7 @@ BEARING_STEP = np.dtype(
 
 
 class Clock(NamedTuple):
-    """A time with the shaft's motion."""
+    """A time with its sample interval and shaft speed."""
 
     time: float  #: [s]
     interval: int  #: Sample interval that holds this time
@@ -144,7 +144,7 @@ class Clock(NamedTuple):
 
 
 class Start(NamedTuple):
-    """State at the first sample other than pure rolling on the bearing's axis."""
+    """Initial state other than pure rolling on the bearing's axis."""
 
     offset: np.ndarray  #: Shape (n,). Places in the pockets [m].
     slip_inner: np.ndarray  #: Shape (n,). v_in [m/s].
@@ -154,7 +154,7 @@ class Start(NamedTuple):
 
 
 class Part(NamedTuple):
-    """Steps that follow one another, as views of buffers that the next part overwrites."""
+    """Successive steps, as views of buffers that the next part overwrites."""
 
     status: int  #: UNDER_WAY, but for the last part a `macroslip.imposed.status.Status`
     #: Shape (m, n). Two stages each. The first row of an integration is its start: it has no
@@ -279,7 +279,7 @@ def _interval_of(motion, time, start):
 
 @jit_inline
 def _guess(y, k, step, span, lost):
-    """Write y* of stage `k`, and a first guess, into the unknowns `y` of a roller or cage.
+    """Write y* of a stage and a first guess of its unknowns for a roller or cage.
 
     The first stage's slope acts during `span` [s]; `step` is γh [s]. The first unknown, a speed,
     loses `lost` [m/s] with the shaft's.
@@ -354,7 +354,7 @@ def _write_stage(assembly, k, time, weight, space, row):
 
 @jit_inline
 def _keep_rate(step, k, space):
-    """Slopes of a solved stage."""
+    """Write the rates of the unknowns at a solved stage."""
     rollers = space.rollers
     cages = space.cages
     conditions = space.conditions[k]
@@ -377,7 +377,7 @@ def _keep_rate(step, k, space):
 
 @jit_inline
 def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
-    """Solve the stages of a step, and write them.
+    """Solve the stages of a step and write them.
 
     A step without length has one stage, which evaluates the state.
 
@@ -438,7 +438,7 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
 
 @jit_inline
 def _off(y, i):
-    """Error of the rate of an unknown."""
+    """Error estimate of an unknown's rate, from its rates at start and stages."""
     start = _ERROR[0] * y[SLOPE, i]
     first = _ERROR[1] * y[FIRST_RATE, i]
     last = _ERROR[2] * y[LAST_RATE, i]
@@ -481,7 +481,7 @@ def _step_error(assembly, limits, h, space):
 
 @jit_inline
 def _contact_off(known, linear, law, mass, limits, span, power_scale):
-    """Error / tolerance of extrapolated forces and powers of a raceway contact.
+    """Error / tolerance of the extrapolated forces and powers of a raceway contact.
 
     They are extrapolated from `known` to the new evaluation `linear`, `span` [s] later; `law` is the
     raceway's record of `CONTACT`, `mass` a roller's [kg].
@@ -515,7 +515,7 @@ def _contact_off(known, linear, law, mass, limits, span, power_scale):
 
 @jit_inline
 def _refresh(assembly, limits, time, space, power_scale):
-    """Evaluate the rollers that are due at the step's end `time` [s], and set when they are next.
+    """Evaluate the rollers that are due at the step's end, and schedule their next evaluation.
 
     `power_scale` is the mean frictional power of a raceway contact so far [W]. Returns whether the
     forces of all resting rollers were near those predicted; otherwise the step has to be repeated.
@@ -601,7 +601,7 @@ def _impact_step(bearing, rollers):
 
 @jit_inline
 def _cut(bearing, rollers, step, left):
-    """Step [s] to the next stop or half-way to it.
+    """Step shortened to end at the next stop, or half-way to it [s].
 
     With dry impacts to just after a touch, so that the impact begins in the step after, which is as
     short as it needs.
@@ -642,7 +642,7 @@ def _leaves_tables(assembly, limits, space):
 
 @jit_inline
 def _write_end(assembly, start, end, space, row, whole, offset):
-    """Write the records' parts on a whole step and its end; a step without length is the start."""
+    """Write the fields of a step's records that concern its end, and its flows."""
     bearing = assembly.bearing[0]
     memory = space.memory[0]
     positions = assembly.positions
@@ -689,7 +689,7 @@ def _write_end(assembly, start, end, space, row, whole, offset):
 
 @jit_inline
 def _take_over(y):
-    """Make the last stage of a roller or cage its state."""
+    """Make the values of the last stage of a roller or cage its new state."""
     for i in range(y.shape[1]):
         y[STATE, i] = y[LAST, i]
         y[SLOPE, i] = y[LAST_RATE, i]
@@ -697,7 +697,7 @@ def _take_over(y):
 
 @jit_inline
 def _advance(end, space, row):
-    """Take over state, slopes and evaluations of an accepted step."""
+    """Make the end of an accepted step the new state, with its rates and evaluations."""
     memory = space.memory[0]
     rollers = space.rollers
     cages = space.cages

@@ -86,7 +86,7 @@ BORDER = np.dtype(
 
 
 class Space(NamedTuple):
-    """State of an integration and its work space."""
+    """Arrays of one integration: its state and work space."""
 
     rollers: np.ndarray  #: shape (n,)
     cages: np.ndarray  #: shape (c,)
@@ -102,7 +102,7 @@ class Space(NamedTuple):
 
 
 def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
-    """State and work space for a bearing; `memory` is the integrator's."""
+    """Arrays of an integration for a bearing; `memory` is the integrator's record."""
     count = assembly.positions.size
     cages = int(assembly.bearing[0]["cages"])
     linearisations, numbers = new_linearisations(count)
@@ -120,7 +120,7 @@ def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
 
 
 class Stage(NamedTuple):
-    """A stage to solve."""
+    """Settings of an implicit stage."""
 
     step: float  #: γh [s]
     time: float  #: [s]
@@ -133,7 +133,7 @@ class Stage(NamedTuple):
 
 
 class PocketContact(NamedTuple):
-    """Contact of a roller with its pocket."""
+    """Forces between a roller and its pocket, with their slopes."""
 
     push: float  #: N [N]
     friction: float  #: F_c [N]
@@ -147,7 +147,7 @@ class PocketContact(NamedTuple):
 
 @jit_inline
 def pocket_contact(bearing, contact, stage, at, own, star, cage, linear):
-    """Push and friction of a roller's pocket at the speeds of a stage.
+    """Push and friction between a roller and its pocket at the speeds of a stage.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def pocket_contact(bearing, contact, stage, at, own, star, cage, linear):
 
 @jit_inline
 def _write_block(inertia, at, linear, pocket, block):
-    """Inverse of a roller's block, and the derivatives by which its pocket's forces follow."""
+    """Write the inverse of a roller's 2 × 2 block, and the slopes of its pocket's forces."""
     block.push_by_speed = pocket.push_by_speed
     block.by_sliding = pocket.by_sliding
     block.by_push = pocket.by_push
@@ -234,7 +234,7 @@ def _write_block(inertia, at, linear, pocket, block):
 
 @jit_inline
 def _add_to_border(bearing, stage, at, pocket, block, border):
-    """Add a roller to its cage's equations, and the cage to the roller's."""
+    """Add a roller's forces and derivatives to its cage's equations, and the reverse."""
     matrix = border.matrix
     residual = border.residual
     row = block.row
@@ -284,7 +284,7 @@ def _add_to_border(bearing, stage, at, pocket, block, border):
 
 @jit_inline
 def _slips_without_cage(block, inner, outer):
-    """Slips v_in and v_out [m/s] of a roller by right-hand sides [N], while its cage is held."""
+    """Slips of a roller under right-hand sides [N] with its cage held [m/s]."""
     inverse = block.inverse
     v_in = inverse[0] * inner + inverse[1] * outer
     v_out = inverse[2] * inner + inverse[3] * outer
@@ -396,7 +396,7 @@ def solve(positions, size, blocks, borders):
 
 @jit_inline
 def _begin_cage(bearing, stage, cage, star, border):
-    """Parts of a cage's equations that no roller enters."""
+    """Write inertia, guide and weight of a cage into its equations, before its rollers."""
     inertia = bearing.cage_mass / stage.step
     matrix = border.matrix
     residual = border.residual
@@ -430,7 +430,7 @@ def _begin_cage(bearing, stage, cage, star, border):
 
 @jit_inline
 def _raceway_forces(assembly, stage, k, conditions, rollers, schedules, linearisations):
-    """Raceway forces in stage `k`, evaluated where slopes do not serve; returns the evaluations."""
+    """Write raceway forces of a stage, evaluated or extrapolated; returns the evaluations."""
     for j in range(conditions.size):
         schedule = schedules[j]
         at = conditions[j]
@@ -466,7 +466,7 @@ def _raceway_forces(assembly, stage, k, conditions, rollers, schedules, linearis
 
 @jit_inline
 def _place_cages(stage, k, cages):
-    """Lag and translations of the cages in stage `k`, which follow from their speeds."""
+    """Write lag and translations of the cages, which follow from their speeds."""
     for c in range(cages.size):
         own = cages[c].y[FIRST + k]
         star = cages[c].y[STAR]
@@ -477,7 +477,7 @@ def _place_cages(stage, k, cages):
 
 @jit_inline
 def _assemble(assembly, stage, k, size, space):
-    """Residuals and derivatives of stage `k` at its present state; returns the largest one [N]."""
+    """Write residuals and derivatives of a stage; returns the largest residual [N]."""
     rollers = space.rollers
     cages = space.cages
     conditions = space.conditions[k]

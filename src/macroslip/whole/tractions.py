@@ -92,7 +92,7 @@ COUPLED_CONDITIONS = np.dtype(
 
 
 def new_linearisations(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Linearised tractions of `count` rollers, none evaluated yet, shape (2, n).
+    """Linearised tractions of a number of rollers, none evaluated yet.
 
     They are those of the step under way and those kept.
 
@@ -106,7 +106,7 @@ def new_linearisations(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 @jit_inline
 def copy_linearisation(numbers, roller, source, target):
-    """Copy the evaluation of a roller's contacts from one set to the other.
+    """Copy the evaluated tractions of a roller from one set to the other.
 
     Number by number: where arrays are assigned, the compiler adds messages about their shapes,
     which take it as long as a fifth of the integration does.
@@ -125,7 +125,7 @@ def copy_linearisation(numbers, roller, source, target):
 
 @jit_inline
 def address(assembly):
-    """Address of the tables, of the type that it has on an imposed orbit.
+    """Address of the tables as the integer type that imposed orbits use.
 
     Look-ups are then compiled once for both.
     """
@@ -134,7 +134,7 @@ def address(assembly):
 
 @jit_inline
 def locate(assembly, now, which, rollers, cages, conditions, turn):
-    """Place all rollers on their orbit at a time, and compute their loads and ring speeds.
+    """Write positions, loads and ring speeds of all rollers at a time.
 
     A pocket is at θ = θ_0 + nominal orbit + ∫w dt/r~, and its roller at
     φ = θ + (x − a sin θ + b cos θ)/r~. The difference is at most some milliradians, and enters the
@@ -240,7 +240,7 @@ def _evaluate_cage(body, tables, load, sliding, linear):
 
 
 def addresses_of_evaluations() -> tuple[int, int]:
-    """Addresses of the evaluations of a raceway contact and of a cage's contact."""
+    """Addresses of the functions that evaluate a raceway's and a cage's contact."""
     raceway = address_of(_evaluate_raceway, BODY, CONTACT, int, float, float, float, LINEARISATION)
     return raceway, address_of(_evaluate_cage, BODY, int, float, float, CAGE_LINEARISATION)
 
@@ -365,7 +365,7 @@ def shear_from(linear, load, speed, slip):
 
 @jit_inline
 def _reaches(linear, load, speed, slip, slip_reach):
-    """True if extrapolation serves at another load [N], ring speed and slip [m/s].
+    """True if tractions may be extrapolated to another load [N], ring speed and slip [m/s].
 
     A contact at rest has no slopes.
     """
@@ -380,7 +380,7 @@ def _reaches(linear, load, speed, slip, slip_reach):
 
 @jit_inline
 def is_out_of_reach(linear, at, slips, slip_reach):
-    """True if a raceway's load or slip has changed too much for extrapolation.
+    """True if load or slip has changed too much for tractions to be extrapolated.
 
     Parameters
     ----------
@@ -492,7 +492,7 @@ def cage_from(contact, linear, push, sliding, part):
 
 @jit_inline
 def cage_shear_from(linear, push, sliding):
-    """Rolling resistance [N] in the cage's friction, from its slopes."""
+    """Rolling resistance of the cage's contact, extrapolated linearly [N]."""
     return (
         linear.shear
         + linear.shear_by_slip * (sliding - linear.slip)
