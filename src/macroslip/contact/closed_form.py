@@ -217,7 +217,7 @@ _patch = np.vectorize(
 
 
 class BarusCrook(NamedTuple):
-    """The law for one interface."""
+    """Numbers of the paper's traction law for one interface."""
 
     #: 2π a b η0 per Q^(2/3) [N^(1/3) s]: force per slip at unit film, without the patch integral
     conductance: float
@@ -226,7 +226,7 @@ class BarusCrook(NamedTuple):
 
 
 def prepare_barus_crook(interface: Interface, *, heated: bool) -> BarusCrook:
-    """The law for an interface of given Hertz coefficients and lubricant."""
+    """Numbers of the paper's traction law from Hertz coefficients and lubricant."""
     hertz = interface.hertz
     oil = interface.lubricant
     return BarusCrook(

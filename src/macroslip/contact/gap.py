@@ -223,7 +223,7 @@ def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float 
 
 
 def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, coordinate):
-    """Value of one of the splines over even knots; straight on beyond their ends."""
+    """Value of a spline over even knots, continued straight beyond its ends."""
     first = knots[0]
     last = knots[-1]
     inside = np.clip(coordinate, first, last)

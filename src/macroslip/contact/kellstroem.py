@@ -26,7 +26,7 @@ REFERENCE = (
 
 
 class SaturatingFriction(NamedTuple):
-    """Friction of one raceway."""
+    """Limit and saturation of Kellström's friction at one raceway."""
 
     limit: float  #: µ [-], > 0
     slide_roll_ratio: float  #: s0, slip over mean surface speed at which it is reached [-], > 0

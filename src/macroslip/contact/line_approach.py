@@ -75,7 +75,7 @@ def profile_sum(depths, exponent: float) -> np.ndarray:
 
 @jit_inline
 def _on_spline(line, coefficients, coordinate):
-    """Value and slope of a spline of one coordinate, straight on beyond its ends."""
+    """Value and slope of a spline of one coordinate, continued straight beyond its ends."""
     position = (coordinate - line.first) * line.per_spacing
     inside = min(max(position, 0.0), float(line.cells))
     cell = min(int(inside), line.cells - 1)

@@ -118,13 +118,13 @@ def cell_of(axis, coordinate):
 
 @jit_evaluation
 def log_load(load):
-    """Ln Q of a load [N] that may be none."""
+    """Ln Q of a load Q ≥ 0 [N]; without load that of the least load."""
     return logarithm(max(load, _LEAST_LOAD))
 
 
 @jit_evaluation
 def log_speed(speed):
-    """Ln |u| of a speed [m/s] that may be none."""
+    """Ln |u| of a speed [m/s]; at rest that of the least speed."""
     return logarithm(max(abs(speed), _LEAST_SPEED))
 
 

@@ -1,4 +1,4 @@
-"""Film and traction laws by name, the package's and one's own, and the contract of a law.
+"""Film and traction laws by name, the package's and the user's, and the contract of a law.
 
 A film law is `film(interface, load, entrainment_speed) -> h` and a traction law
 `traction(interface, load, film_thickness, slip) -> F`, both on NumPy arrays of one shape, in SI
@@ -214,7 +214,7 @@ TRACTION_LAWS = LawList("traction", reserved=(MECHANISMS, KELLSTROEM))
 
 
 def own_laws() -> list[str]:
-    """Texts of the registered laws of one's own, sorted; empty without any.
+    """Source texts of the user's registered laws, sorted; empty without any.
 
     They change whenever one of the laws may.
     """

@@ -124,7 +124,7 @@ def table_box(
 
 
 def larger(box: Box) -> Box:
-    """A larger box, for a state outside this one."""
+    """Box with twice the load and 1.5 times the speed, for a state outside this one."""
     return box._replace(load=2.0 * box.load, slowest=0.0, fastest=1.5 * box.fastest)
 
 
@@ -136,7 +136,7 @@ class Tables:
         self._size = 0
 
     def add(self, values: np.ndarray) -> int:
-        """Put numbers at the end; where they begin."""
+        """Append numbers; returns the index of the first of them."""
         start = self._size
         self._parts.append(values.ravel())
         self._size += values.size
@@ -498,7 +498,7 @@ def write_traction(
 
 
 def _nodes(contact: PreparedContact, grid: _Grid) -> _Made:
-    """Traction at the nodes of a grid, made or from store."""
+    """Traction at the nodes of a grid, computed or read from the cache."""
     key = table_key("traction", *contact_parts(contact))
     return remembered(table_key(key, grid), lambda: _traction(contact, grid, key))
 

@@ -180,7 +180,7 @@ def _thinning(c):
 
 
 def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarray:
-    """Stress over τ_L where heat counts, with c tanh c = heat · t(ratio 2c/sinh 2c).
+    """Stress over τ_L with shear heating, from c tanh c = heat · t(ratio 2c/sinh 2c).
 
     Newton's method, kept in a bracket.
     """

@@ -445,7 +445,7 @@ def extrapolated_power(linear, law, turning, pull, shear, load, speed, slip):
 
 @jit_inline
 def cage_from(contact, linear, push, sliding, part):
-    """Friction of the cage on a roller, extrapolated linearly between evaluations.
+    """Friction of the cage on a roller, extrapolated linearly or evaluated anew.
 
     The contact is the same in both rows. A pocket full of oil brakes its roller without load too.
 
