@@ -78,7 +78,7 @@ END = np.dtype(
 #: Loads and entrainment speeds of the interfaces at the end of a step.
 CONTACTS = np.dtype(
     [
-        ("span", "f8"),  # as of `END` [s]
+        ("span", "f8"),  # time for which the state counts, as of `END` [s]
         ("load", "f8", (3,)),  # normal load by interface, not negative [N]
         # Entrainment speed by interface, without sign and from `LOWEST_SPEED` on [m/s].
         ("speed", "f8", (3,)),

@@ -63,7 +63,17 @@ class Instant(NamedTuple):
 
 @jit_inline
 def uncounted_motion(motion):
-    """The motion with arrays whose references are not counted, for compiled functions."""
+    """The motion with arrays whose references are not counted, for compiled functions.
+
+    Parameters
+    ----------
+    motion : Motion
+
+    Returns
+    -------
+    Motion
+        With views of the same numbers.
+    """
     time, speed, angle, displacement = motion
     return Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]
 
