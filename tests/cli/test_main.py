@@ -12,6 +12,7 @@ import pytest
 import macroslip as package
 from macroslip.cli import progress
 from macroslip.storage import waiting
+from macroslip.study.progress import Progress
 
 pytestmark = pytest.mark.slow
 
@@ -202,3 +203,40 @@ def test_compiling_and_tables_are_shown_while_rollers_wait(stderr, monkeypatch):
         screen.truncate(0)
         time.sleep(0.12)
         assert "1/2" in screen.getvalue() and "compiling" not in screen.getvalue()
+
+
+def test_a_study_shows_compiling_and_its_runs(stderr, monkeypatch):
+    screen = stderr(Terminal)
+    monkeypatch.setattr(progress, "DELAY", 0.0)
+    with progress.study_progress(quiet=False) as report:
+        waiting.tell(waiting.COMPILING, 3, 150)
+        time.sleep(0.15)
+        assert "compiling, which happens once" in screen.getvalue()
+        assert "3/150" in screen.getvalue()
+        report(Progress(total=7, computed=2, unchanged=3, failed=1))
+        screen.truncate(0)
+        time.sleep(0.15)
+    shown = screen.getvalue()
+    assert "3 unchanged, 1 failed" in shown and "3/4" in shown and "compiling" not in shown
+
+
+def test_without_a_terminal_a_study_has_a_line_a_stage_and_its_runs_once_a_minute(
+    stderr, monkeypatch
+):
+    text = stderr(io.StringIO)
+    monkeypatch.setattr(progress, "LINE_AFTER", 0.0)
+    with progress.study_progress(quiet=False) as report:
+        for done in (1, 2, 3):
+            waiting.tell(waiting.COMPILING, done, 150)
+        for computed in (1, 2):
+            report(Progress(total=7, computed=computed))
+    compiling, runs = text.getvalue().splitlines()
+    assert compiling == f"{waiting.COMPILING}: 1 of 150 done"
+    assert runs.startswith("1 of 7 done (1 computed, 0 unchanged, 0 failed)")
+
+
+def test_a_quiet_study_shows_nothing(stderr):
+    screen = stderr(Terminal)
+    with progress.study_progress(quiet=True) as report:
+        assert report is None
+    assert screen.getvalue() == ""

@@ -15,6 +15,7 @@ import psutil
 import pytest
 
 from macroslip import InputError, MacroslipError, open_study, run_study
+from macroslip.storage.waiting import TABLES, heard_by
 from macroslip.study import workers as module
 from macroslip.study.study_file import study_of
 
@@ -403,3 +404,19 @@ def test_wrong_addresses_and_arguments(tmp_path, load_files, content, monkeypatc
         with pytest.raises(InputError, match=f"no scheduler answers at '{address}' .*1 s"):
             run_study(study, tmp_path / "out", scheduler=address)
     assert not (tmp_path / "out").exists()
+
+
+def test_a_worker_tells_what_it_waits_for(tmp_path):
+    case = {
+        "laws": {"model": "physical"},
+        "rollers": [0],
+        "loads": {"end": "2 s"},
+        "integrator": {"tolerance": 2e-3},
+        # A temperature of which no table is kept.
+        "temperature": f"{30.0 + time.time() % 10.0:.6f} degC",
+    }
+    heard = []
+    with heard_by(lambda *told: heard.append(told)):
+        run_study(study_of({"case": case, "loads": {"bundled": ["14B"]}}), tmp_path, workers=2)
+    stages, done, total = zip(*heard, strict=True)
+    assert TABLES in stages and all(0 < d <= t for d, t in zip(done, total, strict=True))

@@ -9,18 +9,25 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from macroslip.cli.failure import to_stderr
+from macroslip.progress import PREPARING
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from macroslip.study.progress import Progress
+
 DELAY = 1.0
 """Work that is done within this time [s] shows no bar."""
-LINE_AFTER = 10.0
-"""Without a terminal a stage is named only if it takes longer than this [s]."""
+LINE_AFTER = 1.0
+"""Without a terminal a stage is named, once, if it takes longer than this [s]."""
+LINE_EVERY = 60.0
+"""Time between lines about the runs of a study where there is no terminal [s]."""
 
 
 @contextmanager
-def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | None]:
+def command_progress(
+    *, quiet: bool, preparing: str = PREPARING
+) -> Iterator[Callable[..., None] | None]:
     """Show how far work is while the block runs, on standard error.
 
     A terminal gets bars if it takes a moment; elsewhere every stage that takes long gets a line.
@@ -28,6 +35,13 @@ def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None]
 
     Gives a function to be called as `report(label, done, total)`, each label with a bar of its own;
     None if it is quiet.
+
+    Parameters
+    ----------
+    quiet : bool
+        Whether nothing is shown.
+    preparing : str
+        What the command does before anything is reported.
     """
     from rich.console import Console
 
@@ -37,40 +51,65 @@ def command_progress(*, quiet: bool) -> Iterator[Callable[[str, int, int], None]
         yield None
         return
     console = Console(stderr=True)
-    showing = _bar(console) if console.is_terminal else _lines()
+    showing = _bars(console, preparing) if console.is_terminal else _lines()
     with showing as report, heard_by(report):
         yield report
 
 
 @contextmanager
-def _bar(console: Console) -> Iterator[Callable[[str, int, int], None]]:
-    """A progress bar for every stage, after a moment."""
-    from macroslip.progress import PREPARING, bar_with_time_left
-    from macroslip.storage.waiting import COMPILING, TABLES
+def study_progress(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
+    """Show how far a study is while the block runs, on standard error.
 
-    bar = bar_with_time_left(console)
-    tasks = {PREPARING: bar.add_task(PREPARING, total=None)}
-    waiting = (PREPARING, COMPILING, TABLES)
-    guard = threading.Lock()
+    As `command_progress`; without a terminal there is a line about the runs once a minute.
 
-    def report(label: str, done: int, total: int) -> None:
-        with guard:
-            over = waiting if done > 0 and label not in waiting else (PREPARING,)
-            for stage in tasks.keys() & set(over):
-                bar.remove_task(tasks.pop(stage))
-            if label not in tasks:
-                tasks[label] = bar.add_task(label, total=total)
-            bar.update(tasks[label], completed=done, total=total)
+    Gives a function for the argument `progress` of `macroslip.run_study`; None if it is quiet.
 
-    start = threading.Timer(DELAY, bar.start)
+    Parameters
+    ----------
+    quiet : bool
+        Whether nothing is shown.
+    """
+    from rich.console import Console
+
+    with command_progress(quiet=quiet) as report:
+        if report is None:
+            yield None
+        elif Console(stderr=True).is_terminal:
+
+            def counts(progress: Progress) -> None:
+                text = f"{progress.unchanged} unchanged, {progress.failed} failed"
+                # Runs that were there already say nothing about the time of the others.
+                done = progress.done - progress.unchanged
+                report("runs", done, progress.total - progress.unchanged, text)
+
+            yield counts
+        else:
+            due = time.monotonic() + LINE_AFTER
+
+            def line(progress: Progress) -> None:
+                nonlocal due
+                if time.monotonic() >= due:
+                    due = time.monotonic() + LINE_EVERY
+                    to_stderr(progress.line)
+
+            yield line
+
+
+@contextmanager
+def _bars(console: Console, preparing: str) -> Iterator[Callable[..., None]]:
+    """Bars of stages, after a moment."""
+    from macroslip.progress import StageBars
+
+    bars = StageBars(console, preparing)
+    start = threading.Timer(DELAY, bars.bar.start)
     start.daemon = True
     start.start()
     try:
-        yield report
+        yield bars.report
     finally:
         start.cancel()
         start.join()
-        bar.stop()
+        bars.bar.stop()
 
 
 @contextmanager

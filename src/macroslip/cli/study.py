@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -16,18 +13,16 @@ from macroslip.cli.failure import CASES_FAILED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.options import AsJson, Force, Quiet, Threads
 from macroslip.cli.printing import counted, plain_console, print_json, print_table
+from macroslip.cli.progress import command_progress, study_progress
 from macroslip.errors import InputError, safe_text
 from macroslip.storage.files import check_new_file, write_new
 
 if TYPE_CHECKING:
-    from macroslip.study.progress import Progress
     from macroslip.study.run import Ended
     from macroslip.study.study_file import Study
 
 #: Failures that are listed; the log and the summary have all.
 _LISTED = 30
-#: Time between lines about progress where there is no terminal [s].
-_LINE_EVERY = 60.0
 
 
 def study(
@@ -85,7 +80,7 @@ def study(
     for remark in checked.loads.remarks:
         to_stderr(f"note: {remark}")
     if dry_run or output is None:
-        _dry_run(checked, workers, threads, as_json)
+        _dry_run(checked, workers, threads, as_json=as_json, quiet=quiet)
         return
     from macroslip.study.run import run_study
     from macroslip.study.store import lacks_database
@@ -93,7 +88,7 @@ def study(
     if resume and lacks_database(output):
         to_stderr(f"note: {output} has no database any more; all runs are computed again.")
     try:
-        with _shown(quiet=quiet) as report:
+        with study_progress(quiet=quiet) as report:
             chosen = {"workers": workers, "scheduler": scheduler, "threads": threads}
             ended = run_study(
                 checked, output, **chosen, resume=resume, strict=strict, progress=report
@@ -134,14 +129,17 @@ def _write_study(study: Path, folder: Path, *, force: bool) -> None:
     typer.echo(f"written: {' and '.join(map(str, made.texts))}")
 
 
-def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:
+def _dry_run(
+    checked: Study, workers: int | None, threads: int | None, *, as_json: bool, quiet: bool
+) -> None:
     from rich.filesize import decimal
 
     from macroslip.machine import usable_processors
     from macroslip.study.estimate import estimate_study
     from macroslip.study.progress import duration
 
-    estimate = estimate_study(checked)
+    with command_progress(quiet=quiet):
+        estimate = estimate_study(checked)
     parts = [
         (len(checked.loads.loads), "load histories"), (len(checked.bearings), "bearings"),
         (len(checked.lubricants), "lubricants"), (len(checked.models), "models"),
@@ -178,39 +176,6 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
     )
     for problem in estimate.problems:
         to_stderr(f"note: {safe_text(problem)}")
-
-
-@contextmanager
-def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
-    """Progress on standard error: a bar on a terminal, a line a minute elsewhere."""
-    if quiet:
-        yield None
-        return
-    from rich.console import Console
-
-    from macroslip.progress import PREPARING, bar_with_time_left
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        last = time.monotonic()
-
-        def line(progress: Progress) -> None:
-            nonlocal last
-            if time.monotonic() - last >= _LINE_EVERY:
-                last = time.monotonic()
-                to_stderr(progress.line)
-
-        yield line
-        return
-    with bar_with_time_left(console) as bar:
-        task = bar.add_task(PREPARING, total=None)
-        # Runs that were there already say nothing about the time of the others.
-        yield lambda progress: bar.update(
-            task,
-            description=f"{progress.unchanged} unchanged, {progress.failed} failed",
-            total=progress.total - progress.unchanged,
-            completed=progress.done - progress.unchanged,
-        )
 
 
 def _summary(ended: Ended, output: Path, as_json: bool) -> None:

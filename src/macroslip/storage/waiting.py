@@ -35,11 +35,22 @@ def heard_by(listener: Listener) -> Iterator[None]:
     >>> heard
     [('tables of the contacts', 1, 12)]
     """
-    _listeners.append(listener)
+    listen(listener)
     try:
         yield
     finally:
         _listeners.remove(listener)
+
+
+def listen(listener: Listener) -> None:
+    """Register a listener until this process ends; `heard_by` is for a block.
+
+    Parameters
+    ----------
+    listener : callable
+        As of `heard_by`.
+    """
+    _listeners.append(listener)
 
 
 def tell(stage: str, done: int, total: int) -> None:

@@ -26,11 +26,13 @@ from concurrent.futures import (
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from multiprocessing import resource_tracker
-from threading import Event, Thread
+from multiprocessing.connection import Connection
+from threading import Event, Lock, Thread
 from typing import Any
 
 from macroslip.errors import InputError, MacroslipError
 from macroslip.machine import process_environment
+from macroslip.storage.waiting import listen, tell
 from macroslip.study.database import Outcome
 from macroslip.study.work import work_several
 
@@ -130,7 +132,8 @@ class Processes:
         self._count = count
 
     def __enter__(self) -> Processes:
-        self._idle = [_Seat() for _ in range(self._count)]
+        # They wait for the same, so that one of them tells for all.
+        self._idle = [_Seat(tells=number == 0) for number in range(self._count)]
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -192,13 +195,20 @@ class Processes:
 
 
 class _Seat:
-    def __init__(self) -> None:
+    """A worker process; one that tells passes on how far it is with compiling and tables."""
+
+    def __init__(self, *, tells: bool = False) -> None:
         before = set(multiprocessing.active_children())
+        # A pipe of its own: a process that is killed while it writes blocks no other.
+        heard, told = multiprocessing.Pipe(duplex=False) if tells else (None, None)
         with _safe_start():
             self.pool = ProcessPoolExecutor(
-                1, multiprocessing.get_context("spawn"), _end_with_parent
+                1, multiprocessing.get_context("spawn"), _begin_worker, (told,)
             )
             self.ready = self.pool.submit(os.getpid)  # starts the process
+        if heard is not None and told is not None:
+            told.close()
+            Thread(target=_pass_on, args=(heard,), daemon=True).start()
         started = set(multiprocessing.active_children()) - before
         self._process = next(iter(started), None)
 
@@ -258,6 +268,27 @@ def _without_interrupts() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+def _begin_worker(told: Connection | None) -> None:
+    """Prepare a worker process, which tells how far it is if there is a connection to do so."""
+    _end_with_parent()
+    if told is None:
+        return
+    guard = Lock()
+
+    def pass_on(*stage: str | int) -> None:
+        with guard, suppress(OSError):
+            told.send(stage)
+
+    listen(pass_on)
+
+
+def _pass_on(heard: Connection) -> None:
+    """Tell the listeners of this process what a worker waits for, until the worker ends."""
+    with suppress(EOFError, OSError):
+        while True:
+            tell(*heard.recv())
 
 
 def _end_with_parent() -> None:
