@@ -1,4 +1,4 @@
-"""The page on the heat of a bearing says when the physics does not earn its keep, and that an index is no alarm."""
+"""The page on the heat of a bearing says when computed friction does not improve the fit, and that an index is no alarm."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -60,7 +60,7 @@ def test_a_rival_with_the_same_heat_takes_the_keep_away(heat, scada):
     closest = rivals[int(np.argmin(np.abs(scatters)))]
     twin = replace(closest, model=replace(own.model, name=SPEED, supply=""))
     equal = replace(heat, fits=(*heat.fits, twin))
-    assert "does not earn its keep" in heat_sentences(equal, scada.description)[1]
+    assert "does not improve the fit" in heat_sentences(equal, scada.description)[1]
 
 
 def test_a_better_rival_is_told(heat, scada):

@@ -97,10 +97,10 @@ def _worth(heat: BearingHeat) -> str:
     if abs(scatter) < _RESOLVED:
         verdict = f"The computed friction explains the heat no better than a rival: {beside}, "
         verdict += "which the scatter of three-day blocks does not resolve. "
-        verdict += "Here the physics does not earn its keep."
+        verdict += "Computed friction does not improve the fit."
     elif scatter < 0.0:
         verdict = f"The computed friction explains the heat worse than a rival: {beside}. "
-        verdict += "Here the physics does not earn its keep."
+        verdict += "Computed friction does not improve the fit."
     elif difference > -_CLEARLY:
         verdict = f"The computed friction explains the heat hardly better than a rival: {beside}."
     else:
