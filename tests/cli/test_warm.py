@@ -1,11 +1,14 @@
 """`macroslip doctor --warm`: afterwards nothing is compiled, and a case finds its tables."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 
 from macroslip.bearing.kinds import read_bearing
 from macroslip.case.case import Case
 from macroslip.case.case_file import read_case
-from macroslip.case.parts import BackwardEuler, ExplicitEuler
+from macroslip.case.parts import BackwardEuler, ExplicitEuler, Traces
 from macroslip.contact import table
 from macroslip.contact.mechanisms import Laws
 from macroslip.loads import BearingLoads, Drivetrain
@@ -15,6 +18,9 @@ from macroslip.roller import skew_table
 from macroslip.storage import tables
 from macroslip.storage.waiting import COMPILING, heard_by
 from tests.quick import COARSE
+
+#: Bearings that were measured.
+DATA = Path(__file__).parents[2] / "validation" / "data"
 
 pytestmark = pytest.mark.slow
 
@@ -65,8 +71,6 @@ def test_nothing_is_compiled_any_more(warmed, tmp_path, dynamics, further):
 
 @pytest.mark.parametrize("integrator", [BackwardEuler(step=0.01), ExplicitEuler(step=1e-4)])
 def test_nor_by_other_integrators(warmed, integrator):
-    from dataclasses import replace
-
     heard = []
     case = replace(read_case(warmed), laws=Laws.paper(), integrator=integrator, temperature=None)
     with heard_by(lambda *told: heard.append(told)):
@@ -86,6 +90,36 @@ def test_nor_for_a_tapered_bearing(warmed):
     )
     with heard_by(lambda *told: heard.append(told)):
         with_rating(simulate(case), case)
+    assert [told for told in heard if told[0] == COMPILING] == []
+
+
+@pytest.mark.parametrize("dynamics", ["imposed-orbit", "whole-bearing"])
+@pytest.mark.parametrize("profile", [None, "logarithmic"])
+def test_nor_for_a_cylindrical_bearing(warmed, dynamics, profile):
+    bearing = read_bearing(DATA / "cylindrical-160.yaml")
+    if profile is not None:
+        bearing = bearing.replace(roller_crown_radius=None, roller_profile=profile)
+    heard = []
+    case = Case(
+        loads=BearingLoads.constant([0.0, -20e3, 0.0], 30.0, 0.3),
+        bearing=bearing,
+        oil_supply="flooded",
+        rollers=[3],
+        dynamics=dynamics,
+        traces=Traces(step=0.1),
+        laws=Laws.physical(),
+        integrator=COARSE,
+    )
+    with heard_by(lambda *told: heard.append(told)):
+        with_rating(simulate(case), case)
+    assert [told for told in heard if told[0] == COMPILING] == []
+
+
+def test_nor_for_a_whole_bearing_whose_rollers_skew(warmed):
+    heard = []
+    case = replace(read_case(warmed), dynamics="whole-bearing", traces=Traces(step=0.1))
+    with heard_by(lambda *told: heard.append(told)):
+        simulate(case)
     assert [told for told in heard if told[0] == COMPILING] == []
 
 
