@@ -116,8 +116,9 @@ def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
 def test_studies_page_gives_the_units_of_the_summary():
     rows = re.findall(r"^\|(.*)\|$", STUDIES, re.MULTILINE)
     cells = [[cell.strip() for cell in row.split("|")] for row in rows]
-    for name, (units, _) in (ROW_VARIABLES | CASE_VARIABLES).items():
-        assert any(units in re.split(", ", row[1]) for row in cells if f"`{name}`" in row[0]), name
+    for name, variable in {**ROW_VARIABLES, **CASE_VARIABLES}.items():
+        named = [row for row in cells if f"`{name}`" in row[0]]
+        assert any(variable.units == row[2] for row in named), name
 
 
 def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
@@ -237,6 +238,7 @@ def test_readme_for_a_package_index_has_no_link_into_the_repository():
     assert "](" not in text and "bearing_slip" not in text and re.search(r"first\srun", text)
 
 
-def test_variables_of_results_are_those_of_the_table():
-    page = variables_page.PAGE.read_text(encoding="utf-8")
-    assert page == variables_page.with_tables(page), "run python -m tools.variables_page"
+@pytest.mark.parametrize("path", variables_page.PAGES, ids=lambda path: path.name)
+def test_variables_of_pages_are_those_of_the_tables(path):
+    page = path.read_text(encoding="utf-8")
+    assert page == variables_page.with_tables(path), "run python -m tools.variables_page"

@@ -7,7 +7,7 @@ from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.contact.line_rolling import line_contacts
 from macroslip.errors import InputError
 from macroslip.kinds.tapered.history import (
-    VARIABLES,
+    HISTORY,
     TaperedMount,
     TaperedState,
     tapered_history,
@@ -15,6 +15,7 @@ from macroslip.kinds.tapered.history import (
 )
 from macroslip.loads.history import HubLoads
 from macroslip.lubricant import Lubricant
+from tests.variables import check_variables
 
 MAIN = TaperedBearing.read("tdo-main-bearing")
 OIL = Lubricant.read("vg460-pao").at(308.15)
@@ -28,9 +29,10 @@ def history():
 
 
 def test_every_variable_has_a_unit_and_a_name(history):
-    assert set(history.data_vars) == set(VARIABLES)
+    assert set(history.data_vars) == set(HISTORY)
     assert all({"units", "long_name"} <= set(history[name].attrs) for name in history)
     assert history.failed == 0
+    check_variables(history, HISTORY)
 
 
 def test_energy_of_the_window_is_torque_times_angle(history):

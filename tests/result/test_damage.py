@@ -14,10 +14,12 @@ from macroslip.bearing import geometry
 from macroslip.constants import YEAR
 from macroslip.result.criteria.criterion import Threshold
 from macroslip.result.criteria.evaluation import SURFACES
-from macroslip.result.damage import damage, lines
+from macroslip.result.damage import DAMAGE, damage, lines
 from macroslip.result.stored import to_netcdf
 from macroslip.result.surface_maps import energy_density
+from macroslip.result.variables import VARIABLES
 from tests.quick import COARSE
+from tests.variables import check_variables
 
 BEARING = Bearing.read("skf-240-600-bc")
 RATED = 20.463 * math.pi / 30.0
@@ -59,6 +61,8 @@ def test_pressure_times_slip_of_a_pass(load, inner, outer):
     result = simulate(thrust(load))
     criteria = damage(result)
     passes = criteria.pass_rate.values
+    check_variables(criteria, DAMAGE)
+    check_variables(result, VARIABLES)
     assert passes[:2] == pytest.approx([5.21, 4.33], rel=2e-3)
     spin = (
         RATED

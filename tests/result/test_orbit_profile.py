@@ -6,6 +6,9 @@ import pytest
 from macroslip import BearingLoads, Case, HubLoads, InputError, Laws, Traces, Window, simulate
 from macroslip.bearing import geometry
 from macroslip.result.orbit import (
+    AVERAGES,
+    SCENE,
+    STILL,
     energy_over_orbit,
     in_window,
     load_zone,
@@ -15,6 +18,7 @@ from macroslip.result.orbit import (
     scene,
 )
 from macroslip.result.run_input import run_input
+from tests.variables import check_variables
 
 pytestmark = pytest.mark.slow
 
@@ -151,6 +155,13 @@ def test_scene_is_the_part_with_the_largest_power(varying):
 def test_a_profile_keeps_no_traces(varying):
     profile = orbit_profile(varying)
     assert "time" not in profile["result"].dims
+    for name, table in (
+        ("orbit", AVERAGES),
+        ("load_zone", AVERAGES),
+        ("scene", SCENE),
+        ("still", STILL),
+    ):
+        check_variables(profile[name], table)
     assert profile["scene"].slip.dtype == np.float32
     assert set(profile) == {"result", "orbit", "load_zone", "scene", "still"}
 

@@ -1,9 +1,11 @@
 """A criterion of damage is one file: result, study, year, comparison and command line read it from the list."""
 
 import json
+import os
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
 
@@ -13,13 +15,13 @@ CRITERION = '''
 """A criterion of the test: how often rollers pass a sector of a raceway."""
 
 from macroslip.result.criteria.criterion import Criterion, Yearly, largest_of
-from macroslip.result.variables import described
+from macroslip.variables import ALWAYS, Variable
 
 
 def _passes(evaluation):
     passes = evaluation.result.surface_passes.transpose("row", "raceway", "angle")
     most = passes.max("angle").values
-    return {"most_passes": (("row", "raceway"), most, described("1", "most passes of a sector"))}
+    return {"most_passes": most}
 
 
 CRITERIA = (
@@ -29,6 +31,9 @@ CRITERIA = (
         mechanism="test",
         quantity="most passes of a sector",
         unit="1",
+        declares=(
+            Variable("most_passes", ("row", "raceway"), "1", ALWAYS, "most passes of a sector"),
+        ),
         variables=_passes,
         value=largest_of("most_passes"),
         reference=2.0,
@@ -69,11 +74,17 @@ from pathlib import Path
 from macroslip import Case, HubLoads, Window, open_study, run_study, simulate
 from macroslip.cli.damage import damage
 from macroslip.report.comparison import compare
+from macroslip.report.real_year_page import real_year_page
+from macroslip.report.study_page import study_page
 from macroslip.result.damage import lines
 from macroslip.result.stored import to_netcdf
 from macroslip.study.aggregation import Aggregation
+from macroslip.study.real_year import real_year
 from macroslip.study.study_file import study_of
+from macroslip.study.weights import Weibull
 from macroslip.study.year import year
+from tests.study.made_up_study import made_up_study
+from tests.study.test_real_year import months, turbine
 
 folder = Path(sys.argv[2])
 content = {"case": {"rollers": [0], "loads": {"end": "2 s"}, "window": {"start": "0 s"}},
@@ -84,6 +95,15 @@ passes = study.sector_passes.values
 assert (passes >= 1.0).all() and study.sector_passes.attrs["units"] == "1/s"
 found = year(study, Aggregation())
 assert "passes" in found and found.passes.attrs["units"] == "1"
+page = study_page(study, title="passes", weights=Weibull(9.0, 2.0))
+# A column of the designs, and one of the situations of a year.
+assert "passes of a sector, both rows [1/year]" in page and ">passes<" in page
+made_up = made_up_study()
+made_up["sector_passes"] = made_up.entry_rate * 3.0
+real = real_year(turbine(*months()), made_up)
+of_passes = real.table.set_index("quantity").loc["passes"]
+assert of_passes["real"] > 0.0 and of_passes["factor"] == 1.0 and "passes [1]" in real.bins
+assert "passes of a sector, both rows" in real_year_page(real)
 compared = compare(folder, by="lubricant")
 assert "passes of a sector, both rows" in set(compared["quantity"])
 result = simulate(
@@ -96,6 +116,11 @@ damage(folder / "case.nc", threshold=["most_passes=7, the test"], as_json=True)
 """
 
 
+def with_tests():
+    root = str(Path(__file__).parents[2])
+    return os.environ | {"PYTHONPATH": os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])}
+
+
 def test_a_file_is_all_that_a_criterion_takes(tmp_path):
     folder = tmp_path / "more"
     folder.mkdir()
@@ -103,7 +128,10 @@ def test_a_file_is_all_that_a_criterion_takes(tmp_path):
     program = tmp_path / "program.py"
     program.write_text(textwrap.dedent(PROGRAM))
     command = [sys.executable, str(program), str(folder), str(tmp_path / "study")]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+    # The made-up year is one of the tests.
+    done = subprocess.run(
+        command, capture_output=True, text=True, timeout=600, check=False, env=with_tests()
+    )
     assert done.returncode == 0, done.stderr
     printed = {row["criterion"]: row for row in json.loads(done.stdout)["criteria"]}
     assert printed["most_passes"]["reference"] == 7.0

@@ -13,6 +13,7 @@ from macroslip.errors import InputError
 from macroslip.result.stiffness import (
     LOADS,
     MOTIONS,
+    STIFFNESS,
     UNITS,
     _ring,
     ring_stiffness,
@@ -20,6 +21,7 @@ from macroslip.result.stiffness import (
     stiffness_table,
 )
 from macroslip.ring.balance import balance, tangent_stiffness
+from tests.variables import check_variables
 
 #: A single-row cylindrical roller bearing.
 CYLINDRICAL = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
@@ -109,6 +111,7 @@ def case(force=FORCE, **others):
 
 def test_table_and_matrices_agree_and_have_units():
     stiffness = ring_stiffness({"a": case(), "b": case([0.0, -200e3, 50e3])})
+    check_variables(stiffness, STIFFNESS)
     table = stiffness_table(stiffness)
     data = json.loads(json.dumps(stiffness_data(stiffness)))
     assert len(table) == 6 and len(data["points"]) == 6

@@ -18,9 +18,11 @@ from macroslip.report.result_numbers import row_numbers
 from macroslip.result.damage import damage
 from macroslip.result.plausibility import doubtful_result
 from macroslip.result.rating import with_rating
+from macroslip.result.variables import VARIABLES
 from macroslip.ring.tapered import tapered_balance, tapered_ring
 from macroslip.whole.cage import Cage
 from tests.quick import COARSE
+from tests.variables import check_variables
 
 MAIN = read_bearing("tdo-main-bearing")
 OIL = Lubricant.read("vg460-pao")
@@ -178,6 +180,7 @@ def test_energy_of_a_turn_is_torque_times_angle():
 @pytest.mark.slow
 def test_rib_variables_and_preload_of_a_result():
     warm = simulate(case(temperature_difference=10.0, traces=Traces(step=0.1)))
+    check_variables(warm, VARIABLES)
     assert float(warm.preload_change) == pytest.approx(0.151e-3, rel=0.01)
     assert float(warm.preload) == pytest.approx(0.351e-3, rel=0.01)
     share = tapered_geometry(MAIN).rib_share

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from macroslip import Bearing, BearingLoads, Case, Laws, rate_case, simulate
+from macroslip.rating.variables import RATING
 from macroslip.result.rating import with_rating
+from macroslip.result.variables import VARIABLES
 from macroslip.study.summary import RATING_VARIABLES, rating_values
+from tests.variables import check_variables
 
 pytestmark = pytest.mark.slow
 
@@ -31,6 +34,7 @@ def test_a_result_has_the_numbers_of_the_rating(case, result):
         assert both[name].identical(values)
     assert both.attrs["rating_contamination"] == 0.5
     assert both.attrs["title"] == result.attrs["title"]
+    check_variables(both, VARIABLES, RATING)
     np.testing.assert_array_equal(both.load_class_middle, rating.load_class)
 
 
@@ -62,4 +66,4 @@ def test_the_summary_keeps_what_the_rating_gives(case):
     shared = [name for name in RATING_VARIABLES if name in rating]
     assert {"static_safety", "basic_life", "largest_pressure"} <= set(shared)
     for name in shared:
-        assert rating[name].units == RATING_VARIABLES[name][0]
+        assert rating[name].units == RATING_VARIABLES[name].units

@@ -13,11 +13,12 @@ from macroslip.constants import YEAR
 from macroslip.result.criteria.friction_energy import REFERENCE_POWER
 from macroslip.result.damage import damage
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.effects import effects, main_effects, rank_correlations
+from macroslip.study.effects import EFFECTS, effects, main_effects, rank_correlations
 from macroslip.study.labels import sampled_parameters
 from macroslip.study.summary import damage_values
 from macroslip.study.weights import BinProbabilities, Rate, Year
 from macroslip.study.year import design_names, designs, year
+from tests.variables import check_variables
 
 POINTS = qmc.Sobol(2, rng=np.random.default_rng(0)).random(32)
 
@@ -74,6 +75,7 @@ def test_a_rank_correlation_sees_what_rises_however_it_bends():
 def test_points_without_a_value_are_left_out_and_what_does_not_change_has_no_effect():
     study = sample(lambda x, y: 10.0 + 4.0 * x, ("a",))
     study["energy_mean"][3] = np.nan
+    check_variables(effects(study), EFFECTS)
     assert effects(study).sel(quantity="energy").main_effect.values[0] == pytest.approx(
         2.0 / 12.0, rel=0.1
     )

@@ -5,13 +5,21 @@ import pytest
 
 from macroslip import BearingLoads, InputError, open_study, run_study
 from macroslip.constants import YEAR
+from macroslip.result.variables import VARIABLES
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.exceedance import THRESHOLDS, exceedance, load_spectrum
+from macroslip.study.exceedance import (
+    EXCEEDANCE,
+    LOAD_SPECTRUM,
+    THRESHOLDS,
+    exceedance,
+    load_spectrum,
+)
 from macroslip.study.export import tables, write_tables
 from macroslip.study.study_file import study_of
-from macroslip.study.summary import RANGE_EDGES
+from macroslip.study.summary import CASE_VARIABLES, RANGE_EDGES, ROW_VARIABLES
 from macroslip.study.summary import load_cycles as counted
 from macroslip.study.weights import BinProbabilities, Weibull
+from tests.variables import check_variables
 
 pytestmark = pytest.mark.slow
 
@@ -73,6 +81,10 @@ def test_curves_fall_from_all_orbits_to_none(study):
 
 def test_a_group_without_results_has_no_curve(study):
     curves = exceedance(study, Aggregation(WEIGHTS))
+    check_variables(curves, EXCEEDANCE)
+    check_variables(load_spectrum(study, Aggregation(WEIGHTS)), LOAD_SPECTRUM)
+    summary = study.drop_vars([name for name in study if name in VARIABLES])
+    check_variables(summary.drop_vars("load_cycles"), ROW_VARIABLES, CASE_VARIABLES)
     assert curves.sizes["group"] == 2 and np.isnan(curves.energy_orbits.isel(group=1)).all()
     assert curves.left_out.values.tolist() == [[0, 0], [2, 1]]
 

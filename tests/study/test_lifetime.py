@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from macroslip import InputError
 from macroslip.constants import YEAR
 from macroslip.study.aggregation import Aggregation, aggregation_in_use
-from macroslip.study.lifetime import lifetime_energy, percentiles, worst
+from macroslip.study.lifetime import LIFETIME, PERCENTILES, lifetime_energy, percentiles, worst
 from macroslip.study.loads_list import Load
 from macroslip.study.summary import ROW_VARIABLES
 from macroslip.study.weights import BinProbabilities, Weibull, Weighting, binned
+from tests.variables import check_variables
 
 SPEEDS = [12.0, 12.4, 11.6, 14.0, 14.0, 12.0, 14.0]
 CLEARANCES = [0.0] * 5 + [0.2] * 2
@@ -30,8 +31,8 @@ def study(energy=(600.0, 1200.0, 1800.0, 60.0, 60.0, 6.0, 6.0)):
     labels["bearing.diametral_clearance"] = ("case", CLEARANCES, {"units": "mm"})
     labels["seed"] = ("case", [1, 2, 3, 1, 2, 1, 1], {"units": "1"})
     data = {
-        name: (("case", "row"), both.copy(), {"units": units})
-        for name, (units, _) in ROW_VARIABLES.items()
+        name: (("case", "row"), both.copy(), {"units": variable.units})
+        for name, variable in ROW_VARIABLES.items()
     }
     return xr.Dataset(
         data | {"window_length": ("case", [600.0] * 7)}, labels | {"row": ["downwind", "upwind"]}
@@ -74,6 +75,9 @@ def test_a_run_without_a_result_is_left_out_and_reported():
 
 
 def test_percentiles_over_seeds():
+    check_variables(percentiles(study()), PERCENTILES)
+    shares = BinProbabilities({12.0: 0.5, 14.0: 0.5})
+    check_variables(lifetime_energy(study(), Aggregation(shares)), LIFETIME)
     spread = (
         percentiles(study(), quantiles=(0.0, 0.5, 1.0)).isel(group=0).sel(bin=12.0, row="downwind")
     )

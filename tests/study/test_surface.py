@@ -7,9 +7,10 @@ from macroslip import InputError, open_study, run_study
 from macroslip.report.study_page import CLASS_ONE
 from macroslip.result.surface_maps import energy_density
 from macroslip.study.aggregation import Aggregation
-from macroslip.study.lifetime import lifetime_energy, weighted_maps
+from macroslip.study.lifetime import LIFETIME_MAPS, lifetime_energy, weighted_maps
 from macroslip.study.study_file import study_of
 from macroslip.study.weights import BinProbabilities
+from tests.variables import check_variables
 
 pytestmark = pytest.mark.slow
 
@@ -32,6 +33,7 @@ def study(tmp_path_factory):
 
 def test_sums_are_the_lifetime_energy_of_the_raceways(study):
     maps = weighted_maps(study, Aggregation(CLASS_ONE, years=20.0))
+    check_variables(maps, LIFETIME_MAPS)
     energy = maps.surface_energy.sum(
         ("raceway", "angle", "station", "slip_sign", "film_regime")
     ).isel(group=0)

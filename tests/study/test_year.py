@@ -23,7 +23,8 @@ from macroslip.study.weights import (
     binned,
     stored_weighting,
 )
-from macroslip.study.year import EXPONENTS, LIVES, coverage, year
+from macroslip.study.year import EXPONENTS, LIVES, YEAR_VARIABLES, coverage, year
+from tests.variables import check_variables
 
 HOUR = 3600.0
 
@@ -66,6 +67,7 @@ def test_all_rollers_of_events_are_computed(tmp_path):
 
 def test_events_take_their_time_and_wind_speeds_the_rest():
     annual = year(study(), Aggregation(YEARLY))
+    check_variables(annual, YEAR_VARIABLES)
     starts, idle = 300.0 * 100.0, 400.0 * HOUR
     windy = 0.5 * (YEAR - starts - idle)
     np.testing.assert_allclose(annual.hours * HOUR, [windy, starts, idle], rtol=1e-12)

@@ -15,6 +15,8 @@ from macroslip import (
     simulate,
 )
 from macroslip.torque import computed_torque, skf_torque, torque_histories
+from macroslip.torque.computed import TORQUE
+from tests.variables import check_variables
 
 pytestmark = pytest.mark.slow
 
@@ -51,6 +53,7 @@ def test_torque_times_speed_is_what_is_dissipated(result):
 
 def test_parts_add_up_and_have_units(result):
     torque = computed_torque(result)
+    check_variables(torque, TORQUE)
     parts = (torque.contact_torque + torque.rolling_torque).sum(
         ("row", "interface")
     ) + torque.drag_torque

@@ -14,10 +14,12 @@ from macroslip.measures.skew import SkewMeasures, _power_of_ends
 from macroslip.measures.totals import END
 from macroslip.result.prepared import prepare as prepare_case
 from macroslip.result.skew import skewing
+from macroslip.result.variables import VARIABLES
 from macroslip.roller.model import with_tables
 from macroslip.roller.skew import equilibrium, raceways, skew_stop
 from macroslip.whole.cage import Cage
 from tests.quick import COARSE
+from tests.variables import check_variables
 from tests.whole.conftest import losses_of_closed_books
 
 pytestmark = pytest.mark.slow
@@ -67,6 +69,7 @@ def test_without_play_all_but_the_friction_of_the_ends_is_that_of_straight_rolle
             mine, other = mine.sel(RACEWAYS), other.sel(RACEWAYS)
         np.testing.assert_array_equal(mine, other, err_msg=str(name))
     assert (result.skew_energy == 0.0).all() and float(result.stop_force.max()) > 1.0
+    check_variables(result, VARIABLES)
     added = (result.energy - straight.energy).sel(interface="cage").values
     assert added == pytest.approx(result.stop_energy.values, rel=1e-9, abs=1e-10)
     assert (added[0] > 0.0).all()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -26,6 +26,7 @@ from macroslip.rating.kinds import EquivalentLoads, LoadRatings, equivalent_load
 from macroslip.rating.lines import ellipse_load_for_film, line_interfaces, line_rating
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.rating.tapered import StripRating
+from macroslip.rating.variables import RATING
 from macroslip.ring.motion import elastic_loads, ring_motion
 from macroslip.roller.model import ring_geometry, roller_model
 
@@ -125,19 +126,18 @@ def rate(
     history = history._replace(strips=strips)
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
              _spectra(history, wohler_exponents))  # fmt: skip
-    variables = {}
+    values = {}
     for part in parts:
-        variables |= part
+        values |= part
     edges = history.class_edges
     middles = 0.5 * (edges[1:] + edges[:-1])
-    about_class = _variable(middles, "N", "middle of the class of load", "load_class")
     coordinates = {
         "row": list(row_names(bearing)),
         "raceway": list(RACEWAYS),
         "load_along_roller": list(DISTRIBUTIONS),
         "load": list(LOADS),
         "wohler_exponent": list(wohler_exponents),
-        "load_class": about_class,
+        "load_class": RATING["load_class_middle"].of(middles),
     }
     about = {
         "bearing": bearing.name,
@@ -146,7 +146,7 @@ def rate(
         "contamination": contamination,
         "film_law": FILM_LAW,
     }
-    return xr.Dataset(variables, coordinates, about)
+    return xr.Dataset(RATING.put(values), coordinates, about)
 
 
 def _touches_along_line(bearing: Bearing) -> bool:
@@ -201,10 +201,6 @@ class _History(NamedTuple):
         return self.duration.sum() / turned / HOUR
 
 
-def _variable(values: object, units: str, long_name: str, *dims: str) -> tuple:
-    return dims, values, {"units": units, "long_name": long_name}
-
-
 def _history(
     bearing: Bearing,
     lubricant: Lubricant,
@@ -253,22 +249,20 @@ def _share(condition: BoolArray, weight: FloatArray) -> float:
     return float(with_condition / weight.sum())
 
 
-def _static(history: _History) -> dict[str, tuple]:
+def _static(history: _History) -> dict[str, Any]:
     least = history.ratings.minimum
     largest = float(history.equivalent.static.max())
     below = _share(history.equivalent.dynamic < least, history.duration)
     safety = iso.static_safety(history.ratings.static, largest)
     return {
-        "static_equivalent_load": _variable(largest, "N", "largest static equivalent load P0"),
-        "static_safety": _variable(float(safety), "1", "static safety factor C0/P0, the least"),
-        "minimum_load": _variable(least, "N", "least load P that makers require"),
-        "share_below_minimum_load": _variable(
-            below, "1", "share of time in which P is below the minimum load"
-        ),
+        "static_equivalent_load": largest,
+        "static_safety": float(safety),
+        "minimum_load": least,
+        "share_below_minimum_load": below,
     }
 
 
-def _iso281(history: _History) -> dict[str, tuple]:
+def _iso281(history: _History) -> dict[str, Any]:
     mean = iso.mean_equivalent_load(history.equivalent.dynamic, history.revolutions)
     limit = history.ratings.fatigue_limit
     basic = iso.basic_life(history.ratings.dynamic, mean)
@@ -280,21 +274,17 @@ def _iso281(history: _History) -> dict[str, tuple]:
     factor = float(iso.life_modification(kappa, history.contamination, ratio))
     below = _share(history.equivalent.dynamic < limit, history.duration)
     return {
-        "equivalent_load": _variable(mean, "N", "mean dynamic equivalent load P_m"),
-        "fatigue_load_limit": _variable(limit, "N", "fatigue load limit C_u"),
-        "share_below_fatigue_load_limit": _variable(
-            below, "1", "share of time in which P is below C_u"
-        ),
-        "viscosity_ratio": _variable(
-            history.viscosity_ratio, "1", "viscosity ratio kappa at the mean speed"
-        ),
-        "basic_life": _variable(float(life), "h", "basic rating life L10h, ISO 281"),
-        "life_modification": _variable(factor, "1", "life modification factor a_ISO"),
-        "modified_life": _variable(float(life * factor), "h", "modified rating life, ISO 281"),
+        "equivalent_load": mean,
+        "fatigue_load_limit": limit,
+        "share_below_fatigue_load_limit": below,
+        "viscosity_ratio": history.viscosity_ratio,
+        "basic_life": float(life),
+        "life_modification": factor,
+        "modified_life": float(life * factor),
     }
 
 
-def _reference(history: _History) -> dict[str, tuple]:
+def _reference(history: _History) -> dict[str, Any]:
     bearing = history.bearing
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.roller_diameter * cosine / (2.0 * bearing.pitch_radius)
@@ -311,7 +301,9 @@ def _reference(history: _History) -> dict[str, tuple]:
     # (Q_e/Q_c)^(9/2) over distribution, row, raceway and sample.
     samples = history.loads.time.size
     damages = np.empty((len(DISTRIBUTIONS), bearing.rows, len(RACEWAYS), samples))
-    for row, load in enumerate(history.roller_load):
+    for row, strided in enumerate(history.roller_load):
+        # Of one layout in memory, for which the function is compiled once.
+        load = np.ascontiguousarray(strided)
         for k, rating in enumerate(ratings):
             stationary = RACEWAYS[k] == "outer"
             damages[:, row, k] = iso.damage_series(
@@ -335,20 +327,14 @@ def _reference(history: _History) -> dict[str, tuple]:
         )
     by_raceway = hours(iso.reference_life(damages, axis=()))
     modified = hours(together * factor)
-    name = "basic reference rating life, ISO/TS 16281"
-    along = "load_along_roller"
     return {
-        "reference_life": _variable(hours(together), "h", name, along),
-        "raceway_reference_life": _variable(
-            by_raceway, "h", f"{name}, one raceway", along, "row", "raceway"
-        ),
-        "modified_reference_life": _variable(
-            modified, "h", "modified reference rating life", along
-        ),
+        "reference_life": hours(together),
+        "raceway_reference_life": by_raceway,
+        "modified_reference_life": modified,
     }
 
 
-def _contacts(history: _History) -> dict[str, tuple]:
+def _contacts(history: _History) -> dict[str, Any]:
     """Largest roller load and pressure of each row, and the film ratio where rollers carry load."""
     bearing = history.bearing
     raceways = interfaces(bearing, history.lubricant)[: len(RACEWAYS)]
@@ -388,21 +374,15 @@ def _contacts(history: _History) -> dict[str, tuple]:
             low[row, k], middle[row, k] = quantiles
     loaded = (load > 0.0).mean(axis=1) @ history.duration / history.duration.sum()
     return {
-        "loaded_share": _variable(
-            loaded, "1", "share of time in which a roller carries load, mean of the row", "row"
-        ),
-        "largest_roller_load": _variable(largest, "N", "largest roller load", "row"),
-        "largest_pressure": _variable(pressure, "Pa", "largest Hertz pressure", "row", "raceway"),
-        "film_ratio": _variable(
-            middle, "1", "film ratio Lambda, median over loaded rollers", "row", "raceway"
-        ),
-        "film_ratio_low": _variable(
-            low, "1", "film ratio Lambda, 5 % of loaded rollers below", "row", "raceway"
-        ),
+        "loaded_share": loaded,
+        "largest_roller_load": largest,
+        "largest_pressure": pressure,
+        "film_ratio": middle,
+        "film_ratio_low": low,
     }
 
 
-def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple]:
+def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, Any]:
     edges = history.class_edges
     loads = history.load_series
     times = [load_duration(load, history.duration, edges) for load in loads]
@@ -411,13 +391,8 @@ def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple
     ranges = []
     for load in loads:
         ranges.append([damage_equivalent_load(load, total, exponent) for exponent in exponents])
-    about = "range of the damage-equivalent load at 1 Hz"
     return {
-        "time_share": _variable(
-            times, "1", "share of time in the class of load", "load", "load_class"
-        ),
-        "revolution_share": _variable(
-            turns, "1", "share of revolutions in the class", "load", "load_class"
-        ),
-        "damage_equivalent_load": _variable(ranges, "N", about, "load", "wohler_exponent"),
+        "time_share": times,
+        "revolution_share": turns,
+        "damage_equivalent_load": ranges,
     }

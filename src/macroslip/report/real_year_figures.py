@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.report.style import BLUE, GREY, ORANGE, colour_scale, finish, log_ticks
+from macroslip.result.criteria import YEARLY
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 WIND = "wind_speed [m/s]"
 OIL = "oil_temperature [degC]"
 #: Quantities that a year sums up; extremes of single runs say little of a temperature.
-_SUMS = ("energy", "entries", "pressure_slip", "mixed_time", "wear")
+_SUMS = ("energy", *(yearly.name for yearly in YEARLY if yearly.drawn != "largest"))
 
 
 def plot_over_wind_and_temperature(axes: Axes, bins: pd.DataFrame, column: str, title: str) -> Axes:
@@ -30,7 +31,7 @@ def plot_over_wind_and_temperature(axes: Axes, bins: pd.DataFrame, column: str, 
     bins : pandas.DataFrame
         Rows in which the rotor turns, of one design, of `macroslip.study.real_year.RealYear.bins`.
     column : str
-        What is shared out: `share`, `energy [J]` or `wear [m]`.
+        What is shared out: `share`, `energy [J]`, or a sum of a criterion, such as `wear [m]`.
     title : str
         Its name.
     """

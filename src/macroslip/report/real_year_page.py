@@ -13,7 +13,8 @@ from macroslip.report.real_year_figures import (
     plot_over_wind_and_temperature,
 )
 from macroslip.report.style import Picture, picture, scaled
-from macroslip.study.real_year import OFFSET
+from macroslip.result.criteria import OF_NUMBER, YEARLY
+from macroslip.study.real_year import ENERGY_COLUMN, OFFSET, sum_column
 from macroslip.study.year import DESIGN_COLUMNS
 
 if TYPE_CHECKING:
@@ -24,8 +25,15 @@ if TYPE_CHECKING:
 _TEMPLATE = "real_year.html"
 #: Numbers of a table that have the quantity's unit.
 _AMOUNTS = ("real", "at_mean", "fixed", "oil_cooler", "oil_warmer")
+_SUMS = tuple(yearly for yearly in YEARLY if yearly.drawn != "largest")
 #: What is shared out over wind speed and temperature, and its name.
-_SHARED = {"share": "time", "energy [J]": "energy", "wear [m]": "wear"}
+_SHARED = {
+    "share": "time",
+    ENERGY_COLUMN: "energy",
+    **{sum_column(yearly): yearly.noun for yearly in _SUMS},
+}
+#: Columns whose maps are in the opening.
+_FIRST = tuple(sum_column(yearly) for yearly in _SUMS if yearly.leads)
 
 
 def verdict(real_year: RealYear) -> list[str]:
@@ -43,22 +51,31 @@ def verdict(real_year: RealYear) -> list[str]:
     )
     energy = of.loc["energy"]
     oil = f"{temperatures} Energy is {energy['real_over_fixed']:.2f} of that at 35 °C."
-    if "wear" not in of.index or not np.isfinite(of.loc["wear", "real"]):
-        return [oil]
-    wear = of.loc["wear"]
-    alone = wear["at_mean"] / wear["fixed"]
-    warmer = wear["oil_warmer"] / wear["real"]
-    cooler = wear["real"] / wear["oil_cooler"]
-    ends = warmer, cooler
-    return [
-        f"Wear is {wear['real_over_fixed']:.2g} of that at 35 °C: the mean temperature alone makes "
-        f"it {alone:.2g}, and how temperature and wind go together changes that by a factor of "
-        f"{wear['real_over_at_mean']:.2f}. {OFFSET:g} K between sensor and oil, which nobody "
-        f"measures, change wear by a factor of {min(ends):.2g} to {max(ends):.2g}.",
-        oil,
-        f"Wear itself is known to a factor of {wear['factor']:g}, by its coefficient k, which is the "
-        "same in all these years: ratios are surer than values.",
-    ]
+    sentences = []
+    limits = []
+    for yearly in _SUMS:
+        is_known = yearly.name in of.index and np.isfinite(of.loc[yearly.name, "real"])
+        if not yearly.leads or not is_known:
+            continue
+        line = of.loc[yearly.name]
+        noun = yearly.noun
+        alone = line["at_mean"] / line["fixed"]
+        warmer = line["oil_warmer"] / line["real"]
+        cooler = line["real"] / line["oil_cooler"]
+        ends = warmer, cooler
+        sentences.append(
+            f"{noun.capitalize()} is {line['real_over_fixed']:.2g} of that at 35 °C: the mean "
+            f"temperature alone makes it {alone:.2g}, and how temperature and wind go together "
+            f"changes that by a factor of {line['real_over_at_mean']:.2f}. {OFFSET:g} K between "
+            f"sensor and oil, which nobody measures, change {noun} by a factor of "
+            f"{min(ends):.2g} to {max(ends):.2g}."
+        )
+        limits.append(
+            f"{noun.capitalize()} itself is known to a factor of {line['factor']:g} "
+            f"({OF_NUMBER[yearly.name].reason}), which is the same in all these years: ratios are "
+            "surer than values."
+        )
+    return [*sentences, oil, *limits]
 
 
 def real_year_page(real_year: RealYear) -> str:
@@ -70,7 +87,7 @@ def real_year_page(real_year: RealYear) -> str:
     of_first = bins[bins["design"] == first]
     bodies = {
         "numbers": text.numbers(_table(real_year.table)),
-        "where": text.where(_maps(of_first), _coarse(of_first)),
+        "where": text.where(_maps(of_first, tuple(_SHARED)), _coarse(of_first)),
         "how": text.how(),
     }
     table = real_year.table[real_year.table["design"] == first]
@@ -78,7 +95,7 @@ def real_year_page(real_year: RealYear) -> str:
         text.answer(verdict(real_year), real_year.notes),
         [
             picture(plot_over_fixed, "A year over one at 35 °C", table, legend="below"),
-            *_maps(of_first)[2:],
+            *_maps(of_first, _FIRST),
         ],
     )
     of_designs = ""
@@ -88,18 +105,18 @@ def real_year_page(real_year: RealYear) -> str:
     return render("A real year", subtitle, opening, sections(_TEMPLATE, bodies))
 
 
-def _maps(bins: pd.DataFrame) -> list[Picture]:
-    """Time, energy and wear over wind speed and temperature of the oil."""
+def _maps(bins: pd.DataFrame, columns: tuple[str, ...]) -> list[Picture]:
+    """Columns of `_SHARED` over wind speed and temperature of the oil, as far as they are known."""
     turning = bins[bins["state"] == "turning"]
     return [
         picture(
             plot_over_wind_and_temperature,
-            f"{title.capitalize()} over wind speed and temperature of the oil",
+            f"{_SHARED[column].capitalize()} over wind speed and temperature of the oil",
             turning,
             column,
-            title,
+            _SHARED[column],
         )
-        for column, title in _SHARED.items()
+        for column in columns
         if _is_known(turning, column)
     ]
 
@@ -131,7 +148,7 @@ def _table(table: pd.DataFrame) -> Table:
 
 
 def _coarse(bins: pd.DataFrame) -> Table:
-    """Shares of production's time, energy and wear by wind speed."""
+    """Shares of production's time, energy and damage by wind speed."""
     turning = bins[bins["state"] == "turning"]
     columns = [column for column in _SHARED if _is_known(turning, column)]
     sums = turning.groupby("wind_speed [m/s]")[columns].sum()

@@ -30,6 +30,8 @@ from macroslip.report.study_figures import (
     plot_lifetime,
 )
 from macroslip.report.style import OPENING, Picture, picture, scaled
+from macroslip.result.criteria import YEARLY
+from macroslip.result.criteria.criterion import PageColumn
 from macroslip.result.plausibility import JUDGED, doubtful_result
 from macroslip.result.surface_maps import energy_density
 from macroslip.study.aggregation import Aggregation, aggregation_in_use
@@ -74,18 +76,18 @@ _EXTREMES = {
     "peak_power_max": "largest frictional power [W]",
     "lowest_spin_ratio": "lowest spin / pure rolling [–]",
 }
-#: Columns of the table of designs: factor to the unit that is shown, and heading.
-_SHOWN = {
-    "energy": (1e-6, "energy, both rows [MJ/year]"),
-    "wear": (1e6, "wear at k = 1e-17 m²/N [µm/year]"),
-    "entries": (1.0, "entries under slip [1/year]"),
-    "mixed_time": (100.0, "time with Λ < 1 [%]"),
-    "pressure_slip": (1.0, "friction energy / FE8 test"),
-    "entry_slip": (1.0, "smearing: largest slip at entry"),
-    "peak": (1.0, "largest power [W]"),
-    "basic_life": (1.0 / HOURS_A_YEAR, "life L10 [years]"),
-    "modified_reference_life": (1.0 / HOURS_A_YEAR, "modified reference life [years]"),
+#: Columns of the table of designs by the names of `macroslip.study.year.designs`.
+_DESIGN_COLUMNS = {
+    "energy": PageColumn("energy, both rows [MJ/year]", 1e-6),
+    **{yearly.name: yearly.in_designs for yearly in YEARLY if yearly.in_designs.heading},
+    "peak": PageColumn("largest power [W]"),
+    "basic_life": PageColumn("life L10 [years]", 1.0 / HOURS_A_YEAR),
+    "modified_reference_life": PageColumn("modified reference life [years]", 1.0 / HOURS_A_YEAR),
 }
+#: Columns of criteria in the table of situations by the names of `macroslip.study.year.year`.
+_YEAR_COLUMNS = {yearly.name: yearly.in_year for yearly in YEARLY if yearly.in_year.heading}
+#: Quantities of whose effects there is a figure.
+_FIRST = ("energy", *(yearly.name for yearly in YEARLY if yearly.leads))
 _TEMPLATE = "study.html"
 
 
@@ -271,13 +273,13 @@ def _ranking(study: xr.Dataset, wind: Weibull | BinProbabilities | None) -> list
 
 
 def _shown(name: str, value: float) -> str:
-    value *= _SHOWN[name][0]
+    value *= _DESIGN_COLUMNS[name].factor
     return "> 500" if name.endswith("life") and value > 500.0 else number(value, 3)
 
 
 def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
     """The first designs of `macroslip.study.year.designs`, which have the least energy."""
-    columns = [name for name in _SHOWN if name in table]
+    columns = [name for name in _DESIGN_COLUMNS if name in table]
     shown = table.loc[:, columns].head(most)
     rows = []
     for rank, (group, values) in enumerate(shown.to_dict("index").items(), start=1):
@@ -286,10 +288,11 @@ def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
         rows.append((f"{rank} {name}" if name else "the study", *cells))
     more = f"; the first {most} of {len(table)}" if len(table) > most else ""
     about = (
-        "Designs by energy, the least first; "
-        "wear, mixed film, friction energy, slip and power of the worse row"
+        "Designs by energy, the least first; energy and entries of both rows, all else of the worse "
+        "row"
     )
-    return Table(("design", *(_SHOWN[name][1] for name in columns)), rows, f"{about}{more}")
+    headings = (_DESIGN_COLUMNS[name].heading for name in columns)
+    return Table(("design", *headings), rows, f"{about}{more}")
 
 
 def _effects(
@@ -315,7 +318,7 @@ def _effects(
             name,
             **OPENING,
         )
-        for name in ("energy", "wear")
+        for name in _FIRST
         if name in drivers.quantity
     ]
     return _driver(drivers), text.effects(table, pictures), pictures
@@ -324,8 +327,8 @@ def _effects(
 def _effect_line(effect_of_quantity: xr.Dataset) -> tuple[str, ...]:
     """A quantity with its range and the effect of every parameter."""
     name = effect_of_quantity.quantity.item()
-    other = (1.0, f"{name.replace('_', ' ')} [{effect_of_quantity.units.item()}]")
-    scale, heading = _SHOWN.get(name, other)
+    other = PageColumn(f"{name.replace('_', ' ')} [{effect_of_quantity.units.item()}]")
+    column = _DESIGN_COLUMNS.get(name, other)
     cells = []
     for parameter in effect_of_quantity.parameter.values:
         of_parameter = effect_of_quantity.sel(parameter=parameter)
@@ -335,8 +338,8 @@ def _effect_line(effect_of_quantity: xr.Dataset) -> tuple[str, ...]:
         known = np.isfinite(rank)
         cells.append(f"{effect:+.3g} ± {error:.2g} % (ρ {rank:.2f})" if known else "–")
     return (
-        heading,
-        " … ".join(number(scale * end, 3) for end in effect_of_quantity["range"].values),
+        column.heading,
+        " … ".join(number(column.factor * end, 3) for end in effect_of_quantity["range"].values),
         *cells,
     )
 
@@ -355,30 +358,19 @@ def _driver(drivers: xr.Dataset) -> Markup | str:
     )
 
 
-#: Sums of a year that a table of situations shows: by name, heading and factor to its unit.
-_SUMS = {
-    "entries": ("entries under slip", 1.0),
-    "wear": ("wear [µm]", 1e6),
-    "mixed_time": ("Λ < 1 [h]", 1.0 / 3600.0),
-}
-
-
 def _year(annual: xr.Dataset, names: list[str]) -> Table:
     """Hours, energies and sums of every design and situation of a year."""
-    sums = {name: shown for name, shown in _SUMS.items() if name in annual}
+    criteria = [name for name in _YEAR_COLUMNS if _is_known(annual, name)]
     rows = []
     for group, bin_number in np.ndindex(annual.sizes["group"], annual.sizes["bin"]):
         here = annual.isel(group=group, bin=bin_number)
         energy = here.energy.sum("row", skipna=False)
         share = 100.0 * energy / here.total.sum("row", skipna=False)
         values = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
-        for name, (_, factor) in sums.items():
-            both = (
-                here[name].sum(skipna=False)
-                if DESIGN_COLUMNS[name].drawn == "sum"
-                else here[name].max(skipna=False)
-            )
-            values.append(factor * both)
+        for name in criteria:
+            is_sum = DESIGN_COLUMNS[name].drawn == "sum"
+            over_rows = here[name].sum if is_sum else here[name].max
+            values.append(_YEAR_COLUMNS[name].factor * over_rows(skipna=False))
         cells = (number(float(value)) for value in values)
         rows.append((names[group], situation(annual, bin_number), *cells))
     sides = annual.row.values.tolist()
@@ -390,10 +382,18 @@ def _year(annual: xr.Dataset, names: list[str]) -> Table:
         "share of it [%]",
         *(f"in an hour {row} [J]" for row in sides),
         "largest power [W]",
-        *(heading for heading, _ in sums.values()),
+        *(_YEAR_COLUMNS[name].heading for name in criteria),
     )
-    about = "A year: energies of a mean roller; wear and Λ < 1 of the worse row"
+    about = "A year: energies of a mean roller; entries of both rows, other damage of the worse row"
     return Table(headings, rows[:_MOST_LINES], about)
+
+
+def _is_known(annual: xr.Dataset, name: str) -> bool:
+    """True if a year has a number for any situation that has a part of it."""
+    if name not in annual:
+        return False
+    counted = annual[name].where(annual.hours > 0.0)
+    return bool(counted.notnull().any())
 
 
 def _extremes(study: xr.Dataset) -> list[dict[str, Any]]:

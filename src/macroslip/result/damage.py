@@ -9,17 +9,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from macroslip.constants import YEAR
-from macroslip.damage import smearing, wear
+from macroslip.damage import wear
 from macroslip.errors import InputError
-from macroslip.measures.along import FILM_EDGES
 from macroslip.result.criteria import CRITERIA
-from macroslip.result.criteria.criterion import Threshold, Variables
+from macroslip.result.criteria.criterion import Threshold, Values
 from macroslip.result.criteria.evaluation import SURFACES, Evaluation
-from macroslip.result.criteria.friction_energy import LARGEST_POWER, LEAST_POWER
-from macroslip.result.criteria.wear import AGES
 from macroslip.result.run_input import run_input, stored_settings
-from macroslip.result.variables import described
+from macroslip.variables import ALWAYS, Variable, VariableTable
 
 _NO_DETAILS = (
     "The result keeps no details of its contacts, from which damage is computed: it needs laws "
@@ -36,6 +32,46 @@ _NO_ORBIT = (
     "No roller completed an orbit in the window, so nothing is said of a year like it: energies "
     "and wear of a part of an orbit "
     "depend on where the rollers were. Give loads that last for some orbits."
+)
+_PER_CRITERION = ("criterion",)
+#: Variables of the answer: of each criterion its own, and a line.
+DAMAGE = VariableTable(
+    "Criteria of damage, `macroslip.result.damage.damage`",
+    (
+        *(variable for criterion in CRITERIA for variable in criterion.declares),
+        Variable(
+            "value", _PER_CRITERION, "see unit", ALWAYS, "worst value of either row and any place"
+        ),
+        Variable("factor", _PER_CRITERION, "1", ALWAYS, "the value holds within this factor"),
+        Variable(
+            "reference",
+            _PER_CRITERION,
+            "see unit",
+            ALWAYS,
+            "what it is compared with; NaN where nothing could be traced",
+        ),
+        Variable(
+            "reference_low",
+            _PER_CRITERION,
+            "see unit",
+            ALWAYS,
+            "least reference that its source leaves open",
+        ),
+        Variable(
+            "reference_high",
+            _PER_CRITERION,
+            "see unit",
+            ALWAYS,
+            "largest reference that its source leaves open",
+        ),
+        Variable(
+            "ratio",
+            _PER_CRITERION,
+            "1",
+            ALWAYS,
+            "value over reference; of a time reference over value",
+        ),
+    ),
 )
 #: Columns of a line of the answer, in their order.
 _COLUMNS = (
@@ -101,10 +137,9 @@ def damage(
         wear_coefficients=_coefficients(wear_coefficients, hardness),
         wear_is_asked_for=wear_coefficients is not None,
     )
-    variables: Variables = {}
+    values: Values = {}
     for criterion in CRITERIA:
-        variables |= criterion.variables(evaluation)
-    values = {name: variable[1] for name, variable in variables.items()}
+        values |= criterion.variables(evaluation)
     missing = [*_few_rollers(evaluation), *_failed(result)]
     if not evaluation.tells_of_year:
         missing.append(_NO_ORBIT)
@@ -113,7 +148,7 @@ def damage(
             missing += criterion.missing(evaluation, values)
     references = {work for criterion in CRITERIA for work in criterion.references}
     return xr.Dataset(
-        variables | _answer(evaluation, values),
+        DAMAGE.put(values | _answer(evaluation, values)),
         _coordinates(evaluation),
         {
             "title": f"Criteria of damage: {result.attrs.get('title', '')}",
@@ -188,26 +223,21 @@ def _failed(result: xr.Dataset) -> list[str]:
     return [f"{failed} rollers failed: their rows have no maps, and their entries are left out."]
 
 
-def _answer(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> Variables:
+def _answer(evaluation: Evaluation, values: Mapping[str, np.ndarray]) -> Values:
     """Value, factor, reference and ratio of every criterion."""
-    value = np.array([criterion.value(variables) for criterion in CRITERIA])
+    value = np.array([criterion.value(values) for criterion in CRITERIA])
     reference = np.array([evaluation.reference(criterion) for criterion in CRITERIA])
     lowest = np.array([criterion.lowest for criterion in CRITERIA])
-    factor = [criterion.factor for criterion in CRITERIA]
+    ranges = np.array([evaluation.reference_range(criterion) for criterion in CRITERIA])
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(lowest, reference / value, value / reference)
-    over = ("criterion",)
-    worst = described("see unit", "worst value of either row and any place")
-    compared = described("see unit", "what it is compared with; NaN where nothing could be traced")
     return {
-        "value": (over, value, worst),
-        "factor": (over, factor, described("1", "the value holds within this factor")),
-        "reference": (over, reference, compared),
-        "ratio": (
-            over,
-            ratio,
-            described("1", "value over reference; of a time reference over value"),
-        ),
+        "value": value,
+        "factor": [criterion.factor for criterion in CRITERIA],
+        "reference": reference,
+        "reference_low": ranges[:, 0],
+        "reference_high": ranges[:, 1],
+        "ratio": ratio,
     }
 
 
@@ -220,24 +250,17 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
             return source
         return f"your threshold: {own.source}"
 
-    coefficients = evaluation.wear_coefficients
     compared = [compared_with(criterion.name, criterion.compared_with) for criterion in CRITERIA]
-    low = LEAST_POWER
-    high = LARGEST_POWER
-    rig = smearing.RIG_SLIDE_ROLL_RATIO
-    return {
+    coordinates: dict[str, Any] = {
         "row": result.row,
         "surface": list(SURFACES),
         "raceway": result.raceway,
         "station": result.station,
-        "film_ratio": (
-            "film_ratio",
-            list(FILM_EDGES),
-            described("1", "upper limit of Lambda"),
-        ),
-        "wear_coefficient": ("wear_coefficient", coefficients, described("m2/N", "k")),
-        "depth": ("depth", list(wear.DEPTHS), described("m", "depth of wear")),
-        "age": ("age", np.array(AGES) * YEAR, described("s", "time like this window")),
+    }
+    for criterion in CRITERIA:
+        if criterion.coordinates is not None:
+            coordinates |= criterion.coordinates(evaluation)
+    return coordinates | {
         "criterion": [criterion.name for criterion in CRITERIA],
         "title": ("criterion", [criterion.title for criterion in CRITERIA]),
         "mechanism": ("criterion", [criterion.mechanism for criterion in CRITERIA]),
@@ -246,13 +269,6 @@ def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
         "unit": ("criterion", [criterion.unit for criterion in CRITERIA]),
         "compared_with": ("criterion", compared),
         "how_sure": ("criterion", [criterion.how_sure for criterion in CRITERIA]),
-        "reference_power_low": (
-            (),
-            low,
-            described("W/m2", "e_a of the FE8 test, logarithmic profile"),
-        ),
-        "reference_power_high": ((), high, described("W/m2", "e_a of the FE8 test, even load")),
-        "rig_slide_roll_ratio": ((), rig, described("1", "onset of smearing on a rig")),
     }
 
 

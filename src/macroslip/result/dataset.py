@@ -32,6 +32,7 @@ from macroslip.loads import BearingLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.measures.along import STATIONS
 from macroslip.measures.cage import SIDES, CageMeasures
+from macroslip.measures.extremes import EXTREMES
 from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
 from macroslip.result import skew, surface_maps
@@ -47,11 +48,10 @@ from macroslip.result.variables import (
     TAPERED_TRACES,
     VARIABLES,
     WHOLE_TRACES,
-    described,
-    with_attributes,
 )
 from macroslip.ring.axial import reversal_rate, travel_rate
 from macroslip.roller.model import TableReport
+from macroslip.variables import described
 from macroslip.whole.model import WholeBearing
 
 #: Works that every result is based on.
@@ -68,8 +68,6 @@ _TIME = described("s", "time")
 #: Axial load over the static load rating up to which its sign does not count [-]. A twentieth of
 #: the radial load of the base bearing; a thrust that is smaller hardly moves the ring.
 _DEAD_BAND = 1e-3
-#: Counts of an integrator by name of the variable, and their fields of an `Outcome`.
-_COUNTS = dict(zip(COUNTS, ("steps", "rejections", "evaluations"), strict=True))
 
 
 class Measured(NamedTuple):
@@ -158,8 +156,6 @@ def whole_dataset(
     if warning := open_books(cages.books):
         attributes["books_warning"] = warning
     result = _dataset(values, coordinates, attributes)
-    for name in COUNTS:
-        result[name].attrs["long_name"] += ", of all rollers together"
     result.start_angle.attrs["long_name"] = (
         "pocket's position at the first sample, from +X0 towards +Y0"
     )
@@ -169,7 +165,7 @@ def whole_dataset(
 def _dataset(
     values: dict[str, Any], coordinates: dict[str, Any], attributes: dict[str, Any]
 ) -> xr.Dataset:
-    data = with_attributes(values)
+    data = VARIABLES.put(values)
     # Meanings of the numbers, in the form of the CF conventions.
     data["status"][-1].update(
         flag_values=np.array([int(status) for status in Status], dtype=np.int8),
@@ -344,7 +340,7 @@ def _window_values(table: Table) -> dict[str, Any]:
         "outside_asperity_range": outside[:, :, 1],
         "mean_film_load": films,
         "status": outcome("status").astype(np.int8),
-        **{name: outcome(field) for name, field in _COUNTS.items()},
+        **{name: outcome(field) for name, field in COUNTS.items()},
         "unbalanced_force": outcome("unbalanced"),
         "end_time": outcome("time"),
         "end_slip": _each(table, lambda roller: roller.measures.end_slip),
@@ -357,19 +353,17 @@ def _contact_details(table: Table) -> dict[str, np.ndarray]:
     quadrature = _gathered(table, "quadrature", "details")
     extreme[np.isinf(extreme)] = np.nan
     # Orbits in which no entry was looked at.
-    last = entry[..., -1]
-    entry[np.isinf(last)] = np.nan
+    thinnest = entry[..., EXTREMES.index("film_ratio")]
+    entry[np.isinf(thinnest)] = np.nan
     fine, off = np.moveaxis(quadrature, -1, 0)
     with np.errstate(invalid="ignore", divide="ignore"):
         error = np.where(fine > 0.0, off / fine, np.nan)
     details = [[roller.measures.details for roller in line] for line in table]
-    of_orbits = np.moveaxis(extreme, -1, 0)
-    at_entries = np.moveaxis(entry, -1, 0)
     return {
         "station_energy": _gathered(table, "station_energy", "details"),
-        **dict(zip(ORBIT_EXTREMES, of_orbits, strict=True)),
+        **{name: extreme[..., EXTREMES.index(measure)] for measure, name in ORBIT_EXTREMES.items()},
         "entries": _gathered(table, "entries", "details"),
-        **dict(zip(ENTRY_EXTREMES, at_entries, strict=True)),
+        **{name: entry[..., EXTREMES.index(measure)] for measure, name in ENTRY_EXTREMES.items()},
         "quadrature_error": error,
         **surface_maps.values(details, _failed(table)),
     }

@@ -16,6 +16,8 @@ from macroslip.bearing import geometry
 from macroslip.constants import SECTORS
 from macroslip.errors import InputError
 from macroslip.result.run_input import run_input
+from macroslip.result.variables import VARIABLES, WHOLE
+from macroslip.variables import ALWAYS, Variable, VariableTable, described
 
 #: Most samples of time from which quantiles are taken.
 _QUANTILE_SAMPLES = 2400
@@ -23,7 +25,59 @@ _QUANTILE_SAMPLES = 2400
 SCENE_SAMPLES = 2400
 SCENE_STEP = 0.05
 _ORDER = ("row", "roller", "time")
-_ANGLE = {"units": "degree", "long_name": "angle from the bottom along the orbit"}
+_ANGLE = described("degree", "angle from the bottom along the orbit")
+_QUANTILES = ("row", "interface", "quantile", "angle")
+_ROLLERS = ("row", "roller")
+#: Averages over the orbit.
+AVERAGES = VariableTable(
+    "Averages over the orbit, `macroslip.result.orbit.orbit_profile`",
+    (
+        Variable(
+            "energy_over_orbit",
+            ("row", "interface", "angle"),
+            "J/degree",
+            ALWAYS,
+            "energy per orbit and per degree of the orbit",
+        ),
+        VARIABLES["film_thickness"]._replace(dims=_QUANTILES, when=ALWAYS),
+        Variable(
+            "film_parameter",
+            _QUANTILES,
+            "1",
+            ALWAYS,
+            "film thickness over composite roughness, Λ",
+        ),
+        Variable(
+            "slip",
+            ("row", "quantile", "angle"),
+            "1",
+            ALWAYS,
+            "slip over the speed of the raceways",
+        ),
+        Variable("roller_load", ("row", "time", "angle"), "N", ALWAYS, "load of the rollers"),
+    ),
+)
+#: A part of the traces, as 32-bit numbers.
+SCENE = VariableTable(
+    "Part of the traces that a page plays, `macroslip.result.orbit.scene`",
+    (
+        *(VARIABLES[name] for name in ("slip", "roller_load")),
+        Variable("power", _ORDER, "W", ALWAYS, "frictional power, all interfaces, at the instant"),
+        *(VARIABLES[name] for name in ("cage_force", "pocket_offset")),
+        Variable("cage_lead", ("row", "time"), "degree", WHOLE, "cage ahead of pure rolling"),
+        Variable("angle", _ROLLERS, "degree", ALWAYS, _ANGLE["long_name"]),
+        Variable("travelled", ("time",), "degree", ALWAYS, "angle travelled since the start"),
+    ),
+)
+#: The bearing at one moment.
+STILL = VariableTable(
+    "The bearing at the moment of the largest power, `macroslip.result.orbit.still`",
+    (
+        Variable("angle", _ROLLERS, "degree", ALWAYS, _ANGLE["long_name"]),
+        Variable("slip", _ROLLERS, "1", ALWAYS, "slip over the speed of the raceways"),
+        VARIABLES["roller_load"]._replace(dims=_ROLLERS, when=ALWAYS),
+    ),
+)
 
 
 def position(result: xr.Dataset) -> xr.DataArray:
@@ -137,8 +191,7 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
             values[row, interface] = _evenly_passed(in_sector, passed) / degrees
     traced = (power[completed] * seconds[:, None]).sum()
     integrated = result.energy.values[completed].sum()
-    about = {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit"}
-    about |= {
+    about = AVERAGES["energy_over_orbit"].attributes | {
         "energy_ratio": float(traced / integrated) if integrated else math.nan,
         "orbits": float(orbits),
     }
@@ -164,8 +217,10 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
         known = angle.values[r, :, k]
         values[r, k] = np.interp(middles, known, load_of_samples, period=360.0)
     labels = {"row": result.row, "time": angle.time, "angle": dims}
-    about = {"units": "N", "long_name": "load of the rollers"}
-    return xr.DataArray(values, labels, ("row", "time", "angle"), "roller_load", about)
+    load_over_orbit = AVERAGES["roller_load"]
+    return xr.DataArray(
+        values, labels, load_over_orbit.dims, load_over_orbit.name, load_over_orbit.attributes
+    )
 
 
 def over_orbit(
@@ -239,11 +294,11 @@ def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
         slip = 1.0 - traced.spin / traced.spin_pure
     slip = slip.expand_dims(interface=["raceways"], axis=-1)
     slip_over_orbit = over_orbit(slip, angle)
-    orbit["slip"] = slip_over_orbit.isel(interface=0, drop=True)
-    about = {"units": "1", "long_name": "film thickness over composite roughness, Λ"}
+    over_rollers = slip_over_orbit.isel(interface=0, drop=True)
+    orbit["slip"] = over_rollers.assign_attrs(AVERAGES["slip"].attributes)
     roughness = run_input(result).bearing.composite_roughness
     film_parameter = thickness / roughness
-    orbit["film_parameter"] = film_parameter.assign_attrs(about)
+    orbit["film_parameter"] = film_parameter.assign_attrs(AVERAGES["film_parameter"].attributes)
     return {
         "result": result.drop_dims("time"),
         "orbit": orbit,
@@ -265,6 +320,7 @@ def still(result: xr.Dataset) -> xr.Dataset:
     largest = int(power.argmax("time"))
     moment = result.sel(time=power.time[largest])
     slip = 1.0 - moment.spin / moment.spin_pure
+    slip = slip.assign_attrs(STILL["slip"].attributes)
     values = {"angle": angle.sel(time=moment.time), "slip": slip}
     return xr.Dataset(values | {"roller_load": moment.roller_load})
 
@@ -300,18 +356,13 @@ def scene(
     played = xr.Dataset(
         {name: variable.transpose(*_ORDER).astype(np.float32) for name, variable in values.items()}
     )
-    played.power.attrs = {
-        "units": "W",
-        "long_name": "frictional power, all interfaces, at the instant",
-    }
+    played.power.attrs = SCENE["power"].attributes
     if "pocket_offset" in thin:
         pitch_radius = run_input(result).bearing.pitch_radius
         lag = thin.cage_lag.transpose("cage", "time").values
         lead = np.degrees(lag / pitch_radius).astype(np.float32)
         of_rows = np.broadcast_to(lead, (result.sizes["row"], lead.shape[1]))
-        about = {"units": "degree", "long_name": "cage ahead of pure rolling"}
-        played["cage_lead"] = (("row", "time"), of_rows, about)
+        played["cage_lead"] = SCENE["cage_lead"].of(of_rows)
     played["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
     moved = turned[every][part]
-    about = {"units": "degree", "long_name": "angle travelled since the start"}
-    return played.assign(travelled=("time", moved - moved[0], about))
+    return played.assign(travelled=SCENE["travelled"].of(moved - moved[0]))

@@ -24,9 +24,9 @@ from macroslip.kinds import kind_of
 from macroslip.loads import RollerLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
-from macroslip.result.variables import described
 from macroslip.ring.balance import RingGeometry, balance, tangent_stiffness
 from macroslip.roller.model import ring_geometry, roller_model
+from macroslip.variables import ALWAYS, Variable, VariableTable
 
 LOADS = ("F_X0", "F_Y0", "F_Z0", "M_X0", "M_Y0")
 MOTIONS = ("d_X0", "d_Y0", "d_Z0", "tilt_X0", "tilt_Y0")
@@ -45,6 +45,43 @@ _UNBALANCED = 1e-8
 #: Smallest over largest eigenvalue of the stiffness of displacements from which on rollers hold the
 #: ring.
 _HELD = 1e-9
+
+
+#: All variables of `ring_stiffness`.
+STIFFNESS = VariableTable(
+    "Stiffness of a bearing, `macroslip.result.stiffness.ring_stiffness`",
+    (
+        Variable("force", ("point", "axis"), "N", ALWAYS, "load on the ring"),
+        Variable(
+            "displacement",
+            ("point", "axis"),
+            "m",
+            ALWAYS,
+            "displacement of the inner ring, mean over a pitch of the rollers",
+        ),
+        Variable(
+            "stiffness",
+            ("point", "load", "motion"),
+            "see units",
+            ALWAYS,
+            "change of the load on the inner ring with its motion, at the bearing's centre",
+        ),
+        Variable(
+            "variation",
+            ("point",),
+            "1",
+            ALWAYS,
+            "largest change of an entry over a pitch, over the largest entry",
+        ),
+        Variable(
+            "held",
+            ("point",),
+            "1",
+            ALWAYS,
+            "1 where loaded rollers hold the ring in every direction",
+        ),
+    ),
+)
 
 
 def ring_stiffness(cases: Mapping[str, Case]) -> xr.Dataset:
@@ -94,28 +131,9 @@ def ring_stiffness(cases: Mapping[str, Case]) -> xr.Dataset:
     stacked = {}
     for key in points[0]:
         stacked[key] = np.array([point[key] for point in points])
-    over = ("point", "load", "motion")
-    about = "change of the load on the inner ring with its motion, at the bearing's centre"
+    stacked["held"] = stacked["held"].astype(np.int8)
     return xr.Dataset(
-        {
-            "force": (("point", "axis"), stacked["force"], described("N", "load on the ring")),
-            "displacement": (
-                ("point", "axis"),
-                stacked["displacement"],
-                described("m", "displacement of the inner ring, mean over a pitch of the rollers"),
-            ),
-            "stiffness": (over, stacked["stiffness"], described("see units", about)),
-            "variation": (
-                "point",
-                stacked["variation"],
-                described("1", "largest change of an entry over a pitch, over the largest entry"),
-            ),
-            "held": (
-                "point",
-                stacked["held"].astype(np.int8),
-                described("1", "1 where loaded rollers hold the ring in every direction"),
-            ),
-        },
+        STIFFNESS.put({name: stacked[name] for name in STIFFNESS}),
         {
             "axis": ["X0", "Y0", "Z0"],
             "load": list(LOADS),

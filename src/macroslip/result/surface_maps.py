@@ -25,6 +25,7 @@ from macroslip.kinds import kind_of
 from macroslip.measures.along import FILM_EDGES, SLIP_EDGES, STATIONS
 from macroslip.measures.details import Details
 from macroslip.measures.maps import FILM_REGIMES, SLIP_SIGNS
+from macroslip.variables import described
 
 
 def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.ndarray]:
@@ -62,10 +63,9 @@ def coordinates(bearing: AnyBearing) -> dict[str, Any]:
     """Angles, areas of the cells, and names of the parts of the energy."""
     sector = 2.0 * math.pi / SECTORS
     angle = (np.arange(SECTORS) + 0.5) * sector
-    about = {
-        "units": "rad",
-        "long_name": "angle on the raceway, outer: from +X0 to +Y0, inner: the same on the ring",
-    }
+    about = described(
+        "rad", "angle on the raceway, outer: from +X0 to +Y0, inner: the same on the ring"
+    )
     # The radius of a place from the bearing's axis changes along the roller.
     edges = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
     middles = 0.5 * (edges[1:] + edges[:-1])
@@ -81,7 +81,7 @@ def coordinates(bearing: AnyBearing) -> dict[str, Any]:
             for radius in (inner_radius, outer_radius)
         )
         areas.append([along * sector * width for along in radii])
-    area = {"units": "m2", "long_name": "area of a place of the raceway"}
+    area = described("m2", "area of a place of the raceway")
     return {
         "angle": ("angle", angle, about),
         "slip_sign": list(SLIP_SIGNS),

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from macroslip.variables import ALWAYS, Variable, VariableTable
 
 #: When a variable is there.
-ALWAYS = "always"
 NO_ORBIT = "where no orbit is complete"
 AXIAL = "with two rows of rollers, whose loads follow from the load on the ring"
 ASPERITIES = "with `laws: {asperities: masjedi-khonsari}`"
@@ -33,704 +32,739 @@ _PLACES = (*_ROWS, "raceway", "angle", "station")
 _CLASSES = (*_ROWS, "raceway", "film_class", "slip_class")
 
 
-class Variable(NamedTuple):
-    """A variable of a result."""
-
-    name: str
-    dims: tuple[str, ...]
-    units: str
-    when: str  #: When it is there
-    long_name: str
-
-    def of(self, values: Any) -> tuple[tuple[str, ...], Any, dict[str, str]]:
-        """The values as xarray takes them, with their attributes."""
-        return self.dims, values, described(self.units, self.long_name)
-
-
-def described(units: str, long_name: str) -> dict[str, str]:
-    """Attributes of a variable."""
-    return {"units": units, "long_name": long_name}
-
-
-_TABLE = (
-    Variable("energy", _INTERFACES, "J", ALWAYS, "energy dissipated by friction in the window"),
-    Variable(
-        "rolling_energy",
-        _INTERFACES,
-        "J",
-        ALWAYS,
-        "energy dissipated by rolling resistance in the window, apart from the energy of friction",
-    ),
-    Variable(
-        "inlet_temperature", (), "K", ALWAYS, "temperature of the oil at the inlets of the contacts"
-    ),
-    Variable(
-        "orbit_energy", _ORBITS, "J", ALWAYS, "energy dissipated by friction in each complete orbit"
-    ),
-    Variable("peak_power", _ORBITS, "W", ALWAYS, "largest frictional power in each complete orbit"),
-    Variable(
-        "window_peak_power",
-        _INTERFACES,
-        "W",
-        ALWAYS,
-        "largest frictional power in the window, incomplete orbits included",
-    ),
-    Variable(
-        "peak_power_by_position",
-        ("row", "interface", "position"),
-        "W",
-        NO_ORBIT,
-        "largest frictional power in the window by place on the orbit, over all rollers; "
-        "where no orbit is complete",
-    ),
-    Variable(
-        "min_spin_ratio",
-        _ROLLERS,
-        "1",
-        ALWAYS,
-        "smallest ratio of spin to spin in pure rolling in the window, where the shaft "
-        "turns at a tenth or more of its highest speed and the raceways pass at 1 mm/s or "
-        "more",
-    ),
-    Variable(
-        "outside_film_range",
-        _INTERFACES,
-        "1",
-        ALWAYS,
-        "share of loaded time in which load or speed lay outside the film law's range",
-    ),
-    Variable(
-        "outside_asperity_range",
-        _INTERFACES,
-        "1",
-        ASPERITIES,
-        "share of loaded time in which load lay outside the range of the law of "
-        "asperities, where their share is bounded by that of the film ratio",
-    ),
-    Variable(
-        "mean_film_load",
-        _ROLLERS,
-        "N",
-        ALWAYS,
-        "mean load in the window that films of oil carry beside the rings' elastic load; "
-        "the balance of the rings does not know it",
-    ),
-    Variable(
-        "axial_travel",
-        (),
-        "m/h",
-        AXIAL,
-        "way of the inner ring along Z0 in the window, forth and back, over its duration",
-    ),
-    Variable(
-        "thrust_reversals",
-        (),
-        "1/h",
-        AXIAL,
-        "changes of the sign of the axial load in the window over its duration, beyond a dead "
-        "band of 0.1 % of the static load rating of ISO 76 to either side",
-    ),
-    Variable(
-        "rib_energy",
-        _ROLLERS,
-        "J",
-        TAPERED,
-        "energy dissipated by friction at the rib in the window, beside the energy by interface",
-    ),
-    Variable(
-        "rib_asperity_energy",
-        _ROLLERS,
-        "J",
-        TAPERED,
-        "part of the energy at the rib in the window that asperities dissipate",
-    ),
-    Variable(
-        "rib_orbit_energy",
-        (*_ROLLERS, "orbit"),
-        "J",
-        TAPERED,
-        "energy dissipated by friction at the rib in each complete orbit",
-    ),
-    Variable(
-        "rib_peak_power",
-        (*_ROLLERS, "orbit"),
-        "W",
-        TAPERED,
-        "largest frictional power at the rib in each complete orbit",
-    ),
-    Variable(
-        "largest_rib_force",
-        _ROWS,
-        "N",
-        TAPERED,
-        "largest force of the rib on a roller in the window",
-    ),
-    Variable(
-        "rib_pressure", _ROWS, "Pa", TAPERED, "largest Hertzian pressure at the ribs in the window"
-    ),
-    Variable(
-        "rib_pressure_speed",
-        _ROWS,
-        "W/m2",
-        TAPERED,
-        "largest pressure at the ribs times sliding speed in pure rolling, in the window",
-    ),
-    Variable(
-        "rib_pass_energy",
-        _ROWS,
-        "J/m2",
-        TAPERED,
-        "largest pressure times slip that a place of the rib gets in a pass, in the window",
-    ),
-    Variable(
-        "rib_flash_temperature",
-        _ROWS,
-        "K",
-        TAPERED,
-        "largest flash temperature at the ribs in the window, in pure rolling",
-    ),
-    Variable(
-        "rib_asperity_work",
-        (*_ROWS, "rib_surface"),
-        "W/m2",
-        TAPERED_ASPERITIES,
-        "asperities' pressure times slip per time, mean over the window: depth of wear a second "
-        "over k",
-    ),
-    Variable(
-        "min_rib_film_ratio",
-        _ROWS,
-        "1",
-        TAPERED,
-        "least ratio of film thickness to roughness at the ribs in the window, in pure rolling",
-    ),
-    Variable(
-        "rollers_below_grip",
-        _ROWS,
-        "1",
-        TAPERED,
-        "mean number of rollers in the window whose load is below that of grip",
-    ),
-    Variable(
-        "grip_load",
-        (),
-        "N",
-        TAPERED,
-        "load from which on a raceway drives a roller with less than 1 % of slip, at the mean speed",
-    ),
-    Variable(
-        "least_roller_load", _ROWS, "N", TAPERED, "least elastic load of a roller in the window"
-    ),
-    Variable("largest_tilt", (), "rad", TAPERED, "largest tilt of the inner ring in the window"),
-    Variable(
-        "preload",
-        (),
-        "m",
-        TAPERED,
-        "axial interference of both rows with the temperature difference; negative is play",
-    ),
-    Variable(
-        "preload_change",
-        (),
-        "m",
-        TAPERED,
-        "change of the preload by the temperature difference",
-    ),
-    Variable("status", _ROLLERS, "1", ALWAYS, "outcome of the integration"),
-    Variable("steps", _ROLLERS, "1", ALWAYS, "number of steps of the integrator"),
-    Variable("rejections", _ROLLERS, "1", ALWAYS, "number of rejections of the integrator"),
-    Variable(
-        "force_evaluations", _ROLLERS, "1", ALWAYS, "number of force evaluations of the integrator"
-    ),
-    Variable(
-        "unbalanced_force",
-        _ROLLERS,
-        "N",
-        ALWAYS,
-        "largest force left unbalanced by an accepted implicit step",
-    ),
-    Variable("end_time", _ROLLERS, "s", ALWAYS, "time at which the integration ended"),
-    Variable("end_slip", _ROLLERS, "m/s", ALWAYS, "raceway slip at which the integration ended"),
-    Variable(
-        "mechanism_energy",
-        (*_INTERFACES, "mechanism"),
-        "J",
-        CURVED,
-        "energy in the window by what makes surfaces slide: slip of the middle, "
-        "curvature, contact angle; they add up to the energy, and one may be negative",
-    ),
-    Variable(
-        "asperity_energy",
-        _INTERFACES,
-        "J",
-        CURVED,
-        "part of the energy in the window that asperities dissipate",
-    ),
-    Variable(
-        "station_energy",
-        (*_RACEWAYS, "station"),
-        "J",
-        DETAILS,
-        "energy in the window dissipated at each station along the roller",
-    ),
-    Variable(
-        "flash_temperature",
-        _ORBITS,
-        "K",
-        DETAILS,
-        "largest rise of surface temperature in a contact per orbit",
-    ),
-    Variable(
-        "power_density",
-        _ORBITS,
-        "W/m2",
-        DETAILS,
-        "largest frictional power per contact area per orbit",
-    ),
-    Variable(
-        "slide_roll_ratio",
-        _ORBITS,
-        "1",
-        DETAILS,
-        "largest local slip over entrainment speed per orbit",
-    ),
-    Variable(
-        "min_film_ratio",
-        _ORBITS,
-        "1",
-        DETAILS,
-        "least ratio of film thickness to roughness, Lambda, per orbit",
-    ),
-    Variable(
-        "entries",
-        (*_ROLLERS, "orbit"),
-        "1",
-        DETAILS,
-        "how often the rings begin to press the roller, per orbit",
-    ),
-    Variable(
-        "entry_slide_roll_ratio",
-        _ENTRIES,
-        "1",
-        DETAILS,
-        "largest slide-roll ratio of the middle while entering, per orbit",
-    ),
-    Variable("entry_film_ratio", _ENTRIES, "1", DETAILS, "least Lambda while entering, per orbit"),
-    Variable(
-        "entry_power_density",
-        _ENTRIES,
-        "W/m2",
-        DETAILS,
-        "largest frictional power per contact area while entering, per orbit",
-    ),
-    Variable(
-        "entry_flash_temperature",
-        _ENTRIES,
-        "K",
-        DETAILS,
-        "largest transient rise of surface temperature while entering, per orbit",
-    ),
-    Variable(
-        "quadrature_error",
-        _RACEWAYS,
-        "1",
-        DETAILS,
-        "relative error of the film's power by the quadrature in use, from a finer one at "
-        "states of the run",
-    ),
-    Variable(
-        "surface_energy",
-        (*_PLACES, "slip_sign", "film_regime"),
-        "J",
-        DETAILS,
-        "energy in the window dissipated at each place of a raceway by all simulated "
-        "rollers of the row, by the sign of local slip and by Lambda",
-    ),
-    Variable(
-        "surface_power_density",
-        _PLACES,
-        "W/m2",
-        DETAILS,
-        "largest frictional power per area at each place of a raceway, mean over the "
-        "width of the contact",
-    ),
-    Variable(
-        "surface_asperity_energy",
-        _PLACES,
-        "J",
-        DETAILS,
-        "part of the energy at each place of a raceway that asperities dissipate, of all "
-        "simulated rollers",
-    ),
-    Variable(
-        "surface_work",
-        _PLACES,
-        "J",
-        DETAILS,
-        "pressure times slip over time and area at each place of a raceway, of all "
-        "simulated rollers: the energy in the window that a coefficient of friction of 1 "
-        "would dissipate",
-    ),
-    Variable(
-        "surface_passes",
-        ("row", "raceway", "angle"),
-        "1",
-        DETAILS,
-        "passes of all simulated rollers over each sector of a raceway in the window, "
-        "parts of a pass included",
-    ),
-    Variable(
-        "working_load",
-        ("row", "raceway"),
-        "N",
-        DETAILS,
-        "mean load of the contacts, weighted by pressure times slip",
-    ),
-    Variable(
-        "film_slip_time",
-        _CLASSES,
-        "s",
-        DETAILS,
-        "time under load by Lambda and by slide-roll ratio, times the part of the "
-        "roller's length that has them, of all simulated rollers",
-    ),
-    Variable(
-        "film_slip_passes",
-        _CLASSES,
-        "1",
-        DETAILS,
-        "passes over the ring by Lambda and slide-roll ratio, weighted alike",
-    ),
-    Variable(
-        "spin",
-        _TRACES,
-        "rad/s",
-        TRACES,
-        "spin about the roller's axis, relative to the orbiting frame",
-    ),
-    Variable(
-        "spin_pure",
-        _TRACES,
-        "rad/s",
-        TRACES,
-        "spin in pure rolling, relative to the orbiting frame",
-    ),
-    Variable(
-        "slip",
-        _TRACES,
-        "m/s",
-        TRACES,
-        "slip at the middle of either raceway contact, ring less roller",
-    ),
-    Variable(
-        "raceway_slip",
-        (*_TRACES, "raceway"),
-        "m/s",
-        WHOLE_TRACES,
-        "slip at the middle of a raceway contact",
-    ),
-    Variable(
-        "roller_load", _TRACES, "N", TRACES, "elastic load of the roller, without body forces"
-    ),
-    Variable(
-        "cage_force",
-        _TRACES,
-        "N",
-        TRACES,
-        "normal force of the cage on the roller, positive along the orbit",
-    ),
-    Variable(
-        "traction",
-        (*_TRACES, "interface"),
-        "N",
-        TRACES,
-        "traction on the roller in its spin equation (moment over radius), positive where "
-        "it drives the spin up",
-    ),
-    Variable("power", (*_TRACES, "interface"), "W", TRACES, "frictional power"),
-    Variable(
-        "rolling_power",
-        (*_TRACES, "interface"),
-        "W",
-        TRACES,
-        "power of rolling resistance, apart from that of friction",
-    ),
-    Variable(
-        "film_thickness",
-        (*_TRACES, "interface"),
-        "m",
-        TRACES,
-        "central film thickness; NaN without load",
-    ),
-    Variable(
-        "rib_friction",
-        _TRACES,
-        "N",
-        TAPERED_TRACES,
-        "friction of the rib on the roller, positive where it drives the spin up",
-    ),
-    Variable("rib_power", _TRACES, "W", TAPERED_TRACES, "frictional power at the rib"),
-    Variable(
-        "skew_moment",
-        (*_TRACES, "raceway"),
-        "N m",
-        CURVED_TRACES,
-        "skew moment about the contact normal, positive where traction along +x acts at "
-        "+z'; with skew also that of the pressure on the turned ellipse",
-    ),
-    Variable(
-        "skew_energy",
-        _RACEWAYS,
-        "J",
-        SKEW,
-        "energy in the window beyond that of a straight roller; it is part of the energy, "
-        "and may be negative",
-    ),
-    Variable(
-        "skew_residual",
-        _ROLLERS,
-        "N m",
-        SKEW,
-        "largest moment about the contact normal in the window that neither spar nor stop "
-        "carries at the rest that was found",
-    ),
-    Variable(
-        "stop_energy",
-        _ROLLERS,
-        "J",
-        SKEW,
-        "energy of friction at the two ends of spars that hold a roller at its stop in "
-        "the window; part of the energy at the cage",
-    ),
-    Variable(
-        "frictional_thrust",
-        _ROWS,
-        "N",
-        SKEW,
-        "mean axial force of a row's rollers on the inner ring by friction and turned "
-        "normal force in the window, along +Z0",
-    ),
-    Variable(
-        "skew_by_position",
-        _POSITIONS,
-        "rad",
-        SKEW,
-        "mean skew of pressed rollers in the window by place on the orbit",
-    ),
-    Variable(
-        "axial_force_by_position",
-        _POSITIONS,
-        "N",
-        SKEW,
-        "mean axial force of a pressed roller on the inner ring in the window by place on "
-        "the orbit, along +z'",
-    ),
-    Variable(
-        "skew_power_by_position",
-        _POSITIONS,
-        "W",
-        SKEW,
-        "mean power of a pressed roller beyond that of a straight one in the window by "
-        "place on the orbit",
-    ),
-    Variable(
-        "skew_angle",
-        _TRACES,
-        "rad",
-        SKEW_TRACES,
-        "skew, turn of the roller's axis about +y'; NaN where the rings do not press it",
-    ),
-    Variable(
-        "tilt",
-        _TRACES,
-        "rad",
-        SKEW_TRACES,
-        "tilt, turn of the roller's axis about +x; NaN where the rings do not press it",
-    ),
-    Variable(
-        "axial_force",
-        _TRACES,
-        "N",
-        SKEW_TRACES,
-        "force on the inner ring by friction and turned normal force, along +z'",
-    ),
-    Variable(
-        "stop_force",
-        _TRACES,
-        "N",
-        SKEW_TRACES,
-        "force of either end of the pocket on a roller at its stop",
-    ),
-    Variable(
-        "pocket_impulse",
-        (*_ROLLERS, "side"),
-        "N s",
-        WHOLE,
-        "impulse of a spar on its roller in the window",
-    ),
-    Variable(
-        "largest_pocket_force",
-        (*_ROLLERS, "side"),
-        "N",
-        WHOLE,
-        "largest force of a spar in the window",
-    ),
-    Variable(
-        "pocket_contact_time",
-        (*_ROLLERS, "side"),
-        "s",
-        WHOLE,
-        "time in the window with force on the spar",
-    ),
-    Variable(
-        "largest_force_by_position",
-        _POSITIONS,
-        "N",
-        WHOLE,
-        "largest force of a spar in the window by place on the orbit, over all rollers",
-    ),
-    Variable(
-        "cage_slip",
-        ("cage",),
-        "1",
-        WHOLE,
-        "mean of the cage's speed over that of pure rolling, less one, in the window",
-    ),
-    Variable(
-        "cage_slip_deviation",
-        ("cage",),
-        "1",
-        WHOLE,
-        "standard deviation of the cage's slip in the window",
-    ),
-    Variable("book_momentum", ("book_time",), "N m s", WHOLE, "momentum of rollers and cages"),
-    Variable(
-        "book_kinetic_energy", ("book_time",), "J", WHOLE, "kinetic energy of rollers and cages"
-    ),
-    Variable(
-        "book_elastic_energy", ("book_time",), "J", WHOLE, "elastic energy of rollers and cages"
-    ),
-    Variable(
-        "book_inner_impulse", ("book_time",), "N m s", WHOLE, "inner impulse since the first sample"
-    ),
-    Variable(
-        "book_outer_impulse", ("book_time",), "N m s", WHOLE, "outer impulse since the first sample"
-    ),
-    Variable(
-        "book_body_impulse", ("book_time",), "N m s", WHOLE, "body impulse since the first sample"
-    ),
-    Variable(
-        "book_guide_impulse", ("book_time",), "N m s", WHOLE, "guide impulse since the first sample"
-    ),
-    Variable(
-        "book_eccentric_impulse",
-        ("book_time",),
-        "N m s",
-        WHOLE,
-        "eccentric impulse since the first sample",
-    ),
-    Variable("book_shaft_work", ("book_time",), "J", WHOLE, "shaft work since the first sample"),
-    Variable("book_body_work", ("book_time",), "J", WHOLE, "body work since the first sample"),
-    Variable(
-        "book_cage_weight_work",
-        ("book_time",),
-        "J",
-        WHOLE,
-        "cage weight work since the first sample",
-    ),
-    Variable(
-        "book_raceway_loss", ("book_time",), "J", WHOLE, "raceway loss since the first sample"
-    ),
-    Variable(
-        "book_friction_loss", ("book_time",), "J", WHOLE, "friction loss since the first sample"
-    ),
-    Variable("book_guide_loss", ("book_time",), "J", WHOLE, "guide loss since the first sample"),
-    Variable("book_pocket_work", ("book_time",), "J", WHOLE, "pocket work since the first sample"),
-    Variable(
-        "book_support_work", ("book_time",), "J", WHOLE, "support work since the first sample"
-    ),
-    Variable(
-        "momentum_residual",
-        ("book_time",),
-        "N m s",
-        WHOLE,
-        "change of angular momentum less the impulse of all torques",
-    ),
-    Variable(
-        "energy_residual",
-        ("book_time",),
-        "J",
-        WHOLE,
-        "change of kinetic energy less work done and energy dissipated",
-    ),
-    Variable(
-        "pocket_loss", ("book_time",), "J", WHOLE, "energy dissipated by impacts and squeeze films"
-    ),
-    Variable(
-        "pocket_offset",
-        _TRACES,
-        "m",
-        WHOLE_TRACES,
-        "roller's way ahead of the middle of its pocket",
-    ),
-    Variable(
-        "orbit_speed_deviation",
-        _TRACES,
-        "rad/s",
-        WHOLE_TRACES,
-        "orbit speed less that of pure rolling",
-    ),
-    Variable(
-        "spacing_deviation",
-        _TRACES,
-        "m",
-        WHOLE_TRACES,
-        "distance to the next roller ahead along the orbit, less the pitch",
-    ),
-    Variable("cage_speed", ("cage", "time"), "rad/s", WHOLE_TRACES, "speed of the cage"),
-    Variable(
-        "cage_lag",
-        ("cage", "time"),
-        "m",
-        WHOLE_TRACES,
-        "way of the cage at the pitch radius beyond that of pure rolling",
-    ),
-    Variable("cage_x", ("cage", "time"), "m", WHOLE_TRACES, "displacement of the cage along X0"),
-    Variable("cage_y", ("cage", "time"), "m", WHOLE_TRACES, "displacement of the cage along Y0"),
-    Variable(
-        "cage_torque",
-        ("cage", "time"),
-        "N m",
-        WHOLE_TRACES,
-        "torque of the rollers on the cage, positive along the orbit",
-    ),
-)
 #: Every variable by name, in the order of a result.
-VARIABLES = {variable.name: variable for variable in _TABLE}
-#: Variables of a case's `contact_details`.
-CONTACT_DETAILS = tuple(variable.name for variable in _TABLE if variable.when == DETAILS)
-#: Counts of an integrator.
-COUNTS = ("steps", "rejections", "force_evaluations")
-#: Extremes of an orbit, and of entries into the load zone, in the order of
-#: `macroslip.measures.extremes.EXTREMES`.
-ORBIT_EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
-ENTRY_EXTREMES = tuple(
-    f"entry_{name}"
-    for name in ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
+VARIABLES = VariableTable(
+    "Results of `macroslip run` and `simulate`",
+    (
+        Variable("energy", _INTERFACES, "J", ALWAYS, "energy dissipated by friction in the window"),
+        Variable(
+            "rolling_energy",
+            _INTERFACES,
+            "J",
+            ALWAYS,
+            "energy dissipated by rolling resistance in the window, apart from the energy of friction",
+        ),
+        Variable(
+            "inlet_temperature",
+            (),
+            "K",
+            ALWAYS,
+            "temperature of the oil at the inlets of the contacts",
+        ),
+        Variable(
+            "orbit_energy",
+            _ORBITS,
+            "J",
+            ALWAYS,
+            "energy dissipated by friction in each complete orbit",
+        ),
+        Variable(
+            "peak_power", _ORBITS, "W", ALWAYS, "largest frictional power in each complete orbit"
+        ),
+        Variable(
+            "window_peak_power",
+            _INTERFACES,
+            "W",
+            ALWAYS,
+            "largest frictional power in the window, incomplete orbits included",
+        ),
+        Variable(
+            "peak_power_by_position",
+            ("row", "interface", "position"),
+            "W",
+            NO_ORBIT,
+            "largest frictional power in the window by place on the orbit, over all rollers; "
+            "where no orbit is complete",
+        ),
+        Variable(
+            "min_spin_ratio",
+            _ROLLERS,
+            "1",
+            ALWAYS,
+            "smallest ratio of spin to spin in pure rolling in the window, where the shaft "
+            "turns at a tenth or more of its highest speed and the raceways pass at 1 mm/s or "
+            "more",
+        ),
+        Variable(
+            "outside_film_range",
+            _INTERFACES,
+            "1",
+            ALWAYS,
+            "share of loaded time in which load or speed lay outside the film law's range",
+        ),
+        Variable(
+            "outside_asperity_range",
+            _INTERFACES,
+            "1",
+            ASPERITIES,
+            "share of loaded time in which load lay outside the range of the law of "
+            "asperities, where their share is bounded by that of the film ratio",
+        ),
+        Variable(
+            "mean_film_load",
+            _ROLLERS,
+            "N",
+            ALWAYS,
+            "mean load in the window that films of oil carry beside the rings' elastic load; "
+            "the balance of the rings does not know it",
+        ),
+        Variable(
+            "axial_travel",
+            (),
+            "m/h",
+            AXIAL,
+            "way of the inner ring along Z0 in the window, forth and back, over its duration",
+        ),
+        Variable(
+            "thrust_reversals",
+            (),
+            "1/h",
+            AXIAL,
+            "changes of the sign of the axial load in the window over its duration, beyond a dead "
+            "band of 0.1 % of the static load rating of ISO 76 to either side",
+        ),
+        Variable(
+            "rib_energy",
+            _ROLLERS,
+            "J",
+            TAPERED,
+            "energy dissipated by friction at the rib in the window, beside the energy by interface",
+        ),
+        Variable(
+            "rib_asperity_energy",
+            _ROLLERS,
+            "J",
+            TAPERED,
+            "part of the energy at the rib in the window that asperities dissipate",
+        ),
+        Variable(
+            "rib_orbit_energy",
+            (*_ROLLERS, "orbit"),
+            "J",
+            TAPERED,
+            "energy dissipated by friction at the rib in each complete orbit",
+        ),
+        Variable(
+            "rib_peak_power",
+            (*_ROLLERS, "orbit"),
+            "W",
+            TAPERED,
+            "largest frictional power at the rib in each complete orbit",
+        ),
+        Variable(
+            "largest_rib_force",
+            _ROWS,
+            "N",
+            TAPERED,
+            "largest force of the rib on a roller in the window",
+        ),
+        Variable(
+            "rib_pressure",
+            _ROWS,
+            "Pa",
+            TAPERED,
+            "largest Hertzian pressure at the ribs in the window",
+        ),
+        Variable(
+            "rib_pressure_speed",
+            _ROWS,
+            "W/m2",
+            TAPERED,
+            "largest pressure at the ribs times sliding speed in pure rolling, in the window",
+        ),
+        Variable(
+            "rib_pass_energy",
+            _ROWS,
+            "J/m2",
+            TAPERED,
+            "largest pressure times slip that a place of the rib gets in a pass, in the window",
+        ),
+        Variable(
+            "rib_flash_temperature",
+            _ROWS,
+            "K",
+            TAPERED,
+            "largest flash temperature at the ribs in the window, in pure rolling",
+        ),
+        Variable(
+            "rib_asperity_work",
+            (*_ROWS, "rib_surface"),
+            "W/m2",
+            TAPERED_ASPERITIES,
+            "asperities' pressure times slip per time, mean over the window: depth of wear a second "
+            "over k",
+        ),
+        Variable(
+            "min_rib_film_ratio",
+            _ROWS,
+            "1",
+            TAPERED,
+            "least ratio of film thickness to roughness at the ribs in the window, in pure rolling",
+        ),
+        Variable(
+            "rollers_below_grip",
+            _ROWS,
+            "1",
+            TAPERED,
+            "mean number of rollers in the window whose load is below that of grip",
+        ),
+        Variable(
+            "grip_load",
+            (),
+            "N",
+            TAPERED,
+            "load from which on a raceway drives a roller with less than 1 % of slip, at the mean speed",
+        ),
+        Variable(
+            "least_roller_load", _ROWS, "N", TAPERED, "least elastic load of a roller in the window"
+        ),
+        Variable(
+            "largest_tilt", (), "rad", TAPERED, "largest tilt of the inner ring in the window"
+        ),
+        Variable(
+            "preload",
+            (),
+            "m",
+            TAPERED,
+            "axial interference of both rows with the temperature difference; negative is play",
+        ),
+        Variable(
+            "preload_change",
+            (),
+            "m",
+            TAPERED,
+            "change of the preload by the temperature difference",
+        ),
+        Variable("status", _ROLLERS, "1", ALWAYS, "outcome of the integration"),
+        Variable(
+            "steps",
+            _ROLLERS,
+            "1",
+            ALWAYS,
+            "number of steps of the integrator; in a whole bearing of all rollers together",
+        ),
+        Variable(
+            "rejections",
+            _ROLLERS,
+            "1",
+            ALWAYS,
+            "number of rejections of the integrator; in a whole bearing of all rollers together",
+        ),
+        Variable(
+            "force_evaluations",
+            _ROLLERS,
+            "1",
+            ALWAYS,
+            "number of force evaluations of the integrator; in a whole bearing of all rollers together",
+        ),
+        Variable(
+            "unbalanced_force",
+            _ROLLERS,
+            "N",
+            ALWAYS,
+            "largest force left unbalanced by an accepted implicit step",
+        ),
+        Variable("end_time", _ROLLERS, "s", ALWAYS, "time at which the integration ended"),
+        Variable(
+            "end_slip", _ROLLERS, "m/s", ALWAYS, "raceway slip at which the integration ended"
+        ),
+        Variable(
+            "mechanism_energy",
+            (*_INTERFACES, "mechanism"),
+            "J",
+            CURVED,
+            "energy in the window by what makes surfaces slide: slip of the middle, "
+            "curvature, contact angle; they add up to the energy, and one may be negative",
+        ),
+        Variable(
+            "asperity_energy",
+            _INTERFACES,
+            "J",
+            CURVED,
+            "part of the energy in the window that asperities dissipate",
+        ),
+        Variable(
+            "station_energy",
+            (*_RACEWAYS, "station"),
+            "J",
+            DETAILS,
+            "energy in the window dissipated at each station along the roller",
+        ),
+        Variable(
+            "flash_temperature",
+            _ORBITS,
+            "K",
+            DETAILS,
+            "largest rise of surface temperature in a contact per orbit",
+        ),
+        Variable(
+            "power_density",
+            _ORBITS,
+            "W/m2",
+            DETAILS,
+            "largest frictional power per contact area per orbit",
+        ),
+        Variable(
+            "slide_roll_ratio",
+            _ORBITS,
+            "1",
+            DETAILS,
+            "largest local slip over entrainment speed per orbit",
+        ),
+        Variable(
+            "min_film_ratio",
+            _ORBITS,
+            "1",
+            DETAILS,
+            "least ratio of film thickness to roughness, Lambda, per orbit",
+        ),
+        Variable(
+            "entries",
+            (*_ROLLERS, "orbit"),
+            "1",
+            DETAILS,
+            "how often the rings begin to press the roller, per orbit",
+        ),
+        Variable(
+            "entry_slide_roll_ratio",
+            _ENTRIES,
+            "1",
+            DETAILS,
+            "largest slide-roll ratio of the middle while entering, per orbit",
+        ),
+        Variable(
+            "entry_film_ratio", _ENTRIES, "1", DETAILS, "least Lambda while entering, per orbit"
+        ),
+        Variable(
+            "entry_power_density",
+            _ENTRIES,
+            "W/m2",
+            DETAILS,
+            "largest frictional power per contact area while entering, per orbit",
+        ),
+        Variable(
+            "entry_flash_temperature",
+            _ENTRIES,
+            "K",
+            DETAILS,
+            "largest transient rise of surface temperature while entering, per orbit",
+        ),
+        Variable(
+            "quadrature_error",
+            _RACEWAYS,
+            "1",
+            DETAILS,
+            "relative error of the film's power by the quadrature in use, from a finer one at "
+            "states of the run",
+        ),
+        Variable(
+            "surface_energy",
+            (*_PLACES, "slip_sign", "film_regime"),
+            "J",
+            DETAILS,
+            "energy in the window dissipated at each place of a raceway by all simulated "
+            "rollers of the row, by the sign of local slip and by Lambda",
+        ),
+        Variable(
+            "surface_power_density",
+            _PLACES,
+            "W/m2",
+            DETAILS,
+            "largest frictional power per area at each place of a raceway, mean over the "
+            "width of the contact",
+        ),
+        Variable(
+            "surface_asperity_energy",
+            _PLACES,
+            "J",
+            DETAILS,
+            "part of the energy at each place of a raceway that asperities dissipate, of all "
+            "simulated rollers",
+        ),
+        Variable(
+            "surface_work",
+            _PLACES,
+            "J",
+            DETAILS,
+            "pressure times slip over time and area at each place of a raceway, of all "
+            "simulated rollers: the energy in the window that a coefficient of friction of 1 "
+            "would dissipate",
+        ),
+        Variable(
+            "surface_passes",
+            ("row", "raceway", "angle"),
+            "1",
+            DETAILS,
+            "passes of all simulated rollers over each sector of a raceway in the window, "
+            "parts of a pass included",
+        ),
+        Variable(
+            "working_load",
+            ("row", "raceway"),
+            "N",
+            DETAILS,
+            "mean load of the contacts, weighted by pressure times slip",
+        ),
+        Variable(
+            "film_slip_time",
+            _CLASSES,
+            "s",
+            DETAILS,
+            "time under load by Lambda and by slide-roll ratio, times the part of the "
+            "roller's length that has them, of all simulated rollers",
+        ),
+        Variable(
+            "film_slip_passes",
+            _CLASSES,
+            "1",
+            DETAILS,
+            "passes over the ring by Lambda and slide-roll ratio, weighted alike",
+        ),
+        Variable(
+            "spin",
+            _TRACES,
+            "rad/s",
+            TRACES,
+            "spin about the roller's axis, relative to the orbiting frame",
+        ),
+        Variable(
+            "spin_pure",
+            _TRACES,
+            "rad/s",
+            TRACES,
+            "spin in pure rolling, relative to the orbiting frame",
+        ),
+        Variable(
+            "slip",
+            _TRACES,
+            "m/s",
+            TRACES,
+            "slip at the middle of either raceway contact, ring less roller",
+        ),
+        Variable(
+            "raceway_slip",
+            (*_TRACES, "raceway"),
+            "m/s",
+            WHOLE_TRACES,
+            "slip at the middle of a raceway contact",
+        ),
+        Variable(
+            "roller_load", _TRACES, "N", TRACES, "elastic load of the roller, without body forces"
+        ),
+        Variable(
+            "cage_force",
+            _TRACES,
+            "N",
+            TRACES,
+            "normal force of the cage on the roller, positive along the orbit",
+        ),
+        Variable(
+            "traction",
+            (*_TRACES, "interface"),
+            "N",
+            TRACES,
+            "traction on the roller in its spin equation (moment over radius), positive where "
+            "it drives the spin up",
+        ),
+        Variable("power", (*_TRACES, "interface"), "W", TRACES, "frictional power"),
+        Variable(
+            "rolling_power",
+            (*_TRACES, "interface"),
+            "W",
+            TRACES,
+            "power of rolling resistance, apart from that of friction",
+        ),
+        Variable(
+            "film_thickness",
+            (*_TRACES, "interface"),
+            "m",
+            TRACES,
+            "central film thickness; NaN without load",
+        ),
+        Variable(
+            "rib_friction",
+            _TRACES,
+            "N",
+            TAPERED_TRACES,
+            "friction of the rib on the roller, positive where it drives the spin up",
+        ),
+        Variable("rib_power", _TRACES, "W", TAPERED_TRACES, "frictional power at the rib"),
+        Variable(
+            "skew_moment",
+            (*_TRACES, "raceway"),
+            "N m",
+            CURVED_TRACES,
+            "skew moment about the contact normal, positive where traction along +x acts at "
+            "+z'; with skew also that of the pressure on the turned ellipse",
+        ),
+        Variable(
+            "skew_energy",
+            _RACEWAYS,
+            "J",
+            SKEW,
+            "energy in the window beyond that of a straight roller; it is part of the energy, "
+            "and may be negative",
+        ),
+        Variable(
+            "skew_residual",
+            _ROLLERS,
+            "N m",
+            SKEW,
+            "largest moment about the contact normal in the window that neither spar nor stop "
+            "carries at the rest that was found",
+        ),
+        Variable(
+            "stop_energy",
+            _ROLLERS,
+            "J",
+            SKEW,
+            "energy of friction at the two ends of spars that hold a roller at its stop in "
+            "the window; part of the energy at the cage",
+        ),
+        Variable(
+            "frictional_thrust",
+            _ROWS,
+            "N",
+            SKEW,
+            "mean axial force of a row's rollers on the inner ring by friction and turned "
+            "normal force in the window, along +Z0",
+        ),
+        Variable(
+            "skew_by_position",
+            _POSITIONS,
+            "rad",
+            SKEW,
+            "mean skew of pressed rollers in the window by place on the orbit",
+        ),
+        Variable(
+            "axial_force_by_position",
+            _POSITIONS,
+            "N",
+            SKEW,
+            "mean axial force of a pressed roller on the inner ring in the window by place on "
+            "the orbit, along +z'",
+        ),
+        Variable(
+            "skew_power_by_position",
+            _POSITIONS,
+            "W",
+            SKEW,
+            "mean power of a pressed roller beyond that of a straight one in the window by "
+            "place on the orbit",
+        ),
+        Variable(
+            "skew_angle",
+            _TRACES,
+            "rad",
+            SKEW_TRACES,
+            "skew, turn of the roller's axis about +y'; NaN where the rings do not press it",
+        ),
+        Variable(
+            "tilt",
+            _TRACES,
+            "rad",
+            SKEW_TRACES,
+            "tilt, turn of the roller's axis about +x; NaN where the rings do not press it",
+        ),
+        Variable(
+            "axial_force",
+            _TRACES,
+            "N",
+            SKEW_TRACES,
+            "force on the inner ring by friction and turned normal force, along +z'",
+        ),
+        Variable(
+            "stop_force",
+            _TRACES,
+            "N",
+            SKEW_TRACES,
+            "force of either end of the pocket on a roller at its stop",
+        ),
+        Variable(
+            "pocket_impulse",
+            (*_ROLLERS, "side"),
+            "N s",
+            WHOLE,
+            "impulse of a spar on its roller in the window",
+        ),
+        Variable(
+            "largest_pocket_force",
+            (*_ROLLERS, "side"),
+            "N",
+            WHOLE,
+            "largest force of a spar in the window",
+        ),
+        Variable(
+            "pocket_contact_time",
+            (*_ROLLERS, "side"),
+            "s",
+            WHOLE,
+            "time in the window with force on the spar",
+        ),
+        Variable(
+            "largest_force_by_position",
+            _POSITIONS,
+            "N",
+            WHOLE,
+            "largest force of a spar in the window by place on the orbit, over all rollers",
+        ),
+        Variable(
+            "cage_slip",
+            ("cage",),
+            "1",
+            WHOLE,
+            "mean of the cage's speed over that of pure rolling, less one, in the window",
+        ),
+        Variable(
+            "cage_slip_deviation",
+            ("cage",),
+            "1",
+            WHOLE,
+            "standard deviation of the cage's slip in the window",
+        ),
+        Variable("book_momentum", ("book_time",), "N m s", WHOLE, "momentum of rollers and cages"),
+        Variable(
+            "book_kinetic_energy", ("book_time",), "J", WHOLE, "kinetic energy of rollers and cages"
+        ),
+        Variable(
+            "book_elastic_energy", ("book_time",), "J", WHOLE, "elastic energy of rollers and cages"
+        ),
+        Variable(
+            "book_inner_impulse",
+            ("book_time",),
+            "N m s",
+            WHOLE,
+            "inner impulse since the first sample",
+        ),
+        Variable(
+            "book_outer_impulse",
+            ("book_time",),
+            "N m s",
+            WHOLE,
+            "outer impulse since the first sample",
+        ),
+        Variable(
+            "book_body_impulse",
+            ("book_time",),
+            "N m s",
+            WHOLE,
+            "body impulse since the first sample",
+        ),
+        Variable(
+            "book_guide_impulse",
+            ("book_time",),
+            "N m s",
+            WHOLE,
+            "guide impulse since the first sample",
+        ),
+        Variable(
+            "book_eccentric_impulse",
+            ("book_time",),
+            "N m s",
+            WHOLE,
+            "eccentric impulse since the first sample",
+        ),
+        Variable(
+            "book_shaft_work", ("book_time",), "J", WHOLE, "shaft work since the first sample"
+        ),
+        Variable("book_body_work", ("book_time",), "J", WHOLE, "body work since the first sample"),
+        Variable(
+            "book_cage_weight_work",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "cage weight work since the first sample",
+        ),
+        Variable(
+            "book_raceway_loss", ("book_time",), "J", WHOLE, "raceway loss since the first sample"
+        ),
+        Variable(
+            "book_friction_loss", ("book_time",), "J", WHOLE, "friction loss since the first sample"
+        ),
+        Variable(
+            "book_guide_loss", ("book_time",), "J", WHOLE, "guide loss since the first sample"
+        ),
+        Variable(
+            "book_pocket_work", ("book_time",), "J", WHOLE, "pocket work since the first sample"
+        ),
+        Variable(
+            "book_support_work", ("book_time",), "J", WHOLE, "support work since the first sample"
+        ),
+        Variable(
+            "momentum_residual",
+            ("book_time",),
+            "N m s",
+            WHOLE,
+            "change of angular momentum less the impulse of all torques",
+        ),
+        Variable(
+            "energy_residual",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "change of kinetic energy less work done and energy dissipated",
+        ),
+        Variable(
+            "pocket_loss",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "energy dissipated by impacts and squeeze films",
+        ),
+        Variable(
+            "pocket_offset",
+            _TRACES,
+            "m",
+            WHOLE_TRACES,
+            "roller's way ahead of the middle of its pocket",
+        ),
+        Variable(
+            "orbit_speed_deviation",
+            _TRACES,
+            "rad/s",
+            WHOLE_TRACES,
+            "orbit speed less that of pure rolling",
+        ),
+        Variable(
+            "spacing_deviation",
+            _TRACES,
+            "m",
+            WHOLE_TRACES,
+            "distance to the next roller ahead along the orbit, less the pitch",
+        ),
+        Variable("cage_speed", ("cage", "time"), "rad/s", WHOLE_TRACES, "speed of the cage"),
+        Variable(
+            "cage_lag",
+            ("cage", "time"),
+            "m",
+            WHOLE_TRACES,
+            "way of the cage at the pitch radius beyond that of pure rolling",
+        ),
+        Variable(
+            "cage_x", ("cage", "time"), "m", WHOLE_TRACES, "displacement of the cage along X0"
+        ),
+        Variable(
+            "cage_y", ("cage", "time"), "m", WHOLE_TRACES, "displacement of the cage along Y0"
+        ),
+        Variable(
+            "cage_torque",
+            ("cage", "time"),
+            "N m",
+            WHOLE_TRACES,
+            "torque of the rollers on the cage, positive along the orbit",
+        ),
+    ),
 )
-
-
-def with_attributes(values: dict[str, Any]) -> dict[str, Any]:
-    """Values by name as xarray takes them, in the order of the table.
-
-    Raises KeyError for a name that the table does not have.
-    """
-    unknown = set(values) - set(VARIABLES)
-    if unknown:
-        listed = ", ".join(sorted(unknown))
-        raise KeyError(f"the table of variables has no {listed}")
-    filled = {}
-    for name, variable in VARIABLES.items():
-        if name in values:
-            filled[name] = variable.of(values[name])
-    return filled
+#: Variables of a case's `contact_details`.
+CONTACT_DETAILS = tuple(name for name, variable in VARIABLES.items() if variable.when == DETAILS)
+#: Counts of an integrator, and their fields of an `Outcome`.
+COUNTS = {"steps": "steps", "rejections": "rejections", "force_evaluations": "evaluations"}
+#: Variables of the extremes of an orbit, and of entries into the load zone, by the names of
+#: `macroslip.measures.extremes.EXTREMES`.
+ORBIT_EXTREMES = {
+    "flash_temperature": "flash_temperature",
+    "power_density": "power_density",
+    "slide_roll_ratio": "slide_roll_ratio",
+    "film_ratio": "min_film_ratio",
+}
+ENTRY_EXTREMES = {extreme: f"entry_{extreme}" for extreme in ORBIT_EXTREMES}

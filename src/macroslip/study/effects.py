@@ -9,10 +9,10 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from macroslip.errors import InputError
-from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.labels import labels_over, sampled_parameters
 from macroslip.study.year import DESIGN_UNITS, designs, year
+from macroslip.variables import ALWAYS, Variable, VariableTable
 
 #: Quantiles of a quantity over the sample, and points below which nothing is said.
 QUANTILES = (0.05, 0.5, 0.95)
@@ -72,6 +72,29 @@ def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.
     return effect, error
 
 
+_OVER = ("quantity", "parameter")
+#: All variables of `effects`.
+EFFECTS = VariableTable(
+    "Effects of sampled values, `macroslip.study.effects.effects`",
+    (
+        Variable(
+            "main_effect",
+            _OVER,
+            "1",
+            ALWAYS,
+            "change from the lower to the upper half, over the mean",
+        ),
+        Variable("main_effect_error", _OVER, "1", ALWAYS, "standard error of it"),
+        Variable("rank_correlation", _OVER, "1", ALWAYS, "Spearman's rank correlation"),
+        Variable("probability", _OVER, "1", ALWAYS, "probability of such a correlation by chance"),
+        Variable(
+            "range", ("quantity", "quantile"), "see units", ALWAYS, "quantiles over the sample"
+        ),
+        Variable("points", (), "1", ALWAYS, "designs of the sample"),
+    ),
+)
+
+
 def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.Dataset:
     """Sensitivity of the criteria and lives of a year to each sampled parameter.
 
@@ -113,28 +136,16 @@ def effects(study: xr.Dataset, aggregation: Aggregation = Aggregation()) -> xr.D
         effect[q], error[q] = main_effects(values, relative)
         ranks[q], chance[q] = rank_correlations(values, relative)
         spread[q] = np.quantile(known[name], QUANTILES)
-    over = ("quantity", "parameter")
+    effects_of_values = {
+        "main_effect": effect,
+        "main_effect_error": error,
+        "rank_correlation": ranks,
+        "probability": chance,
+        "range": spread,
+        "points": len(table),
+    }
     return xr.Dataset(
-        {
-            "main_effect": (
-                over,
-                effect,
-                described("1", "change from the lower to the upper half, over the mean"),
-            ),
-            "main_effect_error": (over, error, described("1", "standard error of it")),
-            "rank_correlation": (over, ranks, described("1", "Spearman's rank correlation")),
-            "probability": (
-                over,
-                chance,
-                described("1", "probability of such a correlation by chance"),
-            ),
-            "range": (
-                ("quantity", "quantile"),
-                spread,
-                described("see units", "quantiles over the sample"),
-            ),
-            "points": ((), len(table), described("1", "designs of the sample")),
-        },
+        EFFECTS.put(effects_of_values),
         {
             "quantity": quantities,
             "parameter": names,

@@ -9,13 +9,41 @@ import xarray as xr
 
 from macroslip.constants import YEAR
 from macroslip.errors import InputError
-from macroslip.result.variables import described
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.over_temperature import MIXED
 from macroslip.study.weights import Binning, weighted
+from macroslip.variables import ALWAYS, Variable, VariableTable, described
 
 #: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
 THRESHOLDS = np.logspace(-9.0, 9.0, 721)
+
+
+_CELLS = ("group", "bin")
+_CURVE = ("group", "row", "threshold")
+#: All variables of `exceedance`.
+EXCEEDANCE = VariableTable(
+    "Exceedance per orbit, `macroslip.study.exceedance.exceedance`",
+    (
+        Variable("energy_orbits", _CURVE, "1/year", ALWAYS, "orbits whose energy exceeds it"),
+        Variable("power_orbits", _CURVE, "1/year", ALWAYS, "orbits whose peak power exceeds it"),
+        Variable("orbits", ("group", "row"), "1/year", ALWAYS, "orbits of a roller"),
+        Variable("runs", _CELLS, "1", ALWAYS, "runs that were counted"),
+        Variable("left_out", _CELLS, "1", ALWAYS, "runs without a result, or without an orbit"),
+    ),
+)
+#: All variables of `load_spectrum`.
+LOAD_SPECTRUM = VariableTable(
+    "Load cycles in the lifetime, `macroslip.study.exceedance.load_spectrum`",
+    (
+        Variable(
+            "cycles",
+            ("group", "component", "load_range"),
+            "1",
+            ALWAYS,
+            "cycles of the bearing's load in the lifetime",
+        ),
+    ),
+)
 
 
 def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
@@ -67,20 +95,16 @@ def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
             some.append(is_between.any(axis=(0, 1)))
     kept = _span(some[0] | some[1])
     energy_orbits, power_orbits = [rate[..., kept] for rate in rates]
-    over_bins = ("group", "bin")
-    over_thresholds = ("group", "row", "threshold")
-    about_energy = described("1/year", "orbits whose energy exceeds it")
-    about_power = described("1/year", "orbits whose peak power exceeds it")
-    about_rest = described("1", "runs without a result, or without an orbit")
     about_thresholds = described("J or W", "energy [J] or power [W]")
+    values = {
+        "energy_orbits": energy_orbits,
+        "power_orbits": power_orbits,
+        "orbits": all_orbits,
+        "runs": counted.used,
+        "left_out": counted.left_out,
+    }
     return xr.Dataset(
-        {
-            "energy_orbits": (over_thresholds, energy_orbits, about_energy),
-            "power_orbits": (over_thresholds, power_orbits, about_power),
-            "orbits": (("group", "row"), all_orbits, described("1/year", "orbits of a roller")),
-            "runs": (over_bins, counted.used, described("1", "runs that were counted")),
-            "left_out": (over_bins, counted.left_out, about_rest),
-        },
+        EXCEEDANCE.put(values),
         bins.coordinates(study)
         | {"row": study.row, "threshold": ("threshold", THRESHOLDS[kept], about_thresholds)},
         {"title": f"Exceedance per orbit: {study.attrs.get('title', '')}"},
@@ -174,9 +198,8 @@ def load_spectrum(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     cycles = years * YEAR * weighted(mean_rates, probabilities)
     is_counted = np.nan_to_num(cycles).any(axis=(0, 1))
     kept = _span(is_counted)
-    about = described("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(
-        {"cycles": (("group", "component", "load_range"), cycles[..., kept], about)},
+        LOAD_SPECTRUM.put({"cycles": cycles[..., kept]}),
         bins.coordinates(study, bins=False)
         | {"component": study.component, "load_range": study.load_range[kept]},
         {"title": f"Load cycles: {study.attrs.get('title', '')}", "years": years},

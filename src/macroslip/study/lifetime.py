@@ -11,14 +11,66 @@ import xarray as xr
 from macroslip.constants import YEAR
 from macroslip.errors import InputError
 from macroslip.result.surface_maps import even_energy
-from macroslip.result.variables import described
+from macroslip.result.variables import VARIABLES
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.labels import of_runs_and_rows
+from macroslip.study.summary import ROW_VARIABLES
 from macroslip.study.weights import binned, weighted
-from macroslip.study.year import year
+from macroslip.study.year import YEAR_VARIABLES, year
+from macroslip.variables import ALWAYS, Variable, VariableTable, described
 
 #: Variables over the places of the raceways in a result.
 _PLACES = ("row", "raceway", "angle", "station")
+
+
+_CELLS = ("group", "bin")
+#: All variables of `lifetime_energy`.
+LIFETIME = VariableTable(
+    "Lifetime energy, `macroslip.study.lifetime.lifetime_energy`",
+    (
+        Variable(
+            "lifetime_energy",
+            ("group", "row"),
+            "J",
+            ALWAYS,
+            "energy dissipated by a roller in the lifetime, mean over the rollers of the row",
+        ),
+        Variable("bin_energy", (*_CELLS, "row"), "J", ALWAYS, "part of the bin"),
+        Variable(
+            "power", (*_CELLS, "row"), "W", ALWAYS, "energy of a roller per time, mean over runs"
+        ),
+        Variable("probability", ("bin",), "1", ALWAYS, "share of time in the bin"),
+        *(YEAR_VARIABLES[name] for name in ("runs", "left_out", "covered")),
+    ),
+)
+_QUANTILES = (*_CELLS, "row", "quantile")
+#: Numbers of the summary whose spread over the runs of a bin is taken.
+_SPREAD = ("orbit_energy_mean", "peak_power_mean", "peak_power_max", "lowest_spin_ratio")
+#: All variables of `percentiles`.
+PERCENTILES = VariableTable(
+    "Percentiles over runs, `macroslip.study.lifetime.percentiles`",
+    (
+        Variable("power", _QUANTILES, "W", ALWAYS, "energy dissipated by a roller per time"),
+        *(ROW_VARIABLES[name]._replace(dims=_QUANTILES) for name in _SPREAD),
+        Variable("runs", _CELLS, "1", ALWAYS, "runs of the quantiles"),
+    ),
+)
+#: All variables of `weighted_maps`.
+LIFETIME_MAPS = VariableTable(
+    "Maps of the raceways over the lifetime, `macroslip.study.lifetime.weighted_maps`",
+    (
+        Variable(
+            "surface_energy",
+            ("group", *VARIABLES["surface_energy"].dims),
+            "J",
+            ALWAYS,
+            "energy at each place of a raceway in the lifetime",
+        ),
+        VARIABLES["surface_power_density"]._replace(
+            dims=("group", *VARIABLES["surface_power_density"].dims), when=ALWAYS
+        ),
+    ),
+)
 
 
 def lifetime_energy(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
@@ -52,19 +104,16 @@ def lifetime_energy(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """
     years = aggregation.years
     of_year = year(study, aggregation)
-    about = f"energy dissipated by a roller in {years:g} years, mean over the rollers of the row"
-    probability = of_year.hours * 3600.0 / YEAR
-    data = {
-        "lifetime_energy": (years * of_year.total).assign_attrs(described("J", about)),
-        "bin_energy": (years * of_year.energy).assign_attrs(described("J", "part of the bin")),
-        "power": (of_year.per_hour / 3600.0).assign_attrs(
-            described("W", "energy of a roller per time, mean over runs")
-        ),
-        "probability": probability.assign_attrs(described("1", "share of time in the bin")),
+    values = {
+        "lifetime_energy": years * of_year.total.values,
+        "bin_energy": years * of_year.energy.values,
+        "power": of_year.per_hour.values / 3600.0,
+        "probability": of_year.hours.values * 3600.0 / YEAR,
+        **{name: of_year[name].values for name in ("runs", "left_out", "covered")},
     }
     title = f"Lifetime energy: {study.attrs.get('title', '')}"
-    counts = of_year[["runs", "left_out", "covered"]]
-    return counts.assign(data).assign_attrs(title=title, years=years)
+    attributes = of_year.attrs | {"title": title, "years": years}
+    return xr.Dataset(LIFETIME.put(values), of_year.coords, attributes)
 
 
 def percentiles(
@@ -83,11 +132,8 @@ def percentiles(
     if not quantiles or not all(0.0 <= quantile <= 1.0 for quantile in quantiles):
         raise InputError(f"the quantiles are {list(quantiles)!r}", allowed="numbers from 0 to 1")
     bins = binned(study, aggregation.field, aggregation.width, aggregation.by)
-    names = ("orbit_energy_mean", "peak_power_mean", "peak_power_max", "lowest_spin_ratio")
     power = (study.energy_mean / study.window_length).transpose("case", "row")
-    wanted = {
-        "power": power.assign_attrs(described("W", "energy dissipated by a roller per time"))
-    } | {name: study[name].transpose("case", "row") for name in names}
+    wanted = {"power": power} | {name: study[name].transpose("case", "row") for name in _SPREAD}
     shape = len(bins.groups), bins.centres.size, study.sizes["row"]
     count = shape[-1]
     group_of_value = np.repeat(bins.group, count)
@@ -100,21 +146,18 @@ def percentiles(
     by_cell = frame.groupby([group_of_value, bin_of_value, row_of_value])
     table = by_cell.quantile(list(quantiles))
     # A cell without runs has no line.
-    dims = ("group", "bin", "row", "quantile")
+    dims = _QUANTILES
     every = [*map(range, shape), list(quantiles)]
     every_cell = dict(zip(dims, every, strict=True))
     array = table.rename_axis(index=dims).to_xarray().reindex(every_cell).transpose(*dims)
-    data: dict[str, Any] = {}
-    for name, variable in wanted.items():
-        data[name] = (dims, array[name].values, dict(variable.attrs))
-    _, runs, _ = bins.means(power.values)
-    data["runs"] = (dims[:2], runs, described("1", "runs of the quantiles"))
+    values = {name: array[name].values for name in wanted}
+    _, values["runs"], _ = bins.means(power.values)
     coordinates = {
         "row": study.row,
         "quantile": ("quantile", list(quantiles), described("1", "share of runs below")),
     }
     title = {"title": f"Percentiles over runs: {study.attrs.get('title', '')}"}
-    return xr.Dataset(data, bins.coordinates(study) | coordinates, title)
+    return xr.Dataset(PERCENTILES.put(values), bins.coordinates(study) | coordinates, title)
 
 
 def worst(
@@ -213,16 +256,9 @@ def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     energies[:, :, inner] = at_inner.mean(axis=2, keepdims=True)
     density_at_inner = largest[:, :, inner]
     largest[:, :, inner] = density_at_inner.max(axis=2, keepdims=True)
-    about = described("J", f"energy at each place of a raceway in {years:g} years")
+    values = {"surface_energy": energies, "surface_power_density": largest}
     return xr.Dataset(
-        {
-            "surface_energy": (("group", *dims), energies, about),
-            "surface_power_density": (
-                ("group", *_PLACES),
-                largest,
-                dict(study.surface_power_density.attrs),
-            ),
-        },
+        LIFETIME_MAPS.put(values),
         bins.coordinates(study, bins=False)
         | {name: study[name] for name in dims}
         | {"cell_area": _area(study)},

@@ -21,7 +21,6 @@ from scipy.optimize import brentq
 
 from macroslip.constants import MOST_BEYOND, ZERO_CELSIUS
 from macroslip.errors import InputError
-from macroslip.result.criteria import YEARLY
 from macroslip.scada.bins import bin_centres
 from macroslip.study.labels import (
     events_of_runs,
@@ -29,9 +28,9 @@ from macroslip.study.labels import (
     of_runs_and_rows,
     stored_study,
 )
+from macroslip.study.summary import OVER_TEMPERATURE, OverTemperature
 from macroslip.study.temperature_shares import TemperatureShares
 from macroslip.study.weights import LossOfHeat, Weighting, binned, stored_weighting
-from macroslip.study.year import LIVES
 
 #: Attribute of a study whose cases are means over temperatures of the oil, and what it then lacks.
 MIXED = "mixed_temperatures"
@@ -47,20 +46,6 @@ FEWEST = 4
 _SHARE_OUTSIDE = 1e-3
 #: Labels that are the same, or of no use, in all runs of a series.
 _OF_A_RUN = ("case", "run", "key", "outcome", "reason", LABEL)
-#: Beginnings of the names of what grows by factors.
-_BY_FACTORS = (
-    "energy_",
-    "orbit_energy_",
-    "peak_power_",
-    "friction_power",
-    "contact_torque",
-    *LIVES,
-)
-_BY_FACTORS += tuple(yearly.run_name for yearly in YEARLY if yearly.by_factors)
-#: Extremes of a run: that of any temperature which occurs counts.
-_LARGEST = ("peak_power_max", "orbit_energy_max", "largest_pressure")
-_LARGEST += tuple(yearly.run_name for yearly in YEARLY if yearly.drawn == "largest")
-_LEAST = ("lowest_spin_ratio", "static_safety", "least_film_ratio")
 
 
 @dataclass(frozen=True)
@@ -135,7 +120,7 @@ class RunsOverTemperature:
         coldest = self.temperatures[0]
         warmest = self.temperatures[-1]
         held = np.clip(at, coldest, warmest)
-        by_factors = name.startswith(_BY_FACTORS)
+        by_factors = _over_temperature(name).by_factors
         of_series = interpolated(self.temperatures, known, held, by_factors=by_factors)
         return np.moveaxis(of_series, 0, 1)
 
@@ -332,16 +317,21 @@ def _mean(name: str, values: np.ndarray, share: np.ndarray) -> np.ndarray:
     """Mean of values (series, temperatures, ...) by the share of time; extremes as such."""
     inner_axes = (1,) * (values.ndim - 2)
     weight = share.reshape(share.shape + inner_axes)
-    if name in _LARGEST:
+    kind = _over_temperature(name).mean
+    if kind == "largest":
         used = np.where(weight > 0.0, values, -np.inf)
         return used.max(axis=1)
-    if name in _LEAST:
+    if kind == "least":
         used = np.where(weight > 0.0, values, np.inf)
         return used.min(axis=1)
-    if name in LIVES:
+    if kind == "life":
         with np.errstate(divide="ignore"):
             return 1.0 / (weight / values).sum(axis=1)
     return (weight * values).sum(axis=1)
+
+
+def _over_temperature(name: str) -> OverTemperature:
+    return OVER_TEMPERATURE.get(name, OverTemperature())
 
 
 def weighted_study(study: xr.Dataset) -> xr.Dataset:

@@ -15,16 +15,17 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from xarray.backends import BackendArray
-from xarray.core import (
-    indexing,
-)  # the documented interface for arrays of a backend, in spite of its name
 
-from macroslip.result.variables import described
+# xarray documents these names for arrays of a back end ("How to add a new backend"), in spite of
+# the module's name; nothing else gives a variable that is read when it is accessed.
+from xarray.core import indexing
+
 from macroslip.storage.files import DATABASE, MANIFEST, reading
 from macroslip.study.database import DAMAGED, Outcome, read_runs
 from macroslip.study.result_files import read_result
 from macroslip.study.store import REMEDY, read_manifest
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES, rows_with_numbers
+from macroslip.variables import described
 
 #: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so
 #: samples are counted.
@@ -85,11 +86,11 @@ def _dataset(directory: Path, manifest: Mapping[str, Any], runs: pd.DataFrame) -
         coordinates[name] = ("case", _column(runs, name), described(*about))
     rows = rows_with_numbers(runs)
     summary = {}
-    for name, about in ROW_VARIABLES.items():
+    for name, variable in ROW_VARIABLES.items():
         of_rows = [_column(runs, f"{name}_{row}") for row in rows]
-        summary[name] = (("case", "row"), np.stack(of_rows, axis=1), described(*about))
-    for name, about in CASE_VARIABLES.items():
-        summary[name] = ("case", _column(runs, name), described(*about))
+        summary[name] = variable.of(np.stack(of_rows, axis=1))
+    for name, variable in CASE_VARIABLES.items():
+        summary[name] = variable.of(_column(runs, name))
     variables, more, attributes = _of_results(directory, runs)
     number = ("case", np.arange(len(runs)), described("1", "number of the run in its study"))
     of_study = {

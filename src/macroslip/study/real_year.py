@@ -12,7 +12,8 @@ import xarray as xr
 
 from macroslip.constants import HOURS_A_YEAR, YEAR, ZERO_CELSIUS
 from macroslip.errors import InputError
-from macroslip.result.criteria import CRITERIA, YEARLY
+from macroslip.result.criteria import OF_NUMBER, YEARLY
+from macroslip.result.criteria.criterion import Yearly
 from macroslip.scada.bins import JointShares, bin_centres
 from macroslip.scada.reader import Scada
 from macroslip.study.aggregation import Aggregation
@@ -34,10 +35,12 @@ from macroslip.study.year import DESIGN_COLUMNS, design_names, designs, year
 FIXED = ZERO_CELSIUS + 35.0
 #: How far the oil may be from the sensor [K].
 OFFSET = 5.0
+#: Column of energies in `RealYear.bins`.
+ENERGY_COLUMN = "energy [J]"
 #: Least length of a record that stands for a year [h].
 _SHORT = 30.0 * 24.0
-#: Rate of a run behind a number of a design, whose scatter between seeds is computed.
-_RATES = {yearly.name: yearly.run_name for yearly in YEARLY if yearly.drawn != "largest"}
+#: Criteria that a year sums up, with the scatter between seeds and the part of every bin.
+_SUMS = tuple(yearly for yearly in YEARLY if yearly.drawn != "largest")
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,8 @@ class RealYear:
     table: pd.DataFrame
     #: A line for each design, state, bin of wind speed and of temperature of the oil: `design`,
     #: `state`, `wind_speed [m/s]`, `oil_temperature [degC]`, `share` of the time, `hours [h]` a
-    #: year, `energy [J]` of a mean roller, both rows, and `wear [m]` of the worse row.
+    #: year, `energy [J]` of a mean roller, both rows, and the sums of criteria, such as `wear [m]`
+    #: of the worse row, by name and unit.
     bins: pd.DataFrame
     notes: tuple[str, ...]
     #: Where the winds and temperatures come from.
@@ -189,10 +193,7 @@ def _table(years: Mapping[str, xr.Dataset], seeds: Mapping[str, np.ndarray]) -> 
     for name, annual in years.items():
         columns[name], _ = designs(annual)
     names = design_names(years["real"])
-    factors = {}
-    for criterion in CRITERIA:
-        for yearly in criterion.yearly:
-            factors[yearly.name] = criterion.factor
+    factors = {name: criterion.factor for name, criterion in OF_NUMBER.items()}
     lines = []
     for group in columns["real"].index:
         for quantity, column in DESIGN_COLUMNS.items():
@@ -221,9 +222,9 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
     probabilities = bins.probabilities(aggregation.weights)
     share = probabilities[None, :, None]
     powers = {"energy": study.energy_mean / study.window_length}
-    for name, of_run in _RATES.items():
-        if of_run in study:
-            powers[name] = study[of_run]
+    for yearly in _SUMS:
+        if yearly.run_name in study:
+            powers[yearly.name] = study[yearly.run_name]
     errors: dict[str, np.ndarray] = {}
     for name, rate in powers.items():
         values = rate.transpose("case", "row").values
@@ -245,12 +246,13 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
 def _bins(
     rates: Mapping[str, np.ndarray], joint: JointShares, share: np.ndarray, names: list[str]
 ) -> pd.DataFrame:
-    """Shares of energy and wear of production over wind speed and temperature.
+    """Parts of production's energy and damage over wind speed and temperature.
 
     Parameters
     ----------
     rates : mapping
-        `energy` [W] and `wear` [m/s] of each design, shape (designs, winds, temperatures).
+        Rate of energy [W] and of each criterion, by the column of its sum, of each design, shape
+        (designs, winds, temperatures).
     joint : JointShares
     share : ndarray, shape (winds, temperatures)
         Share of the time of production.
@@ -261,8 +263,6 @@ def _bins(
     winds, at = np.meshgrid(joint.wind, celsius, indexing="ij")
     parts = []
     for group, name in enumerate(names):
-        energy = share * rates["energy"][group]
-        wear = share * rates["wear"][group]
         produced = {
             "design": name,
             "state": "turning",
@@ -270,9 +270,10 @@ def _bins(
             "oil_temperature [degC]": at.ravel(),
             "share": share.ravel(),
             "hours [h]": HOURS_A_YEAR * share.ravel(),
-            "energy [J]": YEAR * energy.ravel(),
-            "wear [m]": YEAR * wear.ravel(),
         }
+        for column, rate in rates.items():
+            part = YEAR * share * rate[group]
+            produced[column] = part.ravel()
         stood = {
             "design": name,
             "state": "idle",
@@ -288,22 +289,33 @@ def _bins(
 def _rates(
     runs: RunsOverTemperature, at: np.ndarray, bins: Binning, real: xr.Dataset
 ) -> dict[str, np.ndarray]:
-    """Power [W] of a mean roller, both rows, and wear [m/s] of the worse row in production.
+    """Power [W] of a mean roller, both rows, and rates of criteria in production.
 
-    Shape (designs, winds, temperatures).
+    By the column of their sums, shape (designs, winds, temperatures). Rates are of both rows, or of
+    the row that is worse in the year, as the criterion is drawn together.
     """
     windy = np.isfinite(bins.centres)
     first_runs = runs.runs[:, 0]
     lengths = runs.study["window_length"].values[first_runs]
     power_of_runs = runs.values("energy_mean", at) / lengths[:, None, None]
     power, _, _ = bins.means(power_of_runs)
-    rates = {"energy": power.sum(axis=-1)[:, windy]}
-    if "wear_rate" not in runs.study:
-        unknown = np.full(rates["energy"].shape, np.nan)
-        return {**rates, "wear": unknown}
-    wear_of_bins, _, _ = bins.means(runs.values("wear_rate", at))
-    by_row = wear_of_bins[:, windy]
-    wear_of_year = real["wear"].sum("bin").transpose("group", "row")
-    worse = wear_of_year.values.argmax(axis=1)
-    wear = [by_row[k, ..., row] for k, row in enumerate(worse)]
-    return {**rates, "wear": np.stack(wear)}
+    rates = {ENERGY_COLUMN: power.sum(axis=-1)[:, windy]}
+    for yearly in _SUMS:
+        if yearly.run_name not in runs.study:
+            rates[sum_column(yearly)] = np.full(rates[ENERGY_COLUMN].shape, np.nan)
+            continue
+        of_bins, _, _ = bins.means(runs.values(yearly.run_name, at))
+        by_row = of_bins[:, windy]
+        if yearly.drawn == "sum":
+            rates[sum_column(yearly)] = by_row.sum(axis=-1)
+            continue
+        of_year = real[yearly.name].sum("bin").transpose("group", "row")
+        worse = of_year.values.argmax(axis=1)
+        chosen = [by_row[k, ..., row] for k, row in enumerate(worse)]
+        rates[sum_column(yearly)] = np.stack(chosen)
+    return rates
+
+
+def sum_column(yearly: Yearly) -> str:
+    """Heading of a criterion's sum in `RealYear.bins`: name and unit."""
+    return f"{yearly.name} [{yearly.year_unit}]"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -14,98 +15,224 @@ from macroslip.errors import InputError
 from macroslip.imposed.status import Status
 from macroslip.loads import BearingLoads
 from macroslip.rating.spectrum import rainflow_ranges
+from macroslip.rating.variables import RATED, RATING
 from macroslip.result.criteria import YEARLY
 from macroslip.result.damage import damage
 from macroslip.result.heat_balance import bearing_friction_power
 from macroslip.result.rating import rate_case
 from macroslip.result.run_input import window_length
+from macroslip.variables import ALWAYS, Variable, VariableTable, described
 
-_INTERFACES = ("inner", "outer", "cage")
+#: Interfaces by what they are in words.
+_INTERFACES = {"inner": "inner raceway", "outer": "outer raceway", "cage": "cage"}
+#: Exponents of the damage-equivalent loads that are kept.
+EXPONENTS = (4, 10)
 _OVER = "over all rollers and complete orbits"
 _IN_WINDOW = "energy dissipated by a roller in the window, all interfaces"
 _PER_ORBIT = "energy of a roller per orbit"
 _PEAK = "largest power at any interface per orbit"
 _HERTZ = "load along the roller as in a Hertz contact"
-#: Units and meaning of the numbers of each row of rollers.
-ROW_VARIABLES = {
-    "energy_mean": ("J", f"{_IN_WINDOW}: mean over rollers"),
-    "energy_min": ("J", f"{_IN_WINDOW}: smallest roller"),
-    "energy_max": ("J", f"{_IN_WINDOW}: largest roller"),
-    "energy_inner": (
-        "J",
-        "energy dissipated at the inner raceway in the window, mean over rollers",
+_ROW = ("case", "row")
+_CASE = ("case",)
+#: When numbers of criteria are there.
+_WITH_DETAILS = "with details of the contacts: laws with microslip or asperities"
+
+
+def _of_rating(name: str, more: str = "") -> Variable:
+    """A number of the rating of a case: what the rating calls it, and what is taken of it."""
+    variable = RATING[name]
+    return variable._replace(dims=_CASE, when=RATED, long_name=variable.long_name + more)
+
+
+#: The numbers of each row of rollers.
+ROW_VARIABLES = VariableTable(
+    "Summary of a study, by row",
+    (
+        Variable("energy_mean", _ROW, "J", ALWAYS, f"{_IN_WINDOW}: mean over rollers"),
+        Variable("energy_min", _ROW, "J", ALWAYS, f"{_IN_WINDOW}: smallest roller"),
+        Variable("energy_max", _ROW, "J", ALWAYS, f"{_IN_WINDOW}: largest roller"),
+        *(
+            Variable(
+                f"energy_{interface}",
+                _ROW,
+                "J",
+                ALWAYS,
+                f"energy dissipated at the {place} in the window, mean over rollers",
+            )
+            for interface, place in _INTERFACES.items()
+        ),
+        Variable(
+            "orbit_energy_mean",
+            _ROW,
+            "J",
+            ALWAYS,
+            f"{_PER_ORBIT}, all interfaces: mean {_OVER}",
+        ),
+        *(
+            Variable(
+                f"orbit_energy_{interface}",
+                _ROW,
+                "J",
+                ALWAYS,
+                f"{_PER_ORBIT} at the {place}: mean {_OVER}",
+            )
+            for interface, place in _INTERFACES.items()
+        ),
+        Variable(
+            "orbit_energy_max",
+            _ROW,
+            "J",
+            ALWAYS,
+            f"{_PER_ORBIT}, all interfaces: largest {_OVER}",
+        ),
+        Variable("peak_power_mean", _ROW, "W", ALWAYS, f"{_PEAK}: mean {_OVER}"),
+        Variable("peak_power_std", _ROW, "W", ALWAYS, f"{_PEAK}: standard deviation {_OVER}"),
+        Variable(
+            "peak_power_max",
+            _ROW,
+            "W",
+            ALWAYS,
+            "largest power at any interface in the window, over all rollers",
+        ),
+        Variable(
+            "lowest_spin_ratio",
+            _ROW,
+            "1",
+            ALWAYS,
+            "smallest ratio of spin to spin in pure rolling in the window, of all rollers",
+        ),
+        Variable("failed_rollers", _ROW, "1", ALWAYS, "number of rollers whose integration failed"),
+        *(
+            Variable(yearly.run_name, _ROW, yearly.run_unit, _WITH_DETAILS, yearly.run_meaning)
+            for yearly in YEARLY
+        ),
     ),
-    "energy_outer": (
-        "J",
-        "energy dissipated at the outer raceway in the window, mean over rollers",
+)
+#: The numbers of the rating of a case.
+RATING_VARIABLES = VariableTable(
+    "Summary of a study, rating",
+    (
+        _of_rating("static_safety"),
+        _of_rating("equivalent_load"),
+        _of_rating("basic_life"),
+        _of_rating("modified_life"),
+        _of_rating("reference_life", f", {_HERTZ}"),
+        _of_rating("modified_reference_life", f", {_HERTZ}"),
+        _of_rating("viscosity_ratio"),
+        Variable(
+            "least_film_ratio",
+            _CASE,
+            "1",
+            RATED,
+            "film ratio Lambda, 5 % of loaded rollers below: least of all raceways",
+        ),
+        _of_rating("largest_pressure", " of all raceways"),
+        _of_rating("share_below_minimum_load"),
+        _of_rating("share_below_fatigue_load_limit"),
+        *(
+            Variable(
+                f"damage_equivalent_load_{exponent}",
+                _CASE,
+                "N",
+                RATED,
+                f"range of the damage-equivalent radial load at 1 Hz, exponent {exponent}",
+            )
+            for exponent in EXPONENTS
+        ),
     ),
-    "energy_cage": ("J", "energy dissipated at the cage in the window, mean over rollers"),
-    "orbit_energy_mean": ("J", f"{_PER_ORBIT}, all interfaces: mean {_OVER}"),
-    "orbit_energy_inner": ("J", f"{_PER_ORBIT} at the inner raceway: mean {_OVER}"),
-    "orbit_energy_outer": ("J", f"{_PER_ORBIT} at the outer raceway: mean {_OVER}"),
-    "orbit_energy_cage": ("J", f"{_PER_ORBIT} at the cage: mean {_OVER}"),
-    "orbit_energy_max": ("J", f"{_PER_ORBIT}, all interfaces: largest {_OVER}"),
-    "peak_power_mean": ("W", f"{_PEAK}: mean {_OVER}"),
-    "peak_power_std": ("W", f"{_PEAK}: standard deviation {_OVER}"),
-    "peak_power_max": ("W", "largest power at any interface in the window, over all rollers"),
-    "lowest_spin_ratio": (
-        "1",
-        "smallest ratio of spin to spin in pure rolling in the window, of all rollers",
+)
+#: The numbers of the case as a whole.
+CASE_VARIABLES = VariableTable(
+    "Summary of a study, by case",
+    (
+        Variable("window_length", _CASE, "s", ALWAYS, "length of the window"),
+        Variable("orbits", _CASE, "1", ALWAYS, "complete orbits in the window"),
+        Variable("loads_length", _CASE, "s", ALWAYS, "length of the loads"),
+        Variable("shaft_speed_mean", _CASE, "rad/s", ALWAYS, "mean shaft speed of the loads"),
+        Variable(
+            "contact_torque",
+            _CASE,
+            "N m",
+            ALWAYS,
+            "friction torque of the contacts of all rollers: mean over the turns of the shaft",
+        ),
+        Variable(
+            "friction_power",
+            _CASE,
+            "W",
+            ALWAYS,
+            "sliding, rolling, cage and drag of the whole bearing: mean over the window",
+        ),
+        *RATING_VARIABLES.values(),
+        Variable(
+            "simulate_seconds",
+            _CASE,
+            "s",
+            ALWAYS,
+            "wall time of the simulation where it was computed",
+        ),
+        Variable(
+            "other_seconds",
+            _CASE,
+            "s",
+            ALWAYS,
+            "wall time of everything else: reading the loads, hashing, summary, storing",
+        ),
     ),
-    "failed_rollers": ("1", "number of rollers whose integration failed"),
-    **{yearly.run_name: (yearly.run_unit, yearly.run_meaning) for yearly in YEARLY},
-}
-#: The same of the rating of a case.
-RATING_VARIABLES = {
-    "static_safety": ("1", "static safety factor C0/P0, the least"),
-    "equivalent_load": ("N", "mean dynamic equivalent load P"),
-    "basic_life": ("h", "basic rating life L10h, ISO 281"),
-    "modified_life": ("h", "modified rating life, ISO 281"),
-    "reference_life": ("h", f"basic reference rating life, ISO/TS 16281, {_HERTZ}"),
-    "modified_reference_life": ("h", f"modified reference rating life, {_HERTZ}"),
-    "viscosity_ratio": ("1", "viscosity ratio kappa at the mean speed"),
-    "least_film_ratio": (
-        "1",
-        "film ratio Lambda, 5 % of loaded rollers below: least of all raceways",
+)
+#: Cycles of the load of a case.
+CYCLES = VariableTable(
+    "Load cycles of a case, with `cycles: true`",
+    (
+        Variable(
+            "load_cycles",
+            ("component", "load_range"),
+            "1",
+            "with `cycles: true`",
+            "cycles of the bearing's load",
+        ),
     ),
-    "largest_pressure": ("Pa", "largest Hertz pressure of all raceways"),
-    "share_below_minimum_load": ("1", "share of time in which P is below the maker's minimum load"),
-    "share_below_fatigue_load_limit": ("1", "share of time in which P is below C_u"),
-    "damage_equivalent_load_4": (
-        "N",
-        "range of the damage-equivalent radial load at 1 Hz, exponent 4",
-    ),
-    "damage_equivalent_load_10": (
-        "N",
-        "range of the damage-equivalent radial load at 1 Hz, exponent 10",
-    ),
-}
-#: The same of the case as a whole.
-CASE_VARIABLES = {
-    "window_length": ("s", "length of the window"),
-    "orbits": ("1", "complete orbits in the window"),
-    "loads_length": ("s", "length of the loads"),
-    "shaft_speed_mean": ("rad/s", "mean shaft speed of the loads"),
-    "contact_torque": (
-        "N m",
-        "friction torque of the contacts of all rollers: mean over the turns of the shaft",
-    ),
-    "friction_power": (
-        "W",
-        "sliding, rolling, cage and drag of the whole bearing: mean over the window",
-    ),
-    **RATING_VARIABLES,
-    "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
-    "other_seconds": (
-        "s",
-        "wall time of everything else: reading the loads, hashing, summary, storing",
-    ),
-}
+)
 #: Units of all columns of numbers; names of columns by row end in the row.
 NUMBERS = {
-    f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in AXIAL_SIGNS
+    f"{name}_{row}": variable.units
+    for name, variable in ROW_VARIABLES.items()
+    for row in AXIAL_SIGNS
 }
-NUMBERS |= {name: units for name, (units, _) in CASE_VARIABLES.items()}
+NUMBERS |= {name: variable.units for name, variable in CASE_VARIABLES.items()}
+
+
+class OverTemperature(NamedTuple):
+    """How a number of runs at several temperatures of the oil is one over all of their time."""
+
+    #: `mean` by the share of time; `largest` or `least` of any temperature that occurs; `life`,
+    #: whose inverses are averaged.
+    mean: str = "mean"
+    #: True if it grows by factors over the temperature, so that its logarithm is interpolated.
+    by_factors: bool = False
+
+
+#: Lives of a run that accumulate by the rule of Palmgren and Miner.
+LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
+_ENERGIES = [name for name, variable in ROW_VARIABLES.items() if variable.units in ("J", "W")]
+#: The same of every number of the summary that is not averaged linearly.
+OVER_TEMPERATURE: dict[str, OverTemperature] = {
+    **dict.fromkeys(
+        (*_ENERGIES, "friction_power", "contact_torque"), OverTemperature("mean", True)
+    ),
+    **dict.fromkeys(("peak_power_max", "orbit_energy_max"), OverTemperature("largest", True)),
+    **dict.fromkeys(LIVES, OverTemperature("life", True)),
+    "largest_pressure": OverTemperature("largest"),
+    **dict.fromkeys(
+        ("lowest_spin_ratio", "static_safety", "least_film_ratio"), OverTemperature("least")
+    ),
+    **{
+        yearly.run_name: OverTemperature(
+            "largest" if yearly.drawn == "largest" else "mean", yearly.by_factors
+        )
+        for yearly in YEARLY
+    },
+}
 
 
 def rows_with_numbers(runs: pd.DataFrame) -> tuple[str, ...]:
@@ -218,9 +345,10 @@ def rating_values(case: Case) -> dict[str, float]:
         "modified_reference_life": hertz.modified_reference_life,
         "least_film_ratio": rating.film_ratio_low.min(),
         "largest_pressure": rating.largest_pressure.max(),
-        "damage_equivalent_load_4": range_of.sel(wohler_exponent=4.0),
-        "damage_equivalent_load_10": range_of.sel(wohler_exponent=10.0),
     }
+    for exponent in EXPONENTS:
+        load = range_of.sel(wohler_exponent=float(exponent))
+        derived[f"damage_equivalent_load_{exponent}"] = load
     return {
         name: float(derived[name] if name in derived else rating[name]) for name in RATING_VARIABLES
     }
@@ -259,14 +387,8 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     lower_edges = RANGE_EDGES[:-1]
     upper_edges = RANGE_EDGES[1:]
     middle = np.sqrt(upper_edges * lower_edges)
-    about = {"units": "N", "long_name": "range of the cycle, middle of its class"}
+    about = described("N", "range of the cycle, middle of its class")
     return xr.Dataset(
-        {
-            "load_cycles": (
-                ("component", "load_range"),
-                counts,
-                {"units": "1", "long_name": "cycles of the bearing's load"},
-            )
-        },
+        CYCLES.put({"load_cycles": counts}),
         {"component": list(COMPONENTS), "load_range": ("load_range", middle, about)},
     )

@@ -19,7 +19,6 @@ from macroslip.errors import InputError
 from macroslip.input.fields import IN_FILE, Context, Form, Positive, Quantity, Text
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import CONDUCTANCE, NUMBER, TEMPERATURE
-from macroslip.result.variables import described
 from macroslip.scada.bins import JointShares, bin_centres
 from macroslip.scada.reader import Scada
 from macroslip.study.labels import (
@@ -31,6 +30,7 @@ from macroslip.study.labels import (
 )
 from macroslip.study.loads_list import Load
 from macroslip.study.temperature_shares import ByWind, MeasuredYear, TemperatureShares
+from macroslip.variables import described
 
 _SCALE = Quantity(
     "scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True

@@ -14,17 +14,15 @@ import xarray as xr
 from macroslip.constants import YEAR
 from macroslip.loads.bundled import EVENTS
 from macroslip.result.criteria import YEARLY
-from macroslip.result.variables import described
+from macroslip.result.criteria.criterion import Yearly
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.labels import CHOICES, labels_over
+from macroslip.study.summary import CASE_VARIABLES, EXPONENTS, LIVES
 from macroslip.study.weights import Binning, weighted
-
-#: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
-LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
-EXPONENTS = (4, 10)
+from macroslip.variables import ALWAYS, Variable, VariableTable
 
 
-class Column(NamedTuple):
+class DesignColumn(NamedTuple):
     """A number of a design in a year."""
 
     #: How rows and bins are drawn together, as in `macroslip.result.criteria.criterion.Yearly`
@@ -33,24 +31,61 @@ class Column(NamedTuple):
     meaning: str
 
 
-_PEAK = "largest frictional power of any run"
-#: Rates of criteria that a year sums up, and numbers of which the largest counts: by name the
-#: number of a run, unit of the year's, and meaning.
-SUMS = {
-    yearly.name: (yearly.run_name, yearly.year_unit, yearly.year_meaning)
-    for yearly in YEARLY
-    if yearly.drawn != "largest"
+def _meaning_in_year(yearly: Yearly) -> str:
+    """Meaning of a criterion's number of a wind speed or event, in words."""
+    if yearly.drawn == "largest":
+        return yearly.year_meaning
+    return f"{yearly.year_meaning}: in a year"
+
+
+_CELLS = ("group", "bin")
+_BY_ROW = (*_CELLS, "row")
+_GROUP = ("group",)
+_KNOWN = "where the runs have it"
+#: Number of a run behind every number that a year sums up, and behind those of which the largest
+#: counts, by the name of the year's.
+SUMS = {yearly.name: yearly.run_name for yearly in YEARLY if yearly.drawn != "largest"}
+LARGEST = {"peak": "peak_power_max"} | {
+    yearly.name: yearly.run_name for yearly in YEARLY if yearly.drawn == "largest"
 }
-LARGEST = {"peak": ("peak_power_max", "W", _PEAK)} | {
-    yearly.name: (yearly.run_name, yearly.year_unit, yearly.year_meaning)
-    for yearly in YEARLY
-    if yearly.drawn == "largest"
-}
+#: All variables of `year`.
+YEAR_VARIABLES = VariableTable(
+    "Year of each design, `macroslip.study.year.year`",
+    (
+        Variable("hours", ("bin",), "h", ALWAYS, "time in a year"),
+        Variable("covered", (), "1", ALWAYS, "share of the year in the cases"),
+        Variable("runs", _CELLS, "1", ALWAYS, "runs of the means"),
+        Variable("left_out", _CELLS, "1", ALWAYS, "runs without a result for all rollers"),
+        Variable("energy", _BY_ROW, "J", ALWAYS, "energy of a mean roller in a year"),
+        Variable("per_hour", _BY_ROW, "J", ALWAYS, "energy of a mean roller in an hour of it"),
+        Variable("total", ("group", "row"), "J", ALWAYS, "energy of a mean roller in a year"),
+        Variable(
+            "scatter",
+            ("group", "row"),
+            "1",
+            ALWAYS,
+            "standard error of it by the scatter of runs in a bin",
+        ),
+        Variable("peak", _BY_ROW, "W", ALWAYS, "largest frictional power of any run"),
+        *(
+            Variable(yearly.name, _BY_ROW, yearly.year_unit, _KNOWN, _meaning_in_year(yearly))
+            for yearly in YEARLY
+        ),
+        *(
+            Variable(name, _GROUP, "h", _KNOWN, f"{name.replace('_', ' ')}, by Palmgren and Miner")
+            for name in LIVES
+        ),
+        *(
+            CASE_VARIABLES[f"damage_equivalent_load_{exponent}"]._replace(dims=_GROUP, when=_KNOWN)
+            for exponent in EXPONENTS
+        ),
+    ),
+)
 #: Columns of `designs`.
 DESIGN_COLUMNS = {
-    "energy": Column("sum", "J/year", "energy of a mean roller, both rows"),
-    **{yearly.name: Column(yearly.drawn, yearly.unit, yearly.meaning) for yearly in YEARLY},
-    "peak": Column("largest", "W", "largest power"),
+    "energy": DesignColumn("sum", "J/year", "energy of a mean roller, both rows"),
+    **{yearly.name: DesignColumn(yearly.drawn, yearly.unit, yearly.meaning) for yearly in YEARLY},
+    "peak": DesignColumn("largest", "W", "largest power"),
 }
 #: Units of the numbers in the table of `designs`.
 DESIGN_UNITS = {name: column.unit for name, column in DESIGN_COLUMNS.items()} | dict.fromkeys(
@@ -91,13 +126,13 @@ def year(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """
     bins = aggregation.bins(study)
     share = bins.probabilities(aggregation.weights)
-    data = _energies(study, bins, share) | _criteria(study, bins, share)
-    data |= _lives(study, bins, share / share.sum())
-    data["hours"] = ("bin", share * YEAR / 3600.0, described("h", "time in a year"))
-    data["covered"] = ((), share.sum(), described("1", "share of the year in the cases"))
+    values = _energies(study, bins, share) | _criteria(study, bins, share)
+    values |= _lives(study, bins, share / share.sum())
+    values["hours"] = share * YEAR / 3600.0
+    values["covered"] = share.sum()
     coordinates = bins.coordinates(study) | {"row": study.row}
     is_weighted = aggregation.weights is not None
-    return xr.Dataset(data, coordinates, {"weighted": int(is_weighted)})
+    return xr.Dataset(YEAR_VARIABLES.put(values), coordinates, {"weighted": int(is_weighted)})
 
 
 def _by_row(study: xr.Dataset, name: str) -> np.ndarray:
@@ -128,57 +163,70 @@ def _energies(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, 
     counts = several & (weight > 0.0)
     has_scatter = np.any(counts, axis=1)[:, 0]
     scatter[~has_scatter] = np.nan
-    cells = ("group", "bin")
-    about_hour = described("J", "energy of a mean roller in an hour of it")
-    about_energy = described("J", "energy of a mean roller in a year")
-    about_scatter = described("1", "standard error of it by the scatter of runs in a bin")
-    about_left_out = described("1", "runs without a result for all rollers")
     return {
-        "runs": (cells, runs, described("1", "runs of the means")),
-        "left_out": (cells, left_out, about_left_out),
-        "energy": ((*cells, "row"), energy, about_energy),
-        "per_hour": ((*cells, "row"), 3600.0 * mean, about_hour),
-        "total": (("group", "row"), total, about_energy),
-        "scatter": (("group", "row"), scatter, about_scatter),
+        "runs": runs,
+        "left_out": left_out,
+        "energy": energy,
+        "per_hour": 3600.0 * mean,
+        "total": total,
+        "scatter": scatter,
     }
 
 
 def _criteria(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any]:
     """Sums of criteria over a year, and the largest values of any run."""
-    data: dict[str, Any] = {}
-    dims = ("group", "bin", "row")
-    for name, (variable, units, about) in LARGEST.items():
-        if variable in study:
+    values: dict[str, Any] = {}
+    for name, of_run in LARGEST.items():
+        if of_run in study:
             shape = (len(bins.groups), share.size, study.sizes["row"])
             largest = np.full(shape, np.nan)
-            np.fmax.at(largest, (bins.group, bins.bin), _by_row(study, variable))
-            data[name] = (dims, largest, described(units, about))
-    for name, (variable, units, about) in SUMS.items():
-        if variable in study:
-            rates, _, _ = bins.means(_by_row(study, variable))
-            sums = _in_a_year(rates, share)
-            data[name] = (dims, sums, described(units, f"{about}: in a year"))
-    return data
+            np.fmax.at(largest, (bins.group, bins.bin), _by_row(study, of_run))
+            values[name] = largest
+    for name, of_run in SUMS.items():
+        if of_run in study:
+            rates, _, _ = bins.means(_by_row(study, of_run))
+            values[name] = _in_a_year(rates, share)
+    return values
 
 
 def _lives(study: xr.Dataset, bins: Binning, share: np.ndarray) -> dict[str, Any]:
     """Lives by Palmgren and Miner and damage-equivalent loads, by shares of the time covered."""
-    data: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for name in LIVES:
         if name in study:
-            about = f"{name.replace('_', ' ')}, by Palmgren and Miner"
             with np.errstate(divide="ignore"):
                 damage_rates, _, _ = bins.means(1.0 / study[name].values)
-                life = 1.0 / weighted(damage_rates, share)
-            data[name] = ("group", life, described("h", about))
+                values[name] = 1.0 / weighted(damage_rates, share)
     for exponent in EXPONENTS:
         name = f"damage_equivalent_load_{exponent}"
         if name in study:
-            about = f"range of the damage-equivalent radial load at 1 Hz, exponent {exponent}"
             powers, _, _ = bins.means(study[name].values ** exponent)
-            load = weighted(powers, share) ** (1.0 / exponent)
-            data[name] = ("group", load, described("N", about))
-    return data
+            values[name] = weighted(powers, share) ** (1.0 / exponent)
+    return values
+
+
+def _sum_of_year(annual: xr.Dataset, name: str, drawn: str) -> tuple[np.ndarray, list[str]]:
+    """A number of each design over all bins, and a sentence on hours that it leaves out."""
+    yearly = next((yearly for yearly in YEARLY if yearly.name == name), None)
+    values = annual[name]
+    notes = []
+    if yearly is not None and yearly.needs_orbit:
+        is_unknown = values.isnull().all("row").all("group")
+        unknown = is_unknown & (annual.hours > 0.0)
+        if bool(unknown.any()):
+            hours = float(annual.hours.where(unknown).sum())
+            notes.append(
+                f"{yearly.noun.capitalize()} leave out {hours:.3g} h a year in which no orbit is "
+                "complete."
+            )
+            values = values.where(~unknown, 0.0)
+    by_row = values.sum("bin", skipna=False)
+    over_rows = by_row.sum if drawn == "sum" else by_row.max
+    sums = over_rows("row", skipna=False).values
+    if yearly is not None and yearly.mean_over is not None:
+        seconds = float(annual.covered) * YEAR
+        sums = sums / (seconds * yearly.mean_over)
+    return sums, notes
 
 
 def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
@@ -192,36 +240,18 @@ def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     table = pd.DataFrame(labels, index=range(annual.sizes["group"]))
     notes = []
     missing = []
-    seconds = float(annual.covered) * YEAR
-    mean_over = {}
-    for yearly in YEARLY:
-        if yearly.mean_over is not None:
-            mean_over[yearly.name] = seconds * yearly.mean_over
     for name, (drawn, _, about) in DESIGN_COLUMNS.items():
         known = None
         if name in annual:
             known = annual[name].where(annual.hours > 0.0)
         if known is None or not bool(known.notnull().any()):
             missing.append(about)
-            continue
-        if drawn == "largest":
+        elif drawn == "largest":
             largest = known.reduce(np.fmax.reduce, ("bin", "row"))
             table[name] = largest.values
-            continue
-        values = annual[name]
-        if name == "entries":  # they are counted by orbits
-            is_unknown = values.isnull().all("row").all("group")
-            unknown = is_unknown & (annual.hours > 0.0)
-            if bool(unknown.any()):
-                hours = float(annual.hours.where(unknown).sum())
-                notes.append(
-                    f"Entries leave out {hours:.3g} h a year in which no orbit is complete."
-                )
-                values = values.where(~unknown, 0.0)
-        by_row = values.sum("bin", skipna=False)
-        over_rows = by_row.sum if drawn == "sum" else by_row.max
-        sums = over_rows("row", skipna=False).values
-        table[name] = sums / mean_over.get(name, 1.0)
+        else:
+            table[name], left_out = _sum_of_year(annual, name, drawn)
+            notes += left_out
     for name in LIVES:
         if name in annual and bool(annual[name].notnull().any()):
             table[name] = annual[name].values

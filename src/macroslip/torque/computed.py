@@ -10,6 +10,49 @@ from macroslip.errors import InputError
 from macroslip.mechanics.loads import drag_power
 from macroslip.result.run_input import run_input
 from macroslip.roller.model import RollerModel
+from macroslip.variables import ALWAYS, Variable, VariableTable
+
+_CONTACTS = ("row", "interface", "time")
+#: All variables of `computed_torque`.
+TORQUE = VariableTable(
+    "Friction torque of a bearing, `macroslip.torque.computed.computed_torque`",
+    (
+        Variable(
+            "shaft_speed", ("time",), "rad/s", ALWAYS, "speed of the inner ring, with its sign"
+        ),
+        Variable(
+            "torque",
+            ("time",),
+            "N m",
+            ALWAYS,
+            "friction torque of the bearing, against the rotation",
+        ),
+        Variable(
+            "contact_torque", _CONTACTS, "N m", ALWAYS, "torque of the friction at the interface"
+        ),
+        Variable(
+            "rolling_torque",
+            _CONTACTS,
+            "N m",
+            ALWAYS,
+            "torque of rolling resistance at the interface",
+        ),
+        Variable(
+            "ring_torque",
+            ("raceway", "time"),
+            "N m",
+            ALWAYS,
+            "torque of the contacts on the ring, positive along the orbit",
+        ),
+        Variable(
+            "drag_torque",
+            ("time",),
+            "N m",
+            ALWAYS,
+            "torque of the lubricant's drag on the rollers",
+        ),
+    ),
+)
 
 
 def computed_torque(result: xr.Dataset) -> xr.Dataset:
@@ -80,33 +123,27 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     rollers = bearing.rows * bearing.rollers_per_row
     drag = rollers * drag_power(model.drag, bearing.pitch_radius, orbital) * per_power
 
-    contacts.attrs = {"units": "N m", "long_name": "torque of the friction at the interface"}
-    rolling.attrs = {"units": "N m", "long_name": "torque of rolling resistance at the interface"}
-    rings = _ring_torques(result, bearing, model)
-    rings.attrs = {
-        "units": "N m",
-        "long_name": "torque of the contacts on the ring, positive along the orbit",
-    }
     torque_of_contacts = contacts.sum(("row", "interface"), skipna=False)
     torque_of_rolling = rolling.sum(("row", "interface"), skipna=False)
-    total = torque_of_contacts + torque_of_rolling + drag
-
-    def over_time(values: object, units: str, long_name: str) -> tuple:
-        return "time", np.asarray(values), {"units": units, "long_name": long_name}
-
+    values = {
+        "shaft_speed": shaft,
+        "torque": (torque_of_contacts + torque_of_rolling + drag).values,
+        "contact_torque": contacts.values,
+        "rolling_torque": rolling.values,
+        "ring_torque": _ring_torques(result, bearing, model).values,
+        "drag_torque": drag,
+    }
     known = {name: result.attrs[name] for name in ("model", "oil") if name in result.attrs}
+    coordinates = {
+        "time": result.time,
+        "row": result.row,
+        "interface": result.interface,
+        "raceway": ["inner", "outer"],
+    }
     return xr.Dataset(
-        {
-            "shaft_speed": over_time(shaft, "rad/s", "speed of the inner ring"),
-            "torque": over_time(
-                total, "N m", "friction torque of the bearing, against the rotation"
-            ),
-            "contact_torque": contacts,
-            "rolling_torque": rolling,
-            "ring_torque": rings,
-            "drag_torque": over_time(drag, "N m", "torque of the lubricant's drag on the rollers"),
-        },
-        attrs={"title": f"Friction torque: {result.attrs['title']}", **known},
+        TORQUE.put(values),
+        coordinates,
+        {"title": f"Friction torque: {result.attrs['title']}", **known},
     )
 
 

@@ -30,7 +30,7 @@ def mechanisms(case: Case) -> Iterator[InputError]:
     yield from skew_of_guided_rollers(case, "the rib guides a tapered one")
     if case.temperature == BALANCE:
         yield InputError(
-            "the balance of heat is not computed for tapered roller bearings, whose preload hangs on "
+            "the balance of heat is not computed for tapered roller bearings, whose preload depends on "
             "the difference of their rings' temperatures",
             where="temperature",
             allowed="a temperature, with temperature_difference",
@@ -67,7 +67,7 @@ def mount(case: Case) -> Iterator[InputError]:
         )
     if case.drivetrain.mount == "three-point" and case.drivetrain.gearbox_stiffness is None:
         yield InputError(
-            f"{case.bearing.name} carries moments, so that what the gearbox takes of them hangs on "
+            f"{case.bearing.name} carries moments, so that what the gearbox takes of them depends on "
             "the stiffness of its support, which is not given",
             where="drivetrain",
             allowed="mount: alone, two-bearings, or three-point with gearbox_stiffness",

@@ -35,6 +35,7 @@ from macroslip.ring.tapered import (
     tapered_ring,
     two_bearings,
 )
+from macroslip.variables import ALWAYS, Variable, VariableTable, described
 
 #: Names of the rows, by the thrust that they carry.
 ROWS = ("downwind", "upwind")
@@ -48,61 +49,151 @@ LINE_LAWS = ("palmgren", "plane-strain")
 _RING_THICKNESS = 0.58
 _BY_ROLLER = ("time", "row", "roller")
 _BY_ROW = ("time", "row")
-#: Dimensions, unit and long name of every variable of `tapered_history`.
-VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
-    "ring_displacement": (("time", "direction"), "m", "displacement of the inner ring"),
-    "ring_tilt": (("time", "axis"), "rad", "tilt of the inner ring"),
-    "outer_load": (_BY_ROLLER, "N", "load of a roller on the outer raceway"),
-    "inner_load": (_BY_ROLLER, "N", "load of a roller on the inner raceway"),
-    "rib_force": (_BY_ROLLER, "N", "force of the rib on a roller"),
-    "roller_angle": (_BY_ROLLER, "rad", "position of a roller round the bearing"),
-    "least_load": (_BY_ROW, "N", "least load of a roller on the outer raceway"),
-    "below_grip": (_BY_ROW, "1", "number of rollers whose load is below that of grip"),
-    "axial_float": (_BY_ROW, "m", "largest way of a loose roller from the rib to where it wedges"),
-    "contact_pressure": (_BY_ROW, "Pa", "largest pressure at the inner raceway"),
-    "pressure_along": (
-        ("time", "row", "strip"),
-        "Pa",
-        "pressure along the hardest roller at the inner raceway",
+_OVER_TIME = ("time",)
+#: All variables of `tapered_history`.
+HISTORY = VariableTable(
+    "Tapered roller bearing over a load history, `macroslip.kinds.tapered.history.tapered_history`",
+    (
+        Variable(
+            "ring_displacement",
+            ("time", "direction"),
+            "m",
+            ALWAYS,
+            "displacement of the inner ring",
+        ),
+        Variable("ring_tilt", ("time", "axis"), "rad", ALWAYS, "tilt of the inner ring"),
+        Variable("outer_load", _BY_ROLLER, "N", ALWAYS, "load of a roller on the outer raceway"),
+        Variable("inner_load", _BY_ROLLER, "N", ALWAYS, "load of a roller on the inner raceway"),
+        Variable("rib_force", _BY_ROLLER, "N", ALWAYS, "force of the rib on a roller"),
+        Variable(
+            "roller_angle", _BY_ROLLER, "rad", ALWAYS, "position of a roller round the bearing"
+        ),
+        Variable("least_load", _BY_ROW, "N", ALWAYS, "least load of a roller on the outer raceway"),
+        Variable(
+            "below_grip", _BY_ROW, "1", ALWAYS, "number of rollers whose load is below that of grip"
+        ),
+        Variable(
+            "axial_float",
+            _BY_ROW,
+            "m",
+            ALWAYS,
+            "largest way of a loose roller from the rib to where it wedges",
+        ),
+        Variable(
+            "contact_pressure", _BY_ROW, "Pa", ALWAYS, "largest pressure at the inner raceway"
+        ),
+        Variable(
+            "pressure_along",
+            ("time", "row", "strip"),
+            "Pa",
+            ALWAYS,
+            "pressure along the hardest roller at the inner raceway",
+        ),
+        Variable(
+            "edge_pressure",
+            _BY_ROW,
+            "Pa",
+            ALWAYS,
+            "largest pressure in the outer tenths of the rollers",
+        ),
+        Variable(
+            "edge_share",
+            _BY_ROW,
+            "1",
+            ALWAYS,
+            "load of the hardest roller's outer tenths over its load",
+        ),
+        Variable(
+            "raceway_microslip",
+            _BY_ROW,
+            "m/s",
+            ALWAYS,
+            "mean microslip along the hardest roller, inner raceway",
+        ),
+        Variable(
+            "raceway_film_ratio",
+            _BY_ROW,
+            "1",
+            ALWAYS,
+            "least film over roughness at the inner raceway",
+        ),
+        Variable("rib_pressure", _BY_ROW, "Pa", ALWAYS, "largest pressure at the ribs"),
+        Variable(
+            "rib_pressure_speed",
+            _BY_ROW,
+            "W/m2",
+            ALWAYS,
+            "largest pressure times sliding speed at the ribs",
+        ),
+        Variable(
+            "rib_pass_energy",
+            _BY_ROW,
+            "J/m2",
+            ALWAYS,
+            "pressure times slip of a place of the rib in a pass",
+        ),
+        Variable(
+            "rib_flash_temperature", _BY_ROW, "K", ALWAYS, "largest flash temperature at the ribs"
+        ),
+        Variable(
+            "rib_friction",
+            _BY_ROW,
+            "1",
+            ALWAYS,
+            "coefficient of friction at the ribs, mean by load",
+        ),
+        Variable(
+            "rib_asperity_share",
+            _BY_ROW,
+            "1",
+            ALWAYS,
+            "largest share of the ribs' load on asperities",
+        ),
+        Variable(
+            "rib_asperity_work",
+            ("time", "row", "surface"),
+            "W/m2",
+            ALWAYS,
+            "asperities' pressure times slip per time, for wear",
+        ),
+        Variable(
+            "rib_ellipse_margin",
+            _BY_ROW,
+            "m",
+            ALWAYS,
+            "room of the rib's ellipse to the edge; cut below 0",
+        ),
+        Variable("rib_film_ratio", _BY_ROW, "1", ALWAYS, "least film over roughness at the ribs"),
+        Variable(
+            "rolling_power", _BY_ROW, "W", ALWAYS, "power of the raceways' rolling resistance"
+        ),
+        Variable("rib_power", _BY_ROW, "W", ALWAYS, "friction power of the ribs"),
+        Variable("rolling_torque", _OVER_TIME, "N m", ALWAYS, "friction torque of the raceways"),
+        Variable("rib_torque", _OVER_TIME, "N m", ALWAYS, "friction torque of the ribs"),
+        Variable(
+            "friction_torque", _OVER_TIME, "N m", ALWAYS, "friction torque of raceways and ribs"
+        ),
+        Variable("preload", (), "m", ALWAYS, "axial preload with the temperature difference"),
+        Variable(
+            "preload_change", (), "m", ALWAYS, "change of preload by the temperature difference"
+        ),
+        Variable("grip_load", (), "N", ALWAYS, "load from which on a raceway grips a roller"),
+        Variable("rib_sliding_speed", (), "m/s", ALWAYS, "sliding speed at the ribs, in the mean"),
+        Variable(
+            "other_line_law",
+            (),
+            "1",
+            ALWAYS,
+            "largest roller load by the other line law over that by the chosen",
+        ),
+        Variable("failed", (), "1", ALWAYS, "samples whose ring balance was not found"),
     ),
-    "edge_pressure": (_BY_ROW, "Pa", "largest pressure in the outer tenths of the rollers"),
-    "edge_share": (_BY_ROW, "1", "load of the hardest roller's outer tenths over its load"),
-    "raceway_microslip": (_BY_ROW, "m/s", "mean microslip along the hardest roller, inner raceway"),
-    "raceway_film_ratio": (_BY_ROW, "1", "least film over roughness at the inner raceway"),
-    "rib_pressure": (_BY_ROW, "Pa", "largest pressure at the ribs"),
-    "rib_pressure_speed": (_BY_ROW, "W/m^2", "largest pressure times sliding speed at the ribs"),
-    "rib_pass_energy": (_BY_ROW, "J/m^2", "pressure times slip of a place of the rib in a pass"),
-    "rib_flash_temperature": (_BY_ROW, "K", "largest flash temperature at the ribs"),
-    "rib_friction": (_BY_ROW, "1", "coefficient of friction at the ribs, mean by load"),
-    "rib_asperity_share": (_BY_ROW, "1", "largest share of the ribs' load on asperities"),
-    "rib_asperity_work": (
-        ("time", "row", "surface"),
-        "W/m^2",
-        "asperities' pressure times slip per time, for wear",
-    ),
-    "rib_ellipse_margin": (_BY_ROW, "m", "room of the rib's ellipse to the edge; cut below 0"),
-    "rib_film_ratio": (_BY_ROW, "1", "least film over roughness at the ribs"),
-    "rolling_power": (_BY_ROW, "W", "power of the raceways' rolling resistance"),
-    "rib_power": (_BY_ROW, "W", "friction power of the ribs"),
-    "rolling_torque": (("time",), "N m", "friction torque of the raceways"),
-    "rib_torque": (("time",), "N m", "friction torque of the ribs"),
-    "friction_torque": (("time",), "N m", "friction torque of raceways and ribs"),
-    "preload": ((), "m", "axial preload with the temperature difference"),
-    "preload_change": ((), "m", "change of preload by the temperature difference"),
-    "grip_load": ((), "N", "load from which on a raceway grips a roller"),
-    "rib_sliding_speed": ((), "m/s", "sliding speed at the ribs, in the mean"),
-    "other_line_law": (
-        (),
-        "1",
-        "largest roller load by the other line law over that by the chosen",
-    ),
-    "failed": ((), "1", "samples whose ring balance was not found"),
-}
+)
 
 
 @dataclass(frozen=True)
 class TaperedMount:
-    """How a shaft is held by tapered roller bearings, and beside them.
+    """Shaft supports: one or two tapered bearings, optional elastic gearbox support.
 
     One bearing carries alone, or a gearbox's elastic support behind it takes a part (three-point),
     or two bearings carry, all of their rows together on a rigid shaft.
@@ -380,10 +471,7 @@ def tapered_history(
     values["failed"] = int((~is_converged).sum())
     values["other_line_law"] = _other_line_law(solved, mount, force, moment)
     return xr.Dataset(
-        {
-            name: (dims, values[name], {"units": units, "long_name": long_name})
-            for name, (dims, units, long_name) in VARIABLES.items()
-        },
+        HISTORY.put(values),
         _coordinates(warm, ring, hub_loads, mount),
         {"bearing": bearing.name, "lubricant": lubricant.name, "loads": hub_loads.source},
     )
@@ -394,10 +482,10 @@ def _coordinates(
 ) -> dict[str, Any]:
     """Coordinates of a result."""
     stations = strip_places(bearing.roller_length, ring.profile.size)
-    along = {"units": "m", "long_name": "place along the roller, towards its large end"}
+    along = described("m", "place along the roller, towards its large end")
     return {
-        "time": ("time", hub_loads.time, {"units": "s", "long_name": "time"}),
-        "row": ("row", list(mount.row_names), {"long_name": "row, by the thrust that it carries"}),
+        "time": ("time", hub_loads.time, described("s", "time")),
+        "row": ("row", list(mount.row_names), described("1", "row, by the thrust that it carries")),
         "direction": ("direction", ["X0", "Y0", "Z0"]),
         "axis": ("axis", ["X0", "Y0"]),
         "surface": ("surface", list(RIB_SURFACES)),

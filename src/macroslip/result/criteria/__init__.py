@@ -23,3 +23,7 @@ def _declared() -> list[Criterion]:
 CRITERIA: tuple[Criterion, ...] = tuple(sorted(_declared(), key=lambda criterion: criterion.order))
 #: What a study keeps of them.
 YEARLY: tuple[Yearly, ...] = tuple(yearly for criterion in CRITERIA for yearly in criterion.yearly)
+#: The criterion of each number of a year, by its name.
+OF_NUMBER: dict[str, Criterion] = {
+    yearly.name: criterion for criterion in CRITERIA for yearly in criterion.yearly
+}

@@ -9,11 +9,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from macroslip.variables import Variable
+
 if TYPE_CHECKING:
     from macroslip.result.criteria.evaluation import Evaluation
 
-#: Variables of the answer by name: dimensions, values, and attributes with units and long_name.
-Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
+#: Values of variables by name.
+Values = dict[str, Any]
+#: When a variable of a criterion is there: with an orbit in the window, or in an event.
+WITH_ORBIT = "where an orbit is complete"
+OF_YEAR = "where an orbit is complete, or in an event"
 
 
 class Threshold(NamedTuple):
@@ -21,6 +26,17 @@ class Threshold(NamedTuple):
 
     value: float  #: In the unit of the criterion
     source: str  #: Where it comes from
+
+
+class PageColumn(NamedTuple):
+    """A column of a table on a page."""
+
+    heading: str  #: With the unit in which it is shown
+    factor: float = 1.0  #: To that unit
+
+
+def _in_brackets(unit: str) -> str:
+    return "" if unit == "1" else f" [{unit}]"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +62,31 @@ class Yearly:
     #: True if the number grows by factors over the temperature of the oil, so that its logarithm is
     #: interpolated.
     by_factors: bool = False
+    #: True if it follows from the complete orbits of a run: hours without one are left out, and
+    #: told.
+    needs_orbit: bool = False
+    #: Columns of it in the tables of designs and of a year's situations on the page of a study;
+    #: by default with meaning and unit. A heading that is empty leaves it out.
+    design_column: PageColumn | None = None
+    year_column: PageColumn | None = None
+    #: True if pages begin with it: a figure of its effects in a sample, and its sentences and map
+    #: in a year of a turbine.
+    leads: bool = False
+
+    @property
+    def noun(self) -> str:
+        """Its name in a sentence."""
+        return self.name.replace("_", " ")
+
+    @property
+    def in_designs(self) -> PageColumn:
+        """PageColumn in the table of designs."""
+        return self.design_column or PageColumn(f"{self.meaning}{_in_brackets(self.unit)}")
+
+    @property
+    def in_year(self) -> PageColumn:
+        """PageColumn in the table of the situations of a year."""
+        return self.year_column or PageColumn(f"{self.noun}{_in_brackets(self.year_unit)}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,14 +98,20 @@ class Criterion:
     mechanism: str  #: Kind of damage: smearing, friction energy, micropitting, wear
     quantity: str  #: Number that is compared
     unit: str
-    #: Variables from which the value follows; none where the result lacks their input.
-    variables: Callable[[Evaluation], Variables]
+    #: Its variables in the answer.
+    declares: tuple[Variable, ...]
+    #: Their values, from which its own follows; none where the result lacks their input.
+    variables: Callable[[Evaluation], Values]
+    #: Coordinates of their dimensions, beyond row, surface, raceway and station.
+    coordinates: Callable[[Evaluation], dict[str, Any]] | None = None
     #: The worst value of either row and any point, of the variables of all criteria [unit]; NaN
     #: where not known.
     value: Callable[[Mapping[str, np.ndarray]], float]
     #: Sentences on what is missing, of the evaluation and the variables of all criteria.
     missing: Callable[[Evaluation, Mapping[str, np.ndarray]], list[str]] | None = None
     reference: float  #: What the value is compared with [unit]; NaN where none could be traced
+    #: Least and largest reference that its source leaves open; that itself if not given.
+    reference_range: tuple[float, float] | None = None
     compared_with: str  #: Source of the reference
     factor: float  #: The value holds within this factor either way
     reason: str  #: What the factor comes from

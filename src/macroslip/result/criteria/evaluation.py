@@ -75,6 +75,14 @@ class Evaluation:
         own = self.thresholds.get(criterion.name)
         return criterion.reference if own is None else own.value
 
+    def reference_range(self, criterion: Criterion) -> tuple[float, float]:
+        """Least and largest reference of a criterion [unit]; a user's threshold is exact."""
+        own = self.thresholds.get(criterion.name)
+        if own is not None or criterion.reference_range is None:
+            reference = self.reference(criterion)
+            return reference, reference
+        return criterion.reference_range
+
     def powers(self, name: str) -> np.ndarray:
         """Power of a map [W], of all rollers of a row, over row, raceway, angle and station."""
         energy = self.result[name]

@@ -4,43 +4,37 @@ from __future__ import annotations
 
 from macroslip.constants import YEAR
 from macroslip.damage import friction_energy
-from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest_of
+from macroslip.result.criteria.criterion import (
+    OF_YEAR,
+    Criterion,
+    PageColumn,
+    Values,
+    Yearly,
+    largest_of,
+)
 from macroslip.result.criteria.evaluation import Evaluation
-from macroslip.result.variables import described
+from macroslip.variables import ALWAYS, Variable
 
 _TEST = friction_energy.ThrustTest()
-#: Least and largest e_a of the FE8 test [W/m²], and their mean, with which friction energy is
-#: compared.
+#: Least and largest e_a of the FE8 test [W/m²], with the logarithmic profile and with even load, and
+#: their mean, with which friction energy is compared.
 LEAST_POWER, LARGEST_POWER = _TEST.range()
 REFERENCE_POWER = 0.5 * (LEAST_POWER + LARGEST_POWER)
 _OVER = ("row", "surface", "station")
 
 
-def _rates(evaluation: Evaluation) -> Variables:
+def _rates(evaluation: Evaluation) -> Values:
     return {
-        "pass_rate": (
-            ("surface",),
-            evaluation.pass_rates(),
-            described("1/s", "passes over a place that is loaded all round"),
-        ),
-        "pressure_slip_rate": (
-            _OVER,
-            evaluation.profile("surface_work"),
-            described("W/m2", "mean of p |v| over time, e_a"),
-        ),
-        "friction_power": (
-            _OVER,
-            evaluation.profile("surface_energy"),
-            described("W/m2", "frictional power per area, mean over time"),
-        ),
+        "pass_rate": evaluation.pass_rates(),
+        "pressure_slip_rate": evaluation.profile("surface_work"),
+        "friction_power": evaluation.profile("surface_energy"),
     }
 
 
-def _of_a_year(evaluation: Evaluation) -> Variables:
+def _of_a_year(evaluation: Evaluation) -> Values:
     if not evaluation.tells_of_year:
         return {}
-    energy = YEAR * evaluation.profile("surface_work")
-    return {"pressure_slip_year": (_OVER, energy, described("J/m2", "p |v| over a year like this"))}
+    return {"pressure_slip_year": YEAR * evaluation.profile("surface_work")}
 
 
 CRITERIA = (
@@ -50,9 +44,23 @@ CRITERIA = (
         mechanism="friction energy",
         quantity="e_a, mean of p |v|",
         unit="W/m2",
+        declares=(
+            Variable(
+                "pass_rate",
+                ("surface",),
+                "1/s",
+                ALWAYS,
+                "passes over a place that is loaded all round",
+            ),
+            Variable("pressure_slip_rate", _OVER, "W/m2", ALWAYS, "mean of p |v| over time, e_a"),
+            Variable(
+                "friction_power", _OVER, "W/m2", ALWAYS, "frictional power per area, mean over time"
+            ),
+        ),
         variables=_rates,
         value=largest_of("pressure_slip_rate"),
         reference=REFERENCE_POWER,
+        reference_range=(LEAST_POWER, LARGEST_POWER),
         compared_with="FE8 test 81212",
         factor=1.3,
         reason="crown of washers",
@@ -73,6 +81,8 @@ CRITERIA = (
                 meaning="e_a over the FE8 test",
                 mean_over=REFERENCE_POWER,
                 by_factors=True,
+                design_column=PageColumn("friction energy / FE8 test"),
+                year_column=PageColumn("p |v| [MJ/mm²]", 1e-12),
             ),
         ),
     ),
@@ -82,9 +92,13 @@ CRITERIA = (
         mechanism="friction energy",
         quantity="p |v| of such a year",
         unit="J/m2",
+        declares=(
+            Variable("pressure_slip_year", _OVER, "J/m2", OF_YEAR, "p |v| over a year like this"),
+        ),
         variables=_of_a_year,
         value=largest_of("pressure_slip_year"),
         reference=_TEST.duration * REFERENCE_POWER,
+        reference_range=(_TEST.duration * LEAST_POWER, _TEST.duration * LARGEST_POWER),
         compared_with="FE8 test 81212, 20 h",
         in_answer=False,
         factor=1.3,

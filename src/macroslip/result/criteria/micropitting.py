@@ -4,16 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from macroslip.constants import HOUR
 from macroslip.damage import micropitting
 from macroslip.measures.along import FILM_EDGES, SLIP_EDGES
-from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest, largest_of
+from macroslip.result.criteria.criterion import (
+    Criterion,
+    PageColumn,
+    Values,
+    Yearly,
+    largest,
+    largest_of,
+)
 from macroslip.result.criteria.evaluation import Evaluation
 from macroslip.result.run_input import window_length
-from macroslip.result.variables import described
+from macroslip.variables import ALWAYS, Variable, described
 
 _NO_THIN_FILMS = (
     "No film under load was thinner than Λ = 3, so nothing is said of the sign of slip in thin "
@@ -32,24 +41,25 @@ def _amounts(evaluation: Evaluation, kind: str) -> np.ndarray:
     return amounts.transpose(*_OVER, "film_class", "slip_class").values
 
 
-def _mixed(evaluation: Evaluation) -> Variables:
+def _mixed(evaluation: Evaluation) -> Values:
     """Shares of loaded time and of passes with Λ below each of its edges."""
-    variables: Variables = {}
-    for kind, meaning in _MEANINGS.items():
+    values: Values = {}
+    for kind in _MEANINGS:
         amounts = _amounts(evaluation, kind)
         shares = [micropitting.share_below(amounts, FILM_EDGES, edge) for edge in FILM_EDGES]
-        about = described("1", f"share of {meaning} with Lambda below film_ratio")
-        share = np.stack(shares, axis=-1)
-        variables[f"mixed_{kind}"] = ((*_OVER, "film_ratio"), share, about)
-    return variables
+        values[f"mixed_{kind}"] = np.stack(shares, axis=-1)
+    return values
 
 
-def _slower(evaluation: Evaluation) -> Variables:
+def _film_ratios(_: Evaluation) -> dict[str, Any]:
+    about = described("1", "upper limit of Lambda")
+    return {"film_ratio": ("film_ratio", list(FILM_EDGES), about)}
+
+
+def _slower(evaluation: Evaluation) -> Values:
     by_class = _amounts(evaluation, "time")
     thin = by_class[:, :, :_BELOW_THREE].sum(axis=2)
-    meaning = "of the time with Lambda below 3 the share with the ring the slower surface"
-    share = micropitting.slower_share(thin, SLIP_EDGES)
-    return {"slower_share": (_OVER, share, described("1", meaning))}
+    return {"slower_share": micropitting.slower_share(thin, SLIP_EDGES)}
 
 
 def _without_thin_films(evaluation: Evaluation, variables: Mapping[str, np.ndarray]) -> list[str]:
@@ -73,7 +83,18 @@ CRITERIA = (
         mechanism="micropitting",
         quantity="loaded time with Λ < 1",
         unit="1",
+        declares=tuple(
+            Variable(
+                f"mixed_{kind}",
+                (*_OVER, "film_ratio"),
+                "1",
+                ALWAYS,
+                f"share of {meaning} with Lambda below film_ratio",
+            )
+            for kind, meaning in _MEANINGS.items()
+        ),
         variables=_mixed,
+        coordinates=_film_ratios,
         value=lambda variables: largest(variables["mixed_time"][..., _BELOW_ONE - 1]),
         reference=math.nan,
         compared_with="",
@@ -94,6 +115,8 @@ CRITERIA = (
                 unit="1",
                 meaning="share of time with Λ < 1",
                 mean_over=1.0,
+                design_column=PageColumn("time with Λ < 1 [%]", 100.0),
+                year_column=PageColumn("Λ < 1 [h]", 1.0 / HOUR),
             ),
         ),
     ),
@@ -103,6 +126,15 @@ CRITERIA = (
         mechanism="micropitting",
         quantity="ring slower, Λ < 3",
         unit="1",
+        declares=(
+            Variable(
+                "slower_share",
+                _OVER,
+                "1",
+                ALWAYS,
+                "of the time with Lambda below 3 the share with the ring the slower surface",
+            ),
+        ),
         variables=_slower,
         value=largest_of("slower_share"),
         missing=_without_thin_films,

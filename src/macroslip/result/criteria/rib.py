@@ -1,7 +1,7 @@
 """Criteria of smearing and wear at the ribs of a tapered roller bearing.
 
-A rib slides in pure rolling at every loaded roller, so that nothing hangs on entries into a load
-zone. No published limit of smearing is known to hold beyond the rig that it is from.
+A rib slides in pure rolling at every loaded roller, so that entries into a load zone do not
+matter. No published limit of smearing is known to hold beyond the rig that it is from.
 """
 
 from __future__ import annotations
@@ -14,34 +14,38 @@ import xarray as xr
 
 from macroslip.constants import YEAR
 from macroslip.damage import wear
-from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest_of
+from macroslip.result.criteria.criterion import (
+    Criterion,
+    PageColumn,
+    Values,
+    Yearly,
+    largest_of,
+)
 from macroslip.result.criteria.evaluation import Evaluation
 from macroslip.result.criteria.wear import COMPARED_DEPTH, DESIGN_LIFE, MIDDLE_COEFFICIENT
-from macroslip.result.variables import described
+from macroslip.result.variables import TAPERED_ASPERITIES, VARIABLES
+from macroslip.variables import Variable
 
 
-def _of_result(name: str) -> Callable[[Evaluation], Variables]:
+def _of_result(name: str) -> Callable[[Evaluation], Values]:
     """The variable of the result, where it has one."""
 
-    def variables(evaluation: Evaluation) -> Variables:
+    def variables(evaluation: Evaluation) -> Values:
         if name not in evaluation.result:
             return {}
-        values = evaluation.result[name]
-        return {name: (("row",), values.values, dict(values.attrs))}
+        return {name: evaluation.result[name].values}
 
     return variables
 
 
-def _wear_time(evaluation: Evaluation) -> Variables:
+def _wear_time(evaluation: Evaluation) -> Values:
     """Time until the surface of the rib contact that wears faster has worn by 10 µm."""
     if "rib_asperity_work" not in evaluation.result or not evaluation.tells_of_year:
         return {}
     work = evaluation.result.rib_asperity_work.max("rib_surface").values
     with np.errstate(divide="ignore"):
         rates = np.array(evaluation.wear_coefficients) * work[:, None]
-        times = COMPARED_DEPTH / rates
-    meaning = "time like this window until the rib or the rollers' ends have worn by 10 um"
-    return {"rib_wear_time": (("row", "wear_coefficient"), times, described("s", meaning))}
+        return {"rib_wear_time": COMPARED_DEPTH / rates}
 
 
 def _years(variables: Mapping[str, np.ndarray]) -> float:
@@ -67,6 +71,7 @@ CRITERIA = (
         mechanism="smearing",
         quantity="pressure times speed at the rib",
         unit="W/m2",
+        declares=(VARIABLES["rib_pressure_speed"],),
         variables=_of_result("rib_pressure_speed"),
         value=largest_of("rib_pressure_speed"),
         reference=math.nan,
@@ -80,6 +85,7 @@ CRITERIA = (
         mechanism="smearing",
         quantity="flash temperature at the rib",
         unit="K",
+        declares=(VARIABLES["rib_flash_temperature"],),
         variables=_of_result("rib_flash_temperature"),
         value=largest_of("rib_flash_temperature"),
         reference=math.nan,
@@ -93,6 +99,15 @@ CRITERIA = (
         mechanism="wear",
         quantity="time to 10 µm at the rib, middle k",
         unit="year",
+        declares=(
+            Variable(
+                "rib_wear_time",
+                ("row", "wear_coefficient"),
+                "s",
+                TAPERED_ASPERITIES,
+                "time like this window until the rib or the rollers' ends have worn by 10 um",
+            ),
+        ),
         variables=_wear_time,
         value=_years,
         reference=DESIGN_LIFE,
@@ -113,6 +128,8 @@ CRITERIA = (
                 year_meaning="depth of wear of the rib or the rollers' ends at k = 1e-17 m2/N",
                 unit="m/year",
                 meaning="wear of the ribs at k = 1e-17 m²/N",
+                design_column=PageColumn("wear of the ribs at k = 1e-17 m²/N [µm/year]", 1e6),
+                year_column=PageColumn("wear of the ribs [µm]", 1e6),
             ),
         ),
     ),

@@ -9,64 +9,74 @@ import numpy as np
 import xarray as xr
 
 from macroslip.damage import smearing
-from macroslip.result.criteria.criterion import Criterion, Variables, Yearly, largest_of
+from macroslip.result.criteria.criterion import (
+    WITH_ORBIT,
+    Criterion,
+    PageColumn,
+    Values,
+    Yearly,
+    largest_of,
+)
 from macroslip.result.criteria.evaluation import Evaluation
-from macroslip.result.variables import described
+from macroslip.variables import Variable
 
 _NO_ENTRIES = (
     "No roller entered a load zone in a complete orbit of the window, so nothing is said of "
     "smearing at the raceways."
 )
 _OVER = ("row", "raceway")
+#: Bounds of the number of entries of an orbit beyond a limit, by `smearing.entries_beyond`.
+_BOUNDS = ("least", "most")
 
 
 def _entries(evaluation: Evaluation) -> np.ndarray:
     return evaluation.result.entries.transpose("row", "roller", "orbit").values
 
 
-def _largest(evaluation: Evaluation, criterion: Criterion) -> Variables:
+def _declared(name: str, unit: str, meaning: str) -> tuple[Variable, ...]:
+    """Variables of the largest value at entries, and of how many are beyond its reference."""
+    counts = [
+        Variable(
+            f"{name}_beyond_{bound}",
+            _OVER,
+            "1/s",
+            WITH_ORBIT,
+            f"entries of all rollers beyond the reference of {name}, at {bound}",
+        )
+        for bound in _BOUNDS
+    ]
+    return (Variable(name, _OVER, unit, WITH_ORBIT, meaning), *counts)
+
+
+def _largest(evaluation: Evaluation, criterion: Criterion) -> Values:
     """The largest value at entries, and how many are beyond its reference."""
     if not evaluation.result.sizes["orbit"]:
         return {}
     at_entries = evaluation.result[criterion.name].transpose(*_OVER, "roller", "orbit")
     # Unlike max, fmax does not warn where no roller entered.
     worst = at_entries.reduce(np.fmax.reduce, ("roller", "orbit")).values
-    meaning, *_ = str(at_entries.attrs["long_name"]).split(",")
-    variables: Variables = {
-        criterion.name: (_OVER, worst, described(criterion.unit, meaning)),
-    }
+    values: Values = {criterion.name: worst}
     limit = evaluation.reference(criterion)
     if math.isfinite(limit):
         count = _entries(evaluation)[:, None]
         scale = evaluation.all_rollers / evaluation.orbit_time()
         beyond = smearing.entries_beyond(at_entries.values, count, limit)
-        for bound, number in zip(("least", "most"), beyond, strict=True):
-            meaning = f"entries of all rollers beyond {limit:g} {criterion.unit}, at {bound}"
-            about = described("1/s", meaning)
-            variables[f"{criterion.name}_beyond_{bound}"] = (_OVER, number * scale, about)
-    return variables
+        for bound, number in zip(_BOUNDS, beyond, strict=True):
+            values[f"{criterion.name}_beyond_{bound}"] = number * scale
+    return values
 
 
-def _slide_roll_ratio(evaluation: Evaluation) -> Variables:
+def _slide_roll_ratio(evaluation: Evaluation) -> Values:
     """Entries a second, their least film ratio, and their largest slide-roll ratio."""
     if not evaluation.result.sizes["orbit"]:
         return {}
     scale = evaluation.all_rollers / evaluation.orbit_time()
     entries = np.nansum(_entries(evaluation), axis=(1, 2))
-    rate = entries * scale
     film_ratios = evaluation.result.entry_film_ratio
     thinnest = film_ratios.reduce(np.fmin.reduce, ("roller", "orbit"))
     return {
-        "entry_rate": (
-            ("row",),
-            rate,
-            described("1/s", "entries into the load zone of all rollers of a row"),
-        ),
-        "entry_film_ratio": (
-            _OVER,
-            thinnest.transpose(*_OVER).values,
-            described("1", "least Lambda at entry"),
-        ),
+        "entry_rate": entries * scale,
+        "entry_film_ratio": thinnest.transpose(*_OVER).values,
         **_largest(evaluation, SLIDE_ROLL_RATIO),
     }
 
@@ -91,6 +101,17 @@ SLIDE_ROLL_RATIO = Criterion(
     mechanism="smearing",
     quantity="slide-roll ratio at entry",
     unit="1",
+    declares=(
+        Variable(
+            "entry_rate",
+            ("row",),
+            "1/s",
+            WITH_ORBIT,
+            "entries into the load zone of all rollers of a row",
+        ),
+        Variable("entry_film_ratio", _OVER, "1", WITH_ORBIT, "least Lambda at entry"),
+        *_declared("entry_slide_roll_ratio", "1", "largest slide-roll ratio while entering"),
+    ),
     variables=_slide_roll_ratio,
     value=largest_of("entry_slide_roll_ratio"),
     missing=_missing,
@@ -115,6 +136,9 @@ SLIDE_ROLL_RATIO = Criterion(
             "at least",
             unit="1/year",
             meaning="entries beyond the slip of a smearing rig",
+            needs_orbit=True,
+            design_column=PageColumn("entries under slip [1/year]"),
+            year_column=PageColumn("entries under slip"),
         ),
         Yearly(
             run_name="largest_entry_slip",
@@ -127,6 +151,8 @@ SLIDE_ROLL_RATIO = Criterion(
             year_meaning="largest slide-roll ratio at an entry of any run",
             unit="1",
             meaning="largest slide-roll ratio at an entry",
+            design_column=PageColumn("smearing: largest slip at entry"),
+            year_column=PageColumn("largest slip at entry"),
         ),
     ),
 )
@@ -140,6 +166,7 @@ def _without_reference(order: int, name: str, unit: str, quantity: str) -> Crite
         mechanism="smearing",
         quantity=f"{quantity} at entry",
         unit=unit,
+        declares=_declared(name, unit, f"largest {quantity} while entering"),
         variables=lambda evaluation: _largest(evaluation, criterion),
         value=largest_of(name),
         reference=math.nan,

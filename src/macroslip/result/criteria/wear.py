@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -16,9 +17,9 @@ from macroslip.contact.strips import PreparedStrips, strip_approach
 from macroslip.damage import wear
 from macroslip.errors import InputError
 from macroslip.measures.along import STATIONS
-from macroslip.result.criteria.criterion import Criterion, Variables, Yearly
+from macroslip.result.criteria.criterion import OF_YEAR, Criterion, PageColumn, Values, Yearly
 from macroslip.result.criteria.evaluation import SURFACES, Evaluation
-from macroslip.result.variables import described
+from macroslip.variables import Variable, described
 
 #: Time for which turbines are designed [years], IEC 61400-1.
 DESIGN_LIFE = 20.0
@@ -34,6 +35,9 @@ _SLICES = 4
 COMPARED_DEPTH = 1e-5
 _COMPARED = wear.DEPTHS.index(COMPARED_DEPTH)
 MIDDLE_COEFFICIENT = wear.COEFFICIENTS[len(wear.COEFFICIENTS) // 2]
+#: When variables of wear are there.
+_ROUGH = "with asperities"
+_ROUGH_YEAR = f"with asperities, {OF_YEAR}"
 _NO_WEAR = (
     "Wear was not computed, since without asperities nothing touches: choose their law, laws: "
     "{asperities: masjedi-khonsari} "
@@ -46,7 +50,7 @@ _LIGHT = (
 )
 
 
-def _variables(evaluation: Evaluation) -> Variables:
+def _values(evaluation: Evaluation) -> Values:
     """Work of asperities, time to depths, and worn profiles at the middle coefficient."""
     friction = evaluation.boundary_friction
     if friction <= 0.0:
@@ -58,10 +62,8 @@ def _variables(evaluation: Evaluation) -> Variables:
     work = wear.worn_volume(1.0, on_surfaces, friction)
     of_roller = np.maximum(evaluation.roller_share("surface_asperity_energy"), 0.0)
     on_roller = of_roller / friction
-    meaning = "asperities' pressure times slip, mean over time: depth of wear a second over k"
-    rate = (("row", "surface", "station"), work, described("W/m2", meaning))
     if not evaluation.tells_of_year:
-        return {"asperity_work_rate": rate}
+        return {"asperity_work_rate": work}
     coefficients = np.array(evaluation.wear_coefficients)
     middle = coefficients[len(coefficients) // 2]
     rows = evaluation.run_input.models
@@ -80,17 +82,22 @@ def _variables(evaluation: Evaluation) -> Variables:
             slices = depth.reshape(len(SURFACES), STATIONS, _SLICES)
             depths[r, :, a] = slices.mean(axis=-1)
     return {
-        "asperity_work_rate": rate,
-        "wear_time": (
-            ("row", "surface", "depth", "wear_coefficient"),
-            times[..., None] / coefficients,
-            described("s", "time like this window until the deepest place has worn by depth"),
+        "asperity_work_rate": work,
+        "wear_time": times[..., None] / coefficients,
+        "worn_depth": depths,
+    }
+
+
+def _coordinates(evaluation: Evaluation) -> dict[str, Any]:
+    """Coefficients, depths and ages for which wear is computed."""
+    return {
+        "wear_coefficient": (
+            "wear_coefficient",
+            evaluation.wear_coefficients,
+            described("m2/N", "coefficient of wear k"),
         ),
-        "worn_depth": (
-            ("row", "surface", "age", "station"),
-            depths,
-            described("m", f"depth of wear at k = {middle:g} m2/N"),
-        ),
+        "depth": ("depth", list(wear.DEPTHS), described("m", "depth of wear")),
+        "age": ("age", np.array(AGES) * YEAR, described("s", "time like this window")),
     }
 
 
@@ -256,7 +263,31 @@ CRITERIA = (
         mechanism="wear",
         quantity="time to 10 µm at the middle k",
         unit="year",
-        variables=_variables,
+        declares=(
+            Variable(
+                "asperity_work_rate",
+                ("row", "surface", "station"),
+                "W/m2",
+                _ROUGH,
+                "asperities' pressure times slip, mean over time: depth of wear a second over k",
+            ),
+            Variable(
+                "wear_time",
+                ("row", "surface", "depth", "wear_coefficient"),
+                "s",
+                _ROUGH_YEAR,
+                "time like this window until the deepest place has worn by depth",
+            ),
+            Variable(
+                "worn_depth",
+                ("row", "surface", "age", "station"),
+                "m",
+                _ROUGH_YEAR,
+                "depth of wear at the middle wear_coefficient",
+            ),
+        ),
+        variables=_values,
+        coordinates=_coordinates,
         value=_years,
         missing=_missing,
         reference=DESIGN_LIFE,
@@ -278,6 +309,9 @@ CRITERIA = (
                 unit="m/year",
                 meaning="wear at k = 1e-17 m²/N, deepest place",
                 by_factors=True,
+                design_column=PageColumn("wear at k = 1e-17 m²/N [µm/year]", 1e6),
+                year_column=PageColumn("wear [µm]", 1e6),
+                leads=True,
             ),
         ),
     ),
