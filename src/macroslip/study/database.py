@@ -47,7 +47,7 @@ _CREATE_RUNS = (
     "key TEXT, outcome TEXT, reason TEXT)"
 )
 _CREATE_RESULTS = (
-    "CREATE TABLE results (key TEXT PRIMARY KEY, outcome TEXT, reason TEXT, detail TEXT, "
+    "CREATE TABLE IF NOT EXISTS results (key TEXT PRIMARY KEY, outcome TEXT, reason TEXT, detail TEXT, "
     f"layout TEXT, {', '.join(f'{name} REAL' for name in NUMBERS)}, crc INTEGER)"
 )
 _INSERT_RESULT = f"INSERT OR REPLACE INTO results VALUES ({', '.join('?' * len(_COLUMNS))})"
@@ -80,7 +80,8 @@ class Database:
     """The runs of a study and their results, open for writing by the process that holds the lock.
 
     Methods raise sqlite3.OperationalError if the system refuses to write, and another
-    sqlite3.DatabaseError if the database is damaged, as `damaged_database` reports it.
+    sqlite3.DatabaseError if the database is damaged, as `damaged_database` reports it. InputError if
+    another version of the program wrote it.
     """
 
     def __init__(self, directory: Path):
@@ -91,14 +92,11 @@ class Database:
             self._db.execute("PRAGMA journal_mode = WAL")
             self._db.execute("PRAGMA synchronous = FULL")
             self._db.execute("PRAGMA cache_size = -65536")
-            # Results of a version with other numbers have other keys, so that they are never asked
-            # for again.
             with self._transaction():
-                if _columns(self._db) != _COLUMNS:
-                    self._db.execute("DROP TABLE IF EXISTS results")
-                    self._db.execute(_CREATE_RESULTS)
+                self._db.execute(_CREATE_RESULTS)
+            _check_columns(self._db, directory)
             self._file = self._path.stat()
-        except sqlite3.DatabaseError:
+        except (sqlite3.DatabaseError, InputError):
             self.close()
             raise
 
@@ -194,9 +192,11 @@ def damaged_database(directory: Path, error: sqlite3.DatabaseError) -> InputErro
     )
 
 
-def _columns(db: sqlite3.Connection) -> list[str]:
-    """Names of the columns of the table of results; none without one."""
-    return [row[1] for row in db.execute("PRAGMA table_info(results)")]
+def _check_columns(db: sqlite3.Connection, directory: Path) -> None:
+    """InputError for a table of results with other columns, of a program with other numbers."""
+    columns = [row[1] for row in db.execute("PRAGMA table_info(results)")]
+    if columns != _COLUMNS:
+        raise other_version(directory, "with other numbers")
 
 
 def _row(entry: Mapping[str, Any]) -> tuple[Any, ...]:
@@ -247,8 +247,7 @@ def read_runs(directory: Path) -> pd.DataFrame:
     address = f"{path.absolute().as_uri()}?mode=ro"
     with closing(sqlite3.connect(address, uri=True)) as db:
         db.text_factory = _decoded
-        if _columns(db) != _COLUMNS:
-            raise other_version(directory, "with other numbers")
+        _check_columns(db, directory)
         if not list(db.execute("SELECT 1 FROM sqlite_schema WHERE name = 'runs'")):
             raise InputError("the study has no runs yet", where=str(directory), remedy=_NO_RUNS)
         cursor = db.execute(_SELECT_RUNS)
