@@ -5,6 +5,8 @@ import pytest
 import xarray as xr
 
 from macroslip import BearingLoads, Case, InputError, Laws, simulate
+from macroslip.result import run_input as run_inputs
+from macroslip.result.damage import damage
 from macroslip.result.prepared import prepare
 from macroslip.result.run_input import run_input
 from tests.quick import COARSE
@@ -30,6 +32,19 @@ def test_parts_of_a_result_share_one_input(result):
     assert run_input(result.isel(roller=0)) is of_result
     assert run_input(result[["energy", "status"]]) is of_result
     assert run_input(result.sel(row=["upwind"])).models.keys() == {"upwind"}
+
+
+def test_a_result_in_memory_has_the_rollers_that_it_was_computed_with(monkeypatch):
+    case = Case(
+        loads=LOADS, laws=Laws.physical(), temperature=331.0, rollers=[0], integrator=COARSE
+    )
+    result = simulate(case)
+    monkeypatch.delattr(run_inputs, "bearing_from_dict")
+    monkeypatch.delattr(run_inputs, "roller_model")
+    of_result = run_input(result)
+    assert of_result.bearing is case.bearing
+    assert of_result.models.keys() == {"downwind", "upwind"}
+    assert damage(result).attrs["title"]
 
 
 def test_a_result_from_a_file_has_the_input_of_the_case(result, tmp_path):

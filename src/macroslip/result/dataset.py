@@ -10,7 +10,6 @@ are closed.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -39,6 +38,7 @@ from macroslip.result import skew, surface_maps
 from macroslip.result.cage_variables import cage_values, open_books
 from macroslip.result.heat_balance import operating_rings
 from macroslip.result.prepared import Prepared
+from macroslip.result.run_input import attribute_of_input
 from macroslip.result.variables import (
     ASPERITIES,
     COUNTS,
@@ -293,7 +293,7 @@ def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict
         **operating_rings(case),
         "rollers_per_row": case.bearing.rollers_per_row,
         "drag_power": ready.drag_power(),
-        "input": json.dumps(case.as_dict() | supplied, ensure_ascii=False),
+        "input": attribute_of_input(case.as_dict() | supplied, case.bearing, ready.models),
         "citations": "\n".join([*CITATIONS, *references(case.laws), *method]),
     }
 

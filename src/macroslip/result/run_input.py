@@ -1,9 +1,14 @@
-"""The input that a result was computed with: bearing, loads and rollers, made once for a result."""
+"""The input that a result was computed with: bearing, loads and rollers, made once for a result.
+
+A result of `simulate` has the rollers that it was computed with; of one that was read from a file they
+are made of its attribute `input`, once.
+"""
 
 from __future__ import annotations
 
-import functools
 import json
+import threading
+from collections import OrderedDict
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
@@ -12,14 +17,17 @@ from typing import Any
 import xarray as xr
 
 from macroslip.bearing.geometry import AXIAL_SIGNS
-from macroslip.bearing.kinds import bearing_from_dict
+from macroslip.bearing.kinds import AnyBearing, bearing_from_dict
 from macroslip.contact.mechanisms import Laws
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import RollerModel, roller_model
 
-#: Inputs that are kept in memory: those of the results of a page or a comparison.
-_KEPT = 16
+#: Number of inputs that are kept in memory: those of the results of a page or a comparison.
+_MOST = 16
+#: Inputs by their text and the rows of the result, the last one used at the end.
+_KEPT: OrderedDict[tuple[str, tuple[str, ...]], RunInput] = OrderedDict()
+_LOCK = threading.Lock()
 
 
 class RunInput:
@@ -31,6 +39,8 @@ class RunInput:
         A case as `Case.as_dict` gives it, with the key `oil_gap` where inlets lack oil.
     rows : tuple of str
         Names of the rows of the result.
+    models : mapping, optional
+        The rollers by row where they are made already.
 
     Attributes
     ----------
@@ -42,11 +52,19 @@ class RunInput:
         Also from the properties, if the case is not complete.
     """
 
-    def __init__(self, settings: dict[str, Any], rows: tuple[str, ...]):
+    def __init__(
+        self,
+        settings: dict[str, Any],
+        rows: tuple[str, ...],
+        bearing: AnyBearing | None = None,
+        models: dict[str, RollerModel] | None = None,
+    ):
         self._settings = settings
         self._rows = rows
         with _complete():
-            self.bearing = bearing_from_dict(settings["bearing"])
+            self.bearing = bearing or bearing_from_dict(settings["bearing"])
+        if models is not None:
+            self.models = models
 
     @property
     def start(self) -> float:
@@ -87,19 +105,46 @@ class RunInput:
 def run_input(result: xr.Dataset) -> RunInput:
     """The input of a result of `simulate`, or of one that was read from a file.
 
-    It follows from the attribute `input`, and is made once: parts of a result, which have the same
-    attribute, share it.
+    It goes with the attribute `input`: parts of a result, which have the same attribute, share it.
 
     Raises InputError if the dataset has no input.
     """
     with _complete():
         rows = tuple(result.row.values.tolist())
-        return _run_input(result.attrs["input"], rows)
+        text = result.attrs["input"]
+        with _LOCK:
+            known = _KEPT.get((text, rows)) or RunInput(json.loads(text), rows)
+            _keep(text, rows, known)
+        return known
 
 
-@functools.lru_cache(maxsize=_KEPT)
-def _run_input(text: str, rows: tuple[str, ...]) -> RunInput:
-    return RunInput(json.loads(text), rows)
+def attribute_of_input(
+    settings: dict[str, Any], bearing: AnyBearing, models: dict[str, RollerModel]
+) -> str:
+    """The attribute `input` of a result of `simulate`, whose rollers are kept for `run_input`.
+
+    Parameters
+    ----------
+    settings : dict
+        As for `RunInput`.
+    bearing : Bearing or TaperedBearing
+        Of the case.
+    models : dict
+        The rollers by row, as they were simulated.
+    """
+    text = json.dumps(settings, ensure_ascii=False)
+    rows = tuple(models)
+    with _LOCK:
+        _keep(text, rows, RunInput(settings, rows, bearing, models))
+    return text
+
+
+def _keep(text: str, rows: tuple[str, ...], used: RunInput) -> None:
+    """Keep an input as the one used last, and forget those used longest ago."""
+    _KEPT[text, rows] = used
+    _KEPT.move_to_end((text, rows))
+    while len(_KEPT) > _MOST:
+        _KEPT.popitem(last=False)
 
 
 def stored_settings(result: xr.Dataset) -> dict[str, Any]:
