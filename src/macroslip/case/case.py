@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, replace
 from numbers import Integral
 from typing import Annotated, Any
 
@@ -34,6 +34,7 @@ from macroslip.input.fields import Choice, Context, Flag, Form, Quantity, Text
 from macroslip.input.files import Location, Source
 from macroslip.input.messages import shown, together
 from macroslip.input.section import Made, OrWord, Variants, form_from, input_section
+from macroslip.input.stored import Stored, stored
 from macroslip.input.units import TEMPERATURE, TEMPERATURE_DIFFERENCE
 from macroslip.kinds import kind_of
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads, RollerLoads, main_bearing_load
@@ -43,8 +44,8 @@ from macroslip.lubricant import Lubricant
 from macroslip.overview import html_overview
 from macroslip.whole.cage import SKEW_KEYS, Cage
 
-#: Keys of a drivetrain that `as_dict` has only where they are given.
-_RARE_KEYS = ("windio", "gearbox_stiffness")
+#: Sections that only files have: meaning and fields.
+_GROUPS = {"forces": ("forces on the rollers that can be switched off", ("gravity", "drag"))}
 
 
 @dataclass(frozen=True)
@@ -94,11 +95,7 @@ class InletTemperature(Quantity):
         return super().read(value, context)
 
 
-@input_section(
-    "",
-    "everything one simulation needs",
-    groups={"forces": ("forces on the rollers that can be switched off", ("gravity", "drag"))},
-)
+@input_section("", "everything one simulation needs", groups=_GROUPS)
 class Case:
     """One simulation.
 
@@ -180,6 +177,7 @@ class Case:
             -100.0,
             100.0,
         ),
+        Stored(when=lambda case, _: kind_of(case.bearing).is_preloaded_by_heat),
     ] = 0.0
     oil_supply: Annotated[
         str | float | None,
@@ -187,10 +185,15 @@ class Case:
             "how full the inlets of all contacts are: flooded, skf (replenishment), or film / "
             "flooded film, 0.3 to 1"
         ),
+        Stored(
+            when=lambda case, _: case.laws.asks_for_oil,
+            value=lambda case: case.inlet_supply,
+        ),
     ] = None
     loads: Annotated[
         HubLoads | BearingLoads | RollerLoads,
         Made((HubLoads, BearingLoads, RollerLoads), form_from(LoadSource)),
+        Stored(value=lambda case: _about_loads(case.loads)),
     ]
     drivetrain: Drivetrain = field(default_factory=Drivetrain)
     gravity: Annotated[bool, Flag("weight of the rollers")] = True
@@ -200,6 +203,7 @@ class Case:
         Variants(
             "named set of mechanisms", "model", "physical", dict.fromkeys(PRESETS, Laws), PRESETS
         ),
+        Stored(value=lambda case: {"model": case.laws.name} | stored(case.laws)),
     ] = field(default_factory=Laws.physical)
     dynamics: Annotated[
         str,
@@ -207,11 +211,18 @@ class Case:
             "rollers on orbits of pure rolling, or all of them together with the cage",
             lambda: DYNAMICS,
         ),
+        Stored(when=lambda case, _: case.dynamics == WHOLE_BEARING),
     ] = IMPOSED_ORBIT
-    cage: Cage = field(default_factory=Cage)
+    cage: Annotated[
+        Cage,
+        Stored(when=lambda case, _: case.dynamics == WHOLE_BEARING or case.laws.skew != "none"),
+    ] = field(default_factory=Cage)
     integrator: Annotated[
         Radau | BackwardEuler | ExplicitEuler,
         Variants("method of integration in time", "method", "radau", INTEGRATORS),
+        Stored(
+            value=lambda case: {"method": type(case.integrator).__name__} | stored(case.integrator)
+        ),
     ] = field(default_factory=Radau)
     window: Window = field(default_factory=Window)
     rollers: Annotated[
@@ -312,23 +323,10 @@ class Case:
         Keys that have no effect are left out. Of the load series there are its source, extent and a
         hash of all its numbers.
         """
-        values = {}
-        for member in fields(self):
-            values[member.name] = _plain(getattr(self, member.name))
-        values["loads"] = _about_loads(self.loads)
-        values["oil_supply"] = self.inlet_supply
-        method = type(self.integrator).__name__
-        values["laws"] = {"model": self.laws.name} | values["laws"]
-        values["integrator"] = {"method": method} | values["integrator"]
-        values["forces"] = {name: values.pop(name) for name in ("gravity", "drag")}
-        is_whole = self.dynamics == WHOLE_BEARING
-        used = {
-            "oil_supply": self.laws.asks_for_oil,
-            "temperature_difference": kind_of(self.bearing).is_preloaded_by_heat,
-            "dynamics": is_whole,
-            "cage": is_whole or self.laws.skew != "none",
-        }
-        return {name: value for name, value in values.items() if used.get(name, True)}
+        values = stored(self)
+        for group, (_, keys) in _GROUPS.items():
+            values[group] = {key: values.pop(key) for key in keys}
+        return values
 
     def __repr__(self) -> str:
         texts = [text for _, text in self._overview()]
@@ -362,24 +360,6 @@ class Case:
             ("dynamics", self.dynamics),
             ("traces", traces),
         ]
-
-
-def _plain(value: Any) -> Any:
-    """A value of a case as numbers, text, lists and mappings."""
-    if isinstance(value, (*BEARING_KINDS, Lubricant)):
-        return value.as_dict()
-    if isinstance(value, Heat):
-        entries = asdict(value)
-        return {key: entry for key, entry in entries.items() if entry is not None}
-    if isinstance(value, Drivetrain):
-        left_out = [key for key in _RARE_KEYS if getattr(value, key) is None]
-        entries = asdict(value)
-        return {key: entry for key, entry in entries.items() if key not in left_out}
-    if is_dataclass(value) and not isinstance(value, type):
-        return asdict(value)
-    if isinstance(value, tuple):
-        return list(value)
-    return value
 
 
 def _about_loads(loads: HubLoads | BearingLoads | RollerLoads) -> dict[str, Any]:

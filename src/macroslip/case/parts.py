@@ -11,6 +11,7 @@ from macroslip.constants import IMPOSED_ORBIT, WHOLE_BEARING
 from macroslip.errors import InputError
 from macroslip.input.fields import Positive, Quantity, Whole
 from macroslip.input.section import input_section
+from macroslip.input.stored import IF_GIVEN
 from macroslip.input.units import CONDUCTANCE, MASS, NUMBER, TEMPERATURE, TIME
 
 DYNAMICS = (IMPOSED_ORBIT, WHOLE_BEARING)
@@ -145,13 +146,13 @@ class Heat:
         float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15)
     ]
     inner_mass: Annotated[
-        float | None, Positive("mass that warms with the inner ring", MASS, 1e6)
+        float | None, Positive("mass that warms with the inner ring", MASS, 1e6), IF_GIVEN
     ] = None
     outer_mass: Annotated[
-        float | None, Positive("mass that warms with the outer ring", MASS, 1e6)
+        float | None, Positive("mass that warms with the outer ring", MASS, 1e6), IF_GIVEN
     ] = None
     ring_conductance: Annotated[
-        float | None, Positive("heat flow between the rings per kelvin", CONDUCTANCE)
+        float | None, Positive("heat flow between the rings per kelvin", CONDUCTANCE), IF_GIVEN
     ] = None
     clearance_temperature: Annotated[
         float | None,
@@ -161,6 +162,7 @@ class Heat:
             253.15,
             423.15,
         ),
+        IF_GIVEN,
     ] = None
 
     def __post_init__(self) -> None:

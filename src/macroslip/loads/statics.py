@@ -14,6 +14,7 @@ from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Positive, Quantity, Text
 from macroslip.input.section import input_section
+from macroslip.input.stored import IF_GIVEN
 from macroslip.input.units import ANGLE, LENGTH, MASS, NUMBER, STIFFNESS
 from macroslip.loads.history import BearingLoads, HubLoads
 from macroslip.loads.windio import windio_values
@@ -113,6 +114,7 @@ class Drivetrain:
             STIFFNESS,
             1e11,
         ),
+        IF_GIVEN,
     ] = None
     front_to_rear: Annotated[
         float | None, Positive("distance from front to rear main bearing", LENGTH, 20.0)
@@ -147,6 +149,7 @@ class Drivetrain:
     windio: Annotated[
         str | None,
         Text("turbine file of windIO 2: tilt and distances, as far as they are not given here"),
+        IF_GIVEN,
     ] = None
 
     @classmethod
