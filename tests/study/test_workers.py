@@ -96,7 +96,7 @@ def test_processes_find_what_this_process_finds_and_listen_to_nobody(tmp_path, l
 
 
 @pytest.mark.parametrize(
-    ("rounds", "kills", "runs_in_all"), [(1, 2, 30), (3, 4, 120)], ids=["three", "fifteen"]
+    ("rounds", "kills", "runs_in_all"), [(1, 4, 36), (3, 4, 120)], ids=["five", "fifteen"]
 )
 def test_kills_lose_nothing(
     rounds, kills, runs_in_all, tmp_path, begin, slow_content, wait_for, done, rows, identities,

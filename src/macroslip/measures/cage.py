@@ -57,20 +57,18 @@ class CageMeasures:
         """Add to impulses, times and largest pushes."""
         positions = self._bearing.positions
         rollers = np.arange(positions.size)
-        # Columns alone are copied: records of steps have much that is not asked for here.
-        pushes = part.steps["cage_load"][counted]
-        weights = part.steps["weight"][counted]
-        turns = part.bearing["turn"][counted]
+        at_start = positions["angle"] / (2.0 * np.pi) % 1.0
         for k in range(2):
-            push = pushes[..., k]
-            weight = weights[..., k]
-            angle = turns[:, k][:, positions["cage"]] + positions["angle"]
-            sector = (angle / (2.0 * np.pi) % 1.0 * SECTORS).astype(int) % SECTORS
-            for side, here in enumerate((push < 0.0, push > 0.0)):
-                size = np.where(here, np.abs(push), 0.0)
-                self.impulse[:, side] += (weight * size).sum(axis=0)
-                self.time[:, side] += (weight * here).sum(axis=0)
+            # Columns alone are copied: records of steps have much that is not asked for here.
+            push = part.steps["cage_load"][counted, :, k]
+            # All rollers have the same steps.
+            weight = part.steps["weight"][counted, 0, k]
+            for side, size in enumerate((np.maximum(-push, 0.0), np.maximum(push, 0.0))):
+                self.impulse[:, side] += weight @ size
+                self.time[:, side] += weight @ (size > 0.0)
                 self.largest[:, side] = np.maximum(self.largest[:, side], size.max(axis=0))
+            turns = part.bearing["turn"][counted, k] / (2.0 * np.pi) % 1.0
+            sector = ((turns[:, positions["cage"]] + at_start) * SECTORS).astype(int) % SECTORS
             np.maximum.at(self.largest_by_sector, (rollers, sector), np.abs(push))
 
     def _add_slip(self, part: Part, counted: np.ndarray) -> None:

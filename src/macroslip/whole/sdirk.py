@@ -78,7 +78,7 @@ _ERROR = (1.0 - _E1 - _E2, _E1 - (1.0 - GAMMA), _E2 - GAMMA)
 #: γh of the stage that evaluates the start [s].
 _INSTANT = 1e-12
 #: Size of the buffer of steps [bytes].
-_BUFFER = 6 * 2**20
+_BUFFER = 16 * 2**20
 
 #: Tolerance and bounds of the integration.
 LIMITS = np.dtype(
