@@ -25,9 +25,8 @@ FILES = [path for folder in FOLDERS for path in sorted((SOURCES / folder).rglob(
 
 
 def asked(tree):
-    """Names of kinds, their classes and modules, and comparisons of a number of rows."""
+    """Names of kinds and of what is theirs, their modules, and comparisons of a number of rows."""
     modules = {f"macroslip.kinds.{name}" for name in KINDS}
-    classes = {type(kind).__name__ for kind in KINDS.values()}
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and node.value in KINDS:
             yield f"line {node.lineno}: the word {node.value!r}"
@@ -36,8 +35,8 @@ def asked(tree):
             is_of_kind = any(module.startswith(name) for name in modules)
             if is_of_kind or module.startswith("macroslip.bearing.tapered"):
                 yield f"line {node.lineno}: {module}"
-        elif isinstance(node, ast.Name) and node.id in classes | {"TaperedBearing"}:
-            yield f"line {node.lineno}: the class {node.id}"
+        elif isinstance(node, ast.Name) and any(name in node.id.lower() for name in KINDS):
+            yield f"line {node.lineno}: the name {node.id}"
         elif isinstance(node, ast.Call) and ast.unparse(node.func) == "isinstance":
             if "Bearing" in ast.unparse(node.args[1]).replace("BearingLoads", "").split(", "):
                 yield f"line {node.lineno}: {ast.unparse(node)}"

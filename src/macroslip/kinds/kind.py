@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from macroslip.kinds.checks import moments_without_carrier, temperature_difference_without_preload
 from macroslip.kinds.makers_page import PageOption
+from macroslip.variables import Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -60,6 +61,8 @@ class Kind(ABC):
     is_preloaded_by_heat: ClassVar[bool] = False
     #: Axis along which stations of a contact lie.
     station_axis: ClassVar[str] = "the roller's axis z'"
+    #: Variables of a result that bearings of this kind alone have.
+    variables: ClassVar[tuple[Variable, ...]] = ()
     #: Numbers of a maker's page from which its inside is estimated, in the order of a page; none if
     #: it is not estimated. The names of those that are needed.
     page: ClassVar[tuple[PageOption, ...]] = ()
@@ -169,7 +172,7 @@ class Kind(ABC):
     def values(
         self, case: Case, balance: RingBalance, window: tuple[float, float], ribs: FloatArray
     ) -> dict[str, Any]:
-        """Variables of a result that bearings of this kind alone have, by name.
+        """Values of `variables` by name, but for those of traces, which all rollers have.
 
         Parameters
         ----------

@@ -26,7 +26,7 @@ from macroslip.contact.asperities import BOUNDED
 from macroslip.contact.laws import references
 from macroslip.imposed.run import Outcome
 from macroslip.imposed.status import Status
-from macroslip.kinds import kind_of
+from macroslip.kinds import KINDS, kind_of
 from macroslip.loads import BearingLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.measures.along import STATIONS
@@ -45,7 +45,6 @@ from macroslip.result.variables import (
     CURVED_TRACES,
     ENTRY_EXTREMES,
     ORBIT_EXTREMES,
-    TAPERED_TRACES,
     VARIABLES,
     WHOLE_TRACES,
 )
@@ -193,13 +192,12 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
         left_out.add(ASPERITIES)
     if not curved:
         left_out.add(CURVED_TRACES)
-    if ready.model.rib is None:
-        left_out.add(TAPERED_TRACES)
     values = _window_values(table)
     values["inlet_temperature"] = np.array(case.oil.inlet_temperature)
     values |= axial_values(ready)
     window = (float(ready.edges[0]), ready.end)
-    values |= kind_of(case.bearing).values(case, ready.balance, window, _gathered(table, "rib"))
+    kind = kind_of(case.bearing)
+    values |= kind.values(case, ready.balance, window, _gathered(table, "rib"))
     if ready.edges.size == 1:
         values["peak_power_by_position"] = _peaks_by_position(table)
     if curved:
@@ -214,7 +212,13 @@ def _values(ready: Prepared, wanted: Wanted, table: Table) -> dict[str, Any]:
     if case.traces is not None:
         # Up to where an integration ended its traces are kept: they show why.
         values |= _traces(table)
-    return {name: array for name, array in values.items() if VARIABLES[name].when not in left_out}
+    others = [other for other in KINDS.values() if other is not kind]
+    foreign = {variable.name for other in others for variable in other.variables}
+    return {
+        name: array
+        for name, array in values.items()
+        if name not in foreign and VARIABLES[name].when not in left_out
+    }
 
 
 def axial_values(ready: Prepared) -> dict[str, np.ndarray]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from macroslip.kinds import KINDS
 from macroslip.variables import ALWAYS, Variable, VariableTable
 
 #: When a variable is there.
@@ -14,9 +15,6 @@ TRACES = "with `traces`"
 CURVED_TRACES = "with `traces`, where slip may vary along the roller, or asperities touch"
 SKEW = "with `laws: {skew: quasi-static}`"
 SKEW_TRACES = "with `laws: {skew: quasi-static}` and `traces`"
-TAPERED = "in a tapered roller bearing"
-TAPERED_ASPERITIES = "in a tapered roller bearing, with a law of asperities"
-TAPERED_TRACES = "in a tapered roller bearing, with `traces`"
 WHOLE = "with `dynamics: whole-bearing`"
 WHOLE_TRACES = "with `dynamics: whole-bearing` and `traces`"
 
@@ -32,7 +30,7 @@ _PLACES = (*_ROWS, "raceway", "angle", "station")
 _CLASSES = (*_ROWS, "raceway", "film_class", "slip_class")
 
 
-#: Every variable by name, in the order of a result.
+#: Every variable by name, in the order of a result: those that one kind of bearing has are last.
 VARIABLES = VariableTable(
     "Results of `macroslip run` and `simulate`",
     (
@@ -122,118 +120,6 @@ VARIABLES = VariableTable(
             AXIAL,
             "changes of the sign of the axial load in the window over its duration, beyond a dead "
             "band of 0.1 % of the static load rating of ISO 76 to either side",
-        ),
-        Variable(
-            "rib_energy",
-            _ROLLERS,
-            "J",
-            TAPERED,
-            "energy dissipated by friction at the rib in the window, beside the energy by interface",
-        ),
-        Variable(
-            "rib_asperity_energy",
-            _ROLLERS,
-            "J",
-            TAPERED,
-            "part of the energy at the rib in the window that asperities dissipate",
-        ),
-        Variable(
-            "rib_orbit_energy",
-            (*_ROLLERS, "orbit"),
-            "J",
-            TAPERED,
-            "energy dissipated by friction at the rib in each complete orbit",
-        ),
-        Variable(
-            "rib_peak_power",
-            (*_ROLLERS, "orbit"),
-            "W",
-            TAPERED,
-            "largest frictional power at the rib in each complete orbit",
-        ),
-        Variable(
-            "largest_rib_force",
-            _ROWS,
-            "N",
-            TAPERED,
-            "largest force of the rib on a roller in the window",
-        ),
-        Variable(
-            "rib_pressure",
-            _ROWS,
-            "Pa",
-            TAPERED,
-            "largest Hertzian pressure at the ribs in the window",
-        ),
-        Variable(
-            "rib_pressure_speed",
-            _ROWS,
-            "W/m2",
-            TAPERED,
-            "largest pressure at the ribs times sliding speed in pure rolling, in the window",
-        ),
-        Variable(
-            "rib_pass_energy",
-            _ROWS,
-            "J/m2",
-            TAPERED,
-            "largest pressure times slip that a place of the rib gets in a pass, in the window",
-        ),
-        Variable(
-            "rib_flash_temperature",
-            _ROWS,
-            "K",
-            TAPERED,
-            "largest flash temperature at the ribs in the window, in pure rolling",
-        ),
-        Variable(
-            "rib_asperity_work",
-            (*_ROWS, "rib_surface"),
-            "W/m2",
-            TAPERED_ASPERITIES,
-            "asperities' pressure times slip per time, mean over the window: depth of wear a second "
-            "over k",
-        ),
-        Variable(
-            "min_rib_film_ratio",
-            _ROWS,
-            "1",
-            TAPERED,
-            "least ratio of film thickness to roughness at the ribs in the window, in pure rolling",
-        ),
-        Variable(
-            "rollers_below_grip",
-            _ROWS,
-            "1",
-            TAPERED,
-            "mean number of rollers in the window whose load is below that of grip",
-        ),
-        Variable(
-            "grip_load",
-            (),
-            "N",
-            TAPERED,
-            "load from which on a raceway drives a roller with less than 1 % of slip, at the mean speed",
-        ),
-        Variable(
-            "least_roller_load", _ROWS, "N", TAPERED, "least elastic load of a roller in the window"
-        ),
-        Variable(
-            "largest_tilt", (), "rad", TAPERED, "largest tilt of the inner ring in the window"
-        ),
-        Variable(
-            "preload",
-            (),
-            "m",
-            TAPERED,
-            "axial interference of both rows with the temperature difference; negative is play",
-        ),
-        Variable(
-            "preload_change",
-            (),
-            "m",
-            TAPERED,
-            "change of the preload by the temperature difference",
         ),
         Variable("status", _ROLLERS, "1", ALWAYS, "outcome of the integration"),
         Variable(
@@ -481,14 +367,6 @@ VARIABLES = VariableTable(
             TRACES,
             "central film thickness; NaN without load",
         ),
-        Variable(
-            "rib_friction",
-            _TRACES,
-            "N",
-            TAPERED_TRACES,
-            "friction of the rib on the roller, positive where it drives the spin up",
-        ),
-        Variable("rib_power", _TRACES, "W", TAPERED_TRACES, "frictional power at the rib"),
         Variable(
             "skew_moment",
             (*_TRACES, "raceway"),
@@ -753,6 +631,7 @@ VARIABLES = VariableTable(
             WHOLE_TRACES,
             "torque of the rollers on the cage, positive along the orbit",
         ),
+        *(own for kind in KINDS.values() for own in kind.variables),
     ),
 )
 #: Variables of a case's `contact_details`.

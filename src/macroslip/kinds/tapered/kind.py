@@ -22,6 +22,7 @@ from macroslip.kinds.makers_page import (
     PageOption,
 )
 from macroslip.kinds.tapered import case_checks
+from macroslip.kinds.tapered.variables import VARIABLES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,6 +53,7 @@ class Tapered(Kind):
     carries_moments = True
     has_free_orbits = False
     is_preloaded_by_heat = True
+    variables = VARIABLES
     station_axis = "the roller from its middle to its large end"
     page = (
         BORE,

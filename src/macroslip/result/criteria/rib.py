@@ -23,7 +23,7 @@ from macroslip.result.criteria.criterion import (
 )
 from macroslip.result.criteria.evaluation import Evaluation
 from macroslip.result.criteria.wear import COMPARED_DEPTH, DESIGN_LIFE, MIDDLE_COEFFICIENT
-from macroslip.result.variables import TAPERED_ASPERITIES, VARIABLES
+from macroslip.result.variables import VARIABLES
 from macroslip.variables import Variable
 
 
@@ -104,7 +104,7 @@ CRITERIA = (
                 "rib_wear_time",
                 ("row", "wear_coefficient"),
                 "s",
-                TAPERED_ASPERITIES,
+                VARIABLES["rib_asperity_work"].when,
                 "time like this window until the rib or the rollers' ends have worn by 10 um",
             ),
         ),
