@@ -53,6 +53,14 @@ def test_position_is_that_of_a_uniform_orbit(constant):
     )
 
 
+@pytest.mark.parametrize("factor", [-1.0, 0.0])
+def test_energy_over_the_orbit_is_in_proportion_to_any_power(constant, factor):
+    """A file may hold powers that no contact has; its page has them then, and no overflow."""
+    energy = energy_over_orbit(constant)
+    other = energy_over_orbit(constant.assign(power=factor * constant.power))
+    np.testing.assert_allclose(other, factor * energy, rtol=1e-12)
+
+
 def test_energy_over_the_orbit_adds_up_to_the_integrators_own(varying):
     energy = energy_over_orbit(varying)
     per_orbit = (energy.sum("angle") * 5.0).sum("interface")

@@ -149,8 +149,8 @@ def _evenly_passed(energy: np.ndarray, passed: np.ndarray) -> np.ndarray:
     """The same energy over the sectors as if all were passed equally often."""
     per_way = np.zeros(energy.size)
     np.divide(energy, passed, out=per_way, where=passed > 0.0)
-    total = max(per_way.sum(), np.finfo(float).tiny)
-    return per_way / total * energy.sum()
+    total = per_way.sum()
+    return per_way / total * energy.sum() if total != 0.0 else per_way
 
 
 def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArray:
