@@ -401,8 +401,8 @@ def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h
     line = joined(rigid, elastic, -order)
     # Shares of the rigid and of the elastic limit; neither is one less the other, which would
     # cancel.
-    share = expit(order * (elastic - rigid))
-    rest = expit(order * (rigid - elastic))
+    rigid_share = expit(order * (elastic - rigid))
+    elastic_share = expit(order * (rigid - elastic))
     scale = numbers.log_scale + log_load / 3.0 + 0.75 * log_speed
     unit = math.log(numbers.viscosity) + log_speed
     light = log_rolling + unit - scale - rigid
@@ -415,9 +415,9 @@ def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h
     if numbers.loading > 0.0:
         loading = numbers.loading * np.exp(2.0 * log_speed)
         heavy = heavy + np.log(inlet_heating_of_rolling(loading))
-    force = np.exp(scale + line + share * light + rest * heavy)
+    force = np.exp(scale + line + rigid_share * light + elastic_share * heavy)
     plug = plug_force(numbers, np.exp(log_h0))
-    return force + rest * beside + share * plug
+    return force + elastic_share * beside + rigid_share * plug
 
 
 def plug_force(numbers: RollingNumbers, gap):

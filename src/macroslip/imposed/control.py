@@ -197,8 +197,8 @@ def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
     """
     first = (13.0 + 7.0 * _ROOT_6) * z1
     second = (13.0 - 7.0 * _ROOT_6) * z2
-    rest = (first + second + z3) / 3.0
-    return -(force_0 + scale * rest) / (scale * EIGENVALUE + slope)
+    combined = (first + second + z3) / 3.0
+    return -(force_0 + scale * combined) / (scale * EIGENVALUE + slope)
 
 
 @jit_inline

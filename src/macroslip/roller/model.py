@@ -247,8 +247,6 @@ def roller_model(
     radius = geometry.roller_radius(bearing)
     mass = geometry.roller_mass(bearing.density, radius, bearing.roller_length)
     prepared = prepare(laws, bearing, lubricant, axial_sign)
-    inner_radius = geometry.inner_contact_radius(bearing)
-    outer_radius = geometry.outer_contact_radius(bearing)
     weight = mass * GRAVITY if gravity else 0.0
     density = lubricant.fill_factor * lubricant.density if drag else 0.0
     area = 2.0 * radius * bearing.roller_length
@@ -263,8 +261,8 @@ def roller_model(
         cos_contact_angle=math.cos(bearing.contact_angle),
         sin_contact_angle=axial_sign * math.sin(bearing.contact_angle),
         radial_play=0.5 * bearing.diametral_clearance,
-        orbit_ratio=inner_radius / (inner_radius + outer_radius),
-        outer_radius=outer_radius,
+        orbit_ratio=geometry.orbit_ratio(bearing),
+        outer_radius=geometry.outer_contact_radius(bearing),
         weight_in_plane=weight * math.cos(tilt),
         weight_along_axis=weight * math.sin(tilt),
         centrifugal=mass * bearing.pitch_radius,

@@ -38,6 +38,7 @@ from macroslip.imposed.status import (
     UNDER_WAY,
 )
 from macroslip.mechanics.power import cage_power, rolling_power, total_power
+from macroslip.mechanics.speeds import outer_ring_speed
 from macroslip.ring.orbit import Motion, instant, interval_of, uncounted_motion
 from macroslip.roller.step import STEP
 from macroslip.whole import tuning
@@ -651,7 +652,7 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     rollers = space.rollers
     cages = space.cages
     conditions = space.conditions[last]
-    pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
+    pure_speed = outer_ring_speed(bearing.orbit_ratio * end.shaft_speed, bearing.outer_radius)
     whole.start = start.time
     whole.end = end.time
     clear_flows(whole.flows)
