@@ -9,10 +9,10 @@ from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Case
+    from macroslip.kinds.read_case import ReadCase
 
 
-def temperature_difference_without_preload(case: Case) -> Iterator[InputError]:
+def temperature_difference_without_preload(case: ReadCase) -> Iterator[InputError]:
     """Yield a temperature difference in a bearing whose preload does not hang on it."""
     if case.temperature_difference:
         yield InputError(
@@ -25,7 +25,7 @@ def temperature_difference_without_preload(case: Case) -> Iterator[InputError]:
         )
 
 
-def moments_without_carrier(case: Case) -> Iterator[InputError]:
+def moments_without_carrier(case: ReadCase) -> Iterator[InputError]:
     """Yield a mount whose shaft is held by the moments of a bearing that carries none."""
     from macroslip.loads import HubLoads
     from macroslip.loads.statics import MOMENT_MOUNTS
@@ -40,7 +40,7 @@ def moments_without_carrier(case: Case) -> Iterator[InputError]:
         )
 
 
-def skew_of_guided_rollers(case: Case, guidance: str) -> Iterator[InputError]:
+def skew_of_guided_rollers(case: ReadCase, guidance: str) -> Iterator[InputError]:
     """Yield skew in a kind of bearing whose rollers are guided otherwise than spherical ones."""
     if case.laws.skew != "none":
         yield InputError(
@@ -51,7 +51,9 @@ def skew_of_guided_rollers(case: Case, guidance: str) -> Iterator[InputError]:
         )
 
 
-def traction_along_line(case: Case, roller: str, other_remedy: str = "") -> Iterator[InputError]:
+def traction_along_line(
+    case: ReadCase, roller: str, other_remedy: str = ""
+) -> Iterator[InputError]:
     """Yield a traction law that line contacts do not have.
 
     Takes the roller in words, and what else than another law helps.

@@ -10,7 +10,7 @@ from macroslip.kinds.checks import skew_of_guided_rollers, traction_along_line
 from macroslip.kinds.untilted import UntiltedRing
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Case
+    from macroslip.kinds.read_case import ReadCase
     from macroslip.loads import BearingLoads
 
 #: Axial part of a load that counts as none.
@@ -24,7 +24,7 @@ class Cylindrical(UntiltedRing):
     replenishment_factor = 5.1
     carries_thrust = False
 
-    def check(self, case: Case) -> Iterator[InputError]:
+    def check(self, case: ReadCase) -> Iterator[InputError]:
         """Yield keys of other kinds; loads at the hub, thrust, skew and a second cage."""
         from macroslip.loads import BearingLoads
 

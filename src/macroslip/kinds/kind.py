@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
     from macroslip.arrays import FloatArray
     from macroslip.bearing.sampled import Estimated
-    from macroslip.case.case import Case
     from macroslip.errors import InputError
+    from macroslip.kinds.read_case import ReadCase
     from macroslip.loads import BearingLoads
     from macroslip.rating.tapered import StripRating
     from macroslip.ring.orbit import Motion
@@ -68,12 +68,12 @@ class Kind(ABC):
     page: ClassVar[tuple[PageOption, ...]] = ()
     needed_of_page: ClassVar[tuple[str, ...]] = ()
 
-    def check(self, case: Case) -> Iterator[InputError]:
+    def check(self, case: ReadCase) -> Iterator[InputError]:
         """Yield what a case of this kind cannot have.
 
         Parameters
         ----------
-        case : Case
+        case : ReadCase
 
         Yields
         ------
@@ -88,13 +88,13 @@ class Kind(ABC):
 
     @abstractmethod
     def balance(
-        self, case: Case, model: RollerModel, thrust: FloatArray | None = None
+        self, case: ReadCase, model: RollerModel, thrust: FloatArray | None = None
     ) -> RingBalance:
         """Balance of the inner ring of a case at its samples.
 
         Parameters
         ----------
-        case : Case
+        case : ReadCase
             At a known temperature.
         model : RollerModel
             A roller of the first row.
@@ -128,12 +128,12 @@ class Kind(ABC):
         """
 
     @abstractmethod
-    def load_history(self, case: Case) -> tuple[BearingLoads, FloatArray, StripRating | None]:
+    def load_history(self, case: ReadCase) -> tuple[BearingLoads, FloatArray, StripRating | None]:
         """Loads of a case for its rating.
 
         Parameters
         ----------
-        case : Case
+        case : ReadCase
 
         Returns
         -------
@@ -170,13 +170,13 @@ class Kind(ABC):
         return radius - sign * stations * math.sin(bearing.contact_angle)
 
     def values(
-        self, case: Case, balance: RingBalance, window: tuple[float, float], ribs: FloatArray
+        self, case: ReadCase, balance: RingBalance, window: tuple[float, float], ribs: FloatArray
     ) -> dict[str, Any]:
         """Values of `variables` by name, but for those of traces, which all rollers have.
 
         Parameters
         ----------
-        case : Case
+        case : ReadCase
         balance : RingBalance
             Of the case.
         window : tuple of float
@@ -186,7 +186,7 @@ class Kind(ABC):
         """
         return {}
 
-    def coordinates(self, case: Case) -> dict[str, Any]:
+    def coordinates(self, case: ReadCase) -> dict[str, Any]:
         """Coordinates of the dimensions that these variables have."""
         return {}
 

@@ -23,7 +23,7 @@ from macroslip.kinds.untilted import UntiltedRing
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.bearing.sampled import Estimated
-    from macroslip.case.case import Case
+    from macroslip.kinds.read_case import ReadCase
 
 #: Highest speed of a shaft on spherical roller bearings [rad/s].
 _FASTEST_ROTOR = 100.0
@@ -61,7 +61,7 @@ class Spherical(UntiltedRing):
     )
     needed_of_page = ("bore", "outside", "width", "c0", "e")
 
-    def check(self, case: Case) -> Iterator[InputError]:
+    def check(self, case: ReadCase) -> Iterator[InputError]:
         """Yield keys of bearings that carry moments, and a speed that no rotor has."""
         yield from super().check(case)
         fastest = float(abs(case.loads.shaft_speed).max())
@@ -76,7 +76,17 @@ class Spherical(UntiltedRing):
     def estimate(
         self, page: dict[str, Any], name: str, title: str, seed: int
     ) -> Estimated[Bearing]:
-        """As `Kind.estimate`, by `macroslip.bearing.estimate`."""
+        """As `Kind.estimate`, by `macroslip.bearing.estimate`.
+
+        Parameters
+        ----------
+        page : dict
+            Values in SI by the names of fields of `page`.
+        name, title : str
+            Of the bearing.
+        seed : int
+            Of the random numbers.
+        """
         from macroslip.bearing.estimate import MakersPage, estimate_bearing
 
         return estimate_bearing(MakersPage(**page), name, title, seed=seed)

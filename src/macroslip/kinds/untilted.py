@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from macroslip.arrays import FloatArray
     from macroslip.bearing import Bearing
-    from macroslip.case.case import Case
+    from macroslip.kinds.read_case import ReadCase
     from macroslip.loads import BearingLoads
     from macroslip.roller.model import RollerModel
 
@@ -27,7 +27,7 @@ class UntiltedRing(Kind, ABC):
     """Kind of bearing whose inner ring moves and does not tilt."""
 
     def balance(
-        self, case: Case, model: RollerModel, thrust: FloatArray | None = None
+        self, case: ReadCase, model: RollerModel, thrust: FloatArray | None = None
     ) -> RingBalance:
         """As `Kind.balance`, by `macroslip.ring.motion`; each roller's own where loads are given."""
         from macroslip.contact.interface import highest_load, truncated_share, truncation_load
@@ -64,7 +64,7 @@ class UntiltedRing(Kind, ABC):
         displacement, _ = balance(ring, angle, force[None], start)
         return roller_loads(ring, angle, displacement)[0]
 
-    def load_history(self, case: Case) -> tuple[BearingLoads, FloatArray, None]:
+    def load_history(self, case: ReadCase) -> tuple[BearingLoads, FloatArray, None]:
         """As `Kind.load_history`, by `macroslip.rating.roller_load_history`."""
         from macroslip.rating import roller_load_history
 

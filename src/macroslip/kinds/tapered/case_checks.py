@@ -10,15 +10,15 @@ from macroslip.errors import InputError
 from macroslip.kinds.checks import skew_of_guided_rollers
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Case
+    from macroslip.kinds.read_case import ReadCase
 
 
-def mechanisms(case: Case) -> Iterator[InputError]:
+def mechanisms(case: ReadCase) -> Iterator[InputError]:
     """Yield dynamics, skew and a balance of heat, which are not computed.
 
     Parameters
     ----------
-    case : Case
+    case : ReadCase
     """
     if case.dynamics == WHOLE_BEARING:
         yield InputError(
@@ -38,12 +38,12 @@ def mechanisms(case: Case) -> Iterator[InputError]:
         )
 
 
-def mount(case: Case) -> Iterator[InputError]:
+def mount(case: ReadCase) -> Iterator[InputError]:
     """Yield loads and mounts from which the moments on the bearing do not follow.
 
     Parameters
     ----------
-    case : Case
+    case : ReadCase
     """
     from macroslip.loads import HubLoads, RollerLoads
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from macroslip.arrays import FloatArray
     from macroslip.bearing.sampled import Estimated
     from macroslip.bearing.tapered import TaperedBearing
-    from macroslip.case.case import Case
+    from macroslip.kinds.read_case import ReadCase
     from macroslip.loads import BearingLoads
     from macroslip.rating.tapered import StripRating
     from macroslip.ring.tapered_motion import TaperedMotion
@@ -87,7 +87,7 @@ class Tapered(Kind):
     )
     needed_of_page = ("c0",)
 
-    def check(self, case: Case) -> Iterator[InputError]:
+    def check(self, case: ReadCase) -> Iterator[InputError]:
         """Yield dynamics, laws, temperatures, loads and mounts that are not computed."""
         yield from super().check(case)
         yield from case_checks.mechanisms(case)
@@ -95,7 +95,7 @@ class Tapered(Kind):
         yield from case_checks.mount(case)
 
     def balance(
-        self, case: Case, model: RollerModel, thrust: FloatArray | None = None
+        self, case: ReadCase, model: RollerModel, thrust: FloatArray | None = None
     ) -> TiltingRingBalance:
         """As `Kind.balance`, by `macroslip.ring.tapered`; every roller has a motion of its own."""
         from macroslip.kinds.tapered.of_case import tapered_ring_motion
@@ -125,7 +125,7 @@ class Tapered(Kind):
         no_moment = np.zeros((1, 2))
         return tapered_balance(ring, np.zeros(1), force[None], no_moment).outer_load[0]
 
-    def load_history(self, case: Case) -> tuple[BearingLoads, FloatArray, StripRating]:
+    def load_history(self, case: ReadCase) -> tuple[BearingLoads, FloatArray, StripRating]:
         """As `Kind.load_history`, with the damage of strips."""
         import numpy as np
 
@@ -144,21 +144,43 @@ class Tapered(Kind):
     def raceway_radii(
         self, bearing: TaperedBearing, sign: int, radius: float, stations: FloatArray
     ) -> FloatArray:
-        """As `Kind.raceway_radii`: raceways are cones that share their apex with the rollers."""
+        """As `Kind.raceway_radii`: raceways are cones that share their apex with the rollers.
+
+        Parameters
+        ----------
+        bearing : TaperedBearing
+        sign : int
+            Axial sign s of the row, which does not count.
+        radius : float
+            Distance of the contact at the roller's middle [m].
+        stations : ndarray, shape (k,)
+            Places along the roller from its middle [m].
+        """
         from macroslip.bearing.tapered import tapered_geometry
 
         return radius * (1.0 + stations / tapered_geometry(bearing).apex_distance)
 
     def values(
-        self, case: Case, balance: RingBalance, window: tuple[float, float], ribs: FloatArray
+        self, case: ReadCase, balance: RingBalance, window: tuple[float, float], ribs: FloatArray
     ) -> dict[str, Any]:
-        """Energies at the ribs, preload, tilt, grip, and pressure and films of the ribs."""
+        """Energies at the ribs, preload, tilt, grip, and pressure and films of the ribs.
+
+        Parameters
+        ----------
+        case : ReadCase
+        balance : TiltingRingBalance
+            Of the case.
+        window : tuple of float
+            Start and end of the window [s].
+        ribs : ndarray, shape (row, roller, orbits + 1, 3)
+            As `rib` of `macroslip.measures.totals.Totals`.
+        """
         from macroslip.kinds.tapered.of_case import rib_energies, ring_values
 
         assert isinstance(balance, TiltingRingBalance)
         return rib_energies(ribs) | ring_values(case, balance.tapered, window)
 
-    def coordinates(self, case: Case) -> dict[str, Any]:
+    def coordinates(self, case: ReadCase) -> dict[str, Any]:
         """Surfaces of the ribs that wear, where asperities touch."""
         from macroslip.kinds.tapered.ribs import RIB_SURFACES
 
@@ -211,7 +233,17 @@ class Tapered(Kind):
     def estimate(
         self, page: dict[str, Any], name: str, title: str, seed: int
     ) -> Estimated[TaperedBearing]:
-        """As `Kind.estimate`: two rows in O arrangement if the page's are not told."""
+        """As `Kind.estimate`: two rows in O arrangement if the page's are not told.
+
+        Parameters
+        ----------
+        page : dict
+            Values in SI by the names of fields of `page`.
+        name, title : str
+            Of the bearing.
+        seed : int
+            Of the random numbers.
+        """
         from macroslip.bearing.tapered.estimate import TaperedPage, estimate_tapered_bearing
 
         told = {key: value for key, value in page.items() if value is not None}

@@ -19,7 +19,7 @@ from macroslip.ring.tapered import ROW_SIGNS, tapered_ring
 from macroslip.ring.tapered_motion import TaperedMotion, tapered_motion
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Case
+    from macroslip.kinds.read_case import ReadCase
 
 #: Variables of the ribs' history whose largest value in the window a result has.
 _RIB_EXTREMES = (
@@ -30,7 +30,7 @@ _RIB_EXTREMES = (
 )
 
 
-def warm_bearing(case: Case) -> TaperedBearing:
+def warm_bearing(case: ReadCase) -> TaperedBearing:
     """The bearing of a case with the preload that its temperature difference leaves.
 
     Two single rows of its kind, at their distance, where the mount has them.
@@ -40,19 +40,19 @@ def warm_bearing(case: Case) -> TaperedBearing:
     return warmed(mounted, case.temperature_difference)
 
 
-def _mount_of(case: Case) -> TaperedMount | None:
+def _mount_of(case: ReadCase) -> TaperedMount | None:
     """How the shaft of a case is held; None where the force on the bearing is given."""
     if not isinstance(case.loads, HubLoads):
         return None
     return TaperedMount.of(case.drivetrain)
 
 
-def tapered_ring_motion(case: Case) -> TaperedMotion:
+def tapered_ring_motion(case: ReadCase) -> TaperedMotion:
     """Balance of the ring of a case over its loads.
 
     Parameters
     ----------
-    case : Case
+    case : ReadCase
         Of a tapered roller bearing.
 
     Returns
@@ -76,7 +76,7 @@ def tapered_ring_motion(case: Case) -> TaperedMotion:
     return ring_motion
 
 
-def _refuse(case: Case, ring_motion: TaperedMotion) -> None:
+def _refuse(case: ReadCase, ring_motion: TaperedMotion) -> None:
     """InputError for a load of a roller that no bearing steel carries."""
     largest = float(ring_motion.balance.outer_load.max())
     inner, _ = strips_of(case.bearing)
@@ -111,13 +111,13 @@ def rib_energies(ribs: np.ndarray) -> dict[str, Any]:
 
 
 def ring_values(
-    case: Case, ring_motion: TaperedMotion, window: tuple[float, float]
+    case: ReadCase, ring_motion: TaperedMotion, window: tuple[float, float]
 ) -> dict[str, Any]:
     """Preload, extremes of the balance in the window, and of the ribs, by the name of the variable.
 
     Parameters
     ----------
-    case : Case
+    case : ReadCase
         Of a tapered roller bearing.
     ring_motion : TaperedMotion
         Of the case.
@@ -153,7 +153,7 @@ def _by_row(values: np.ndarray) -> np.ndarray:
     return values.reshape(len(values), len(ROW_SIGNS), -1)
 
 
-def _rib_window(case: Case, force: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
+def _rib_window(case: ReadCase, force: np.ndarray, speed: np.ndarray) -> dict[str, Any]:
     """Extremes and mean work at the ribs over the window, of rollers that roll."""
     ribs = rib_values(case.bearing, case.oil, force, speed, case.laws)
     # A shaft at rest has no film.
