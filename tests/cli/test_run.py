@@ -275,7 +275,10 @@ def test_ctrl_c_ends_a_whole_bearing_within_a_step_and_leaves_nothing(folder):
 def test_books_that_do_not_close_are_told(quick, macroslip, monkeypatch):
     from macroslip.result import simulate as module
 
-    words, simulate = "the books close energy to 7 % of what is dissipated", module.simulate
+    words, simulate = (
+        "the balance of energy has a residual of 7 % of what is dissipated",
+        module.simulate,
+    )
     monkeypatch.setattr(
         module,
         "simulate",

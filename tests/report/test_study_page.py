@@ -73,7 +73,9 @@ def test_the_opening_has_designs_and_largest_values(page, study):
         "all its cases count alike" in reported[1]
         and "2 runs without a result are left out." in reported[1]
     )
-    _, _, missing = reported[1].partition("did not keep what it takes or the model has none: ")
+    _, _, missing = reported[1].partition(
+        "lack the variables for it or the model does not compute it: "
+    )
     assert "wear at k = 1e-17 m²/N" in missing
     for name in ("energy_mean", "peak_power_max"):
         first = worst(study, name, count=1).isel(rank=0)

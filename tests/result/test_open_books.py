@@ -29,12 +29,18 @@ def books(**flows):
         ),
         (
             {"shaft_work": 100.7, "raceway_loss": 60.0, "friction_loss": 40.0},
-            "energy to 0.7 % of what is dissipated",
+            "the balance of energy has a residual of 0.7 % of what is dissipated",
         ),
-        ({"shaft_work": 93.0, "raceway_loss": 100.0}, "energy to 7 % of what is dissipated"),
+        (
+            {"shaft_work": 93.0, "raceway_loss": 100.0},
+            "the balance of energy has a residual of 7 % of what is dissipated",
+        ),
         ({"outer_impulse": 50.0, "inner_impulse": -50.2}, ""),
         ({"outer_impulse": 1e-12, "inner_impulse": -3e-12}, ""),  # rounding at standstill
-        ({"outer_impulse": 50.0, "inner_impulse": -51.0}, "angular momentum to 2 % of what passes"),
+        (
+            {"outer_impulse": 50.0, "inner_impulse": -51.0},
+            "the balance of angular momentum has a residual of 2 % of what passes",
+        ),
     ],
 )
 def test_a_rest_above_half_a_percent_is_told(flows, words):
@@ -55,7 +61,7 @@ def test_friction_that_drives_is_told():
     assert open_books(books_of_run) == ""
     books_of_run.driven = 0.4
     assert open_books(books_of_run).startswith(
-        "friction gave back 0.4 % of what is dissipated, which it cannot; results"
+        "friction adds 0.4 % of the dissipated energy, which is impossible; results"
     )
 
 

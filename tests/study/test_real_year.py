@@ -405,7 +405,7 @@ def test_exceedance_of_mixed_temperatures_is_refused_with_its_reason():
     weights = {"width": 4.0, "scada": joint.content(), "events": EVENTS}
     study = weighted_study(made_up_study(weights=weights))
     stored = stored_weighting(made_up_study(weights=weights))
-    with pytest.raises(InputError, match="mix temperatures of the oil"):
+    with pytest.raises(InputError, match="combine several oil temperatures"):
         exceedance(study, Aggregation(stored.year, 1.0, stored.field, stored.width))
 
 

@@ -1,4 +1,4 @@
-"""Power and energy of pressure times slip, as tests for white etching cracks are judged.
+"""Friction energy as pressure times slip, by which tests for white etching cracks are judged.
 
 What counts is p |v|, without a coefficient of friction: e_a = ∫ p |v| dt of a pass over the time
 between passes.

@@ -1,4 +1,4 @@
-"""Micropitting: how long, and for how many passes, films are thin, with the sign of slip."""
+"""Micropitting: time and passes with thin films, and the sign of slip in them."""
 
 from __future__ import annotations
 

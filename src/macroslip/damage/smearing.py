@@ -1,4 +1,4 @@
-"""Smearing when a roller enters the load zone, beside published rigs."""
+"""Smearing when a roller enters the load zone, compared with published rig tests."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ def hertz_slices(load: float, half_length: float, curvature: float) -> float:
 
 
 class Pressed(NamedTuple):
-    """A raceway contact of a roller that wears."""
+    """Load, contour and slip of a raceway contact that wears."""
 
     load: float  #: Q [N]
     contour: FloatArray  #: Gap of each slice [m]
@@ -111,7 +111,7 @@ class Pressed(NamedTuple):
 
 
 class Worn(NamedTuple):
-    """Growth of wear."""
+    """Depth of wear over sliding work."""
 
     work: FloatArray  #: k t [m²/N s], shape (m,): time is this over k
     depth: FloatArray  #: Of inner raceway, outer raceway and roller by slice [m], shape (m, 3, n)

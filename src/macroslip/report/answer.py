@@ -226,7 +226,7 @@ def _films(result: xr.Dataset) -> list[str]:
 
 
 def _nearest(criteria: Sequence[Mapping[str, Any]]) -> list[str]:
-    """The criterion nearest to its reference, or furthest beyond, and others beyond theirs."""
+    """Sentence on the criterion with the largest ratio to its reference, and on others beyond theirs."""
     shown = []
     for line in criteria:
         if line["in answer"] and np.isfinite(line["ratio"]):

@@ -114,7 +114,7 @@ def _worth(heat: BearingHeat) -> str:
 
 
 def block_scatter(heat: BearingHeat, rival: HeatFit) -> float:
-    """Squares that a rival leaves beyond the chosen fit's, over their standard error by blocks.
+    """Excess of a rival's sum of squared residuals over the chosen fit's, in block standard errors.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def _edges(middles: np.ndarray) -> np.ndarray:
 
 
 def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
-    """Numbers of a year over those at 35 °C: real, at the mean temperature, oil 5 K off the sensor.
+    """Sums of a year relative to a year at 35 °C: at measured and mean temperature, and 5 K either way.
 
     Takes `macroslip.study.real_year.RealYear.table` of one design.
     """
@@ -82,7 +82,7 @@ def plot_over_fixed(axes: Axes, table: pd.DataFrame) -> Axes:
         fmt="o",
         color=BLUE,
         capsize=4,
-        label="real, oil 5 K off the sensor",
+        label="measured temperatures, ± 5 K",
     )
     axes.plot(
         positions + 0.15,

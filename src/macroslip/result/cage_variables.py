@@ -120,15 +120,17 @@ def open_books(books: Books) -> str:
         largest = np.abs(residual).max()
         share = largest / max(whole, _SLIGHT)
         if share > LARGEST_RESIDUAL:
-            missing.append(f"{quantity} to {100.0 * share:.2g} % of {of}")
+            missing.append(
+                f"the balance of {quantity} has a residual of {100.0 * share:.2g} % of {of}"
+            )
     sentences = []
     if missing:
         listed = " and ".join(missing)
-        sentences.append(f"the books close {listed}, where 0.5 % is good")
+        sentences.append(f"{listed}, where 0.5 % is good")
     gain = books.driven / max(dissipated, _SLIGHT)
     if gain > _LARGEST_GAIN:
         sentences.append(
-            f"friction gave back {100.0 * gain:.2g} % of what is dissipated, which it cannot"
+            f"friction adds {100.0 * gain:.2g} % of the dissipated energy, which is impossible"
         )
     if not sentences:
         return ""

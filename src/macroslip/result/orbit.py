@@ -122,14 +122,14 @@ def travelled(result: xr.Dataset) -> np.ndarray:
 
 
 def in_window(result: xr.Dataset) -> xr.Dataset:
-    """The times of the traces inside the window over which energies are taken."""
+    """Traces inside the window over which energies are summed."""
     has_begun = result.time >= result.attrs["window_start"]
     goes_on = result.time <= result.attrs["window_end"]
     return result.sel(time=has_begun & goes_on)
 
 
 def _thinned(size: int, most: int) -> slice:
-    """Every first, second, third ... of `size` samples, so that `most` are left at most."""
+    """Slice that thins `size` samples evenly to `most` at most."""
     step = max(1, math.ceil(size / most))
     return slice(None, None, step)
 
@@ -146,7 +146,7 @@ def _sectors(angle: xr.DataArray, sectors: int) -> np.ndarray:
 
 
 def _evenly_passed(energy: np.ndarray, passed: np.ndarray) -> np.ndarray:
-    """The same energy over the sectors as if all were passed equally often."""
+    """Energy by sector, normalised to equal numbers of passes."""
     per_way = np.zeros(energy.size)
     np.divide(energy, passed, out=per_way, where=passed > 0.0)
     total = per_way.sum()
@@ -328,7 +328,7 @@ def still(result: xr.Dataset) -> xr.Dataset:
 def scene(
     result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCENE_STEP
 ) -> xr.Dataset:
-    """A part of the traces to be played, around the largest power.
+    """Excerpt of the traces around the largest power, for the animation of a page.
 
     At most `samples`, at least `step` [s] apart, over (row, roller, time), as 32-bit numbers: slip
     [m/s], roller_load [N] and power [W], summed over the interfaces, at the instant; and angle

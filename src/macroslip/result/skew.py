@@ -43,7 +43,7 @@ def skewing(case: Case, laws: PreparedLaws, box: Box) -> dict[str, Skewing]:
 def thrust_on_ring(
     case: Case, model: RollerModel, ring: RingGeometry, motion: Motion, box: Box
 ) -> np.ndarray:
-    """Force of skewed rollers on the inner ring, which its balance feels.
+    """Axial force of skewed rollers on the inner ring, as it enters the balance of the ring.
 
     Parameters
     ----------

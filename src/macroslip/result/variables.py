@@ -71,7 +71,7 @@ VARIABLES = VariableTable(
             ("row", "interface", "position"),
             "W",
             NO_ORBIT,
-            "largest frictional power in the window by place on the orbit, over all rollers; "
+            "largest frictional power in the window by position on the orbit, over all rollers; "
             "where no orbit is complete",
         ),
         Variable(
@@ -104,14 +104,14 @@ VARIABLES = VariableTable(
             "N",
             ALWAYS,
             "mean load in the window that films of oil carry beside the rings' elastic load; "
-            "the balance of the rings does not know it",
+            "it is not part of the balance of the rings",
         ),
         Variable(
             "axial_travel",
             (),
             "m/h",
             AXIAL,
-            "way of the inner ring along Z0 in the window, forth and back, over its duration",
+            "distance that the inner ring moves along Z0, back and forth, over the duration of the window",
         ),
         Variable(
             "thrust_reversals",
@@ -412,15 +412,15 @@ VARIABLES = VariableTable(
             _POSITIONS,
             "rad",
             SKEW,
-            "mean skew of pressed rollers in the window by place on the orbit",
+            "mean skew of pressed rollers in the window by position on the orbit",
         ),
         Variable(
             "axial_force_by_position",
             _POSITIONS,
             "N",
             SKEW,
-            "mean axial force of a pressed roller on the inner ring in the window by place on "
-            "the orbit, along +z'",
+            "mean axial force of a pressed roller on the inner ring in the window by "
+            "position on the orbit, along +z'",
         ),
         Variable(
             "skew_power_by_position",
@@ -428,7 +428,7 @@ VARIABLES = VariableTable(
             "W",
             SKEW,
             "mean power of a pressed roller beyond that of a straight one in the window by "
-            "place on the orbit",
+            "position on the orbit",
         ),
         Variable(
             "skew_angle",
@@ -484,7 +484,7 @@ VARIABLES = VariableTable(
             _POSITIONS,
             "N",
             WHOLE,
-            "largest force of a spar in the window by place on the orbit, over all rollers",
+            "largest force of a spar in the window by position on the orbit, over all rollers",
         ),
         Variable(
             "cage_slip",
@@ -500,73 +500,109 @@ VARIABLES = VariableTable(
             WHOLE,
             "standard deviation of the cage's slip in the window",
         ),
-        Variable("book_momentum", ("book_time",), "N m s", WHOLE, "momentum of rollers and cages"),
+        Variable(
+            "book_momentum", ("book_time",), "N m s", WHOLE, "angular momentum of rollers and cages"
+        ),
         Variable(
             "book_kinetic_energy", ("book_time",), "J", WHOLE, "kinetic energy of rollers and cages"
         ),
         Variable(
-            "book_elastic_energy", ("book_time",), "J", WHOLE, "elastic energy of rollers and cages"
+            "book_elastic_energy",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "elastic energy of spars and radial stop",
         ),
         Variable(
             "book_inner_impulse",
             ("book_time",),
             "N m s",
             WHOLE,
-            "inner impulse since the first sample",
+            "angular impulse of the inner raceway since the first sample",
         ),
         Variable(
             "book_outer_impulse",
             ("book_time",),
             "N m s",
             WHOLE,
-            "outer impulse since the first sample",
+            "angular impulse of the outer raceway since the first sample",
         ),
         Variable(
             "book_body_impulse",
             ("book_time",),
             "N m s",
             WHOLE,
-            "body impulse since the first sample",
+            "angular impulse of weight and drag of the rollers since the first sample",
         ),
         Variable(
             "book_guide_impulse",
             ("book_time",),
             "N m s",
             WHOLE,
-            "guide impulse since the first sample",
+            "angular impulse of the cages' guides since the first sample",
         ),
         Variable(
             "book_eccentric_impulse",
             ("book_time",),
             "N m s",
             WHOLE,
-            "eccentric impulse since the first sample",
+            "angular impulse of pushes on a cage off the axis since the first sample",
         ),
         Variable(
-            "book_shaft_work", ("book_time",), "J", WHOLE, "shaft work since the first sample"
+            "book_shaft_work",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "work of the shaft since the first sample",
         ),
-        Variable("book_body_work", ("book_time",), "J", WHOLE, "body work since the first sample"),
+        Variable(
+            "book_body_work",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "work of weight and drag of the rollers since the first sample",
+        ),
         Variable(
             "book_cage_weight_work",
             ("book_time",),
             "J",
             WHOLE,
-            "cage weight work since the first sample",
+            "work of the cages' weight since the first sample",
         ),
         Variable(
-            "book_raceway_loss", ("book_time",), "J", WHOLE, "raceway loss since the first sample"
+            "book_raceway_loss",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "energy dissipated in the raceway contacts since the first sample",
         ),
         Variable(
-            "book_friction_loss", ("book_time",), "J", WHOLE, "friction loss since the first sample"
+            "book_friction_loss",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "energy dissipated by friction in the pockets since the first sample",
         ),
         Variable(
-            "book_guide_loss", ("book_time",), "J", WHOLE, "guide loss since the first sample"
+            "book_guide_loss",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "energy dissipated by the cages' guides since the first sample",
         ),
         Variable(
-            "book_pocket_work", ("book_time",), "J", WHOLE, "pocket work since the first sample"
+            "book_pocket_work",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "energy into the pockets, stored or dissipated, since the first sample",
         ),
         Variable(
-            "book_support_work", ("book_time",), "J", WHOLE, "support work since the first sample"
+            "book_support_work",
+            ("book_time",),
+            "J",
+            WHOLE,
+            "energy into the radial stop, stored or dissipated, since the first sample",
         ),
         Variable(
             "momentum_residual",
@@ -594,7 +630,7 @@ VARIABLES = VariableTable(
             _TRACES,
             "m",
             WHOLE_TRACES,
-            "roller's way ahead of the middle of its pocket",
+            "roller's distance ahead of the middle of its pocket",
         ),
         Variable(
             "orbit_speed_deviation",
@@ -616,7 +652,7 @@ VARIABLES = VariableTable(
             ("cage", "time"),
             "m",
             WHOLE_TRACES,
-            "way of the cage at the pitch radius beyond that of pure rolling",
+            "distance of the cage ahead of pure rolling, at the pitch radius",
         ),
         Variable(
             "cage_x", ("cage", "time"), "m", WHOLE_TRACES, "displacement of the cage along X0"

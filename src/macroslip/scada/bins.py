@@ -105,7 +105,7 @@ class JointShares:
         return dict(zip(self.wind.tolist(), shares.tolist(), strict=True))
 
     def content(self) -> dict[str, Any]:
-        """Plain data, from which `from_content` makes it again."""
+        """Plain data for JSON, which `from_content` reads."""
         return {
             "source": self.source,
             "wind": self.wind.tolist(),

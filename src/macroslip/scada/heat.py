@@ -251,8 +251,8 @@ def _marks(fit: HeatFit, analysed: _Analysed) -> tuple[str, ...]:
     heat_of_model = abs(mean_heat - drift)
     if abs(drift) > MOST_DRIFT * heat_of_model:
         marks.append(
-            f"{of}: a heat of {fit.values['drift']:.2g} K/h goes with nothing, beside "
-            f"{mean_heat:.2g} K/h in the mean while turning."
+            f"{of}: a heat of {fit.values['drift']:.2g} K/h depends neither on friction nor "
+            f"on temperature, against {mean_heat:.2g} K/h in the mean while turning."
         )
     return tuple(marks)
 

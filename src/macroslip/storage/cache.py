@@ -99,7 +99,7 @@ def write_cache(name: str, content: bytes) -> None:
 
 
 def keep_in_use(name: str) -> None:
-    """Count a cached file as used for as long as this process makes others.
+    """Protect a cached file from removal while this process makes others.
 
     It is then not among those that were used longest ago, though it is read only once.
     """

@@ -1,4 +1,4 @@
-"""HDF5 files of unknown origin, from which the library may never return.
+"""Check of HDF5 files of unknown origin in a child process: the library may hang on damaged ones.
 
 A flipped byte can make a list within the file point at itself, which HDF5 follows for ever, without
 reacting to an interrupt, or it may end the whole process. So a process of its own reads the file
@@ -88,10 +88,14 @@ def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
             return
         begun = done.stdout
         lines = [line for line in done.stderr.splitlines() if line.strip()]
-        reason = lines[-1] if done.returncode == 1 and lines else "the HDF5 library came to no end"
+        reason = (
+            lines[-1]
+            if done.returncode == 1 and lines
+            else "the HDF5 library did not finish reading it"
+        )
     except subprocess.TimeoutExpired as late:
         begun = (late.stdout or b"").decode(errors="replace")
-        reason = "the HDF5 library came to no end"
+        reason = "the HDF5 library did not finish reading it"
     number = max(0, len(begun.splitlines()) - 1)
     raise InputError(
         f"the file cannot be read as netCDF or HDF5 ({reason})",

@@ -59,7 +59,7 @@ def _described(value: Any) -> str:
 
 
 def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarray]:
-    """The arrays called `key`, made only if neither this process nor the disk has them; read-only.
+    """Arrays of a key from memory or disk, computed only where neither has them; read-only.
 
     The key is one of `table_key`.
     """
@@ -67,7 +67,7 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
 
 
 def remembered(key: str, make: Callable[[], Made]) -> Made:
-    """The object called `key`, made only if this process has not made it or has forgotten it.
+    """Object of a key from memory, computed only where this process does not have it any more.
 
     The key is one of `table_key`; `make` gives arrays, or tuples of them.
     """

@@ -1,4 +1,4 @@
-"""Waiting times of a process before it computes: compiling, and tables.
+"""Progress of what a process does before it computes: compiling, and making tables.
 
 Whoever shows progress listens; nobody has to.
 """

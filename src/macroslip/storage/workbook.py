@@ -85,7 +85,7 @@ def workbook(tables: Mapping[str, pd.DataFrame]) -> bytes:
 
 
 def _cell(value: Any) -> Any:
-    """A value as a cell has room for it."""
+    """Value of a cell, within what the format holds."""
     if isinstance(value, str):
         return _NOT_IN_XML.sub(" ", value)[:_LONGEST_TEXT]
     if value is None or isinstance(value, bool | int | float):

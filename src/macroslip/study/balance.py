@@ -1,4 +1,4 @@
-"""The temperature at which a bearing loses the friction of all loads of a study."""
+"""Oil temperature of a study at which the heat that a bearing loses equals its mean friction."""
 
 from __future__ import annotations
 

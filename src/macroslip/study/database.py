@@ -186,7 +186,7 @@ class Database:
 
 
 def damaged_database(directory: Path, error: sqlite3.DatabaseError) -> InputError:
-    """The problem of a damaged database."""
+    """Error for a damaged database."""
     return InputError(
         f"the database is damaged ({error})", where=str(directory / DATABASE), remedy=DAMAGED
     )

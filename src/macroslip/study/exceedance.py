@@ -67,7 +67,7 @@ def exceedance(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
     """
     if MIXED in study.attrs:
         raise InputError(
-            "the weights mix temperatures of the oil, between which single orbits are not taken",
+            "the weights combine several oil temperatures, and single orbits are not interpolated between them",
             where="weights",
             remedy="Look at the runs of one temperature, under weights without scada and "
             "temperature.",

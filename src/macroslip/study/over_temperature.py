@@ -1,4 +1,4 @@
-"""Runs of a study over the temperature of their oil, and their mean over how long each lasts.
+"""Runs of a study at several oil temperatures, interpolated and averaged over time.
 
 Runs that differ in the temperature of the oil alone are a series. Between its temperatures the
 logarithm of what grows by factors (energies, powers, wear, e_a, lives) follows a monotone cubic
@@ -35,8 +35,8 @@ from macroslip.study.weights import LossOfHeat, Weighting, binned, stored_weight
 #: Attribute of a study whose cases are means over temperatures of the oil, and what it then lacks.
 MIXED = "mixed_temperatures"
 NOT_MIXED = (
-    "The weights mix temperatures of the oil, between which single orbits and places of a surface "
-    "are not taken: exceedance, cycles of the load and maps are left out."
+    "The weights combine several oil temperatures, and single orbits and places of a surface are not "
+    "interpolated between temperatures: exceedance, cycles of the load and maps are left out."
 )
 #: Label of the temperature of the oil at the inlets.
 LABEL = "lubricant.at"
@@ -50,7 +50,7 @@ _OF_A_RUN = ("case", "run", "key", "outcome", "reason", LABEL)
 
 @dataclass(frozen=True)
 class RunsOverTemperature:
-    """Runs of a study in series over the temperature of the oil."""
+    """Runs of a study grouped into series that differ in the oil temperature alone."""
 
     study: xr.Dataset
     temperatures: np.ndarray  #: Of every series, shape (temperatures,), ascending [K]
@@ -125,7 +125,7 @@ class RunsOverTemperature:
         return np.moveaxis(of_series, 0, 1)
 
     def balance(self, loss: LossOfHeat, field: str, width: float) -> dict[float, float]:
-        """Temperature [K] of each bin of wind speed at which friction is the heat that is lost.
+        """Oil temperature [K] of each wind-speed bin at which friction power equals heat loss.
 
         The mean friction power of the runs of the bin P(T) is G (T − T_ambient) there.
 
@@ -159,7 +159,7 @@ class RunsOverTemperature:
         return temperatures
 
     def _balance_of(self, powers: np.ndarray, loss: LossOfHeat, centre: str) -> float:
-        """Temperature [K] of balance from friction powers [W] at those of the runs."""
+        """Oil temperature [K] at which friction powers [W] of the runs equal the heat loss."""
 
         def excess(at: float) -> float:
             known = interpolated(self.temperatures, powers, np.array([at]), by_factors=True)
@@ -187,7 +187,7 @@ class RunsOverTemperature:
         return float(brentq(excess, low, high, xtol=1e-9))
 
     def mean(self, shares: TemperatureShares, field: str, width: float) -> xr.Dataset:
-        """Means of the runs of each series over the time at each temperature, one case a series.
+        """Average each series over the time at each oil temperature; one case a series.
 
         Parameters
         ----------
@@ -275,7 +275,7 @@ def kelvin(values: np.ndarray, unit: str) -> np.ndarray:
 def interpolated(
     temperatures: np.ndarray, known: np.ndarray, at: np.ndarray, *, by_factors: bool
 ) -> np.ndarray:
-    """Values between temperatures: PCHIP of the logarithm, or linear.
+    """Interpolate values between temperatures: PCHIP of the logarithm, or linear.
 
     Parameters
     ----------
@@ -335,7 +335,7 @@ def _over_temperature(name: str) -> OverTemperature:
 
 
 def weighted_study(study: xr.Dataset) -> xr.Dataset:
-    """The study as its weights have it: at their temperatures, if they tell any; else as it is.
+    """Average a study over the oil temperatures of its weights; unchanged where they have none.
 
     Raises InputError if the weights need temperatures that the runs do not span.
     """
@@ -350,7 +350,7 @@ def weighted_study(study: xr.Dataset) -> xr.Dataset:
 
 
 def _at_balance(study: xr.Dataset, weighting: Weighting, loss: LossOfHeat) -> xr.Dataset:
-    """The study with each bin of each design at the temperature of its own balance of heat."""
+    """Take each wind-speed bin of each design at the oil temperature of its own heat balance."""
     at_one_temperature = study.drop_vars(LABEL, errors="ignore")
     designs = binned(at_one_temperature, weighting.field, weighting.width)
     means = []
@@ -367,7 +367,7 @@ def _at_balance(study: xr.Dataset, weighting: Weighting, loss: LossOfHeat) -> xr
 
 
 def check_span(shares: TemperatureShares, temperatures: np.ndarray) -> list[str]:
-    """Check that runs at temperatures [K] span those of the weights, and note which are held at an end.
+    """Check that the temperatures of runs [K] span those of the weights; note those beyond them.
 
     Temperatures of a measured year may lie up to `MOST_BEYOND` outside, where the nearest run holds, and
     one thousandth of the time anywhere; given temperatures may not.

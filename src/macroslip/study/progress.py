@@ -34,7 +34,7 @@ class Progress:
 
     @property
     def line(self) -> str:
-        """Everything in one line."""
+        """Counts, rate and time left, in one line."""
         counts = f"{self.computed} computed, {self.unchanged} unchanged, {self.failed} failed"
         left = "-"
         if self.done == self.total:
@@ -46,7 +46,7 @@ class Progress:
 
 
 def duration(seconds: float) -> str:
-    """Write a time.
+    """Duration in words, by its two largest units.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A year at the winds and temperatures that a turbine had, beside years at one temperature."""
+"""A year at measured winds and oil temperatures, compared with years at one temperature."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def real_year(
     wind: Weibull | None = None,
     allow_short: bool = False,
 ) -> RealYear:
-    """A year at the winds and temperatures of a turbine.
+    """Compute a year of each design at the winds and oil temperatures that a turbine measured.
 
         year = 8766 h Σ_w,T p(w, T) rate(w, T) + Σ events at their temperature
 

@@ -1,4 +1,4 @@
-"""Values by which runs of a study differ from the base case, and the case they make.
+"""Parameter values by which runs of a study differ from the base case.
 
 They are given one by one, in grids and in samples.
 """
@@ -211,7 +211,7 @@ def with_settings(mapping: Mapping[str, Any], settings: Sequence[Setting]) -> di
 
 
 def replaced(record: Record, settings: Sequence[Setting]) -> Record:
-    """A bearing or lubricant with the values meant for it, checked as any other input.
+    """Copy of a bearing or lubricant with other values, checked as any other input.
 
     Raises InputError if a value is out of its range, or does not go with the others.
 

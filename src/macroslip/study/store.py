@@ -71,7 +71,7 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
 
 
 def other_version(directory: Path, version: Any) -> InputError:
-    """The problem of a study of another version."""
+    """Error for a study that another version of the program wrote."""
     return InputError(
         f"another version of macroslip wrote this study (format {version!r})",
         where=str(directory),

@@ -39,7 +39,7 @@ _WITH_DETAILS = "with details of the contacts: laws with microslip or asperities
 
 
 def _of_rating(name: str, more: str = "") -> Variable:
-    """A number of the rating of a case: what the rating calls it, and what is taken of it."""
+    """Variable of the summary with name, unit and meaning of the rating."""
     variable = RATING[name]
     return variable._replace(dims=_CASE, when=RATED, long_name=variable.long_name + more)
 
@@ -203,7 +203,7 @@ NUMBERS |= {name: variable.units for name, variable in CASE_VARIABLES.items()}
 
 
 class OverTemperature(NamedTuple):
-    """How a number of runs at several temperatures of the oil is one over all of their time."""
+    """How a number of runs at several oil temperatures is averaged over time."""
 
     #: `mean` by the share of time; `largest` or `least` of any temperature that occurs; `life`,
     #: whose inverses are averaged.

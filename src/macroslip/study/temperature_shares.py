@@ -91,7 +91,7 @@ class TemperatureShares:
         )
 
     def warmer(self, by: float) -> TemperatureShares:
-        """A copy with all temperatures higher [K]."""
+        """A copy with all temperatures raised by a difference [K]."""
         return replace(self, temperatures=self.temperatures + by)
 
     def of_wind(self, centre: float, width: float) -> np.ndarray:

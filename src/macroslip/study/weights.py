@@ -1,4 +1,4 @@
-"""Probability of each wind speed, and the runs of a study that represent it."""
+"""Probabilities of wind speeds and events, and the runs of a study that stand for each."""
 
 from __future__ import annotations
 
@@ -201,7 +201,7 @@ _RATES = MappingOf(
 
 @input_section("weights.temperature.balance", "how the bearing loses its heat, at each wind speed")
 class LossOfHeat:
-    """Loss of heat by which each bin of wind speed has a temperature, P(T) = G (T − T_ambient)."""
+    """Heat loss G (T − T_ambient), which sets the oil temperature of each wind-speed bin."""
 
     conductance: Annotated[float, Positive("heat flow to the surroundings per kelvin", CONDUCTANCE)]
     ambient: Annotated[

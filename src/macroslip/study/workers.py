@@ -119,7 +119,7 @@ def end_in_worker() -> None:
 
 
 class Processes:
-    """Processes of this machine, each a pool of its own, so that a death concerns one run only.
+    """Worker processes of this machine, each a pool of its own, so that one that dies loses one run.
 
     `note` writes to the log.
     """
@@ -417,7 +417,7 @@ class Dask:
                             self._pool.submit(work_several, [task]): [task] for task in tasks
                         }
                 except Exception as error:
-                    fault = f"a worker cannot work: {type(error).__name__}: {error}. "
+                    fault = f"a worker cannot compute a run: {type(error).__name__}: {error}. "
                     fault += "Is macroslip installed there?"
                     raise MacroslipError(fault) from None
                 else:

@@ -1,4 +1,4 @@
-"""A year of each design of a study by wind speed and event, and one life.
+"""Energy, damage and life of each design of a study over a year of wind speeds and events.
 
 The year holds energy, entries, wear and mixed film.
 """
@@ -257,7 +257,7 @@ def designs(annual: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
             table[name] = annual[name].values
     if missing:
         notes.append(
-            "Not known, because the results did not keep what it takes or the model has none: "
+            "Not known, because the results lack the variables for it or the model does not compute it: "
             f"{', '.join(missing)}."
         )
     if left_out := int(annual.left_out.sum()):

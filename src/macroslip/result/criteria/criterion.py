@@ -22,7 +22,7 @@ OF_YEAR = "where an orbit is complete, or in an event"
 
 
 class Threshold(NamedTuple):
-    """A threshold of one's own for a criterion."""
+    """Threshold of a criterion that a user gives, with its source."""
 
     value: float  #: In the unit of the criterion
     source: str  #: Where it comes from
@@ -80,18 +80,18 @@ class Yearly:
 
     @property
     def in_designs(self) -> PageColumn:
-        """PageColumn in the table of designs."""
+        """Column in the table of designs."""
         return self.design_column or PageColumn(f"{self.meaning}{_in_brackets(self.unit)}")
 
     @property
     def in_year(self) -> PageColumn:
-        """PageColumn in the table of the situations of a year."""
+        """Column in the table of the situations of a year."""
         return self.year_column or PageColumn(f"{self.noun}{_in_brackets(self.year_unit)}")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
-    """A criterion of damage, a line of the answer."""
+    """A criterion of damage: its value, reference and uncertainty, and how it is shown."""
 
     order: int  #: Lines are in this order
     name: str

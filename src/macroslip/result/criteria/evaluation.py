@@ -1,4 +1,4 @@
-"""A result as criteria see it: rates per second of a bearing with all its rollers, by surface."""
+"""Damage rates per second of a whole bearing, by surface, from one result."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Evaluation:
 
     @property
     def tells_of_year(self) -> bool:
-        """True if a year may consist of the window: it has an orbit, or is an event."""
+        """True if the window can be extrapolated to a year: it has an orbit, or is an event."""
         return self.result.sizes["orbit"] > 0 or self.run_input.is_event
 
     def reference(self, criterion: Criterion) -> float:

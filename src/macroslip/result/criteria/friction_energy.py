@@ -1,4 +1,4 @@
-"""Criteria of friction energy, pressure times slip, beside a test for white etching cracks."""
+"""Criteria of friction energy, pressure times slip, compared with a test for white etching cracks."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ CRITERIA = (
         order=21,
         name="friction_energy_year",
         mechanism="friction energy",
-        quantity="p |v| of such a year",
+        quantity="p |v| over such a year",
         unit="J/m2",
         declares=(
             Variable("pressure_slip_year", _OVER, "J/m2", OF_YEAR, "p |v| over a year like this"),

@@ -154,7 +154,7 @@ def _slices(
 
 
 def working_skew(row: xr.Dataset) -> float:
-    """Root of a row's mean square skew [rad], weighted by ∫ p |v| dt of a pass.
+    """Root-mean-square skew of a row [rad], weighted by ∫ p |v| dt of a pass.
 
     The angle of that raceway is the orbit's.
     """
