@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import pytest
 from typer.testing import CliRunner
 
+from macroslip.cli import progress
+
 DATA = Path(__file__).parents[1] / "data"
 
 
@@ -37,8 +39,13 @@ def quick(folder):
 
 
 @pytest.fixture
-def macroslip():
-    """Run a command; gives exit code, standard output and standard error."""
+def macroslip(monkeypatch):
+    """Run a command; gives exit code, standard output and standard error.
+
+    Whether a stage takes so long that it has a line depends on the machine: none does here.
+    """
+    for name in ("LINE_AFTER", "SILENT_FOR"):
+        monkeypatch.setattr(progress, name, 3600.0)
 
     def run(*arguments):
         from macroslip.cli.commands import app

@@ -240,3 +240,15 @@ def test_a_quiet_study_shows_nothing(stderr):
     with progress.study_progress(quiet=True) as report:
         assert report is None
     assert screen.getvalue() == ""
+
+
+def test_work_that_counts_nothing_is_named_once(stderr, monkeypatch):
+    text = stderr(io.StringIO)
+    monkeypatch.setattr(progress, "SILENT_FOR", 0.05)
+    with progress.command_progress(quiet=False, work="making the page"):
+        time.sleep(0.15)
+    assert text.getvalue() == "making the page\n"
+    monkeypatch.setattr(progress, "SILENT_FOR", 60.0)
+    with progress.command_progress(quiet=False, work="comparing"):
+        pass
+    assert text.getvalue() == "making the page\n"

@@ -86,7 +86,9 @@ def test_as_a_user_starts_it(quick, folder):
         "case.nc",
     ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0 and done.stderr.count("\n") == 1
+    # Where kernels or tables are missing, a line of the stage stands before the doubt.
+    told = [line for line in done.stderr.splitlines() if not line.endswith(" done")]
+    assert done.returncode == 0 and len(told) == 1
     assert done.stdout.endswith("written: case.nc\n") and "\x1b" not in done.stdout
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stdout) == (2, "")

@@ -12,6 +12,7 @@ from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
 from macroslip.cli.options import AsJson, By, Force, Quiet, wind_of
 from macroslip.cli.options import Weibull as WeibullOption
 from macroslip.cli.printing import number, print_json, print_table
+from macroslip.cli.progress import command_progress
 from macroslip.errors import InputError, safe_text
 from macroslip.storage.files import check_not_input, check_regular, make_folder
 
@@ -78,7 +79,8 @@ def aggregate(
         width=stored.width if width is None else width,
         by=by or (),
     )
-    frames = tables(study, aggregation)
+    with command_progress(quiet=quiet, work="adding up the runs"):
+        frames = tables(study, aggregation)
     for name in frames:
         check_not_input(output / f"{name}.{form}", inputs)
     written = write_tables(frames, output, form)

@@ -10,6 +10,7 @@ import typer
 from macroslip.cli.excel import Xlsx, check_workbook, write_workbook
 from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.options import AsJson, By, Force, Quiet
+from macroslip.cli.progress import command_progress
 from macroslip.storage.files import check_new_file, write_new
 
 PAGE = "comparison.html"
@@ -49,12 +50,13 @@ def compare(
     inputs = [path for path in results if path.is_file()]
     check_new_file(output, force=force, inputs=inputs)
     check_workbook(xlsx, force=force, inputs=inputs)
-    comparison = compared(*results, by=by)
-    curves = {}
-    if not is_study(first):
-        designs = comparison["design"].unique()
-        curves = dict(zip(designs, map(open_result, results), strict=True))
-    page = comparison_page(comparison, curves, title=title)
+    with command_progress(quiet=quiet, work="comparing"):
+        comparison = compared(*results, by=by)
+        curves = {}
+        if not is_study(first):
+            designs = comparison["design"].unique()
+            curves = dict(zip(designs, map(open_result, results), strict=True))
+        page = comparison_page(comparison, curves, title=title)
     write_new(output, page, force=force)
     if xlsx is not None:
         from macroslip.report.sheets import comparison_sheets

@@ -22,11 +22,13 @@ LINE_AFTER = 1.0
 """Without a terminal a stage is named, once, if it takes longer than this [s]."""
 LINE_EVERY = 60.0
 """Time between lines about the runs of a study where there is no terminal [s]."""
+SILENT_FOR = 10.0
+"""Without a terminal work that counts nothing is named after this time [s]."""
 
 
 @contextmanager
 def command_progress(
-    *, quiet: bool, preparing: str = PREPARING
+    *, quiet: bool, work: str | None = None
 ) -> Iterator[Callable[..., None] | None]:
     """Show how far work is while the block runs, on standard error.
 
@@ -40,8 +42,8 @@ def command_progress(
     ----------
     quiet : bool
         Whether nothing is shown.
-    preparing : str
-        What the command does before anything is reported.
+    work : str, optional
+        What the command does as long as nothing is counted; preparing a run without it.
     """
     from rich.console import Console
 
@@ -51,7 +53,7 @@ def command_progress(
         yield None
         return
     console = Console(stderr=True)
-    showing = _bars(console, preparing) if console.is_terminal else _lines()
+    showing = _bars(console, work or PREPARING) if console.is_terminal else _lines(work)
     with showing as report, heard_by(report):
         yield report
 
@@ -113,10 +115,14 @@ def _bars(console: Console, preparing: str) -> Iterator[Callable[..., None]]:
 
 
 @contextmanager
-def _lines() -> Iterator[Callable[[str, int, int], None]]:
-    """A line for every stage that takes long, once."""
+def _lines(work: str | None) -> Iterator[Callable[[str, int, int], None]]:
+    """A line for every stage that takes long, once, and one for work that counts nothing."""
     began: dict[str, float] = {}
     announced: set[str] = set()
+    silent = threading.Timer(SILENT_FOR, to_stderr, [work])
+    silent.daemon = True
+    if work is not None:
+        silent.start()
 
     def report(label: str, done: int, total: int) -> None:
         now = time.monotonic()
@@ -124,4 +130,7 @@ def _lines() -> Iterator[Callable[[str, int, int], None]]:
             announced.add(label)
             to_stderr(f"{label}: {done} of {total} done")
 
-    yield report
+    try:
+        yield report
+    finally:
+        silent.cancel()

@@ -11,6 +11,7 @@ from macroslip.cli.compare import compare
 from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
 from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.options import Force, Quiet, Weibull, wind_of
+from macroslip.cli.progress import command_progress
 from macroslip.errors import InputError, on_one_line
 from macroslip.storage.files import check_new_file, write_new
 
@@ -69,16 +70,17 @@ def report(
             if is_stored:
                 inputs.append(output)
         check_new_file(output, force=force, inputs=inputs)
-    if of_study:
-        study = open_study(results)
-        number = incomplete_runs(study).sizes["case"]
-        failed = ""
-        if number:
-            failed = f"{number} of {study.sizes['case']} runs failed or are missing"
-        heading = title or study.attrs["title"] or _TITLE
-        page = study_page(study, title=heading, weights=wind_of(weibull))
-    else:
-        page, failed = _of_results(results, title)
+    with command_progress(quiet=quiet, work="making the page"):
+        if of_study:
+            study = open_study(results)
+            number = incomplete_runs(study).sizes["case"]
+            failed = ""
+            if number:
+                failed = f"{number} of {study.sizes['case']} runs failed or are missing"
+            heading = title or study.attrs["title"] or _TITLE
+            page = study_page(study, title=heading, weights=wind_of(weibull))
+        else:
+            page, failed = _of_results(results, title)
     write_new(output, page, force=force)
     if not quiet:
         typer.echo(f"written: {output}")

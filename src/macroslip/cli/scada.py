@@ -11,6 +11,7 @@ from macroslip.cli.failure import command
 from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.options import AsJson, Force, Quiet, Weibull, wind_of
 from macroslip.cli.printing import number, print_json, print_notes, print_table
+from macroslip.cli.progress import command_progress
 from macroslip.cli.scada_heat import heat
 from macroslip.storage.files import check_new_file, make_folder, write_new
 
@@ -177,12 +178,13 @@ def year(
     make_folder(output)
     for name in (*_TABLES, PAGE):
         check_new_file(output / name, force=force, inputs=[description])
-    real = real_year(description, study, wind=wind_of(weibull), allow_short=allow_short)
-    contents = {
-        "bins.csv": real.bins.to_csv(index=False, lineterminator="\n"),
-        "year.csv": real.table.to_csv(index=False, lineterminator="\n"),
-        PAGE: real_year_page(real),
-    }
+    with command_progress(quiet=quiet, work="computing the year"):
+        real = real_year(description, study, wind=wind_of(weibull), allow_short=allow_short)
+        contents = {
+            "bins.csv": real.bins.to_csv(index=False, lineterminator="\n"),
+            "year.csv": real.table.to_csv(index=False, lineterminator="\n"),
+            PAGE: real_year_page(real),
+        }
     for name, text in contents.items():
         write_new(output / name, text, force=force)
     if as_json:

@@ -10,6 +10,7 @@ import typer
 from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.options import AsJson, Quiet
 from macroslip.cli.printing import print_json, print_notes, print_table
+from macroslip.cli.progress import command_progress
 
 
 def heat(
@@ -40,11 +41,12 @@ def heat(
     from macroslip.study.heat import heat_fit
 
     described = ScadaDescription.read(description)
-    fitted = heat_fit(description, study)
+    with command_progress(quiet=quiet, work="fitting the heat"):
+        fitted = heat_fit(description, study)
+        text = heat_page(fitted, described, str(study))
     tables = {"fit": fitted.fit, "index": fitted.index}
     written = write_tables(tables, output, "csv")
     page = output / "page.html"
-    text = heat_page(fitted, described, str(study))
     write_durably(page, text.encode())
     written.append(page)
     sentences = heat_sentences(fitted, described)

@@ -11,6 +11,7 @@ import typer
 
 from macroslip.cli.options import AsJson, Force, Quiet
 from macroslip.cli.printing import number, print_json, print_table
+from macroslip.cli.progress import command_progress
 from macroslip.errors import InputError
 from macroslip.storage.files import check_new_file, write_new
 
@@ -53,7 +54,8 @@ def stiffness(
             )
         check_new_file(output, force=force, inputs=cases)
     cases_under_loads = _cases(cases, loads or [])
-    rings = ring_stiffness(cases_under_loads)
+    with command_progress(quiet=quiet, work="solving the balance of the ring"):
+        rings = ring_stiffness(cases_under_loads)
     if output is not None:
         if output.suffix.lower() == ".csv":
             text = stiffness_table(rings).to_csv(index=False, lineterminator="\n")
