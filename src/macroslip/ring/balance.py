@@ -95,7 +95,17 @@ class _Contacts(NamedTuple):
     ring: RingGeometry  #: The bearing
 
     def rows(self, index: np.ndarray) -> _Contacts:
-        """The contacts at some of the samples."""
+        """The contacts at some of the samples.
+
+        Parameters
+        ----------
+        index : ndarray of int
+            Indices of the samples.
+
+        Returns
+        -------
+        _Contacts
+        """
         if index.size == len(self.play):
             return self
         normals = self.normals[index]
@@ -103,12 +113,33 @@ class _Contacts(NamedTuple):
         return _Contacts(normals, play, self.ring)
 
     def approach(self, displacement: np.ndarray) -> np.ndarray:
-        """Approach δ_j₊ of every roller [m], not negative, shape (n, rollers)."""
+        """Approach δ_j₊ of every roller.
+
+        Parameters
+        ----------
+        displacement : ndarray, shape (n, 3)
+            d [m].
+
+        Returns
+        -------
+        ndarray, shape (n, rollers)
+            Approaches [m], ≥ 0.
+        """
         along = np.matmul(displacement[:, None], self.normals)[:, 0]
         return np.maximum(along - self.play, 0.0)
 
     def forces(self, approach: np.ndarray) -> _Forces:
-        """Forces of rollers at approaches [m], not negative, shape (n, rollers)."""
+        """Loads, slopes and elastic energy of the rollers at their approaches.
+
+        Parameters
+        ----------
+        approach : ndarray, shape (n, rollers)
+            Approaches [m], ≥ 0.
+
+        Returns
+        -------
+        _Forces
+        """
         if self.ring.line_stiffness > 0.0:
             load, slope, work = _line_loads(self.ring, approach)
             return _Forces(load, slope, work.sum(axis=1))
@@ -142,7 +173,16 @@ class _Balance(NamedTuple):
     hessian: np.ndarray  #: Hessian [N/m], shape (n, 3, 3)
 
     def replace(self, index: np.ndarray, other: _Balance, chosen: np.ndarray) -> None:
-        """Replace the samples at the indices by the chosen samples of another balance."""
+        """Replace samples by chosen samples of another balance.
+
+        Parameters
+        ----------
+        index : ndarray of int
+            Indices of the samples that are replaced.
+        other : _Balance
+        chosen : ndarray of int or bool
+            Samples of the other balance.
+        """
         for own, new in zip(self, other, strict=True):
             own[index] = new[chosen]
 
