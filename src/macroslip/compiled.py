@@ -38,6 +38,8 @@ _ADDRESSES = threading.Lock()
 class _Compiling(event.Listener):
     """Counts how many of the program's functions this process has compiled.
 
+    Numba documents its events for applications that register callbacks ("Event API").
+
     The collector of garbage rests meanwhile: it would go through all of the compiler's objects again
     and again, a twelfth of the work, and hardly find any that are left.
     """

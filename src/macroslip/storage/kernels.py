@@ -5,7 +5,8 @@ functions that were inlined into it; so the archive is named by a hash of all so
 trusts its folder: an index that is cut ends the process, a damaged kernel is run, and two processes
 that store kernels of one function exchange them. So every process has a folder of its own. It is
 filled from the archive when the process begins, and what was compiled since is put into the archive
-after a simulation and at exit. A process that is killed before loses what it has compiled, and
+after a simulation and at exit; the exit alone would lose what workers of a study have compiled,
+which are killed when the study ends. A process that is killed before loses what it has compiled, and
 nothing else.
 """
 
