@@ -84,7 +84,7 @@ ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage. A friction force of this
 #: part of the traction still decides energy where microslip is off.
 FORCE_TOLERANCE = 1e-9
-#: The same with microslip, whose power does not hang on the balance of two large forces: half of
+#: The same with microslip, whose power does not depend on the balance of two large forces: half of
 #: the integration's tolerance, and at most this. At 2e-4, errors of energy on the bundled histories
 #: are 1e-5 with it.
 MICROSLIP_FORCE_SHARE = 0.5

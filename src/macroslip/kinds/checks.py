@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def temperature_difference_without_preload(case: ReadCase) -> Iterator[InputError]:
-    """Yield a temperature difference in a bearing whose preload does not hang on it."""
+    """Yield a temperature difference in a bearing whose preload does not depend on it."""
     if case.temperature_difference:
         yield InputError(
             f"{case.bearing.name} is a {case.bearing.kind} roller bearing, whose clearance "
