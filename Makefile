@@ -8,6 +8,8 @@ PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --no-loadscope-reorde
 # Without stored bytecode every process that a test starts would translate all modules anew.
 unexport PYTHONDONTWRITEBYTECODE
 
+INSTALL := $(BIN)/python -m pip install --quiet --editable
+
 # Kernels are compiled once, before workers and the processes that tests start would each compile them.
 WARM := $(BIN)/macroslip doctor --warm
 
@@ -22,13 +24,13 @@ reproduce-all: $(VENV)/.figures  ## the same with the sample over values that we
 validate: $(VENV)/.figures  ## the program beside what was measured: the figures of docs/measurements.md, and its table
 	$(BIN)/python -m validation $(ARGS)
 
-test: $(VENV)/.ready  ## what a contributor runs: the package's own tests, and one run of each command
+test: $(VENV)/.lint  ## what a contributor runs: the package's own tests, and one run of each command
 	@echo "stage 1 of 2: format, lint and types, while kernels are compiled"
 	@$(WARM) >/dev/null & warming=$$!; $(MAKE) --no-print-directory lint && wait $$warming
 	@echo "stage 2 of 2: tests"
 	$(PYTEST) -m "not deep and not check" $(ARGS)
 
-check: $(VENV)/.ready  ## all else that has to hold: documentation, paper, validation, benchmarks, golden numbers, lowest versions, release
+check: $(VENV)/.lint  ## all else that has to hold: documentation, paper, validation, benchmarks, golden numbers, lowest versions, release
 	@echo "stage 1 of 5: types on the other systems, while kernels are compiled"
 	@$(WARM) >/dev/null & warming=$$!; $(MAKE) --no-print-directory types && wait $$warming
 	@echo "stage 2 of 5: tests of documentation, paper, validation, benchmarks and golden numbers, and second examples"
@@ -70,24 +72,28 @@ docs: $(VENV)/.ready  ## the documentation site in build/docs; warnings are erro
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs
 
 bench: $(VENV)/.ready  ## the integrator against its rivals, measured here and now
-	$(BIN)/python -m pip install --quiet --editable '.[bench]'
-	@$(BIN)/python -m pip install --quiet --editable '.[lsoda]' 2>/dev/null || echo "LSODA (numbalsoda) is left out: it is built from source, and that needs gfortran, g++ and CMake"
+	$(INSTALL) '.[bench]'
+	@$(INSTALL) '.[lsoda]' 2>/dev/null || echo "LSODA (numbalsoda) is left out: it is built from source, and that needs gfortran, g++ and CMake"
 	$(BIN)/python -m benchmarks $(ARGS)
 
-$(VENV)/.figures: pyproject.toml
+# What is installed for more holds what is installed for less, so that pip works once.
+$(VENV)/.made: pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "macroslip needs Python 3.11 or newer; name one with: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable '.[figures]' $(CONSTRAINTS)
 	touch $@
 
-$(VENV)/.ready: $(VENV)/.figures
-	$(BIN)/python -m pip install --quiet --editable '.[test]' $(CONSTRAINTS)
+$(VENV)/.figures: $(VENV)/.made
+	$(INSTALL) '.[figures]' $(CONSTRAINTS)
 	touch $@
 
-$(VENV)/.lint: $(VENV)/.ready
-	$(BIN)/python -m pip install --quiet --editable '.[lint]' $(CONSTRAINTS)
-	touch $@
+$(VENV)/.ready: $(VENV)/.made
+	$(INSTALL) '.[test]' $(CONSTRAINTS)
+	touch $(VENV)/.figures $@
+
+$(VENV)/.lint: $(VENV)/.made
+	$(INSTALL) '.[test,lint]' $(CONSTRAINTS)
+	touch $(VENV)/.figures $(VENV)/.ready $@
 
 clean:
 	rm -rf $(VENV) results

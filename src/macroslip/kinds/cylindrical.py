@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from macroslip.errors import InputError
@@ -10,6 +10,9 @@ from macroslip.kinds.checks import skew_of_guided_rollers, traction_along_line
 from macroslip.kinds.untilted import UntiltedRing
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from macroslip.bearing import Bearing
     from macroslip.kinds.read_case import ReadCase
     from macroslip.loads import BearingLoads
 
@@ -52,6 +55,12 @@ class Cylindrical(UntiltedRing):
             roller = f"cylindrical roller with a {case.bearing.roller_profile} profile"
             crowned = ", or give the roller a roller_crown_radius"
             yield from traction_along_line(case, roller, crowned)
+
+    def draw(self, axes: Axes, bearing: Bearing, colours: Mapping[str, str]) -> None:
+        """As `Kind.draw`, by `macroslip.kinds.straight_section`."""
+        from macroslip.kinds.straight_section import draw_straight_section
+
+        draw_straight_section(axes, bearing)
 
 
 def _thrust(loads: BearingLoads) -> Iterator[InputError]:

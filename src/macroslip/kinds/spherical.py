@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from macroslip.errors import InputError
@@ -21,6 +21,8 @@ from macroslip.kinds.makers_page import (
 from macroslip.kinds.untilted import UntiltedRing
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from macroslip.bearing import Bearing
     from macroslip.bearing.sampled import Estimated
     from macroslip.kinds.read_case import ReadCase
@@ -102,3 +104,9 @@ class Spherical(UntiltedRing):
             "C is that of these dimensions, and lives are 0.5 to 0.9 of those by a maker's; "
             "give it by --c."
         )
+
+    def draw(self, axes: Axes, bearing: Bearing, colours: Mapping[str, str]) -> None:
+        """As `Kind.draw`, by `macroslip.kinds.section`."""
+        from macroslip.kinds.section import draw_section
+
+        draw_section(axes, bearing)

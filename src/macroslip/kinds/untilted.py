@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from macroslip.kinds.kind import Kind, RingBalance
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from macroslip.arrays import FloatArray
     from macroslip.bearing import Bearing
     from macroslip.kinds.read_case import ReadCase
@@ -111,9 +108,3 @@ class UntiltedRing(Kind, ABC):
             ],
             orbit,
         ]
-
-    def draw(self, axes: Axes, bearing: Bearing, colours: Mapping[str, str]) -> None:
-        """As `Kind.draw`, by `macroslip.kinds.section`."""
-        from macroslip.kinds.section import draw_section
-
-        draw_section(axes, bearing)
