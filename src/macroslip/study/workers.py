@@ -26,9 +26,8 @@ from concurrent.futures import (
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from multiprocessing import resource_tracker
-from multiprocessing.connection import Connection
 from threading import Event, Lock, Thread
-from typing import Any
+from typing import Any, Protocol
 
 from macroslip.errors import InputError, MacroslipError
 from macroslip.machine import process_environment
@@ -270,7 +269,21 @@ def _without_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
 
-def _begin_worker(told: Connection | None) -> None:
+class _Sends(Protocol):
+    """End of a pipe that sends; its class differs between systems."""
+
+    def send(self, value: Any, /) -> None:
+        """Send an object."""
+
+
+class _Receives(Protocol):
+    """End of a pipe that receives."""
+
+    def recv(self) -> Any:
+        """Wait for an object."""
+
+
+def _begin_worker(told: _Sends | None) -> None:
     """Prepare a worker process, which tells how far it is if there is a connection to do so."""
     _end_with_parent()
     if told is None:
@@ -284,7 +297,7 @@ def _begin_worker(told: Connection | None) -> None:
     listen(pass_on)
 
 
-def _pass_on(heard: Connection) -> None:
+def _pass_on(heard: _Receives) -> None:
     """Tell the listeners of this process what a worker waits for, until the worker ends."""
     with suppress(EOFError, OSError):
         while True:
