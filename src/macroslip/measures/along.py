@@ -10,7 +10,7 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
 from macroslip.contact.traction import ChordTable, chord_table
-from macroslip.mechanics.film_sharing import LOWEST_SPEED
+from macroslip.mechanics.speeds import signed_entrainment
 
 if TYPE_CHECKING:
     from macroslip.contact.laws import PreparedContact, PreparedLaws
@@ -94,13 +94,6 @@ def class_of(edges, value):
 def _parabola(line, first, station):
     """Value at a station [m] of the parabola whose coefficients stand from `first` on."""
     return line[first] + station * (line[first + 2] * station + line[first + 1])
-
-
-@jit_inline
-def signed_entrainment(ring_speed, slip):
-    """Entrainment speed with its sign, at least the lowest one of the film laws [m/s]."""
-    mean = ring_speed - 0.5 * slip
-    return math.copysign(max(abs(mean), LOWEST_SPEED), mean)
 
 
 @jit_inline

@@ -22,8 +22,8 @@ from macroslip.measures.along import (
     book_station,
     class_of,
     leave_station,
-    signed_entrainment,
 )
+from macroslip.mechanics.speeds import signed_entrainment
 
 if TYPE_CHECKING:
     from macroslip.contact.strips import PreparedStrips

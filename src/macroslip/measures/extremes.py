@@ -10,7 +10,7 @@ from macroslip.compiled import jit_inline
 from macroslip.contact.flash import transient_flash
 from macroslip.contact.look_up import log_speed
 from macroslip.mechanics.cage import cage_friction
-from macroslip.mechanics.film_sharing import LOWEST_SPEED
+from macroslip.mechanics.speeds import LOWEST_SPEED
 
 EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.measures.totals import END, orbit_at, write_end
-from macroslip.mechanics.film_sharing import LOWEST_SPEED
+from macroslip.mechanics.speeds import signed_entrainment
 
 #: A roller that the rings begin to press enters the load zone until its middle slips by less than
 #: this part of the speed, or for this way [rad].
@@ -118,7 +118,7 @@ def _compared(step, last):
         power[2],
         inner,
         outer,
-        abs(slip) / max(abs(speed - 0.5 * slip), LOWEST_SPEED),
+        abs(slip / signed_entrainment(speed, slip)),
     )
 
 

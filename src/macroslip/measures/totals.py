@@ -10,7 +10,7 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.laws import PreparedContact, PreparedLaws
-from macroslip.mechanics.film_sharing import LOWEST_SPEED
+from macroslip.mechanics.speeds import signed_entrainment
 from macroslip.ring.orbit import last_before
 
 #: Kinds of sliding by which `Totals.mechanism_energy` is divided, in its order.
@@ -93,11 +93,10 @@ def write_contacts(end, contacts):
     contacts.load[0] = end.inner_load
     contacts.load[1] = end.outer_load
     contacts.load[2] = abs(end.cage_load)
-    inner = end.inner_speed - 0.5 * end.inner_slip
-    outer = end.outer_speed - 0.5 * end.outer_slip
-    contacts.speed[0] = max(abs(inner), LOWEST_SPEED)
-    contacts.speed[1] = max(abs(outer), LOWEST_SPEED)
-    contacts.speed[2] = max(abs(0.5 * end.cage_speed), LOWEST_SPEED)
+    contacts.speed[0] = abs(signed_entrainment(end.inner_speed, end.inner_slip))
+    contacts.speed[1] = abs(signed_entrainment(end.outer_speed, end.outer_slip))
+    # The spar is at rest, and the slip against it is that of the roller's surface.
+    contacts.speed[2] = abs(signed_entrainment(0.0, -end.cage_speed))
 
 
 @jit

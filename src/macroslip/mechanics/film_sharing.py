@@ -12,9 +12,8 @@ from macroslip.contact.gap import FLOW
 from macroslip.contact.line_approach import line_approach
 from macroslip.contact.look_up import along_load, in_plane, log_load
 from macroslip.elementary import exponential, logarithm
+from macroslip.mechanics.speeds import LOWEST_SPEED
 
-#: Entrainment speed below which film formulas are not followed further [m/s].
-LOWEST_SPEED = 1e-6
 #: Film loads below this fraction of the elastic load are neglected [-]. They enter as e^−20, so that
 #: loads jump there by 1e-10 of themselves, far below what any tolerance sees.
 NEGLIGIBLE = 1.0 / 20.0

@@ -58,9 +58,8 @@ def elastic_approach(body, cosine, sine, now):
 def normal_body_force(body, sine, orbital_speed):
     """Weight (18)-(20) and centrifugal force (21)-(23) of a roller along the contact normal.
 
-    Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along
-    Z0. Both forces are summed first; a sum that points outward loads the outer raceway, inward the
-    inner one. A roller with play can lean on only one ring, so that the sum and not each force for
+    Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along Z0. Both forces are summed
+    first; a sum that points outward loads the outer raceway, inward the inner one. A roller with play can lean on only one ring, so that the sum and not each force for
     itself is what a raceway feels.
 
     Parameters

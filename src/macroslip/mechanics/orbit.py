@@ -1,14 +1,14 @@
 r"""Motion of a roller on its free orbit: spin equation (16) and orbit equation (17), coupled.
 
 The orbit equation (17), the moment about the bearing's axis, becomes Newton's law for the roller's
-centre with the spin equation (16) put into it; the spin terms cancel (`tests/whole/test_equations.py` proves it by symbols). With
-the slips
+centre with the spin equation (16) put into it; the spin terms cancel
+(`tests/whole/test_equations.py` proves it by symbols). With the slips
 
     v_in = −(Ω_in − Ω) r~_in − ω r,        v_out = −Ω r~_out − ω r
 
 as unknowns, S_i and S_o the frictions of the raceways in the spin equation (16) with rolling
-resistance, P_i and P_o their pulls on the centre, N the push and F_c the friction of the cage, G = F_g,x' + F_d,x' and I_z'
-= m r²/2, the pair reads
+resistance, P_i and P_o their pulls on the centre, N the push and F_c the friction of the cage,
+G = F_g,x' + F_d,x' and I_z' = m r²/2, the pair reads
 
     m v_in'  = −P_i + P_o − 2 (S_i + S_o + F_c) + (N − G) − m r~_in Ω_in'
     m v_out' =  P_i − P_o − 2 (S_i + S_o + F_c) − (N − G)

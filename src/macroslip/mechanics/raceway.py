@@ -16,8 +16,8 @@ from macroslip.contact.look_up import (
     traction,
     traction_cell,
 )
-from macroslip.mechanics.film_sharing import LOWEST_SPEED
 from macroslip.mechanics.power import rolling_power
+from macroslip.mechanics.speeds import LOWEST_SPEED
 from macroslip.mechanics.traction import uniform_traction
 
 

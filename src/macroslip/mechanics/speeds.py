@@ -1,13 +1,18 @@
 """Speeds of the surfaces in a roller's contacts, in the frame that orbits with it (28)-(31).
 
-The spin that makes the roller's surface speed (31) is the one relative to that frame, ω_rel = ω_z' − Ω cos α. The cage's spar is at
-rest in it. The speeds of an orbit follow from the slips, v_in = r~ Ω − r ω − Ω_in r~_in and v_out = −r~ Ω − r ω
-with ω = ω_z' in the inertial frame.
+The spin that makes the roller's surface speed (31) is the one relative to that frame,
+ω_rel = ω_z' − Ω cos α. The cage's spar is at rest in it. The speeds of an orbit follow from the
+slips, v_in = r~ Ω − r ω − Ω_in r~_in and v_out = −r~ Ω − r ω with ω = ω_z' in the inertial frame.
 """
 
 from __future__ import annotations
 
+import math
+
 from macroslip.compiled import jit_inline
+
+#: Entrainment speed below which film formulas are not followed further [m/s].
+LOWEST_SPEED = 1e-6
 
 
 @jit_inline
@@ -80,6 +85,29 @@ def surface_speed(ring_speed, slip):
     -0.25
     """
     return ring_speed - slip
+
+
+@jit_inline
+def signed_entrainment(ring_speed, slip):
+    """Entrainment speed of a contact with its sign, u2 − Δu/2 = (u1 + u2)/2 [m/s].
+
+    Parameters
+    ----------
+    ring_speed, slip : float
+        u2 and Δu [m/s].
+
+    Returns
+    -------
+    float
+        Speed [m/s], its size not below `LOWEST_SPEED`.
+
+    Examples
+    --------
+    >>> signed_entrainment(-0.5, 0.25), signed_entrainment(0.0, 0.0)
+    (-0.625, 1e-06)
+    """
+    mean = ring_speed - 0.5 * slip
+    return math.copysign(max(abs(mean), LOWEST_SPEED), mean)
 
 
 @jit_inline

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from macroslip.compiled import jit_evaluation
 from macroslip.contact.closed_form import patch_integral
 from macroslip.elementary import exponential
-from macroslip.mechanics.film_sharing import LOWEST_SPEED
+from macroslip.mechanics.speeds import LOWEST_SPEED
 
 
 class UniformTraction(NamedTuple):

@@ -60,29 +60,6 @@ _ENERGY_SIGNS = {
 
 
 @jit_inline
-def clear_flows(flows):
-    """Set all flows of a step to zero.
-
-    Parameters
-    ----------
-    flows : record of `STEP_FLOWS`
-    """
-    flows.inner_impulse = 0.0
-    flows.outer_impulse = 0.0
-    flows.body_impulse = 0.0
-    flows.guide_impulse = 0.0
-    flows.eccentric_impulse = 0.0
-    flows.shaft_work = 0.0
-    flows.body_work = 0.0
-    flows.cage_weight_work = 0.0
-    flows.raceway_loss = 0.0
-    flows.friction_loss = 0.0
-    flows.guide_loss = 0.0
-    flows.pocket_work = 0.0
-    flows.support_work = 0.0
-
-
-@jit_inline
 def add_flows(assembly, shaft_speed, k, span, space, flows):
     """Add the impulses and energies that flow during a solved stage.
 

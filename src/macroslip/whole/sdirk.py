@@ -42,7 +42,7 @@ from macroslip.mechanics.speeds import outer_ring_speed
 from macroslip.ring.orbit import Motion, instant, interval_of, uncounted_motion
 from macroslip.roller.step import STEP
 from macroslip.whole import tuning
-from macroslip.whole.books import STEP_FLOWS, add_flows, clear_flows
+from macroslip.whole.books import STEP_FLOWS, add_flows
 from macroslip.whole.cage import Cage
 from macroslip.whole.model import Assembly, WholeBearing
 from macroslip.whole.stage import (
@@ -235,6 +235,8 @@ def steps_of(
     offset = np.zeros((rows, count))
     status = UNDER_WAY
     while status == UNDER_WAY:
+        # Every row gets the flows of one step, which are added to it.
+        whole["flows"] = 0.0
         status, done = integrate(assembly, motion, stops, limits, space, steps, whole, offset)
         yield Part(status, steps[:done], whole[:done], offset[:done], memory[0])
 
@@ -655,7 +657,6 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     pure_speed = outer_ring_speed(bearing.orbit_ratio * end.shaft_speed, bearing.outer_radius)
     whole.start = start.time
     whole.end = end.time
-    clear_flows(whole.flows)
     for k in range(last + 1):
         span = row[0].weight[k]
         add_flows(assembly, whole.shaft_speed[k], k, span, space, whole.flows)
@@ -765,7 +766,7 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
     steps : ndarray of `STEP`, shape (m, n)
         Filled from the start.
     wholes : ndarray of `BEARING_STEP`, shape (m,)
-        Filled from the start.
+        With flows of zero; filled from the start.
     offsets : ndarray, shape (m, n)
         Pocket offsets at the steps' ends [m], filled from the start.
 
