@@ -27,7 +27,7 @@ class StageBars:
     """
 
     def __init__(self, console: Console, preparing: str = PREPARING):
-        self.bar = bar_with_time_left(console)
+        self.bar = _bar_with_time_left(console)
         self._waiting = (preparing, COMPILING, TABLES)
         self._tasks = {preparing: self.bar.add_task(preparing, total=None)}
         self._guard = threading.Lock()
@@ -80,7 +80,7 @@ def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]
         yield lambda done, total: bars.report(label, done, total)
 
 
-def bar_with_time_left(console: Console) -> Progress:
+def _bar_with_time_left(console: Console) -> Progress:
     """A bar with counts of done and all, and the time left; it disappears when all is done."""
     from rich.progress import (
         BarColumn,

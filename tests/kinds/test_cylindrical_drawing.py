@@ -2,22 +2,12 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgba
-from matplotlib.patches import Polygon
 
-from macroslip.kinds.section import ROLLER, STEEL
+from macroslip.kinds.captions import ROLLER, STEEL
 from macroslip.report.bearing_drawing import draw_bearing
+from tests.outlines import outlines
 from validation.cage_slip import BEARING as CROWNED
 from validation.nu215 import BEARING as PROFILED
-
-
-def outlines(figure, colour):
-    """Corners of the filled areas of a colour [mm]."""
-    return [
-        patch.get_xy()
-        for patch in figure.axes[0].patches
-        if isinstance(patch, Polygon) and patch.get_facecolor() == to_rgba(colour)
-    ]
 
 
 @pytest.mark.parametrize("bearing", [CROWNED, PROFILED], ids=["crowned", "profiled"])

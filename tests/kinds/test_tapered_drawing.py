@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgba
-from matplotlib.patches import Polygon
 
 from macroslip.bearing.kinds import read_bearing
-from macroslip.kinds.tapered.drawing import ROLLER
+from macroslip.kinds.captions import ROLLER
 from macroslip.report.bearing_drawing import draw_bearing
+from tests.outlines import outlines
 
 BEARING = read_bearing("tdo-main-bearing")
 
@@ -32,14 +31,10 @@ def test_the_drawing_says_where_the_row_lies_that_carries_thrust_downwind(arrang
 def test_rollers_have_their_size_and_the_thick_end_away_from_the_apex(arrangement):
     """Of the outline alone: its area, its corners, and where both sides of the cone meet."""
     figure = draw_bearing(BEARING.replace(arrangement=arrangement))
-    outlines = [
-        patch.get_xy()
-        for patch in figure.axes[0].patches
-        if isinstance(patch, Polygon) and patch.get_facecolor() == to_rgba(ROLLER)
-    ]
-    assert len(outlines) == 2
+    rollers = outlines(figure, ROLLER)
+    assert len(rollers) == 2
     apexes = []
-    for points in outlines:
+    for points in rollers:
         corners = points[[0, 1, -3, -2]]
         small = np.linalg.norm(corners[3] - corners[0])
         large = np.linalg.norm(corners[2] - corners[1])
@@ -51,7 +46,7 @@ def test_rollers_have_their_size_and_the_thick_end_away_from_the_apex(arrangemen
         assert meet[1] == pytest.approx(0.0, abs=0.5)
         assert small < large
         apexes.append(meet[0])
-    middles = [points[:, 0].mean() for points in outlines]
+    middles = [points[:, 0].mean() for points in rollers]
     # In O arrangement the lines of both rows cross the mid-plane.
     crosses = [middle * apex < 0.0 for middle, apex in zip(middles, apexes, strict=True)]
     assert crosses == [arrangement == "O"] * 2

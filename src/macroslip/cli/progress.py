@@ -45,13 +45,13 @@ def command_progress(
     work : str, optional
         What the command does as long as nothing is counted; preparing a run without it.
     """
+    if quiet:
+        yield None
+        return
     from rich.console import Console
 
     from macroslip.storage.waiting import heard_by
 
-    if quiet:
-        yield None
-        return
     console = Console(stderr=True)
     showing = _bars(console, work or PREPARING) if console.is_terminal else _lines(work)
     with showing as report, heard_by(report):
@@ -71,30 +71,32 @@ def study_progress(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None
     quiet : bool
         Whether nothing is shown.
     """
+    with command_progress(quiet=quiet) as report:
+        yield None if report is None else _of_runs(report)
+
+
+def _of_runs(report: Callable[..., None]) -> Callable[[Progress], None]:
+    """A function that shows the runs of a study: a bar on a terminal, elsewhere a line a minute."""
     from rich.console import Console
 
-    with command_progress(quiet=quiet) as report:
-        if report is None:
-            yield None
-        elif Console(stderr=True).is_terminal:
+    if Console(stderr=True).is_terminal:
 
-            def counts(progress: Progress) -> None:
-                text = f"{progress.unchanged} unchanged, {progress.failed} failed"
-                # Runs that were there already say nothing about the time of the others.
-                done = progress.done - progress.unchanged
-                report("runs", done, progress.total - progress.unchanged, text)
+        def counts(progress: Progress) -> None:
+            text = f"{progress.unchanged} unchanged, {progress.failed} failed"
+            # Runs that were there already say nothing about the time of the others.
+            done = progress.done - progress.unchanged
+            report("runs", done, progress.total - progress.unchanged, text)
 
-            yield counts
-        else:
-            due = time.monotonic() + LINE_AFTER
+        return counts
+    due = time.monotonic() + LINE_AFTER
 
-            def line(progress: Progress) -> None:
-                nonlocal due
-                if time.monotonic() >= due:
-                    due = time.monotonic() + LINE_EVERY
-                    to_stderr(progress.line)
+    def line(progress: Progress) -> None:
+        nonlocal due
+        if time.monotonic() >= due:
+            due = time.monotonic() + LINE_EVERY
+            to_stderr(progress.line)
 
-            yield line
+    return line
 
 
 @contextmanager

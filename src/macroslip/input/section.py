@@ -32,6 +32,7 @@ from macroslip.input.messages import nearest, parts_of, together, unknown_key
 from macroslip.storage.files import check_no_zero_byte
 
 Kind = TypeVar("Kind")
+Carried = TypeVar("Carried")
 Fields = Mapping[str, "Field"]
 
 
@@ -115,7 +116,7 @@ def input_section(
 
 
 def _fields(kind: type) -> Fields:
-    hints = get_type_hints(kind, vars(sys.modules[kind.__module__]), include_extras=True)
+    hints = annotations_of(kind)
     missing = dataclasses.MISSING
     return {
         member.name: Field(
@@ -128,6 +129,17 @@ def _fields(kind: type) -> Fields:
     }
 
 
+def annotations_of(kind: type) -> dict[str, Any]:
+    """Annotations of a class by the names of its fields, with what they carry beside the type."""
+    return get_type_hints(kind, vars(sys.modules[kind.__module__]), include_extras=True)
+
+
+def carried(annotation: Any, item_type: type[Carried]) -> Carried | None:
+    """First item of a type that an annotation carries; None without one."""
+    metadata = getattr(annotation, "__metadata__", ())
+    return next((item for item in metadata if isinstance(item, item_type)), None)
+
+
 def _kinds(annotation: Any) -> tuple[Any, ...]:
     kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
     return get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
@@ -135,11 +147,11 @@ def _kinds(annotation: Any) -> tuple[Any, ...]:
 
 def form_from(annotation: Any) -> Form:
     """Form in an annotation: the form that it carries, or the section that it is."""
-    metadata = getattr(annotation, "__metadata__", ())
-    carried = next((item for item in metadata if isinstance(item, Form)), None)
-    if carried is not None:
-        return carried
-    word = next((item.word for item in metadata if isinstance(item, OrWord)), "")
+    form = carried(annotation, Form)
+    if form is not None:
+        return form
+    off = carried(annotation, OrWord)
+    word = "" if off is None else off.word
     (kind,) = (kind for kind in _kinds(annotation) if kind is not type(None))
     declared = _SECTIONS[kind]
     return Section(declared.about, declared.in_file, kind, word)

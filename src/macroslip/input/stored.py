@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import functools
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, get_type_hints
+from typing import Any
+
+from macroslip.input.section import annotations_of, carried
 
 
 @dataclass(frozen=True)
@@ -48,13 +49,11 @@ def stored(section: Any) -> dict[str, Any]:
 @functools.cache
 def _declared(kind: type) -> dict[str, Stored]:
     """How each field of a section is stored."""
-    hints = get_type_hints(kind, vars(sys.modules[kind.__module__]), include_extras=True)
-    by_name = {}
-    for member in fields(kind):
-        metadata = getattr(hints[member.name], "__metadata__", ())
-        own = [item for item in metadata if isinstance(item, Stored)]
-        by_name[member.name] = own[0] if own else Stored()
-    return by_name
+    annotations = annotations_of(kind)
+    return {
+        member.name: carried(annotations[member.name], Stored) or Stored()
+        for member in fields(kind)
+    }
 
 
 def _plain(value: Any) -> Any:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
+from macroslip.kinds.captions import LINE, ROLLER, STEEL, caption
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,10 +16,7 @@ if TYPE_CHECKING:
     from macroslip.arrays import FloatArray
     from macroslip.bearing import Bearing
 
-STEEL = "#e6e6e6"
-ROLLER = "#bcd3ea"
-LINE = "#1f5a96"
-SPHERE = "#b3261e"
+_SPHERE = "#b3261e"
 _MILLI = 1e3
 #: Along and across the bearing's axis [mm].
 _Point = tuple[float, float]
@@ -65,7 +63,7 @@ def _rings(axes: Axes, bearing: Bearing, half: float) -> None:
     turn = np.radians(np.linspace(-40, 40, 200))
     axial = sphere * np.sin(turn)
     radial = sphere * np.cos(turn)
-    axes.plot(axial, radial, color=SPHERE, lw=0.8, ls=":")
+    axes.plot(axial, radial, color=_SPHERE, lw=0.8, ls=":")
 
 
 def _inner_raceway(bearing: Bearing, distance: FloatArray) -> FloatArray:
@@ -149,18 +147,16 @@ def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
     axes.plot([-1.1 * half, -offset], [pitch, pitch], color=LINE, lw=0.6)
     turn = np.linspace(0, bearing.contact_angle, 30)
     arc = 0.3 * section.sphere
-    axes.plot(arc * np.sin(turn), arc * np.cos(turn), color=SPHERE, lw=1.2)
+    axes.plot(arc * np.sin(turn), arc * np.cos(turn), color=_SPHERE, lw=1.2)
     for start, end, colour in arrows:
         style = {"arrowstyle": "<->", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
         axes.annotate("", end, start, arrowprops=style, zorder=5)
     for key, side, height, to in labels:
-        provenance = bearing.provenance[key]
-        text = f"{key} = {bearing.written(key)} ({provenance.tag})"
         alignment = "left" if side > 0 else "right"
         style = {"ha": alignment, "va": "center", "fontsize": 9}
         line = {"arrowstyle": "-", "color": "#777777", "lw": 0.6}
         at = (1.25 * side * half, height)
-        axes.annotate(text, to, at, arrowprops=line, zorder=6, **style)
+        axes.annotate(caption(bearing, key), to, at, arrowprops=line, zorder=6, **style)
 
 
 def _arrows(section: _Section) -> list[tuple[_Point, _Point, str]]:
@@ -172,7 +168,7 @@ def _arrows(section: _Section) -> list[tuple[_Point, _Point, str]]:
     length_z = length * cosine
     length_y = length * sine
     return [
-        ((0, 0), (sphere * sine, sphere * cosine), SPHERE),
+        ((0, 0), (sphere * sine, sphere * cosine), _SPHERE),
         ((0, 0.72 * y), (z, 0.72 * y), LINE),
         ((-1.08 * half, 0), (-1.08 * half, y), LINE),
         ((-z - radius_z, y + radius_y), (-z + radius_z, y - radius_y), LINE),

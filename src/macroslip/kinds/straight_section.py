@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.kinds.section import LINE, ROLLER, STEEL
+from macroslip.kinds.captions import LINE, ROLLER, STEEL, caption, write_column
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -88,14 +88,7 @@ def _roller(bearing: Bearing) -> tuple[FloatArray, FloatArray]:
 def _words(axes: Axes, bearing: Bearing, reach: float, outside: float) -> None:
     """Names and values of the dimensions, with their tags, and the profile of the rollers."""
     for side, keys in ((-1, _LEFT), (1, _RIGHT)):
-        lines = [
-            f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})"
-            for key in keys
-            if key in bearing.provenance
-        ]
+        lines = [caption(bearing, key) for key in keys if key in bearing.provenance]
         if side > 0 and bearing.roller_profile is not None:
             lines.append(f"roller_profile: {bearing.roller_profile}")
-        for number, line in enumerate(lines):
-            height = (0.95 - 0.075 * number) * outside
-            alignment = "left" if side < 0 else "right"
-            axes.text(side * 0.97 * reach, height, line, ha=alignment, va="center", fontsize=9)
+        write_column(axes, lines, side, reach, 0.95, outside)

@@ -277,7 +277,7 @@ def _iso281(history: _History) -> dict[str, Any]:
         "equivalent_load": mean,
         "fatigue_load_limit": limit,
         "share_below_fatigue_load_limit": below,
-        "viscosity_ratio": history.viscosity_ratio,
+        "viscosity_ratio": kappa,
         "basic_life": float(life),
         "life_modification": factor,
         "modified_life": float(life * factor),

@@ -11,6 +11,7 @@ import numpy as np
 
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.bearing.tapered.geometry import TaperedGeometry
+from macroslip.kinds.captions import ROLLER, STEEL, caption, write_column
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
 
     Points = NDArray[np.float64]
 
-STEEL = "#e6e6e6"
-ROLLER = "#bcd3ea"
-LINE = "#1f5a96"
 #: Thickness of a ring behind a raceway over the roller's diameter where no diameter is given.
 _THICKNESS = 0.5
 #: Height of a rib over that of its contact.
@@ -213,20 +211,11 @@ def _words(
 
 def _dimensions(axes: Axes, bearing: TaperedBearing, reach: float, outside: float) -> None:
     """Names and values of the dimensions, with their tags, on both sides of the drawing."""
-    columns = (
-        ("rollers_per_row", "roller_diameter", "roller_length", "pitch_radius", "row_offset"),
-        ("outer_angle", "preload", "rib_sphere_ratio", "rib_contact_height", "rib_oil_supply"),
-    )
-    given = tuple(
-        key for key in ("bore_diameter", "outside_diameter") if getattr(bearing, key) is not None
-    )
-    for side, keys in zip((-1, 1), (columns[0] + given, columns[1]), strict=True):
-        for line, key in enumerate(keys):
-            axes.text(
-                side * 0.97 * reach,
-                (0.98 - 0.075 * line) * outside,
-                f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})",
-                ha="left" if side < 0 else "right",
-                va="center",
-                fontsize=9,
-            )
+    left = ["rollers_per_row", "roller_diameter", "roller_length", "pitch_radius", "row_offset"]
+    for key in ("bore_diameter", "outside_diameter"):
+        if getattr(bearing, key) is not None:
+            left.append(key)
+    right = ["outer_angle", "preload", "rib_sphere_ratio", "rib_contact_height", "rib_oil_supply"]
+    for side, keys in ((-1, left), (1, right)):
+        lines = [caption(bearing, key) for key in keys]
+        write_column(axes, lines, side, reach, 0.98, outside)

@@ -20,7 +20,7 @@ from macroslip.contact.line_rolling import line_contacts, line_film, rolling_res
 from macroslip.errors import InputError
 from macroslip.kinds.tapered.checks import check_moment, check_preload
 from macroslip.kinds.tapered.raceways import axial_float, raceway_strips
-from macroslip.kinds.tapered.ribs import LEAST_SPEED, RIB_SURFACES, rib_values
+from macroslip.kinds.tapered.ribs import LEAST_LOAD, LEAST_SPEED, RIB_SURFACES, rib_values
 from macroslip.loads import Drivetrain
 from macroslip.loads.history import HubLoads
 from macroslip.loads.moment_bearing import moment_bearing_load
@@ -41,8 +41,6 @@ from macroslip.variables import ALWAYS, Variable, VariableTable, described
 ROWS = ("downwind", "upwind")
 #: Thermal expansion of bearing steel [1/K], engineering value.
 STEEL_EXPANSION = 12e-6
-#: Least load of a film [N].
-_LEAST_LOAD = 1e-3
 #: Laws of a strip of a line contact.
 LINE_LAWS = ("palmgren", "plane-strain")
 #: Thickness of the rings behind the raceways over the roller's diameter, an estimate.
@@ -559,7 +557,7 @@ def _raceway_values(solved: _Solved) -> dict[str, Any]:
     )
     inner = solved.by_row(solved.balance.inner_load)
     outer = solved.by_row(solved.balance.outer_load)
-    hardest = np.maximum(inner.max(axis=2), _LEAST_LOAD)
+    hardest = np.maximum(inner.max(axis=2), LEAST_LOAD)
     film = state.film_factor * line_film(inner_contact, hardest, surface)
     resistance = np.zeros_like(inner)
     for contact, load in zip(contacts, (inner, outer), strict=True):

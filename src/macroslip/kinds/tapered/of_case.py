@@ -70,8 +70,9 @@ def tapered_ring_motion(case: ReadCase) -> TaperedMotion:
     warm = warm_bearing(case)
     ring = tapered_ring(warm) if mount is None else mount.ring(warm)
     check_preload(warm, ring)
-    check_moment(warm, ring, case.ring_moments)
-    ring_motion = tapered_motion(case.ring_loads, case.ring_moments, ring)
+    moments = case.ring_moments
+    check_moment(warm, ring, moments)
+    ring_motion = tapered_motion(case.ring_loads, moments, ring)
     _refuse(case, ring_motion)
     return ring_motion
 

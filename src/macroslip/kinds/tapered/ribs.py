@@ -20,7 +20,7 @@ _KNOTS = (40, 10)
 _LOAD_RANGE = 1e-3
 _SPEED_RANGE = 1e-3
 #: Least load of a film [N].
-_LEAST_LOAD = 1e-3
+LEAST_LOAD = 1e-3
 #: Least speed of a surface [m/s], in place of a shaft at rest.
 LEAST_SPEED = 1e-9
 
@@ -111,7 +111,7 @@ def _film_coefficient(
     Both speeds go with that of the shaft. Loads below a thousandth of the largest, whose friction
     does not count, are taken as that.
     """
-    largest = max(float(load.max()), _LEAST_LOAD)
+    largest = max(float(load.max()), LEAST_LOAD)
     loads = np.geomspace(_LOAD_RANGE * largest, largest, _KNOTS[0])
     fastest = int(sliding.argmax())
     highest_speed = max(sliding.max(), LEAST_SPEED)
