@@ -235,7 +235,7 @@ def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
 def _differences_of_pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray | None:
     """Differences of power [J/h] in pieces of the same time; None for different orbits."""
     pair = (first, other)
-    if any(not _has_pieces(result) for result in pair):
+    if not all(map(_has_pieces, pair)):
         return None
     checksums = {_checksum_of_loads(result) for result in pair}
     times, other_times = (

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.report.style import BLUE, GREY, ORANGE, colour_scale, finish, log_ticks
-from macroslip.result.criteria import YEARLY
+from macroslip.result.criteria import SUMMED
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 WIND = "wind_speed [m/s]"
 OIL = "oil_temperature [degC]"
 #: Quantities that a year sums up; extremes of single runs say little of a temperature.
-_SUMS = ("energy", *(yearly.name for yearly in YEARLY if yearly.drawn != "largest"))
+_SUMS = ("energy", *(yearly.name for yearly in SUMMED))
 
 
 def plot_over_wind_and_temperature(axes: Axes, bins: pd.DataFrame, column: str, title: str) -> Axes:

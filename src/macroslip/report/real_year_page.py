@@ -13,7 +13,7 @@ from macroslip.report.real_year_figures import (
     plot_over_wind_and_temperature,
 )
 from macroslip.report.style import Picture, picture, scaled
-from macroslip.result.criteria import OF_NUMBER, YEARLY
+from macroslip.result.criteria import OF_NUMBER, SUMMED
 from macroslip.study.real_year import ENERGY_COLUMN, OFFSET, sum_column
 from macroslip.study.year import DESIGN_COLUMNS
 
@@ -25,15 +25,14 @@ if TYPE_CHECKING:
 _TEMPLATE = "real_year.html"
 #: Numbers of a table that have the quantity's unit.
 _AMOUNTS = ("real", "at_mean", "fixed", "oil_cooler", "oil_warmer")
-_SUMS = tuple(yearly for yearly in YEARLY if yearly.drawn != "largest")
 #: What is shared out over wind speed and temperature, and its name.
 _SHARED = {
     "share": "time",
     ENERGY_COLUMN: "energy",
-    **{sum_column(yearly): yearly.noun for yearly in _SUMS},
+    **{sum_column(yearly): yearly.noun for yearly in SUMMED},
 }
 #: Columns whose maps are in the opening.
-_FIRST = tuple(sum_column(yearly) for yearly in _SUMS if yearly.leads)
+_FIRST = tuple(sum_column(yearly) for yearly in SUMMED if yearly.leads)
 
 
 def verdict(real_year: RealYear) -> list[str]:
@@ -53,7 +52,7 @@ def verdict(real_year: RealYear) -> list[str]:
     oil = f"{temperatures} Energy is {energy['real_over_fixed']:.2f} of that at 35 °C."
     sentences = []
     limits = []
-    for yearly in _SUMS:
+    for yearly in SUMMED:
         is_known = yearly.name in of.index and np.isfinite(of.loc[yearly.name, "real"])
         if not yearly.leads or not is_known:
             continue

@@ -79,13 +79,13 @@ _EXTREMES = {
 #: Columns of the table of designs by the names of `macroslip.study.year.designs`.
 _DESIGN_COLUMNS = {
     "energy": PageColumn("energy, both rows [MJ/year]", 1e-6),
-    **{yearly.name: yearly.in_designs for yearly in YEARLY if yearly.in_designs.heading},
+    **{yearly.name: yearly.in_designs for yearly in YEARLY},
     "peak": PageColumn("largest power [W]"),
     "basic_life": PageColumn("life L10 [years]", 1.0 / HOURS_A_YEAR),
     "modified_reference_life": PageColumn("modified reference life [years]", 1.0 / HOURS_A_YEAR),
 }
 #: Columns of criteria in the table of situations by the names of `macroslip.study.year.year`.
-_YEAR_COLUMNS = {yearly.name: yearly.in_year for yearly in YEARLY if yearly.in_year.heading}
+_YEAR_COLUMNS = {yearly.name: yearly.in_year for yearly in YEARLY}
 #: Quantities of whose effects there is a figure.
 _FIRST = ("energy", *(yearly.name for yearly in YEARLY if yearly.leads))
 _TEMPLATE = "study.html"

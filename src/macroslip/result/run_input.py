@@ -39,7 +39,9 @@ class RunInput:
         A case as `Case.as_dict` gives it, with the key `oil_gap` where inlets lack oil.
     rows : tuple of str
         Names of the rows of the result.
-    models : mapping, optional
+    bearing : Bearing or TaperedBearing, optional
+        Where it is made already.
+    models : dict, optional
         The rollers by row where they are made already.
 
     Attributes

@@ -38,14 +38,13 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     frame = part.reset_coords().to_dataframe().reset_index()
     columns = [name for name in (*part.coords, *names) if name in frame]
     frame = frame.loc[:, columns]
-    headings = []
-    for name in frame:
-        unit = "1"
-        if name in part.variables:
-            unit = part.variables[name].attrs.get("units", "1")
-        headings.append(name if unit == "1" else f"{name} [{unit}]")
-    frame.columns = headings
+    frame.columns = [_heading(name, part[name].attrs.get("units", "1")) for name in columns]
     return frame
+
+
+def _heading(name: str, unit: str) -> str:
+    """Name of a column with its unit, if it has one."""
+    return name if unit == "1" else f"{name} [{unit}]"
 
 
 def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFrame]:
@@ -74,10 +73,7 @@ def tables(study: xr.Dataset, aggregation: Aggregation) -> dict[str, pd.DataFram
     whole = year(study, aggregation)
     table_of_designs, _ = designs(whole)
     ranked = table_of_designs.dropna(axis="columns", how="all")
-    headings = {}
-    for name, unit in DESIGN_UNITS.items():
-        if unit != "1":
-            headings[name] = f"{name} [{unit}]"
+    headings = {name: _heading(name, unit) for name, unit in DESIGN_UNITS.items()}
     frames["designs"] = ranked.rename(columns=headings)
     if sampled_parameters(study):
         drivers = effects(study, aggregation)

@@ -20,7 +20,7 @@ from macroslip.study.year import YEAR_VARIABLES, year
 from macroslip.variables import ALWAYS, Variable, VariableTable, described
 
 #: Variables over the places of the raceways in a result.
-_PLACES = ("row", "raceway", "angle", "station")
+_PLACES = VARIABLES["surface_power_density"].dims
 
 
 _CELLS = ("group", "bin")
@@ -66,9 +66,7 @@ LIFETIME_MAPS = VariableTable(
             ALWAYS,
             "energy at each place of a raceway in the lifetime",
         ),
-        VARIABLES["surface_power_density"]._replace(
-            dims=("group", *VARIABLES["surface_power_density"].dims), when=ALWAYS
-        ),
+        VARIABLES["surface_power_density"]._replace(dims=("group", *_PLACES), when=ALWAYS),
     ),
 )
 
@@ -146,10 +144,10 @@ def percentiles(
     by_cell = frame.groupby([group_of_value, bin_of_value, row_of_value])
     table = by_cell.quantile(list(quantiles))
     # A cell without runs has no line.
-    dims = _QUANTILES
     every = [*map(range, shape), list(quantiles)]
-    every_cell = dict(zip(dims, every, strict=True))
-    array = table.rename_axis(index=dims).to_xarray().reindex(every_cell).transpose(*dims)
+    every_cell = dict(zip(_QUANTILES, every, strict=True))
+    known = table.rename_axis(index=_QUANTILES).to_xarray()
+    array = known.reindex(every_cell).transpose(*_QUANTILES)
     values = {name: array[name].values for name in wanted}
     _, values["runs"], _ = bins.means(power.values)
     coordinates = {
@@ -235,7 +233,7 @@ def weighted_maps(study: xr.Dataset, aggregation: Aggregation) -> xr.Dataset:
         )
     years = aggregation.years
     bins = aggregation.bins(study)
-    dims = (*_PLACES, "slip_sign", "film_regime")
+    dims = VARIABLES["surface_energy"].dims
     places = [study.sizes[dim] for dim in _PLACES]
     largest = np.zeros((len(bins.groups), *places))
 

@@ -206,8 +206,8 @@ class RunsOverTemperature:
         share = self._shares(shares, field, width)
         at = shares.temperatures
         data = {}
-        for name, variable in self.study.data_vars.items():
-            if not set(variable.dims) <= {"case", "row"} or "case" not in variable.dims:
+        for name, variable in of_runs_and_rows(self.study).data_vars.items():
+            if "case" not in variable.dims:
                 continue
             values = self.values(str(name), at)
             dims = ("case", "row") if values.ndim == 3 else ("case",)

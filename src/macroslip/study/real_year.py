@@ -12,7 +12,7 @@ import xarray as xr
 
 from macroslip.constants import HOURS_A_YEAR, YEAR, ZERO_CELSIUS
 from macroslip.errors import InputError
-from macroslip.result.criteria import OF_NUMBER, YEARLY
+from macroslip.result.criteria import OF_NUMBER, SUMMED
 from macroslip.result.criteria.criterion import Yearly
 from macroslip.scada.bins import JointShares, bin_centres
 from macroslip.scada.reader import Scada
@@ -39,8 +39,6 @@ OFFSET = 5.0
 ENERGY_COLUMN = "energy [J]"
 #: Least length of a record that stands for a year [h].
 _SHORT = 30.0 * 24.0
-#: Criteria that a year sums up, with the scatter between seeds and the part of every bin.
-_SUMS = tuple(yearly for yearly in YEARLY if yearly.drawn != "largest")
 
 
 @dataclass(frozen=True)
@@ -222,7 +220,7 @@ def _seeds(study: xr.Dataset, aggregation: Aggregation) -> dict[str, np.ndarray]
     probabilities = bins.probabilities(aggregation.weights)
     share = probabilities[None, :, None]
     powers = {"energy": study.energy_mean / study.window_length}
-    for yearly in _SUMS:
+    for yearly in SUMMED:
         if yearly.run_name in study:
             powers[yearly.name] = study[yearly.run_name]
     errors: dict[str, np.ndarray] = {}
@@ -300,7 +298,7 @@ def _rates(
     power_of_runs = runs.values("energy_mean", at) / lengths[:, None, None]
     power, _, _ = bins.means(power_of_runs)
     rates = {ENERGY_COLUMN: power.sum(axis=-1)[:, windy]}
-    for yearly in _SUMS:
+    for yearly in SUMMED:
         if yearly.run_name not in runs.study:
             rates[sum_column(yearly)] = np.full(rates[ENERGY_COLUMN].shape, np.nan)
             continue

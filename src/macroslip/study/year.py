@@ -13,7 +13,7 @@ import xarray as xr
 
 from macroslip.constants import YEAR
 from macroslip.loads.bundled import EVENTS
-from macroslip.result.criteria import YEARLY
+from macroslip.result.criteria import SUMMED, YEARLY
 from macroslip.result.criteria.criterion import Yearly
 from macroslip.study.aggregation import Aggregation
 from macroslip.study.labels import CHOICES, labels_over
@@ -44,7 +44,7 @@ _GROUP = ("group",)
 _KNOWN = "where the runs have it"
 #: Number of a run behind every number that a year sums up, and behind those of which the largest
 #: counts, by the name of the year's.
-SUMS = {yearly.name: yearly.run_name for yearly in YEARLY if yearly.drawn != "largest"}
+SUMS = {yearly.name: yearly.run_name for yearly in SUMMED}
 LARGEST = {"peak": "peak_power_max"} | {
     yearly.name: yearly.run_name for yearly in YEARLY if yearly.drawn == "largest"
 }

@@ -123,14 +123,15 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     rollers = bearing.rows * bearing.rollers_per_row
     drag = rollers * drag_power(model.drag, bearing.pitch_radius, orbital) * per_power
 
-    torque_of_contacts = contacts.sum(("row", "interface"), skipna=False)
-    torque_of_rolling = rolling.sum(("row", "interface"), skipna=False)
+    rows_and_interfaces = (0, 1)
+    torque_of_contacts = contacts.sum(axis=rows_and_interfaces)
+    torque_of_rolling = rolling.sum(axis=rows_and_interfaces)
     values = {
         "shaft_speed": shaft,
-        "torque": (torque_of_contacts + torque_of_rolling + drag).values,
-        "contact_torque": contacts.values,
-        "rolling_torque": rolling.values,
-        "ring_torque": _ring_torques(result, bearing, model).values,
+        "torque": torque_of_contacts + torque_of_rolling + drag,
+        "contact_torque": contacts,
+        "rolling_torque": rolling,
+        "ring_torque": _ring_torques(result, bearing, model),
         "drag_torque": drag,
     }
     known = {name: result.attrs[name] for name in ("model", "oil") if name in result.attrs}
@@ -147,16 +148,15 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     )
 
 
-def _per_speed(power: xr.DataArray, per_power: np.ndarray) -> xr.DataArray:
+def _per_speed(power: xr.DataArray, per_power: np.ndarray) -> np.ndarray:
     """Torque over (row, interface, time) of the power of all rollers."""
     of_rollers = power.sum("roller", skipna=False)
-    total = of_rollers.transpose("row", "interface", "time")
-    total = total.drop_vars("start_angle", errors="ignore") * per_power
+    total = of_rollers.transpose(*_CONTACTS).values * per_power
     # In the order of files, so that sums over a stored result give the same digits.
-    return total.copy(data=np.ascontiguousarray(total.values))
+    return np.ascontiguousarray(total)
 
 
-def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> xr.DataArray:
+def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> np.ndarray:
     """Torque on inner and outer ring about +Z0 over (raceway, time)."""
     orbit = -result.spin_pure * model.radius / model.outer_radius
     shaft = orbit / model.orbit_ratio
@@ -179,6 +179,5 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
             sliding = power / ring
             rolling = at_ring.rolling_power / (roller + ring)
             force = -sliding - rolling
-        torques.append(arm * force.sum(("row", "roller"), skipna=False))
-    torque = xr.concat(torques, dim="raceway").drop_vars("start_angle", errors="ignore")
-    return torque.assign_coords(raceway=["inner", "outer"]).transpose("raceway", "time")
+        torques.append(arm * force.sum(("row", "roller"), skipna=False).values)
+    return np.stack(torques)

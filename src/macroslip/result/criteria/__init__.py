@@ -23,6 +23,8 @@ def _declared() -> list[Criterion]:
 CRITERIA: tuple[Criterion, ...] = tuple(sorted(_declared(), key=lambda criterion: criterion.order))
 #: What a study keeps of them.
 YEARLY: tuple[Yearly, ...] = tuple(yearly for criterion in CRITERIA for yearly in criterion.yearly)
+#: Those of which a year is a sum over its hours; of the others the largest value counts.
+SUMMED: tuple[Yearly, ...] = tuple(yearly for yearly in YEARLY if yearly.drawn != "largest")
 #: The criterion of each number of a year, by its name.
 OF_NUMBER: dict[str, Criterion] = {
     yearly.name: criterion for criterion in CRITERIA for yearly in criterion.yearly

@@ -66,7 +66,7 @@ class Yearly:
     #: told.
     needs_orbit: bool = False
     #: Columns of it in the tables of designs and of a year's situations on the page of a study;
-    #: by default with meaning and unit. A heading that is empty leaves it out.
+    #: by default with meaning and unit.
     design_column: PageColumn | None = None
     year_column: PageColumn | None = None
     #: True if pages begin with it: a figure of its effects in a sample, and its sentences and map
