@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numba
 import numpy as np
 
-from macroslip.compiled import address_of, call_at, jit
+from macroslip.compiled import address_of, call_at, jit, jit_as, jit_evaluation, jit_inline
 
 POINT = np.dtype([("x", "f8"), ("turns", "i8")])
 
@@ -57,3 +57,39 @@ def test_a_function_at_an_address_is_no_part_of_its_callers():
     assert "_move_at" in code
     calls = [line.replace("_move_at", "") for line in code.splitlines() if " call " in line]
     assert not any("_move" in line for line in calls)
+
+
+@jit_inline
+def _times(factor, x):
+    """Product, also of what numba does not know."""
+    return factor * x
+
+
+@jit_evaluation
+def _doubled(x):
+    return _times(2, x)
+
+
+def _compiled_half(x):
+    return _times(0.5, x)
+
+
+@jit_as(_compiled_half)
+def _half(x):
+    return x / 2
+
+
+@numba.njit
+def _call_parts(x):
+    return _times(3, x) + _times(4, x) + _doubled(x), _half(x)
+
+
+def test_a_part_is_compiled_once_for_integers_and_once_for_numbers():
+    assert _call_parts(1.5) == (13.5, 0.75)
+    assert len(_times.dispatcher.signatures) == 2
+
+
+def test_a_part_called_from_python_is_a_plain_function():
+    assert _times(2, "ab") == "abab"
+    assert _times.__doc__ == "Product, also of what numba does not know."
+    assert _half(3) == 1.5

@@ -17,7 +17,7 @@ import numba
 import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, event
-from numba.extending import intrinsic, register_jitable
+from numba.extending import intrinsic, models, register_model, typeof_impl
 
 from macroslip.errors import MacroslipError
 from macroslip.storage.kernels import kernel_folder
@@ -28,7 +28,7 @@ from macroslip.storage.waiting import COMPILING, tell
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 #: Functions that a first case compiles, nearly the same of every model. A whole bearing has its own.
-_ABOUT = {"imposed": 150, "whole": 190}
+_ABOUT = {"imposed": 175, "whole": 190}
 
 
 #: Held while the address of a function is looked up or the function compiled for it.
@@ -185,6 +185,51 @@ def uncounted(typingctx, array):
     return array(array), _generate
 
 
+class _Part:
+    """A part of compiled functions; called from Python it is a plain function.
+
+    Parameters
+    ----------
+    function : callable
+        What is called from Python.
+    compiled : callable
+        What is compiled for its callers.
+    **options
+        Options of numba beside `OPTIONS`.
+    """
+
+    def __init__(self, function: Callable, compiled: Callable, **options: Any) -> None:
+        functools.update_wrapper(self, function)
+        self._function = function
+        options = OPTIONS | {"no_cpython_wrapper": True} | options
+        self.dispatcher = numba.njit(**options)(compiled)
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        return self._function(*arguments, **keywords)
+
+
+class _PartType(numba.types.Dispatcher):
+    """Type of a part, which is compiled once for arguments of equal types.
+
+    Numba would compile it anew for every constant that it is called with, and, of a function that
+    it only registers, for every set of options that callers have.
+    """
+
+    def get_call_type(self, context, args, kws):
+        """Signature of a call, for which the part is compiled where it is the first."""
+        args = tuple(numba.types.unliteral(x) for x in args)
+        kws = {name: numba.types.unliteral(x) for name, x in kws.items()}
+        return super().get_call_type(context, args, kws)
+
+
+register_model(_PartType)(models.OpaqueModel)
+
+
+@typeof_impl.register(_Part)
+def _type_of_part(part, context):
+    return _PartType(part.dispatcher)
+
+
 def jit_inline(function: Callable) -> Callable:
     """Make a part of compiled functions; called from Python it is a plain function.
 
@@ -192,7 +237,7 @@ def jit_inline(function: Callable) -> Callable:
     chooses where it stays a call, because parts copied into all their callers are optimised anew in
     each.
     """
-    return register_jitable(**OPTIONS)(function)
+    return _Part(function, function)
 
 
 def jit_evaluation(function: Callable) -> Callable:
@@ -200,4 +245,9 @@ def jit_evaluation(function: Callable) -> Callable:
 
     Its results are many numbers: handing them up in memory would cost as much as computing them.
     """
-    return register_jitable(**OPTIONS, forceinline=True)(function)
+    return _Part(function, function, forceinline=True)
+
+
+def jit_as(compiled: Callable) -> Callable[[Callable], Callable]:
+    """Make a part as `jit_evaluation` does, which is another function where it is compiled."""
+    return lambda function: _Part(function, compiled, forceinline=True)

@@ -17,13 +17,11 @@ from typing import Any
 import numpy as np
 from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic, overload
+from numba.extending import intrinsic
 from numpy.polynomial import Chebyshev, Polynomial
 
-from macroslip.compiled import OPTIONS, jit_evaluation
+from macroslip.compiled import jit_as
 
-#: Options of what is copied into compiled functions.
-_INLINED = OPTIONS | {"forceinline": True}
 _DOUBLE = ir.DoubleType()
 _INTEGER = ir.IntType(64)
 #: Bits of a number's fraction, of its exponent's lowest bit, and of 1.
@@ -115,7 +113,6 @@ _number_of: Any = intrinsic(_write_number_of)
 _add_product: Any = intrinsic(_write_add_product)
 
 
-@jit_evaluation
 def _exponential(x):
     if x > _LARGEST:
         x = _LARGEST
@@ -134,7 +131,6 @@ def _exponential(x):
     return _add_product(scale, _add_product(square, high, r), scale)
 
 
-@jit_evaluation
 def _logarithm(x):
     bits = _bits_of(x)
     above = bits - _FIRST_BITS
@@ -152,7 +148,6 @@ def _logarithm(x):
     return value + small if x < math.inf else x
 
 
-@jit_evaluation
 def _cosine_and_sine(angle):
     quarter = math.floor(angle * (2.0 / math.pi) + 0.5)
     r = angle - quarter * _HALF_PI[0] - quarter * _HALF_PI[1] - quarter * _HALF_PI[2]
@@ -172,6 +167,7 @@ def _cosine_and_sine(angle):
     return cosine, sine
 
 
+@jit_as(_exponential)
 def exponential(x):
     """e^x [-].
 
@@ -189,6 +185,7 @@ def exponential(x):
     return math.exp(x)
 
 
+@jit_as(_logarithm)
 def logarithm(x):
     """Ln x [-].
 
@@ -205,6 +202,7 @@ def logarithm(x):
     return math.log(x)
 
 
+@jit_as(_cosine_and_sine)
 def cosine_and_sine(angle):
     """Cosine and sine of an angle [rad].
 
@@ -225,18 +223,3 @@ def cosine_and_sine(angle):
     [0.540302305868, 0.841470984808]
     """
     return math.cos(angle), math.sin(angle)
-
-
-@overload(exponential, jit_options=_INLINED)
-def _compiled_exponential(x):
-    return lambda x: _exponential(x)
-
-
-@overload(logarithm, jit_options=_INLINED)
-def _compiled_logarithm(x):
-    return lambda x: _logarithm(x)
-
-
-@overload(cosine_and_sine, jit_options=_INLINED)
-def _compiled_cosine_and_sine(angle):
-    return lambda angle: _cosine_and_sine(angle)
