@@ -8,7 +8,8 @@ PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --no-loadscope-reorde
 # Without stored bytecode every process that a test starts would translate all modules anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-INSTALL := $(BIN)/python -m pip install --quiet --editable
+# A quarter of the modules that are installed is ever imported: these are translated then, in place of all of them now.
+INSTALL := $(BIN)/python -m pip install --quiet --no-compile --editable
 
 # Kernels are compiled once, before workers and the processes that tests start would each compile them.
 WARM := $(BIN)/macroslip doctor --warm

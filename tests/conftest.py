@@ -3,6 +3,7 @@
 `make test` draws the same examples in every run, so that it cannot fail by chance. `make test-deep` searches with fresh ones.
 """
 
+import gc
 import math
 import os
 import re
@@ -133,6 +134,16 @@ def pytest_collection_modifyitems(items):
         return item.path not in slow, place
 
     items.sort(key=rank)
+
+
+def pytest_collection_finish():
+    """The collector of garbage leaves alone what stays to the end: modules, and thousands of tests.
+
+    It would go through all of them again and again, and begins less often for what tests make.
+    """
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000)
 
 
 @pytest.fixture(scope="module", autouse=True)
