@@ -8,6 +8,7 @@ import numpy as np
 
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
+from macroslip.compiled import address_of, call_at, jit
 from macroslip.contact.table import table_box
 from macroslip.imposed.euler import FIXED_WORK, integrate_fixed_step
 from macroslip.imposed.run import radau_limits
@@ -17,7 +18,7 @@ from macroslip.imposed.status import UNDER_WAY
 from macroslip.imposed.zones import classify
 from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces, write_conditions
 from macroslip.ring.orbit import Instant, Motion, shaft_angle
-from macroslip.roller.model import Roller, RollerModel, roller_model, with_tables
+from macroslip.roller.model import BODY, Roller, RollerModel, roller_model, with_tables
 from macroslip.roller.step import STAGES, STEP
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
@@ -49,7 +50,7 @@ def rollers(
 def station_of(roller: Roller, angle: float, now: Instant) -> np.void:
     """A place on the orbit [rad] and an instant."""
     conditions = np.zeros(1, CONDITIONS)
-    write_conditions(roller.body[0], roller.tables, angle, now, conditions[0])
+    write_conditions(roller.body[0], roller.tables.ctypes.data, angle, now, conditions[0])
     return conditions[0]
 
 
@@ -71,10 +72,20 @@ def a_station(
     return conditions[0]
 
 
+@jit
+def _write_forces(address, body, tables, at, slip, forces):
+    """Write the forces by the function at an address."""
+    call_at(address, (body, tables, at, slip, forces))
+
+
 def forces_of(roller: Roller, at: np.void, slip: float) -> np.void:
-    """Forces under conditions and a slip [m/s]."""
+    """Forces under conditions and a slip [m/s], by the compiled function that integrations call.
+
+    Called by its name it would be compiled once more, which takes seconds in every worker.
+    """
+    address = address_of(slip_forces, BODY, int, CONDITIONS, float, FORCES)
     forces = np.zeros(1, FORCES)
-    slip_forces(roller.body[0], roller.tables, at, float(slip), forces[0])
+    _write_forces(address, roller.body[0], roller.tables.ctypes.data, at, float(slip), forces[0])
     return forces[0]
 
 

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from benchmarks.right_hand_side import evaluations, jacobian, pack, rates
-from macroslip.mechanics.spin import CONDITIONS, FORCES, slip_forces, write_conditions
+from macroslip.mechanics.spin import CONDITIONS, write_conditions
 from macroslip.ring.orbit import instant
+from tests.one_roller import forces_of
 
 
 def states(history, count=40):
@@ -28,7 +29,7 @@ def met(history, time):
     k = int(np.searchsorted(motion.time, time, side="right")) - 1
     write_conditions(
         history.roller.body[0],
-        history.roller.tables,
+        history.roller.tables.ctypes.data,
         history.start_angle,
         instant(motion, k, time),
         conditions[0],
@@ -38,19 +39,19 @@ def met(history, time):
 
 def test_rates_are_those_of_the_package(histories):
     for history in histories:
-        data, forces = pack(history, energy_unit=0.5), np.zeros(1, FORCES)
+        data = pack(history, energy_unit=0.5)
         motion = history.motion
         for time, slip in states(history):
             k = int(np.searchsorted(motion.time, time, side="right")) - 1
             at = met(history, time)
-            slip_forces(history.roller.body[0], history.roller.tables, at, slip, forces[0])
+            forces = forces_of(history.roller, at, slip)
             eps = 1e-3 * (motion.time[k + 1] - motion.time[k])
             inside = min(max(time, motion.time[k] + eps), motion.time[k + 1] - eps)
             before, after = (
                 float(met(history, inside + side)["ring_speed"]) for side in (-eps, eps)
             )
             acceleration = (after - before) / (2.0 * eps)
-            inner, outer, cage = (float(forces[name][0]) for name in ("inner", "outer", "cage"))
+            inner, outer, cage = (float(forces[name]) for name in ("inner", "outer", "cage"))
             rate = rate_at(time, slip, data)
             expected = acceleration - history.model.mobility * (inner + outer + cage)
             assert rate[0] == pytest.approx(expected, rel=1e-9, abs=1e-8)

@@ -53,7 +53,11 @@ def test_load_edges_are_where_load_begins_and_ends(histories):
         interval, conditions = int((history.motion.time <= time).sum()) - 1, np.zeros(1, CONDITIONS)
         now = instant(history.motion, interval, time)
         write_conditions(
-            history.roller.body[0], history.roller.tables, history.start_angle, now, conditions[0]
+            history.roller.body[0],
+            history.roller.tables.ctypes.data,
+            history.start_angle,
+            now,
+            conditions[0],
         )
         return float(conditions["elastic_load"][0])
 

@@ -152,7 +152,7 @@ def test_relaxation_time_by_hand(paper, made, load, seconds):
     mass = 7850.0 * math.pi * 0.035**2 * 0.106
     roller = made["downwind"]
     assert relaxation_rate(
-        roller.body[0], roller.tables, load, RATED_SURFACE_SPEED
+        roller.body[0], roller.tables.ctypes.data, load, RATED_SURFACE_SPEED
     ) == pytest.approx(2 / mass * total, rel=1e-6)
     assert mass / 2 / total == pytest.approx(seconds, rel=0.01, abs=0.0)
 
@@ -162,7 +162,7 @@ def test_relaxation_time_by_hand(paper, made, load, seconds):
 )
 def test_a_firm_roller_relaxes_at_the_firm_rate(laws, rate):
     roller = rollers(models(laws), tolerance=COARSE.tolerance)["downwind"]
-    body, tables = roller.body[0], roller.tables
+    body, tables = roller.body[0], roller.tables.ctypes.data
 
     def at(load, speed=RATED_SURFACE_SPEED):
         return relaxation_rate(body, tables, float(load), float(speed))

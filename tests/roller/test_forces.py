@@ -375,9 +375,13 @@ def test_what_the_rings_give_heats_the_contacts_or_drives_the_spin(
 
 
 @jit
+def _film_load(body, tables, play, outward, ring_speed, log_balance):
+    return film_load(body, tables, 0.0, -play, outward, ring_speed, log_balance).load
+
+
 def shared_film_load(body, tables, play, outward, ring_speed, log_balance=0.0):
     """Load of the films on a roller that the rings do not press and that has a play [N]."""
-    return film_load(body, tables, 0.0, -play, outward, ring_speed, log_balance).load
+    return _film_load(body, tables.ctypes.data, play, outward, ring_speed, log_balance)
 
 
 # --- Oil -------------------------------------------------------------------------------------------------------------

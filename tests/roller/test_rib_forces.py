@@ -12,9 +12,10 @@ from macroslip.compiled import jit
 from macroslip.contact.rib import rib_contact, rib_state
 from macroslip.contact.strips import PreparedStrips, ellipse_load, strip_approach
 from macroslip.contact.table import table_box
-from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces
+from macroslip.mechanics.spin import CONDITIONS, powers
 from macroslip.roller.model import roller_model, with_tables
 from macroslip.roller.step import STEP, write_stage
+from tests.one_roller import forces_of
 
 MAIN = TaperedBearing.read("tdo-main-bearing")
 OIL = Lubricant.read("vg460-pao").at(308.15)
@@ -50,7 +51,7 @@ def test_the_rib_slides_in_pure_rolling_by_the_turning_rate_times_its_height(mad
 def test_friction_and_power_in_pure_rolling_are_those_of_the_contact(made, load):
     """By hand: µ F_f v_f with the film's own coefficient of friction."""
     model, roller = made
-    forces = forces_at(roller, station(load), 0.0)
+    forces = forces_of(roller, station(load), 0.0)
     pressed = model.rib.share * load
     sliding = float(ROW.rib_sliding_speed(SHAFT))
     entrainment = float(ROW.rib_entrainment_speed(SHAFT))
@@ -68,8 +69,8 @@ def test_slope_of_all_forces_by_slip(made):
     at = station(300.0)
     step = 1e-6
     for slip in (-0.004, -0.01, -0.1):
-        low, high = (net_force(forces_at(roller, at, slip + change)) for change in (-step, step))
-        slope = float(forces_at(roller, at, slip)["slope"])
+        low, high = (net_force(forces_of(roller, at, slip + change)) for change in (-step, step))
+        slope = float(forces_of(roller, at, slip)["slope"])
         assert slope == pytest.approx((high - low) / (2.0 * step), rel=1e-3)
 
 
@@ -85,12 +86,6 @@ def station(load):
     return at[0]
 
 
-def forces_at(roller, at, slip):
-    forces = np.zeros(1, FORCES)
-    slip_forces(roller.body[0], roller.tables.ctypes.data, at, float(slip), forces[0])
-    return forces[0]
-
-
 def net_force(forces):
     return float(sum(forces[name] for name in ("inner", "outer", "cage", "resistance")))
 
@@ -99,9 +94,9 @@ def held_slip(roller, at):
     """Slip at which nothing changes the spin, by Newton's method."""
     slip = 0.0
     for _ in range(50):
-        forces = forces_at(roller, at, slip)
+        forces = forces_of(roller, at, slip)
         slip -= net_force(forces) / float(forces["slope"])
-    return slip, forces_at(roller, at, slip)
+    return slip, forces_of(roller, at, slip)
 
 
 @jit

@@ -102,7 +102,7 @@ def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
             slip_in, slip_out = ring_in - relative * r, ring_out - relative * r
             sliding = -r * (spin[j] - cage_speed * math.cos(alpha))
             at_inner, at_outer, friction = roller_contacts(
-                assembly.bodies[row], assembly.tables, load, depth, outward, (ring_in, slip_in), (ring_out, slip_out),
+                assembly.bodies[row], assembly.tables.ctypes.data, load, depth, outward, (ring_in, slip_in), (ring_out, slip_out),
                 spar, sliding,
             )  # fmt: skip
             against = model.weight_in_plane * math.cos(phi[j]) + model.drag * orbit[j] * abs(
