@@ -62,7 +62,7 @@ def booked(laws, state):
     sample = np.zeros(1, SAMPLE)[0]
     sample["film"][0] = 1e-6
     sample["time"] = 1.0
-    sample["at"]["elastic_load"] = state[0]
+    sample["under_load"] = 1.0
     line_power_along(maps, 0, contacts_of(laws)[0], state, sample, 2.0, strips, along)
     return strips, along, maps
 

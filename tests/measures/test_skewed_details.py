@@ -42,11 +42,8 @@ def profile(raceway, load, skew, sign=1):
     entrainment = abs(SPEED - 0.5 * at.slip)
     sample["film"][raceway] = film = contact.laws.film_thickness(load, entrainment)
     sample["share"][raceway] = contact.laws.asperity_share(load, entrainment, film)
-    sample["lines"][raceway], sample["time"], sample["at"]["elastic_load"] = (
-        [middle, *lines[:6]],
-        1.0,
-        load,
-    )
+    sample["lines"][raceway] = [middle, *lines[:6]]
+    sample["time"] = sample["under_load"] = 1.0
     along = maps["along"][0, 2 * raceway]
     power_along(
         maps[0], raceway, contacts_of(laws)[raceway], (load, SPEED, at.slip), sample, 1.0, along

@@ -17,7 +17,7 @@ from macroslip.measures.along import contacts_of
 from macroslip.measures.details import ContactSampler, new_details
 from macroslip.measures.maps import spread
 from macroslip.measures.roller import RollerMeasures, Row, Wanted
-from macroslip.measures.samples import SAMPLE, choose
+from macroslip.measures.samples import PEAK, PEAKS, SAMPLE, choose, samples_of_peaks
 from macroslip.measures.totals import (
     CONTACTS,
     END,
@@ -264,10 +264,9 @@ def test_looks_do_not_depend_on_where_buffers_end(walked, details):
 def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch):
     """Against samples at every step: extremes low by little, and little energy at other stations."""
     assert details.memory["count"][0] < 0.8 * np.count_nonzero(walked[3]["weight"][:, 0])
-    every = new_details(EDGES)
     model, roller, motion, steps = walked
     sampler = ContactSampler(
-        Wanted(EDGES, 0.4, np.zeros(0), True),
+        Wanted(EDGES, 0.4, np.zeros(0), True, spacing=0.0),
         roller,
         model.laws,
         contacts_of(model.laws),
@@ -275,8 +274,6 @@ def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch)
         ANGLE,
     )
     for row in steps:
-        # A new highest power makes every step a look.
-        sampler.details.memory["highest"][0, :] = -1.0
         sampler.add(np.array([[row]]), 0)
     sampler.finish()
     every = sampler.details
@@ -317,7 +314,7 @@ def test_films_at_looks_are_those_of_the_law(walked, monkeypatch):
 def test_energy_between_two_looks_lies_as_at_both_of_them():
     """In parts that the mean time of the energy gives; with one look only, a fast change would lie at wrong stations."""
     maps = new_details(EDGES).maps
-    before, after = maps["along"][0, 2:]
+    before, after = maps["along"][0, 2:4]
     before["power"][3], after["power"][20] = 2.0, 5.0
     spent = (0.3 * 8.0 / 2.0, 0.7 * 8.0 / 5.0, 0.0, 0.0, 0.0, 0.0)
     spread(maps[0], 1, (0.5, 0.5), 0.7, spent, before, after)
@@ -375,16 +372,16 @@ def test_no_power_along_the_roller_takes_no_energy(walked):
 
 
 def test_what_makes_a_look_due(walked):
-    """After a change of power, a new highest value, or a way; thresholds pin the numbers that choose samples."""
+    """After a change of power or a way; thresholds pin the numbers that choose samples."""
     _, roller, _, steps = walked
     held = steps[np.argmax(steps["elastic_load"][:, 2])]
 
-    def count(change, turn=0.0, spacing=1.0):
+    def count(change, turn=0.0, spacing=1.0, length=0.1):
         rows = np.zeros((2, 1), STEP)
         rows[:, 0] = held
         radius = float(roller.body[0]["outer_radius"])
         rows["start"][:, 0], rows["end"][:, 0] = (
-            [1.0, 1.1],
+            [1.1 - length, 1.1],
             [1.1, 1.1 + max(turn * radius / 0.4, 1e-3)],
         )
         for name in ("inner_slip", "outer_slip", "outer_speed", "inner_load", "outer_load"):
@@ -393,31 +390,77 @@ def test_what_makes_a_look_due(walked):
         for name, value in change.items():
             rows[name.split()[0]][1, 0][(..., int(name[-1])) if " " in name else ...] = value
         details = new_details(EDGES)
-        return choose(
-            rows,
-            0,
-            EDGES,
-            details.entries,
-            details.memory[0],
-            radius,
-            spacing,
-            np.zeros(2, SAMPLE),
-        )
+        orbits = EDGES, details.entries, np.zeros((EDGES.size - 1, PEAKS), PEAK)
+        return choose(rows, 0, orbits, details.memory[0], radius, spacing, np.zeros(2, SAMPLE))
 
     assert count({}) == 1
     for name, few, many in (
-        ("power 0", 10.2, 11.2),
-        ("power 0", 9.1, 8.9),
-        ("power 1", 9.1, 8.9),
-        ("power 2", 10.2, 10.4),
+        ("power 0", 10.2, 10.4),
+        ("power 0", 9.4, 9.2),
+        ("power 1", 10.2, 10.4),
+        ("power 1", 9.4, 9.2),
     ):
         assert count({name: few}) == 1 and count({name: many}) == 2, (name, few, many)
-    assert count({"power 2": 0.0}) == 1
-    assert count({"outer_slip": 1.02e-3}) == 1 and count({"outer_slip": 1.04e-3}) == 2
-    assert count({"inner_load": 0.98e4}) == 1 and count({"inner_load": 0.95e4}) == 2
-    assert count({}, turn=0.34) == 1 and count({}, turn=0.36) == 2
+    assert count({"power 2": 0.0}) == 1 and count({"outer_slip": 1e-2}) == 1
+    assert count({}, turn=0.14) == 1 and count({}, turn=0.16) == 2
+    # After eight times the step before: a step of 1 ms.
+    assert count({}, length=0.13e-3) == 1 and count({}, length=0.12e-3) == 2
     # Closer samples where they are asked for.
-    assert count({}, turn=0.34, spacing=0.5) == 2 and count({"power 0": 10.7}, spacing=0.5) == 2
+    assert count({}, turn=0.14, spacing=0.5) == 2 and count({"power 0": 9.4}, spacing=0.5) == 2
+
+
+def test_an_entry_is_sampled_more_closely_and_to_its_end(walked):
+    """Its power is compared with the highest since it began, and the step that ends it belongs to it."""
+    _, roller, _, steps = walked
+    held = steps[np.argmax(steps["elastic_load"][:, 2])]
+    rows = np.zeros((6, 1), STEP)
+    rows[:, 0] = held
+    edges = 1.0 + 1e-4 * np.arange(7)
+    rows["start"][:, 0], rows["end"][:, 0] = edges[:-1], edges[1:]
+    rows["outer_speed"], rows["inner_load"], rows["outer_load"] = -0.4, 1e4, 1e4
+    rows["elastic_load"][:, 0] = np.array([0.0, 1e4, 1e4, 1e4, 1e4, 1e4])[:, None]
+    # A hundredth of the power before, which alone would not ask for a sample.
+    powers = np.array([1000.0, 10.0, 10.2, 10.6, 10.7, 10.7])
+    rows["power"] = 0.0
+    rows["power"][:, 0, :, 0] = powers[:, None]
+    rows["outer_slip"] = 0.1
+    rows["outer_slip"][5] = 1e-3
+    details = new_details(EDGES)
+    samples = np.zeros(6, SAMPLE)
+    orbits = EDGES, details.entries, np.zeros((EDGES.size - 1, PEAKS), PEAK)
+    radius = float(roller.body[0]["outer_radius"])
+    number = choose(rows, 0, orbits, details.memory[0], radius, 1.0, samples)
+    assert samples["time"][:number] == pytest.approx(edges[[1, 2, 4, 6]])
+    assert samples["entry"][:number].tolist() == [0, 1, 1, 1]
+
+
+def test_peaks_are_the_highest_states_of_their_orbits(walked):
+    """Each is a sample without energies, once where several values are highest at one time."""
+    _, roller, _, steps = walked
+    inside = steps[(steps["weight"][:, 0] > 0.0) & (steps["start"] >= EDGES[0])]
+    details = new_details(EDGES)
+    peaks = np.zeros((EDGES.size - 1, PEAKS), PEAK)
+    orbits = EDGES, details.entries, peaks
+    radius = float(roller.body[0]["outer_radius"])
+    room = np.zeros(inside.size, SAMPLE)
+    choose(inside[:, None], 0, orbits, details.memory[0], radius, 1.0, room)
+    last = inside["stages"] - 1
+    at_end = np.arange(inside.size)
+    middle = 0.5 * (inside["start"] + inside["end"])
+    power = inside["power"][at_end, last]
+    for orbit in range(EDGES.size - 1):
+        of_orbit = (EDGES[orbit] <= middle) & (middle < EDGES[orbit + 1])
+        for i in range(3):
+            assert peaks[orbit, i]["value"] == power[of_orbit, i].max()
+            assert peaks[orbit, i]["at"]["power"][i] == power[of_orbit, i].max()
+            assert peaks[orbit, i]["time"] == inside["end"][of_orbit][power[of_orbit, i].argmax()]
+    samples = samples_of_peaks(peaks)
+    assert (
+        np.unique(samples["time"]).size
+        == samples.size
+        == np.unique(peaks["time"][peaks["value"] > 0.0]).size
+    )
+    assert not samples["energy"].any() and (samples["since"] == samples["time"]).all()
 
 
 # --- Traces ----------------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_evaluation, jit_inline
 from macroslip.contact.asperities import asperity_patch
 from macroslip.contact.spline import spline_value
 from macroslip.contact.traction import (
@@ -128,11 +128,11 @@ def film_node(chords, film):
     For `chord_stress_at`, once for all chords of a contact.
     """
     log_film = logarithm(film)
-    cell, position = _node(chords.shape[1], (log_film - chords.lowest_film) / chords.film_spacing)
+    cell, position = _node(chords.shape[1], (log_film - chords.lowest_film) * chords.per_log_film)
     return FilmNode(film, log_film, cell, position)
 
 
-@jit_inline
+@jit_evaluation
 def chord_stress_at(chords, node, pressure, slip):
     """Mean shear stress along a chord of the contact, from the oil's table.
 
@@ -155,7 +155,7 @@ def chord_stress_at(chords, node, pressure, slip):
     pressure = min(max(pressure, LOWEST_PRESSURE), HIGHEST_PRESSURE)
     fluid = chords.fluid
     (pressures, films, slips) = chords.shape
-    i, t = _node(pressures, math.sqrt(math.sqrt(pressure)) / chords.pressure_spacing)
+    i, t = _node(pressures, math.sqrt(math.sqrt(pressure)) * chords.per_root)
     log_eta = _on_line(chords.log_viscosities, i, t)
     if fluid.rheology == NEWTONIAN:
         unit = 1.0 / (math.sqrt(max(fluid.heating, 1e-30)) * node.film)
@@ -168,7 +168,7 @@ def chord_stress_at(chords, node, pressure, slip):
         )
         ahead = log_eta
     log_slip = logarithm(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
-    j, u = _node(slips, log_slip / chords.slip_spacing)
+    j, u = _node(slips, log_slip * chords.per_log_slip)
     start = (i * films + node.cell) * slips + j
     value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.position, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     # Below the first slip of the table stress is in proportion to slip.
@@ -334,9 +334,7 @@ def traction_values(patch: Patch, chords: ChordTable, *states: np.ndarray) -> np
     return resultants.reshape(*states[0].shape, 4)
 
 
-def patch_power(
-    patch: Patch, chords: ChordTable, load: float, film: float, ring_speed: float, slip: float
-) -> float:
+def patch_power(patch: Patch, chords: ChordTable, load, film, ring_speed, slip):
     """Frictional power of a film, ∫τ v dA, by the rule of `patch_traction`.
 
     Parameters
@@ -345,33 +343,29 @@ def patch_power(
         Geometry of the contact.
     chords : ChordTable
         Table of the oil.
-    load : float
+    load : array_like
         Q [N], > 0.
-    film : float
+    film : array_like
         h [m], > 0.
-    ring_speed, slip : float
+    ring_speed, slip : array_like
         u2 and Δu in the middle of the contact [m/s].
 
     Returns
     -------
-    float
+    ndarray or float
         Power [W].
     """
-    resultants = np.empty(4)
-    patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, resultants)
-    return _power(patch, resultants[0], resultants[1], resultants[2], ring_speed, slip)
+    resultants = traction_values(patch, chords, load, film, 0.0, ring_speed, slip)
+    pull, lag, skew, _ = np.moveaxis(resultants, -1, 0)
+    return _power(patch, pull, lag, skew, ring_speed, slip)
 
 
-def _power(
-    patch: Patch, pull: float, lag: float, skew: float, ring_speed: float, slip: float
-) -> float:
+def _power(patch: Patch, pull, lag, skew, ring_speed, slip):
     curvature = patch.curvature_ratio * patch.roller_radius
-    return float(slip * (pull - lag) + ring_speed * (curvature * lag - patch.spin_ratio * skew))
+    return slip * (pull - lag) + ring_speed * (curvature * lag - patch.spin_ratio * skew)
 
 
-def fine_power(
-    patch: Patch, fluid: Fluid, load: float, film: float, ring_speed: float, slip: float
-) -> float:
+def fine_power(patch: Patch, fluid: Fluid, load, film, ring_speed, slip):
     """Frictional power of a film by a finer rule than that of `patch_power`.
 
     The stress of every chord is found by quadrature in place of the oil's table.
@@ -382,39 +376,49 @@ def fine_power(
         Geometry of the contact.
     fluid : Fluid
         The sheared film.
-    load : float
+    load : array_like
         Q [N], > 0.
-    film : float
+    film : array_like
         h [m], > 0.
-    ring_speed, slip : float
+    ring_speed, slip : array_like
         u2 and Δu in the middle of the contact [m/s].
 
     Returns
     -------
-    float
+    ndarray
         Power [W].
     """
+    load, film, ring_speed, slip = np.broadcast_arrays(load, film, ring_speed, slip)
     root = load ** (1.0 / 3.0)
     across = patch.across * root
-    end = min(1.0, patch.half_length / across)
+    end = np.minimum(1.0, patch.half_length / across)
     bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (
         2.0 * patch.contour_radius
     )
     spin = ring_speed * patch.spin_ratio
-    first, second = rolling_lines(bend, spin, slip, across * end)
-    edges = np.array([-end, first / across, second / across, end])
+    lines = np.array(
+        [
+            rolling_lines(*state)
+            for state in zip(bend.flat, spin.flat, slip.flat, (across * end).flat, strict=True)
+        ]
+    ).reshape(*load.shape, 2)
+    edges = np.concatenate([-end[..., None], lines / across[..., None], end[..., None]], axis=-1)
     lengths = np.diff(edges)
-    relative = (edges[:-1, None] + lengths[:, None] * _FINE_NODES).ravel()
-    weight = (lengths[:, None] * _FINE_WEIGHTS).ravel()
-    station = across * relative
+    # Quadrature nodes are the last axis.
+    nodes = (*load.shape, 3 * _FINE_NODES.size)
+    relative = (edges[..., :-1, None] + lengths[..., None] * _FINE_NODES).reshape(nodes)
+    weight = (lengths[..., None] * _FINE_WEIGHTS).reshape(nodes)
+    station = across[..., None] * relative
     cosine = np.sqrt(1.0 - relative**2)
-    local = slip + station * (bend * station - spin)
+    local = slip[..., None] + station * (bend[..., None] * station - spin[..., None])
     stress = chord_stress(
         fluid,
-        patch.pressure * root * np.maximum(cosine, 1e-9),
-        film,
+        patch.pressure * root[..., None] * np.maximum(cosine, 1e-9),
+        film[..., None],
         np.maximum(np.abs(local), _NO_SLIP),
     )
-    part = 2.0 * across * patch.along * root * weight * cosine * np.copysign(stress, local)
+    area = 2.0 * across * patch.along * root
+    part = area[..., None] * weight * cosine * np.copysign(stress, local)
     lag = part * station**2 * 0.5 / (patch.contour_radius * patch.roller_radius)
-    return _power(patch, part.sum(), lag.sum(), (part * station).sum(), ring_speed, slip)
+    sums = part.sum(axis=-1), lag.sum(axis=-1), (part * station).sum(axis=-1)
+    return _power(patch, *sums, ring_speed, slip)

@@ -480,9 +480,9 @@ class ChordTable(NamedTuple):
     shape: tuple[int, int, int]  #: Of the coefficients, over pressures, films and slips
     coefficients: np.ndarray  #: Flat
     log_viscosities: np.ndarray  #: Shape (pressures + 2,). Of the spline of ln η.
-    pressure_spacing: float  #: In p1^¼ [Pa^¼]
-    slip_spacing: float  #: In the logarithm of slip [-]
-    film_spacing: float  #: In ln h [-]
+    per_root: float  #: Cells per p1^¼ [Pa^-¼]
+    per_log_slip: float  #: Cells per logarithm of slip [-]
+    per_log_film: float  #: Cells per ln h [-]
     lowest_film: float  #: ln h of the first node
 
 
@@ -527,7 +527,7 @@ def chord_table(fluid: Fluid | None) -> ChordTable:
 
     (coefficients,) = stored(table_key("chord stress", fluid, pressures, slips, films), make)
     log_viscosities = spline_coefficients(log_eta, 1)
-    numbers = (float(roots[1]), slip_spacing, film_spacing, float(films[0]))
+    numbers = (1.0 / float(roots[1]), 1.0 / slip_spacing, 1.0 / film_spacing, float(films[0]))
     return ChordTable(fluid, coefficients.shape, coefficients.ravel(), log_viscosities, *numbers)
 
 

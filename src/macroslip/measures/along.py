@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_evaluation, jit_inline, uncounted
 from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
 from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.mechanics.speeds import signed_entrainment
@@ -82,11 +82,37 @@ def contacts_of(laws: PreparedLaws) -> tuple[Contact, Contact, Contact]:
 
 
 @jit_inline
+def uncounted_contact(contact):
+    """A contact for a call during which the caller keeps it: references to its table are not counted."""
+    chords = contact.chords
+    table = ChordTable(
+        chords.fluid,
+        chords.shape,
+        uncounted(chords.coefficients),  # pyright: ignore[reportCallIssue]
+        uncounted(chords.log_viscosities),  # pyright: ignore[reportCallIssue]
+        chords.per_root,
+        chords.per_log_slip,
+        chords.per_log_film,
+        chords.lowest_film,
+    )
+    return Contact(
+        contact.patch,
+        table,
+        contact.chorded,
+        contact.limit,
+        contact.saturation,
+        contact.roughness,
+        contact.effusivity,
+    )
+
+
+@jit_inline
 def class_of(edges, value):
     """Index of the class that holds a value: the number of rising edges at or below it."""
     number = 0
-    while number < len(edges) and value >= edges[number]:
-        number += 1
+    for edge in edges:
+        # A sum in place of a search: the processor could not foresee where that ends.
+        number += 1 if value >= edge else 0
     return number
 
 
@@ -103,7 +129,7 @@ def _saturating_friction(contact, slip, entrainment):
 
 
 @jit_inline
-def _covered(k, width, half_length, middle, across):
+def _covered(k, width, per_width, half_length, middle, across):
     """Middle [m] of the part of a station that the ellipse covers, and that part [-].
 
     So the lightest contact too lies in the two middle stations.
@@ -111,7 +137,7 @@ def _covered(k, width, half_length, middle, across):
     left = k * width - half_length
     first = max(left, middle - across)
     last = min(left + width, middle + across)
-    return 0.5 * (first + last), (last - first) / width
+    return 0.5 * (first + last), (last - first) * per_width
 
 
 class Station(NamedTuple):
@@ -146,7 +172,7 @@ def leave_station(along, k):
     along.density[k] = 0.0
 
 
-@jit_inline
+@jit_evaluation
 def book_station(along, station, hot, times, passed):
     """Add a station's power to the distribution along the roller.
 
@@ -160,7 +186,8 @@ def book_station(along, station, hot, times, passed):
     times : ndarray, shape (classes of slip, 2)
         Times under load [s] and passes [-] of the film's class; the station's are added.
     passed : tuple of float
-        Time [s] and passes [-] since the sample before, entrainment speed with its sign [m/s].
+        Time under load [s] and passes then [-] since the sample before, over the number of stations;
+        and the reciprocal of the entrainment speed, with its sign [s/m].
     """
     k = station.number
     # Of power only its share of all stations counts; of p |v| its size does.
@@ -171,10 +198,10 @@ def book_station(along, station, hot, times, passed):
     along.rough_total += along.rough[k]
     along.work_total += along.work[k]
     if passed[0] > 0.0:
-        ratio = math.copysign(station.speed, station.slip) / passed[2]
+        ratio = math.copysign(station.speed, station.slip) * passed[2]
         spent = times[class_of(SLIP_EDGES, ratio)]
-        spent[0] += passed[0] / STATIONS * station.covered
-        spent[1] += passed[1] * station.covered / STATIONS
+        spent[0] += passed[0] * station.covered
+        spent[1] += passed[1] * station.covered
     density = station.power / (2.0 * station.half_width)
     along.density[k] = density
     # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
@@ -220,37 +247,43 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     load = state[0]
     entrainment = signed_entrainment(state[1], state[2])
     times = maps.film_slip[interface, class_of(FILM_EDGES, film / contact.roughness)]
-    span = sample.time - sample.since
     root = load ** (1.0 / 3.0)
     across = patch.across * root
     line = sample.lines[interface]
     width = 2.0 * patch.half_length / STATIONS
     node = film_node(contact.chords, film)
-    boundary = 0.75 * patch.boundary_friction * max(share, LEAST_SHARE) * load / across
-    passed = (span if sample.at.elastic_load > 0.0 else 0.0, passes, entrainment)
+    # Divisions take as long as all else of a station: what is the same in all is divided once.
+    per_square = 1.0 / (across * across)
+    per_width = 1.0 / width
+    per_full_slip = 1.0 / patch.full_slip
+    middle_load = 0.75 * load / across
+    middle_power = 0.75 * sample.at.power[interface] / across
+    boundary = patch.boundary_friction * max(share, LEAST_SHARE) * middle_load
+    time = (sample.time - sample.since) * sample.under_load / STATIONS
+    passed = (time, passes * sample.under_load / STATIONS, 1.0 / entrainment)
     densest = 0.0
     fastest = 0.0
     begin_along(along)
     for k in range(STATIONS):
-        station, covered = _covered(k, width, patch.half_length, line[0], across)
+        station, covered = _covered(k, width, per_width, patch.half_length, line[0], across)
         if covered < 1e-6:
             leave_station(along, k)
             continue
-        height = 1.0 - (station - line[0]) * (station - line[0]) / (across * across)
+        height = 1.0 - (station - line[0]) * (station - line[0]) * per_square
         local = _parabola(line, 1, station)
-        speed = math.hypot(local, _parabola(line, 4, station))
+        across_rolling = _parabola(line, 4, station)
+        speed = math.sqrt(local * local + across_rolling * across_rolling)
         chord = math.sqrt(height)
         half_width = patch.along * root * chord
-        asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
-        per_length = 0.75 * height / across * sample.at.power[interface]
+        asperities = boundary * height * min(speed * per_full_slip, 1.0) * speed
+        of_length = middle_load * height
+        per_length = middle_power * height
         if contact.chorded:
             stress = chord_stress_at(contact.chords, node, patch.pressure * root * chord, speed)
             per_length = (1.0 - share) * 2.0 * half_width * stress * speed + asperities
         elif contact.limit > 0.0:
-            per_length = (1.0 - share) * 0.75 * height / across * load * speed
-            per_length *= _saturating_friction(contact, speed, entrainment)
-            per_length += asperities
-        of_length = 0.75 * height / across * load
+            sliding = _saturating_friction(contact, speed, entrainment) * speed
+            per_length = (1.0 - share) * of_length * sliding + asperities
         booked = Station(
             k, covered, width, of_length, half_width, local, speed, per_length, asperities
         )

@@ -118,8 +118,8 @@ def line_power_along(maps, interface, contact, state, sample, passes, strips, al
     """
     patch = contact.patch
     entrainment = signed_entrainment(state[1], state[2])
-    span = sample.time - sample.since
-    passed = (span if sample.at.elastic_load > 0.0 else 0.0, passes, entrainment)
+    time = (sample.time - sample.since) * sample.under_load / STATIONS
+    passed = (time, passes * sample.under_load / STATIONS, 1.0 / entrainment)
     width = 2.0 * patch.half_length / STATIONS
     densest = 0.0
     fastest = 0.0

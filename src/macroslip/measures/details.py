@@ -14,18 +14,26 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_evaluation, jit_inline, uncounted
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature
 from macroslip.contact.look_up import in_plane, log_speed
 from macroslip.contact.patch import fine_power, patch_power
 from macroslip.contact.strips import PreparedStrips
 from macroslip.elementary import exponential, logarithm
-from macroslip.measures.along import STATIONS, power_along
+from macroslip.measures.along import STATIONS, power_along, uncounted_contact
 from macroslip.measures.along_line import STRIP, line_power_along, strips_along
 from macroslip.measures.extremes import EXTREMES, heat_entries, raise_extremes, sample_cage
 from macroslip.measures.maps import MAPS, PER_ANGLE, spread
-from macroslip.measures.samples import MEMORY, SAMPLE, begin, choose
+from macroslip.measures.samples import (
+    MEMORY,
+    PEAK,
+    PEAKS,
+    SAMPLE,
+    begin,
+    choose,
+    samples_of_peaks,
+)
 from macroslip.measures.totals import RACEWAYS, Batch
 from macroslip.ring.orbit import angle_at
 from macroslip.roller.step import STEP
@@ -36,8 +44,10 @@ if TYPE_CHECKING:
     from macroslip.ring.orbit import Motion
     from macroslip.roller.model import Roller
 
-#: Samples from one evaluation of the quadrature's error to the next; it costs five hundred others.
+#: Samples from one evaluation of the quadrature's error to the next; it costs hundreds of others.
 _FINE = 4096
+#: Record of how power lies along the roller at a peak, behind those of the raceways.
+_PEAK = 4
 
 
 @dataclass(frozen=True)
@@ -102,7 +112,7 @@ def _over(part, total):
     return part / total if total > 0.0 else 0.0
 
 
-@jit_inline
+@jit_evaluation
 def _power_along(maps, interface, contact, state, sample, passes, strips, along):
     """Distribution of power along the roller of either contact: an ellipse has no strips."""
     if len(strips) > 0:
@@ -128,6 +138,62 @@ def _look_up_films(body, tables, sample):
             sample.share[i] = value[1]
 
 
+@jit_evaluation
+def _evaluate(maps, i, contact, state, sample, strips, places, along, extremes):
+    """Evaluate a raceway contact by station, and raise the extremes by its state.
+
+    Extremes are those of the orbit and those of entries into the load zone.
+    """
+    hot = sample.hot[i]
+    hot[0] = 0.0
+    hot[1] = 0.0
+    hot[2] = state[1] - state[2]
+    hot[3] = state[1]
+    if state[0] <= 0.0:
+        return
+    start, end = places
+    passes = abs(end - start) / SECTORS
+    densest, fastest, mean = _power_along(maps, i, contact, state, sample, passes, strips, along)
+    film_ratio = sample.film[i] / contact.roughness
+    raise_extremes(extremes[0], sample.orbit, i, densest, fastest / mean, film_ratio)
+    if sample.entry > 0:
+        slip = math.hypot(sample.lines[i, 1], sample.lines[i, 4])
+        raise_extremes(extremes[1], sample.orbit, i, densest, slip / mean, film_ratio)
+    for sector in range(math.floor(min(start, end)), math.floor(max(start, end)) + 1):
+        of_sector = maps.surface_density[i, int(sector % SECTORS)]
+        for k in range(STATIONS):
+            of_sector[k] = max(of_sector[k], along.density[k])
+
+
+@jit_evaluation
+def _distribute(maps, i, load, sample, places, before, after):
+    """Distribute the energies since the sample before over the maps of a raceway."""
+    # As power lay, or lies, where it is known only once.
+    late = 0.0
+    late_rough = 0.0
+    if load > 0.0:
+        late = sample.mean_time[i] if before.total > 0.0 else 1.0
+        late_rough = sample.mean_time[i] if before.rough_total > 0.0 else 1.0
+    half_span = 0.5 * (sample.time - sample.since)
+    spent = (
+        _over((1.0 - late) * sample.energy[i], before.total),
+        _over(late * sample.energy[i], after.total),
+        _over((1.0 - late_rough) * sample.rough[i], before.rough_total),
+        _over(late_rough * sample.rough[i], after.rough_total),
+        half_span,
+        half_span if load > 0.0 else 0.0,
+    )
+    spread(maps, i, places, sample.mean_time[i], spent, before, after)
+    work = half_span * (before.work_total + (after.work_total if load > 0.0 else 0.0))
+    maps.working_load[i, 0] += work * load
+    maps.working_load[i, 1] += work
+    if load > 0.0:
+        maps.last[i] = 1 - maps.last[i]
+    else:
+        before.work[:] = 0.0
+        before.work_total = 0.0
+
+
 @jit
 def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extreme, entry_extreme):
     """Distribute the energies of samples over the maps, and update the extremes.
@@ -136,10 +202,13 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
     raceway and station; an ellipse has none.
     """
     body, tables = roller
+    samples = uncounted(samples)  # pyright: ignore[reportCallIssue]
+    strips = uncounted(strips)  # pyright: ignore[reportCallIssue]
+    extremes = uncounted(extreme), uncounted(entry_extreme)  # pyright: ignore[reportCallIssue]
+    inner, outer = uncounted_contact(contacts[0]), uncounted_contact(contacts[1])
     for n in range(samples.size):
         sample = samples[n]
         at = sample.at
-        span = sample.time - sample.since
         _look_up_films(body, tables, sample)
         states = (
             (at.inner_load, at.inner_speed, at.inner_slip),
@@ -147,55 +216,29 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
         )
         for i in range(2):
             ratio = body.orbit_ratio - (1.0 if i == 0 else 0.0)
-            load = states[i][0]
-            start = (start_angle + ratio * sample.turned[0] + sample.ahead[0]) * PER_ANGLE
-            end = (start_angle + ratio * sample.turned[1] + sample.ahead[1]) * PER_ANGLE
-            hot = sample.hot[i]
-            last = maps.last[i]
-            hot[0] = 0.0
-            hot[1] = 1.0
-            hot[2] = states[i][1] - states[i][2]
-            hot[3] = states[i][1]
-            before = maps.along[2 * i + last]
-            after = maps.along[2 * i + 1 - last]
-            # As power lay, or lies, where it is known only once.
-            late = 0.0
-            late_rough = 0.0
-            if load > 0.0:
-                passes = abs(end - start) / SECTORS
-                densest, fastest, mean = _power_along(
-                    maps, i, contacts[i], states[i], sample, passes, strips[n, i], after
-                )
-                film_ratio = sample.film[i] / contacts[i].roughness
-                raise_extremes(extreme, sample.orbit, i, densest, fastest / mean, film_ratio)
-                if sample.entry > 0:
-                    slip = math.hypot(sample.lines[i, 1], sample.lines[i, 4])
-                    raise_extremes(entry_extreme, sample.orbit, i, densest, slip / mean, film_ratio)
-                for sector in range(math.floor(min(start, end)), math.floor(max(start, end)) + 1):
-                    of_sector = maps.surface_density[i, int(sector % SECTORS)]
-                    for k in range(STATIONS):
-                        of_sector[k] = max(of_sector[k], after.density[k])
-                late = sample.mean_time[i] if before.total > 0.0 else 1.0
-                late_rough = sample.mean_time[i] if before.rough_total > 0.0 else 1.0
-            work_after = after.work_total if load > 0.0 else 0.0
-            spent = (
-                _over((1.0 - late) * sample.energy[i], before.total),
-                _over(late * sample.energy[i], after.total),
-                _over((1.0 - late_rough) * sample.rough[i], before.rough_total),
-                _over(late_rough * sample.rough[i], after.rough_total),
-                0.5 * span,
-                0.5 * span if load > 0.0 else 0.0,
+            places = (
+                (start_angle + ratio * sample.turned[0] + sample.ahead[0]) * PER_ANGLE,
+                (start_angle + ratio * sample.turned[1] + sample.ahead[1]) * PER_ANGLE,
             )
-            spread(maps, i, (start, end), sample.mean_time[i], spent, before, after)
-            work = 0.5 * span * (before.work_total + work_after)
-            maps.working_load[i, 0] += work * load
-            maps.working_load[i, 1] += work
-            if load > 0.0:
-                maps.last[i] = 1 - last
-            else:
-                before.work[:] = 0.0
-                before.work_total = 0.0
-        sample_cage(body, tables, contacts[2], sample, extreme)
+            last = maps.last[i]
+            # A peak stands beside the samples between which energies are distributed.
+            is_peak = sample.number < 0
+            after = maps.along[_PEAK if is_peak else 2 * i + 1 - last]
+            _evaluate(
+                maps,
+                i,
+                inner if i == 0 else outer,
+                states[i],
+                sample,
+                strips[n, i],
+                places,
+                after,
+                extremes,
+            )
+            if not is_peak:
+                before = maps.along[2 * i + last]
+                _distribute(maps, i, states[i][0], sample, places, before, after)
+        sample_cage(body, tables, contacts[2], sample, extremes[0])
 
 
 class ContactSampler:
@@ -225,6 +268,9 @@ class ContactSampler:
         self._skew = skew
         self._last = np.zeros(1, STEP)
         self._samples = Batch(SAMPLE)
+        self._peaks = np.zeros((wanted.edges.size - 1, PEAKS), PEAK)
+        #: Samples at which the quadrature is checked.
+        self._checked: list[np.ndarray] = []
         #: Rows for `heat_entries` of the entry under way.
         self._entering = np.zeros((0, 11))
 
@@ -235,9 +281,8 @@ class ContactSampler:
         memory = self.details.memory[0]
         radius = float(self._roller.body[0]["outer_radius"])
         details = self.details
-        self._samples.count += choose(
-            steps, j, details.edges, details.entries, memory, radius, self._spacing, samples
-        )
+        orbits = details.edges, details.entries, self._peaks
+        self._samples.count += choose(steps, j, orbits, memory, radius, self._spacing, samples)
 
     def finish(self) -> None:
         """Distribute the energies since the last sample."""
@@ -251,7 +296,9 @@ class ContactSampler:
             begin(sample, memory, last)
             self._samples.count += 1
         self._samples.empty(self._sample)
+        self._sample(samples_of_peaks(self._peaks))
         self._heat(self._entering)
+        self._check_quadrature()
 
     def _sample(self, samples: np.ndarray) -> None:
         """Sample the contacts."""
@@ -296,7 +343,7 @@ class ContactSampler:
         under_way = int(np.searchsorted(rows[:, 0], rows[-1, 0])) if rows.size else 0
         self._heat(rows[:under_way])
         self._entering = rows[under_way:]
-        self._check_quadrature(samples)
+        self._checked.append(samples[samples["number"] % _FINE == 0])
 
     def _strips(self, at: np.ndarray) -> np.ndarray:
         """Strips of line contacts, of `STRIP` and shape (samples, 2, STATIONS); of ellipses none."""
@@ -313,23 +360,24 @@ class ContactSampler:
 
     def _heat(self, rows: np.ndarray) -> None:
         """Compute the largest temperatures of the raceways in finished load-zone entries."""
-        heat_entries(rows, self._contacts[0].effusivity, self.details.entry_extreme)
+        columns = np.ascontiguousarray(rows.T)
+        heat_entries(columns, self._contacts[0].effusivity, self.details.entry_extreme)
 
-    def _check_quadrature(self, samples: np.ndarray) -> None:
+    def _check_quadrature(self) -> None:
         """Compare the power of some samples with that of a much finer quadrature."""
-        for sample in samples[samples["number"] % _FINE == 0]:
-            for i, name in enumerate(RACEWAYS):
-                law: PreparedContact = getattr(self._laws, name)
-                load, ring_speed, slip = (
-                    float(sample["at"][f"{name}_{field}"]) for field in ("load", "speed", "slip")
-                )
-                if load <= 0.0 or not law.shape.microslip or law.fluid is None:
-                    continue
-                # The rule of strips is not that of an ellipse; tests compare it with a finer one.
-                if isinstance(law, PreparedStrips):
-                    continue
-                state = (load, float(sample["film"][i]), ring_speed, slip)
-                span = sample["time"] - sample["since"]
-                used = patch_power(self._contacts[i].patch, self._contacts[i].chords, *state)
-                fine = fine_power(self._contacts[i].patch, law.fluid, *state)
-                self.details.quadrature[i] += span * fine, span * abs(used - fine)
+        samples = np.concatenate(self._checked)
+        span = samples["time"] - samples["since"]
+        for i, name in enumerate(RACEWAYS):
+            law: PreparedContact = getattr(self._laws, name)
+            # The rule of strips is not that of an ellipse; tests compare it with a finer one.
+            if isinstance(law, PreparedStrips) or not law.shape.microslip or law.fluid is None:
+                continue
+            at = samples["at"]
+            loaded = at[f"{name}_load"] > 0.0
+            load, ring_speed, slip = (
+                at[f"{name}_{field}"][loaded] for field in ("load", "speed", "slip")
+            )
+            state = load, samples["film"][loaded, i], ring_speed, slip
+            used = patch_power(self._contacts[i].patch, self._contacts[i].chords, *state)
+            fine = fine_power(self._contacts[i].patch, law.fluid, *state)
+            self.details.quadrature[i] += span[loaded] @ fine, span[loaded] @ np.abs(used - fine)

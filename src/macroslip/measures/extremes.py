@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
-
-import numpy as np
-
-from macroslip.compiled import jit_inline
+from macroslip.compiled import jit, jit_inline
 from macroslip.contact.flash import transient_flash
 from macroslip.contact.look_up import log_speed
 from macroslip.mechanics.cage import cage_friction
@@ -79,18 +75,35 @@ def sample_cage(body, tables, contact, sample, extreme):
         )
 
 
-def heat_entries(rows: np.ndarray, effusivity: float, extreme: np.ndarray) -> None:
+@jit
+def heat_entries(rows, effusivity, extreme):
     """Update the largest temperatures of load-zone entries [K].
 
-    Rows have entry, orbit, time [s] and, by raceway, what is hottest as `SAMPLE` has it.
+    Parameters
+    ----------
+    rows : ndarray, shape (11, samples)
+        Entry, orbit, time [s] and, by raceway, what is hottest as `SAMPLE` has it.
+    effusivity : float
+        Of the steel [J/(m² K √s)].
+    extreme : ndarray
+        As of `raise_extremes`; the temperature is raised.
     """
-    columns = np.ascontiguousarray(rows.T)
-    edges = np.flatnonzero(np.diff(columns[0], prepend=0.0, append=0.0))
-    for first, last in itertools.pairwise(edges):
-        orbit = int(columns[1, first])
-        if orbit < 0:
+    first = 0
+    for last in range(1, rows.shape[1] + 1):
+        if last < rows.shape[1] and rows[0, last] == rows[0, first]:
             continue
-        for i in range(2):
-            band = (columns[3 + 4 * i + k, first:last] for k in range(4))
-            rise = transient_flash(columns[2, first:last], *band, effusivity, effusivity)
-            extreme[orbit, i, 0] = max(extreme[orbit, i, 0], rise)
+        orbit = int(rows[1, first])
+        if orbit >= 0:
+            for i in range(2):
+                band = rows[3 + 4 * i : 7 + 4 * i, first:last]
+                rise = transient_flash(
+                    rows[2, first:last],
+                    band[0],
+                    band[1],
+                    band[2],
+                    band[3],
+                    effusivity,
+                    effusivity,
+                )
+                extreme[orbit, i, 0] = max(extreme[orbit, i, 0], rise)
+        first = last

@@ -46,8 +46,8 @@ MAPS = np.dtype(
         # By raceway, class of Λ and of the slide-roll ratio: time under load times the part of the
         # length [s]; passes [-].
         ("film_slip", "f8", (2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1, 2)),
-        # How power lies along the roller, two records a raceway.
-        ("along", ALONG, (4,)),
+        # How power lies along the roller: two records a raceway, and one for the peaks.
+        ("along", ALONG, (5,)),
         # Which of the two, by raceway, is of the last sample with load.
         ("last", "i8", (2,)),
     ]

@@ -1,8 +1,10 @@
 """Samples of the contacts of a roller: when they are taken, and their record.
 
-A sample is an evaluation of a contact by station. It is taken where its power has changed, a
-value is a new highest one, or some way has been travelled: at every step it would cost more than
-the forces. Between two samples the energies of the raceways are kept, and when they were spent.
+A sample is an evaluation of a contact by station. It is taken where its power has changed or some
+way has been travelled: at every step it would cost more than the forces. Between two samples the
+energies of the raceways are kept, and when they were spent. The states in which power per area, the
+cage's power and the slide-roll ratio are the highest of an orbit are kept too, and are samples of
+their own when the orbit has ended.
 """
 
 from __future__ import annotations
@@ -19,15 +21,33 @@ from macroslip.mechanics.speeds import signed_entrainment
 #: this part of the speed, or for this way [rad].
 _SETTLED = 0.01
 _ENTRY = 0.35
-#: A roller's contacts are sampled after a change of a raceway's power by this part of the largest
-#: sample in its orbit, a rise of its power per area, of the cage's power or of the slide-roll ratio
-#: above the highest there by this part, and in any case after this way [rad]. On 14B and 24A over
-#: 600 s, against samples at every step: extremes at the raceways are low by 0.5 % on average and
-#: 18 % at most, and up to 0.5 % of the energy lies at other stations.
-_CHANGE = 0.1
+#: A roller's contacts are sampled after a change of a raceway's power by this part of the largest in
+#: this orbit or the one before, or of the largest since the roller began to enter the load zone;
+#: after a rise of its power per area by this part above the highest sample in the orbit, once that
+#: is half of what it was in the orbit before; and in any case after this way [rad], or after so many
+#: times the step that ended in a sample: what changes fast takes short steps.
+_CHANGE = 0.07
+_CHANGE_ENTERING = 0.02
 _RISE = 0.03
-_TURN = 0.35
+_TURN = 0.15
+_STEPS = 8.0
 
+#: What is the highest in an orbit at a peak: powers of the three interfaces, slide-roll ratio, and
+#: power per area at both raceways while the rings press the roller: between films it is not their
+#: power over the contact's area.
+PEAKS = 6
+#: The state in which one of them is the highest in its orbit.
+PEAK = np.dtype(
+    [
+        # Power [W], over load^(2/3) [W/N^(2/3)], or ratio [-]; 0 before the first.
+        ("value", "f8"),
+        # Time [s].
+        ("time", "f8"),
+        # Angle of the roller ahead of pure rolling [rad].
+        ("ahead", "f8"),
+        ("at", END),
+    ]
+)
 #: State from sample to sample of the contacts.
 MEMORY = np.dtype(
     [
@@ -37,23 +57,31 @@ MEMORY = np.dtype(
         ("orbit", "i8"),
         # Time of the last sample [s]; NaN before the first.
         ("time", "f8"),
+        # Length of the step that ended in it [s].
+        ("length", "f8"),
         # Angle of the roller ahead of pure rolling at the last sample [rad].
         ("ahead", "f8"),
         # Power at the raceways at the last sample [W].
         ("power", "f8", (2,)),
-        # Highest values in the orbit: powers of the three interfaces [W], power over load^(2/3) at
-        # both raceways [W/N^(2/3)], and slide-roll ratio [-].
-        ("highest", "f8", (6,)),
+        # Highest power at the raceways in the orbit before and in this one [W].
+        ("highest", "f8", (2, 2)),
+        # Highest power over load^(2/3) under the rings' load in both, and at samples in this one
+        # [W/N^(2/3)].
+        ("densest", "f8", (3, 2)),
         # Energy since the last sample by raceway [J].
         ("energy", "f8", (2,)),
         # Moment of that energy about the time of the last sample [J s].
         ("moment", "f8", (2,)),
         # Part of asperities in that energy [J].
         ("rough", "f8", (2,)),
+        # Time since the last sample in which the rings pressed the roller [s].
+        ("under_load", "f8"),
         # Elastic load at the end of the last step [N]; NaN before the first.
         ("pressed", "f8"),
         # Number of the entry into the load zone under way; 0 for none.
         ("entry", "i8"),
+        # Highest power at the raceways in it [W].
+        ("entering", "f8", (2,)),
         # Number of entries so far.
         ("entries", "i8"),
         # When the entry under way began [s].
@@ -83,6 +111,8 @@ SAMPLE = np.dtype(
         ("mean_time", "f8", (2,)),
         # Part of asperities in that energy [J].
         ("rough", "f8", (2,)),
+        # Part of the time since the sample before in which the rings pressed the roller [-].
+        ("under_load", "f8"),
         # State at the sample.
         ("at", END),
         # Film thickness by interface [m].
@@ -100,61 +130,86 @@ SAMPLE = np.dtype(
 
 
 @jit_inline
-def _density(power, load):
-    return power * load ** (-2.0 / 3.0) if load > 0.0 else 0.0
+def _density(power, load, elastic_load):
+    return power * load ** (-2.0 / 3.0) if elastic_load > 0.0 else 0.0
 
 
 @jit_inline
-def _compared(step, last):
-    """Values of a step that decide whether a new sample is due."""
+def _densities(step, last):
+    """Power over load^(2/3) at both raceways under the rings' load [W/N^(2/3)]."""
     power = step.power[last]
-    speed = step.outer_speed[last]
-    slip = step.outer_slip[last]
-    inner = _density(power[0], step.inner_load[last])
-    outer = _density(power[1], step.outer_load[last])
+    elastic_load = step.elastic_load[last]
     return (
-        power[0],
-        power[1],
-        power[2],
-        inner,
-        outer,
-        abs(slip / signed_entrainment(speed, slip)),
+        _density(power[0], step.inner_load[last], elastic_load),
+        _density(power[1], step.outer_load[last], elastic_load),
     )
 
 
 @jit_inline
-def _is_due(step, last, memory, outer_radius, spacing):
-    """True if a new sample is due.
+def _keep_peaks(step, last, densities, peaks):
+    """Keep the state at the end of a step where a value is the highest in the orbit."""
+    power = step.power[last]
+    slip = step.outer_slip[last]
+    values = (
+        power[0],
+        power[1],
+        power[2],
+        abs(slip / signed_entrainment(step.outer_speed[last], slip)),
+        densities[0],
+        densities[1],
+    )
+    for i in range(PEAKS):
+        peak = peaks[i]
+        if values[i] > peak.value:
+            peak.value = values[i]
+            peak.time = step.end
+            peak.ahead = step.ahead
+            write_end(step, peak.at)
 
-    It is after enough way, enough change of power, or at a new highest value.
-    """
-    highest = memory.highest
-    values = _compared(step, last)
-    change = _CHANGE * spacing
-    rise = 1.0 + _RISE * spacing
-    due = abs(step.outer_speed[last]) * (step.end - memory.time) >= _TURN * spacing * outer_radius
+
+@jit_inline
+def _raise(step, last, densities, orbit, memory):
+    """Raise the highest values of the orbit, and begin anew where another one begins."""
     for i in range(2):
-        due = due or abs(values[i] - memory.power[i]) > change * highest[i]
-    for i in range(2, 6):
-        due = due or values[i] > rise * highest[i]
+        if orbit != memory.orbit:
+            memory.highest[0, i] = memory.highest[1, i]
+            memory.highest[1, i] = 0.0
+            memory.densest[0, i] = memory.densest[1, i]
+            memory.densest[1, i] = 0.0
+            memory.densest[2, i] = 0.0
+        memory.highest[1, i] = max(memory.highest[1, i], step.power[last, i])
+        memory.densest[1, i] = max(memory.densest[1, i], densities[i])
+    memory.orbit = orbit
+
+
+@jit_inline
+def _is_due(step, last, densities, memory, outer_radius, spacing):
+    """True if a new sample is due, after enough way, time or change of power."""
+    time = step.end - memory.time
+    due = abs(step.outer_speed[last]) * time >= _TURN * spacing * outer_radius
+    due = due or time > _STEPS * memory.length
+    for i in range(2):
+        change = abs(step.power[last, i] - memory.power[i])
+        highest = max(memory.highest[0, i], memory.highest[1, i])
+        due = due or change > _CHANGE * spacing * highest
+        if memory.entry > 0:
+            due = due or change > _CHANGE_ENTERING * spacing * memory.entering[i]
+        if densities[i] > 0.5 * memory.densest[0, i]:
+            due = due or densities[i] > (1.0 + _RISE * spacing) * memory.densest[2, i]
     return due
 
 
 @jit_inline
-def _remember(step, last, orbit, memory):
-    """Keep the values that decide when the next sample is due."""
-    values = _compared(step, last)
-    highest = memory.highest
-    if orbit != memory.orbit:
-        highest[:] = 0.0
-    for i in range(6):
-        highest[i] = max(highest[i], values[i])
+def _remember(step, last, densities, memory):
+    """Keep what decides when the next sample is due."""
     memory.count = memory.count + 1
-    memory.orbit = orbit
     memory.time = step.end
+    memory.length = step.end - step.start
     memory.ahead = step.ahead
+    memory.under_load = 0.0
     for i in range(2):
-        memory.power[i] = values[i]
+        memory.power[i] = step.power[last, i]
+        memory.densest[2, i] = max(memory.densest[2, i], densities[i])
         memory.energy[i] = 0.0
         memory.moment[i] = 0.0
         memory.rough[i] = 0.0
@@ -169,6 +224,7 @@ def _enter(step, last, memory, outer_radius):
         memory.entries = memory.entries + 1
         memory.since = step.start
         memory.entry = memory.entries
+        memory.entering[:] = 0.0
     elif memory.entry > 0:
         slip = max(abs(step.inner_slip[last]), abs(step.outer_slip[last]))
         settled = (
@@ -178,10 +234,13 @@ def _enter(step, last, memory, outer_radius):
         if settled or load <= 0.0:
             memory.entry = 0
     memory.pressed = load
+    if memory.entry > 0:
+        for i in range(2):
+            memory.entering[i] = max(memory.entering[i], step.power[last, i])
 
 
 @jit
-def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
+def choose(steps, j, orbits, memory, outer_radius, spacing, samples):
     """Begin the samples that are due in a buffer of steps.
 
     Parameters
@@ -189,10 +248,9 @@ def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
     steps : ndarray of `macroslip.roller.step.STEP`, shape (n, rollers)
     j : int
         Number of the roller.
-    edges : ndarray
-        Start of the window and ends of its complete orbits [s].
-    entries : ndarray
-        Entries into the load zone by orbit; those of the buffer are added.
+    orbits : tuple of ndarray
+        Start of the window and ends of its complete orbits [s]; entries into the load zone by orbit,
+        to which those of the buffer are added; and peaks by orbit, of `PEAK`, which are raised.
     memory : record of `MEMORY`
         State from sample to sample.
     outer_radius : float
@@ -207,6 +265,7 @@ def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
     int
         Number of samples.
     """
+    edges, entries, peaks = orbits
     count = 0
     for n in range(steps.shape[0]):
         step = steps[n, j]
@@ -216,6 +275,9 @@ def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
             memory.time = step.start
             memory.ahead = step.ahead
         middle = 0.5 * (step.start + step.end)
+        last = step.stages - 1
+        if step.elastic_load[last] > 0.0:
+            memory.under_load += step.end - step.start
         for i in range(2):
             energy = 0.0
             for k in range(step.stages):
@@ -224,22 +286,25 @@ def choose(steps, j, edges, entries, memory, outer_radius, spacing, samples):
             memory.energy[i] += energy
             memory.moment[i] += energy * (middle - memory.time)
         orbit = orbit_at(edges, middle, memory.orbit)
-        last = step.stages - 1
         known = memory.entries
+        entering = memory.entry
         _enter(step, last, memory, outer_radius)
+        changes = memory.entry != entering
+        densities = _densities(step, last)
         if orbit >= 0:
             entries[orbit] += memory.entries - known
-        # While a roller enters, at every step.
-        if (
-            memory.entry > 0
-            or orbit != memory.orbit
-            or _is_due(step, last, memory, outer_radius, spacing)
-        ):
+            _keep_peaks(step, last, densities, peaks[orbit])
+        changes = changes or orbit != memory.orbit
+        _raise(step, last, densities, orbit, memory)
+        if changes or _is_due(step, last, densities, memory, outer_radius, spacing):
             sample = samples[count]
             sample.orbit = orbit
             sample.number = memory.count
             begin(sample, memory, step)
-            _remember(step, last, orbit, memory)
+            # The step with which an entry ends belongs to it.
+            if memory.entry == 0:
+                sample.entry = entering
+            _remember(step, last, densities, memory)
             count += 1
     return count
 
@@ -252,9 +317,35 @@ def begin(sample, memory, step):
     sample.entry = memory.entry
     sample.ahead[0] = memory.ahead
     sample.ahead[1] = step.ahead
+    span = step.end - memory.time
+    sample.under_load = memory.under_load / span if span > 0.0 else 0.0
     for i in range(2):
-        kept = memory.energy[i] * (step.end - memory.time)
+        kept = memory.energy[i] * span
         sample.energy[i] = memory.energy[i]
         sample.rough[i] = memory.rough[i]
         sample.mean_time[i] = min(max(memory.moment[i] / kept, 0.0), 1.0) if kept > 0.0 else 0.5
     write_end(step, sample.at)
+
+
+def samples_of_peaks(peaks: np.ndarray) -> np.ndarray:
+    """Samples without energies of the states in which a value was the highest of its orbit.
+
+    Parameters
+    ----------
+    peaks : ndarray of `PEAK`, shape (orbits, PEAKS)
+
+    Returns
+    -------
+    ndarray of `SAMPLE`
+        With a negative number; one of peaks that coincide.
+    """
+    orbit, which = np.nonzero(peaks["value"] > 0.0)
+    _, first = np.unique(peaks["time"][orbit, which], return_index=True)
+    orbit, which = orbit[first], which[first]
+    samples = np.zeros(orbit.size, SAMPLE)
+    samples["orbit"] = orbit
+    samples["number"] = -1
+    samples["since"] = samples["time"] = peaks["time"][orbit, which]
+    samples["ahead"] = peaks["ahead"][orbit, which][:, None]
+    samples["at"] = peaks["at"][orbit, which]
+    return samples
