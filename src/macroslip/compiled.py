@@ -28,7 +28,7 @@ from macroslip.storage.waiting import COMPILING, tell
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 #: Functions that a first case compiles, nearly the same of every model. A whole bearing has its own.
-_ABOUT = {"imposed": 175, "whole": 190}
+_ABOUT = {"imposed": 170, "whole": 160}
 
 
 #: Held while the address of a function is looked up or the function compiled for it.
@@ -108,12 +108,20 @@ def _is_kept(dispatcher: Any, folder: Path) -> bool:
     return path is not None and Path(path).is_relative_to(folder)
 
 
+def _argument_type(argument: np.dtype | type) -> numba.types.Type:
+    """Type that an argument has in compiled functions."""
+    if isinstance(argument, np.dtype):
+        return numba.from_dtype(argument)
+    numbers = {int: numba.types.int64, float: numba.types.float64}
+    if argument in numbers:
+        return numbers[argument]
+    return numba.types.NamedUniTuple(numba.types.float64, len(argument._fields), argument)
+
+
 @functools.cache
 def _c_function(dispatcher: Any, arguments: tuple[np.dtype | type, ...]) -> Any:
     """A compiled function with the calling convention of C, compiled now or read from the disk."""
-    numbers = {int: numba.types.int64, float: numba.types.float64}
-    types = [numbers[x] if isinstance(x, type) else numba.from_dtype(x) for x in arguments]
-    signature = numba.types.void(*types)
+    signature = numba.types.void(*map(_argument_type, arguments))
     folder = kernel_folder()
     if folder is not None and _is_kept(dispatcher, folder):
         with _kept_in(folder):
@@ -133,7 +141,7 @@ def address_of(dispatcher: Any, *arguments: np.dtype | type) -> int:
     dispatcher : numba dispatcher
         A function compiled by `jit` that returns nothing.
     *arguments : dtype or type
-        Types of its arguments: the dtype of a record, `int` or `float`.
+        Types of its arguments: the dtype of a record, `int`, `float`, or a named tuple of floats.
 
     Returns
     -------

@@ -370,6 +370,7 @@ def integrate(path, stops, classes, work, steps):
     """
     path = Path(
         path.body,
+        path.conditions,
         path.forces,
         path.tables,
         uncounted(path.flat),  # pyright: ignore[reportCallIssue]

@@ -8,7 +8,7 @@ import numpy as np
 
 from macroslip.compiled import address_of, call_at, jit_inline
 from macroslip.mechanics.spin import CONDITIONS, FORCES, powers, slip_forces, write_conditions
-from macroslip.ring.orbit import Motion, instant
+from macroslip.ring.orbit import Instant, Motion, instant
 from macroslip.roller.model import BODY, Roller
 from macroslip.roller.step import write_stage
 
@@ -17,7 +17,9 @@ class Path(NamedTuple):
     """A roller on its orbit: its numbers, tables, the ring's motion and integration settings."""
 
     body: Any  #: Record of a roller
-    #: Address of `slip_forces`: half of all machine code would else be copies of it.
+    #: Addresses of `write_conditions` and `slip_forces`: most machine code would else be copies of
+    #: them.
+    conditions: int
     forces: int
     #: Address of the flat array of its tables: an array would be counted at every look-up
     tables: int
@@ -165,6 +167,7 @@ def path_of(roller: Roller, motion: Motion, start_angle: float, limits: Any) -> 
     tables = roller.tables
     return Path(
         roller.body[0],
+        address_of(write_conditions, BODY, int, float, Instant, CONDITIONS),
         address_of(slip_forces, BODY, int, CONDITIONS, float, FORCES),
         tables.ctypes.data,
         tables,
@@ -188,9 +191,8 @@ def locate(path, time, interval, at):
     at : record of `macroslip.mechanics.spin.CONDITIONS`
         Is written; its film balance is where the search for the new one begins.
     """
-    write_conditions(
-        path.body, path.tables, path.start_angle, instant(path.motion, interval, time), at
-    )
+    now = instant(path.motion, interval, time)
+    call_at(path.conditions, (path.body, path.tables, path.start_angle, now, at))  # pyright: ignore[reportCallIssue]
 
 
 @jit_inline
