@@ -114,10 +114,13 @@ def _over(part, total):
 
 @jit_evaluation
 def _power_along(maps, interface, contact, state, sample, passes, strips, along):
-    """Distribution of power along the roller of either contact: an ellipse has no strips."""
-    if len(strips) > 0:
-        return line_power_along(maps, interface, contact, state, sample, passes, strips, along)
-    return power_along(maps, interface, contact, state, sample, passes, along)
+    """Distribution of power along the roller of either contact: the strips of an ellipse are None.
+
+    Of the two only the one that the type of the strips asks for is compiled.
+    """
+    if strips is None:
+        return power_along(maps, interface, contact, state, sample, passes, along)
+    return line_power_along(maps, interface, contact, state, sample, passes, strips, along)
 
 
 @jit_inline
@@ -199,11 +202,10 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
     """Distribute the energies of samples over the maps, and update the extremes.
 
     What is hottest is written to the samples. Strips are those of line contacts, over sample,
-    raceway and station; an ellipse has none.
+    raceway and station; those of ellipses are None.
     """
     body, tables = roller
     samples = uncounted(samples)  # pyright: ignore[reportCallIssue]
-    strips = uncounted(strips)  # pyright: ignore[reportCallIssue]
     extremes = uncounted(extreme), uncounted(entry_extreme)  # pyright: ignore[reportCallIssue]
     inner, outer = uncounted_contact(contacts[0]), uncounted_contact(contacts[1])
     for n in range(samples.size):
@@ -230,7 +232,7 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
                 inner if i == 0 else outer,
                 states[i],
                 sample,
-                strips[n, i],
+                None if strips is None else uncounted(strips)[n, i],  # pyright: ignore[reportCallIssue]
                 places,
                 after,
                 extremes,
@@ -345,13 +347,12 @@ class ContactSampler:
         self._entering = rows[under_way:]
         self._checked.append(samples[samples["number"] % _FINE == 0])
 
-    def _strips(self, at: np.ndarray) -> np.ndarray:
+    def _strips(self, at: np.ndarray) -> np.ndarray | None:
         """Strips of line contacts, of `STRIP` and shape (samples, 2, STATIONS); of ellipses none."""
         laws = self._laws.inner, self._laws.outer
-        along_line = isinstance(laws[0], PreparedStrips)
-        strips = np.zeros((at.size, len(RACEWAYS), STATIONS if along_line else 0), STRIP)
-        if not along_line:
-            return strips
+        if not isinstance(laws[0], PreparedStrips):
+            return None
+        strips = np.zeros((at.size, len(RACEWAYS), STATIONS), STRIP)
         for i, (name, law) in enumerate(zip(RACEWAYS, laws, strict=True)):
             loaded = at[f"{name}_load"] > 0.0
             state = (at[f"{name}_{field}"][loaded] for field in ("load", "speed", "slip"))
