@@ -53,14 +53,14 @@ def relaxation_rate(body, tables, load, ring_speed):
     normal = contact_load(load)
     for _ in range(20):
         speeds = contact_speeds(ring_speed, slip, body.closed_form)
-        at_inner = raceway_state(body.inner, tables, body.closed_form, normal, speeds)
-        at_outer = raceway_state(body.outer, tables, body.closed_form, normal, speeds)
-        inner_film = raceway_traction(body.inner, tables, body.closed_form, at_inner, speeds)
-        outer_film = raceway_traction(body.outer, tables, body.closed_form, at_outer, speeds)
-        inner = spin_traction(inner_film)
-        outer = spin_traction(outer_film)
-        residual = inner.force + outer.force
-        slope = inner.by_slip + outer.by_slip
+        residual = 0.0
+        slope = 0.0
+        for law in (body.inner, body.outer):
+            state = raceway_state(law, tables, body.closed_form, normal, speeds)
+            film = raceway_traction(law, tables, body.closed_form, state, speeds)
+            traction = spin_traction(film)
+            residual += traction.force
+            slope += traction.by_slip
         rate = body.mobility * slope
         if residual > 0.0:
             high = slip
@@ -75,22 +75,21 @@ def relaxation_rate(body, tables, load, ring_speed):
     return rate
 
 
-@jit
 def firm_approach(body, tables, ring_speed):
     """Elastic approach [m] above which a roller is firmly held.
 
     It holds for raceway speeds up to `ring_speed` [m/s]. Infinite if no load of the tables holds it
     firmly (a law with bounded slope): then no interval is `FIRM`.
     """
-    firm_rate = tuning.FIRM_RATE_MICROSLIP if body.microslip else tuning.FIRM_RATE
+    firm_rate = tuning.FIRM_RATE_MICROSLIP if body["microslip"] else tuning.FIRM_RATE
     low = 1e-3
-    high = math.inf
-    load = body.highest_load
-    for _ in range(100):
+    high = body["highest_load"]
+    if not relaxation_rate(body, tables, high, ring_speed) >= firm_rate:
+        return math.inf
+    load = math.sqrt(low * high)
+    while low < load < high:
         if relaxation_rate(body, tables, load, ring_speed) >= firm_rate:
             high = load
-        elif high == math.inf:
-            return math.inf
         else:
             low = load
         load = math.sqrt(low * high)

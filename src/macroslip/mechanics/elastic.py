@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from macroslip.compiled import jit_evaluation, jit_inline
+from macroslip.compiled import jit_evaluation
 from macroslip.contact.line_approach import line_approach, line_load
 
 
@@ -40,7 +40,6 @@ def elastic_load(body, approach):
     return body.stiffness * approach * math.sqrt(approach)
 
 
-@jit_inline
 def approach_under_load(body, load):
     """Elastic approach of both raceway contacts in series under a load, δ = (Q/K)^(2/3) of ellipses.
 
@@ -57,11 +56,11 @@ def approach_under_load(body, load):
 
     Examples
     --------
-    >>> from types import SimpleNamespace
-    >>> body = SimpleNamespace(line_stiffness=0.0, compliance=1e11 ** (-2 / 3))
+    >>> body = {"line_stiffness": 0.0, "compliance": 1e11 ** (-2 / 3)}
     >>> round(approach_under_load(body, 1e5), 12)
     0.0001
     """
-    if body.line_stiffness > 0.0:
-        return line_approach(body.line_stiffness, body.profile_depth, math.log(load)).approach
-    return body.compliance * load ** (2.0 / 3.0)
+    if body["line_stiffness"] > 0.0:
+        log_load = math.log(load)
+        return line_approach(body["line_stiffness"], body["profile_depth"], log_load).approach
+    return body["compliance"] * load ** (2.0 / 3.0)
