@@ -86,7 +86,7 @@ def _reach(body, outward):
     return body.film_reach[1 if outward < 0.0 else 0, node]
 
 
-@jit
+@jit_inline
 def log_film_balance(body, tables, play, outward, ring_speed, log_q):
     """Load at which the two films of a roller fill the space between the rings, as its logarithm.
 

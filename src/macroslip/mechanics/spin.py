@@ -171,7 +171,7 @@ def slip_forces(body, tables, at, slip, forces):
     forces.rough[2] = cage.asperity_power
 
 
-@jit
+@jit_inline
 def _add_rib(law, tables, at, slip, near, far, forces):
     """Write the friction of the rib; returns the reduction of cage load by rib friction [N].
 
