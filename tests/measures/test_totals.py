@@ -316,6 +316,8 @@ def test_energy_between_two_looks_lies_as_at_both_of_them():
     maps = new_details(EDGES).maps
     before, after = maps["along"][0, 2:4]
     before["power"][3], after["power"][20] = 2.0, 5.0
+    before["first"], before["behind"] = 3, 4
+    after["first"], after["behind"] = 20, 21
     spent = (0.3 * 8.0 / 2.0, 0.7 * 8.0 / 5.0, 0.0, 0.0, 0.0, 0.0)
     spread(maps[0], 1, (0.5, 0.5), 0.7, spent, before, after)
     stations = maps["station_energy"][0, 1]
@@ -352,6 +354,7 @@ def test_energy_lies_where_the_roller_passes(interface, start, end, mean_time):
     details, energy = new_details(EDGES), 8.0
     before, after = details.maps["along"][0, :2]
     after["power"][[3, 10]], after["regime"] = [-2.0, 6.0], 1
+    after["first"], after["behind"] = 3, 11
     spent = (0.0, energy / 8.0, 0.0, 0.0, 0.0, 0.0)
     spread(details.maps[0], interface, (start, end), mean_time, spent, before, after)
     surface = details.surface_energy

@@ -13,6 +13,7 @@ import math
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import contact_load, contact_speeds
+from macroslip.elementary import cosine_and_sine
 from macroslip.imposed import tuning
 from macroslip.mechanics.elastic import approach_under_load
 from macroslip.mechanics.loads import elastic_approach
@@ -119,7 +120,8 @@ def approach_at(body, motion, start_angle, interval, time):
     """
     now = instant(motion, interval, time)
     angle = start_angle + body.orbit_ratio * now.shaft_angle
-    return elastic_approach(body, math.cos(angle), math.sin(angle), now)
+    cosine, sine = cosine_and_sine(angle)
+    return elastic_approach(body, cosine, sine, now)
 
 
 @jit

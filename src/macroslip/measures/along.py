@@ -10,6 +10,7 @@ import numpy as np
 from macroslip.compiled import jit, jit_evaluation, jit_inline, uncounted
 from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
 from macroslip.contact.traction import ChordTable, chord_table
+from macroslip.elementary import exponential, logarithm
 from macroslip.mechanics.speeds import signed_entrainment
 
 if TYPE_CHECKING:
@@ -45,6 +46,9 @@ ALONG = np.dtype(
         ("hottest", "f8"),
         # Film regime: 1 where Λ is 1 and above, 0 below.
         ("regime", "i8"),
+        # First station in contact, and the one behind the last.
+        ("first", "i8"),
+        ("behind", "i8"),
     ]
 )
 
@@ -156,11 +160,13 @@ class Station(NamedTuple):
 
 @jit_inline
 def begin_along(along):
-    """Set the sums over stations to zero."""
+    """Set the sums over stations to zero, before the stations in rising order."""
     along.total = 0.0
     along.rough_total = 0.0
     along.work_total = 0.0
     along.hottest = 0.0
+    along.first = STATIONS
+    along.behind = 0
 
 
 @jit_inline
@@ -190,6 +196,8 @@ def book_station(along, station, hot, times, passed):
         and the reciprocal of the entrainment speed, with its sign [s/m].
     """
     k = station.number
+    along.first = min(along.first, k)
+    along.behind = k + 1
     # Of power only its share of all stations counts; of p |v| its size does.
     along.power[k] = math.copysign(station.power * station.covered, station.slip)
     along.rough[k] = station.asperities * station.covered
@@ -247,7 +255,7 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     load = state[0]
     entrainment = signed_entrainment(state[1], state[2])
     times = maps.film_slip[interface, class_of(FILM_EDGES, film / contact.roughness)]
-    root = load ** (1.0 / 3.0)
+    root = exponential(logarithm(load) / 3.0)
     across = patch.across * root
     line = sample.lines[interface]
     width = 2.0 * patch.half_length / STATIONS

@@ -91,7 +91,8 @@ def spread(maps, interface, way, mean_time, spent, before, after):
     before, after : record of `macroslip.measures.along.ALONG`
         How power lay at the sample before, and lies now.
     """
-    for k in range(STATIONS):
+    stations = range(min(before.first, after.first), max(before.behind, after.behind))
+    for k in stations:
         maps.station_energy[interface, k] += spent[0] * abs(before.power[k]) + spent[1] * abs(
             after.power[k]
         )
@@ -104,7 +105,7 @@ def spread(maps, interface, way, mean_time, spent, before, after):
         rough = maps.surface_asperities[interface, sector]
         work = maps.surface_work[interface, sector]
         maps.surface_passes[interface, sector] += even * abs(way[1] - way[0])
-        for k in range(STATIONS):
+        for k in stations:
             old = before.power[k]
             new = after.power[k]
             energy[k, 1 if old > 0.0 else 0, before.regime] += share * spent[0] * abs(old)

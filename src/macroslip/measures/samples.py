@@ -14,6 +14,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.elementary import exponential, logarithm
 from macroslip.measures.totals import END, orbit_at, write_end
 from macroslip.mechanics.speeds import signed_entrainment
 
@@ -131,7 +132,9 @@ SAMPLE = np.dtype(
 
 @jit_inline
 def _density(power, load, elastic_load):
-    return power * load ** (-2.0 / 3.0) if elastic_load > 0.0 else 0.0
+    if elastic_load <= 0.0:
+        return 0.0
+    return power * exponential(-2.0 / 3.0 * logarithm(load))
 
 
 @jit_inline
