@@ -406,6 +406,8 @@ def test_what_makes_a_look_due(walked):
         assert count({name: few}) == 1 and count({name: many}) == 2, (name, few, many)
     assert count({"power 2": 0.0}) == 1 and count({"outer_slip": 1e-2}) == 1
     assert count({}, turn=0.14) == 1 and count({}, turn=0.16) == 2
+    # A roller that turns back passes the same sectors once more.
+    assert count({"outer_speed": 0.4}) == 2
     # After eight times the step before: a step of 1 ms.
     assert count({}, length=0.13e-3) == 1 and count({}, length=0.12e-3) == 2
     # Closer samples where they are asked for.

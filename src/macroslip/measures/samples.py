@@ -79,6 +79,8 @@ MEMORY = np.dtype(
         ("under_load", "f8"),
         # Elastic load at the end of the last step [N]; NaN before the first.
         ("pressed", "f8"),
+        # Speed u2 of the outer raceway there [m/s].
+        ("speed", "f8"),
         # Number of the entry into the load zone under way; 0 for none.
         ("entry", "i8"),
         # Highest power at the raceways in it [W].
@@ -292,7 +294,9 @@ def choose(steps, j, orbits, memory, outer_radius, spacing, samples):
         known = memory.entries
         entering = memory.entry
         _enter(step, last, memory, outer_radius)
-        changes = memory.entry != entering
+        # A roller that turns back passes the same sectors once more.
+        changes = memory.entry != entering or step.outer_speed[last] * memory.speed < 0.0
+        memory.speed = step.outer_speed[last]
         densities = _densities(step, last)
         if orbit >= 0:
             entries[orbit] += memory.entries - known
