@@ -137,12 +137,11 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_collection_finish():
-    """The collector of garbage leaves alone what stays to the end: modules, and thousands of tests.
+    """The collector of garbage begins less often.
 
-    It would go through all of them again and again, and begins less often for what tests make.
+    It goes through modules and thousands of tests again and again. Frozen they would be left out,
+    but the lowest version of hypothesis then takes its examples for flaky.
     """
-    gc.collect()
-    gc.freeze()
     gc.set_threshold(20_000)
 
 
