@@ -137,11 +137,12 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_collection_finish():
-    """The collector of garbage begins less often.
+    """The collector of garbage leaves alone what stays to the end: modules, and thousands of tests.
 
-    It goes through modules and thousands of tests again and again. Frozen they would be left out,
-    but the lowest version of hypothesis then takes its examples for flaky.
+    It would go through all of them again and again, and begins less often for what tests make.
     """
+    gc.collect()
+    gc.freeze()
     gc.set_threshold(20_000)
 
 
