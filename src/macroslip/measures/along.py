@@ -159,6 +159,27 @@ class Station(NamedTuple):
 
 
 @jit_inline
+def passed_since(sample, passes, entrainment):
+    """What a station passes since the sample before, as `book_station` takes it.
+
+    Parameters
+    ----------
+    sample : record of `macroslip.measures.samples.SAMPLE`
+    passes : float
+        Passes of the roller since the sample before [-].
+    entrainment : float
+        Entrainment speed, with its sign [m/s].
+
+    Returns
+    -------
+    tuple of float
+        Time under load [s] and passes then [-], over the number of stations; 1/entrainment [s/m].
+    """
+    time = (sample.time - sample.since) * sample.under_load / STATIONS
+    return time, passes * sample.under_load / STATIONS, 1.0 / entrainment
+
+
+@jit_inline
 def begin_along(along):
     """Set the sums over stations to zero, before the stations in rising order."""
     along.total = 0.0
@@ -192,8 +213,7 @@ def book_station(along, station, hot, times, passed):
     times : ndarray, shape (classes of slip, 2)
         Times under load [s] and passes [-] of the film's class; the station's are added.
     passed : tuple of float
-        Time under load [s] and passes then [-] since the sample before, over the number of stations;
-        and the reciprocal of the entrainment speed, with its sign [s/m].
+        Of `passed_since`.
     """
     k = station.number
     along.first = min(along.first, k)
@@ -218,6 +238,29 @@ def book_station(along, station, hot, times, passed):
         hot[0] = station.power
         hot[1] = station.half_width
     return density
+
+
+@jit_evaluation
+def _slip(line, station):
+    """Slip along rolling, with its sign, and size of the slip at a station [m], both [m/s]."""
+    along_rolling = _parabola(line, 1, station)
+    across_rolling = _parabola(line, 4, station)
+    size = math.sqrt(along_rolling * along_rolling + across_rolling * across_rolling)
+    return along_rolling, size
+
+
+@jit_evaluation
+def _sheared_power(contact, node, share, half_width, load, pressure, speed, entrainment):
+    """Frictional power per length of the film at a station [W/m].
+
+    The film has the share of the area that asperities leave. Load is per length [N/m], pressure the
+    largest on the chord [Pa]; the oil's table or Kellström's coefficient gives the stress.
+    """
+    if contact.chorded:
+        stress = chord_stress_at(contact.chords, node, pressure, speed)
+        return (1.0 - share) * 2.0 * half_width * stress * speed
+    sliding = _saturating_friction(contact, speed, entrainment) * speed
+    return (1.0 - share) * load * sliding
 
 
 @jit
@@ -250,25 +293,22 @@ def power_along(maps, interface, contact, state, sample, passes, along):
         Entrainment speed, > 0 [m/s].
     """
     patch = contact.patch
-    film = sample.film[interface]
+    node = film_node(contact.chords, sample.film[interface])
     share = sample.share[interface]
-    load = state[0]
     entrainment = signed_entrainment(state[1], state[2])
-    times = maps.film_slip[interface, class_of(FILM_EDGES, film / contact.roughness)]
-    root = exponential(logarithm(load) / 3.0)
+    times = maps.film_slip[interface, class_of(FILM_EDGES, node.film / contact.roughness)]
+    root = exponential(logarithm(state[0]) / 3.0)
     across = patch.across * root
     line = sample.lines[interface]
     width = 2.0 * patch.half_length / STATIONS
-    node = film_node(contact.chords, film)
     # Divisions take as long as all else of a station: what is the same in all is divided once.
     per_square = 1.0 / (across * across)
     per_width = 1.0 / width
     per_full_slip = 1.0 / patch.full_slip
-    middle_load = 0.75 * load / across
+    middle_load = 0.75 * state[0] / across
     middle_power = 0.75 * sample.at.power[interface] / across
     boundary = patch.boundary_friction * max(share, LEAST_SHARE) * middle_load
-    time = (sample.time - sample.since) * sample.under_load / STATIONS
-    passed = (time, passes * sample.under_load / STATIONS, 1.0 / entrainment)
+    passed = passed_since(sample, passes, entrainment)
     densest = 0.0
     fastest = 0.0
     begin_along(along)
@@ -278,25 +318,27 @@ def power_along(maps, interface, contact, state, sample, passes, along):
             leave_station(along, k)
             continue
         height = 1.0 - (station - line[0]) * (station - line[0]) * per_square
-        local = _parabola(line, 1, station)
-        across_rolling = _parabola(line, 4, station)
-        speed = math.sqrt(local * local + across_rolling * across_rolling)
+        local, speed = _slip(line, station)
         chord = math.sqrt(height)
         half_width = patch.along * root * chord
         asperities = boundary * height * min(speed * per_full_slip, 1.0) * speed
         of_length = middle_load * height
         per_length = middle_power * height
-        if contact.chorded:
-            stress = chord_stress_at(contact.chords, node, patch.pressure * root * chord, speed)
-            per_length = (1.0 - share) * 2.0 * half_width * stress * speed + asperities
-        elif contact.limit > 0.0:
-            sliding = _saturating_friction(contact, speed, entrainment) * speed
-            per_length = (1.0 - share) * of_length * sliding + asperities
+        if contact.chorded or contact.limit > 0.0:
+            per_length = asperities + _sheared_power(
+                contact,
+                node,
+                share,
+                half_width,
+                of_length,
+                patch.pressure * root * chord,
+                speed,
+                entrainment,
+            )
         booked = Station(
             k, covered, width, of_length, half_width, local, speed, per_length, asperities
         )
-        density = book_station(along, booked, sample.hot[interface], times, passed)
-        densest = max(densest, density)
+        densest = max(densest, book_station(along, booked, sample.hot[interface], times, passed))
         fastest = max(fastest, speed)
-    along.regime = 1 if film >= contact.roughness else 0
+    along.regime = 1 if node.film >= contact.roughness else 0
     return densest, fastest, abs(entrainment)

@@ -22,6 +22,7 @@ from macroslip.measures.along import (
     book_station,
     class_of,
     leave_station,
+    passed_since,
 )
 from macroslip.mechanics.speeds import signed_entrainment
 
@@ -118,8 +119,7 @@ def line_power_along(maps, interface, contact, state, sample, passes, strips, al
     """
     patch = contact.patch
     entrainment = signed_entrainment(state[1], state[2])
-    time = (sample.time - sample.since) * sample.under_load / STATIONS
-    passed = (time, passes * sample.under_load / STATIONS, 1.0 / entrainment)
+    passed = passed_since(sample, passes, entrainment)
     width = 2.0 * patch.half_length / STATIONS
     densest = 0.0
     fastest = 0.0

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 #: Samples from one evaluation of the quadrature's error to the next; it costs hundreds of others.
 _FINE = 4096
 #: Record of how power lies along the roller at a peak, behind those of the raceways.
-_PEAK = 4
+_AT_PEAK = 4
 
 
 @dataclass(frozen=True)
@@ -142,11 +142,20 @@ def _look_up_films(body, tables, sample):
 
 
 @jit_evaluation
-def _evaluate(maps, i, contact, state, sample, strips, places, along, extremes):
+def _raceway_state(at, i):
+    """Load [N], u2 and Δu [m/s] at the inner or the outer raceway."""
+    if i == 0:
+        return at.inner_load, at.inner_speed, at.inner_slip
+    return at.outer_load, at.outer_speed, at.outer_slip
+
+
+@jit_evaluation
+def _evaluate(maps, i, contact, sample, strips, places, along, extremes):
     """Evaluate a raceway contact by station, and raise the extremes by its state.
 
     Extremes are those of the orbit and those of entries into the load zone.
     """
+    state = _raceway_state(sample.at, i)
     hot = sample.hot[i]
     hot[0] = 0.0
     hot[1] = 0.0
@@ -169,8 +178,9 @@ def _evaluate(maps, i, contact, state, sample, strips, places, along, extremes):
 
 
 @jit_evaluation
-def _distribute(maps, i, load, sample, places, before, after):
+def _distribute(maps, i, sample, places, before, after):
     """Distribute the energies since the sample before over the maps of a raceway."""
+    load = _raceway_state(sample.at, i)[0]
     # As power lay, or lies, where it is known only once.
     late = 0.0
     late_rough = 0.0
@@ -210,12 +220,7 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
     inner, outer = uncounted_contact(contacts[0]), uncounted_contact(contacts[1])
     for n in range(samples.size):
         sample = samples[n]
-        at = sample.at
         _look_up_films(body, tables, sample)
-        states = (
-            (at.inner_load, at.inner_speed, at.inner_slip),
-            (at.outer_load, at.outer_speed, at.outer_slip),
-        )
         for i in range(2):
             ratio = body.orbit_ratio - (1.0 if i == 0 else 0.0)
             places = (
@@ -225,12 +230,11 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
             last = maps.last[i]
             # A peak stands beside the samples between which energies are distributed.
             is_peak = sample.number < 0
-            after = maps.along[_PEAK if is_peak else 2 * i + 1 - last]
+            after = maps.along[_AT_PEAK if is_peak else 2 * i + 1 - last]
             _evaluate(
                 maps,
                 i,
                 inner if i == 0 else outer,
-                states[i],
                 sample,
                 None if strips is None else uncounted(strips)[n, i],  # pyright: ignore[reportCallIssue]
                 places,
@@ -239,7 +243,7 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
             )
             if not is_peak:
                 before = maps.along[2 * i + last]
-                _distribute(maps, i, states[i][0], sample, places, before, after)
+                _distribute(maps, i, sample, places, before, after)
         sample_cage(body, tables, contacts[2], sample, extremes[0])
 
 

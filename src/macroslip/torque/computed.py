@@ -123,9 +123,9 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     rollers = bearing.rows * bearing.rollers_per_row
     drag = rollers * drag_power(model.drag, bearing.pitch_radius, orbital) * per_power
 
-    rows_and_interfaces = (0, 1)
-    torque_of_contacts = contacts.sum(axis=rows_and_interfaces)
-    torque_of_rolling = rolling.sum(axis=rows_and_interfaces)
+    # Sums over rows and interfaces, the first two axes.
+    torque_of_contacts = contacts.sum(axis=(0, 1))
+    torque_of_rolling = rolling.sum(axis=(0, 1))
     values = {
         "shaft_speed": shaft,
         "torque": torque_of_contacts + torque_of_rolling + drag,
