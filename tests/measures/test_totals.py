@@ -12,16 +12,19 @@ from hypothesis import strategies as st
 
 from macroslip import Laws
 from macroslip.constants import SECTORS
+from macroslip.contact.patch import fine_power
 from macroslip.measures import details as sampling
 from macroslip.measures.along import contacts_of
 from macroslip.measures.details import ContactSampler, new_details
 from macroslip.measures.maps import spread
+from macroslip.measures.quadrature import quadrature_energies
 from macroslip.measures.roller import RollerMeasures, Row, Wanted
 from macroslip.measures.samples import PEAK, PEAKS, SAMPLE, choose, samples_of_peaks
 from macroslip.measures.totals import (
     CONTACTS,
     END,
     HIGHEST_RISE,
+    RACEWAYS,
     SPIN_RATIO_SPEED,
     book,
     contacts_at,
@@ -221,7 +224,7 @@ def test_outside_all_orbits_powers_count_for_the_rest_of_the_window():
 # --- Details ---------------------------------------------------------------------------------------------------------
 
 
-def looked(walked, cuts=(), edges=EDGES):
+def sampled(walked, cuts=(), edges=EDGES):
     model, roller, motion, steps = walked
     sampler = ContactSampler(
         Wanted(edges, 0.4, np.zeros(0), True),
@@ -234,7 +237,11 @@ def looked(walked, cuts=(), edges=EDGES):
     for part in np.split(steps, cuts):
         sampler.add(part[:, None].copy(), 0)
     sampler.finish()
-    return sampler.details
+    return sampler
+
+
+def looked(*arguments, **keywords):
+    return sampled(*arguments, **keywords).details
 
 
 @pytest.fixture(scope="module")
@@ -324,7 +331,7 @@ def test_energy_between_two_looks_lies_as_at_both_of_them():
     assert stations[3] == pytest.approx(2.4) and stations[20] == pytest.approx(5.6)
 
 
-def test_extremes_and_quadrature(details):
+def test_extremes(details):
     flash, density, ratio, film = np.moveaxis(details.extreme, -1, 0)
     assert (
         (flash[:, :2] > 0.0).all()
@@ -332,8 +339,34 @@ def test_extremes_and_quadrature(details):
         and ((ratio > 0.0) & (ratio < 3.0)).all()
     )
     assert ((film[:, :2] > 0.01) & (film[:, :2] < 100.0)).all()
-    fine, off = details.quadrature.T
-    assert (fine > 0.0).all() and (off < 5e-3 * fine).all()
+
+
+def test_the_quadrature_is_checked_for_all_rollers_of_a_row_at_once(walked, monkeypatch):
+    """Each roller's energy is ∫τ v dA of its own samples, by the finer rule one at a time."""
+    monkeypatch.setattr(sampling, "_FINE", 50)
+    model = walked[0]
+    contacts = contacts_of(model.laws)
+    parts = [sampled(walked, edges=edges).checked for edges in (EDGES, EDGES + 1.0)]
+    parts.insert(1, parts[0][:0])
+    energies = quadrature_energies(model.laws, contacts, parts)
+    fine, off = np.moveaxis(energies, -1, 0)
+    assert (fine[[0, 2]] > 0.0).all() and (off < 5e-3 * fine)[[0, 2]].all()
+    assert not fine[1].any() and not off[1].any()
+    for k, samples in enumerate(parts):
+        for i, name in enumerate(RACEWAYS):
+            one_by_one = 0.0
+            for sample in samples:
+                state = sample["at"]
+                if state[f"{name}_load"] > 0.0:
+                    one_by_one += (sample["time"] - sample["since"]) * fine_power(
+                        contacts[i].patch,
+                        getattr(model.laws, name).fluid,
+                        state[f"{name}_load"],
+                        sample["film"][i],
+                        state[f"{name}_speed"],
+                        state[f"{name}_slip"],
+                    )
+            assert fine[k, i] == pytest.approx(one_by_one, rel=1e-12)
 
 
 def by_brute_force(start, end, energy, growth=0.0):

@@ -18,7 +18,6 @@ from macroslip.compiled import jit, jit_evaluation, jit_inline, uncounted
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature
 from macroslip.contact.look_up import in_plane, log_speed
-from macroslip.contact.patch import fine_power, patch_power
 from macroslip.contact.strips import PreparedStrips
 from macroslip.elementary import exponential, logarithm
 from macroslip.measures.along import STATIONS, power_along, uncounted_contact
@@ -39,12 +38,12 @@ from macroslip.ring.orbit import angle_at
 from macroslip.roller.step import STEP
 
 if TYPE_CHECKING:
-    from macroslip.contact.laws import PreparedContact, PreparedLaws
+    from macroslip.contact.laws import PreparedLaws
     from macroslip.measures.skew import SkewMeasures
     from macroslip.ring.orbit import Motion
     from macroslip.roller.model import Roller
 
-#: Samples from one evaluation of the quadrature's error to the next; it costs hundreds of others.
+#: Samples from one at which the quadrature is checked to the next; that costs hundreds of others.
 _FINE = 4096
 #: Record of how power lies along the roller at a peak, behind those of the raceways.
 _AT_PEAK = 4
@@ -68,9 +67,6 @@ class Details(NamedTuple):
 
     edges: np.ndarray  #: As of `Totals` [s]
     extreme: np.ndarray  #: `EXTREMES` [K, W/m², 1, 1] over complete orbit and interface
-    #: By raceway, of some samples: energy by a finer quadrature, and the error of the one in use
-    #: [J]
-    quadrature: np.ndarray
     entries: np.ndarray  #: Entries into the load zone, by orbit
     #: As `extreme`, of raceways that enter: slide-roll ratio of the middle, transient temperature
     entry_extreme: np.ndarray
@@ -95,7 +91,7 @@ def new_details(edges: np.ndarray) -> Details:
     """Empty details for orbits with these edges [s]."""
     orbits = edges.size - 1
     maps = np.zeros(1, MAPS)
-    sizes = ((orbits, 3, len(EXTREMES)), (2, 2), orbits, (orbits, 2, len(EXTREMES)))
+    sizes = ((orbits, 3, len(EXTREMES)), orbits, (orbits, 2, len(EXTREMES)))
     views = [maps[name][0] for name in Details._fields[Details._fields.index("maps") + 1 :]]
     details = Details._make([edges, *map(np.zeros, sizes), np.zeros(1, MEMORY), maps, *views])
     for extremes in (details.extreme, details.entry_extreme):
@@ -275,10 +271,14 @@ class ContactSampler:
         self._last = np.zeros(1, STEP)
         self._samples = Batch(SAMPLE)
         self._peaks = np.zeros((wanted.edges.size - 1, PEAKS), PEAK)
-        #: Samples at which the quadrature is checked.
         self._checked: list[np.ndarray] = []
         #: Rows for `heat_entries` of the entry under way.
         self._entering = np.zeros((0, 11))
+
+    @property
+    def checked(self) -> np.ndarray:
+        """Samples at which the quadrature is to be checked (`macroslip.measures.quadrature`)."""
+        return np.concatenate(self._checked)
 
     def add(self, steps: np.ndarray, j: int) -> None:
         """Process the steps of one roller in a buffer."""
@@ -304,7 +304,6 @@ class ContactSampler:
         self._samples.empty(self._sample)
         self._sample(samples_of_peaks(self._peaks))
         self._heat(self._entering)
-        self._check_quadrature()
 
     def _sample(self, samples: np.ndarray) -> None:
         """Sample the contacts."""
@@ -367,22 +366,3 @@ class ContactSampler:
         """Compute the largest temperatures of the raceways in finished load-zone entries."""
         columns = np.ascontiguousarray(rows.T)
         heat_entries(columns, self._contacts[0].effusivity, self.details.entry_extreme)
-
-    def _check_quadrature(self) -> None:
-        """Compare the power of some samples with that of a much finer quadrature."""
-        samples = np.concatenate(self._checked)
-        span = samples["time"] - samples["since"]
-        for i, name in enumerate(RACEWAYS):
-            law: PreparedContact = getattr(self._laws, name)
-            # The rule of strips is not that of an ellipse; tests compare it with a finer one.
-            if isinstance(law, PreparedStrips) or not law.shape.microslip or law.fluid is None:
-                continue
-            at = samples["at"]
-            loaded = at[f"{name}_load"] > 0.0
-            load, ring_speed, slip = (
-                at[f"{name}_{field}"][loaded] for field in ("load", "speed", "slip")
-            )
-            state = load, samples["film"][loaded, i], ring_speed, slip
-            used = patch_power(self._contacts[i].patch, self._contacts[i].chords, *state)
-            fine = fine_power(self._contacts[i].patch, law.fluid, *state)
-            self.details.quadrature[i] += span[loaded] @ fine, span[loaded] @ np.abs(used - fine)

@@ -11,6 +11,7 @@ from macroslip.constants import SECTORS
 from macroslip.contact.laws import PreparedLaws
 from macroslip.measures.along import contacts_of
 from macroslip.measures.details import ContactSampler, Details, Wanted
+from macroslip.measures.samples import SAMPLE
 from macroslip.measures.skew import Skewing, SkewMeasures
 from macroslip.measures.totals import (
     CONTACTS,
@@ -77,6 +78,11 @@ class RollerMeasures:
     def details(self) -> Details | None:
         """Details of the contacts, where they were wanted."""
         return self.sampler.details if self.sampler else None
+
+    @property
+    def checked(self) -> np.ndarray:
+        """Samples of the contacts at which the quadrature is to be checked, of `SAMPLE`."""
+        return self.sampler.checked if self.sampler else np.zeros(0, SAMPLE)
 
     def add(self, steps: np.ndarray, j: int) -> None:
         """Process the steps of one roller in a buffer of shape (n, rollers)."""

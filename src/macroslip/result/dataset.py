@@ -32,6 +32,7 @@ from macroslip.loads.source_file import without_folders
 from macroslip.measures.along import STATIONS
 from macroslip.measures.cage import SIDES, CageMeasures
 from macroslip.measures.extremes import EXTREMES
+from macroslip.measures.quadrature import quadrature_energies
 from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
 from macroslip.result import skew, surface_maps
@@ -354,23 +355,33 @@ def _window_values(table: Table) -> dict[str, Any]:
 def _contact_details(table: Table) -> dict[str, np.ndarray]:
     extreme = _gathered(table, "extreme", "details")
     entry = _gathered(table, "entry_extreme", "details")
-    quadrature = _gathered(table, "quadrature", "details")
     extreme[np.isinf(extreme)] = np.nan
     # Orbits in which no entry was looked at.
     thinnest = entry[..., EXTREMES.index("film_ratio")]
     entry[np.isinf(thinnest)] = np.nan
-    fine, off = np.moveaxis(quadrature, -1, 0)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        error = np.where(fine > 0.0, off / fine, np.nan)
     details = [[roller.measures.details for roller in line] for line in table]
     return {
         "station_energy": _gathered(table, "station_energy", "details"),
         **{name: extreme[..., EXTREMES.index(measure)] for measure, name in ORBIT_EXTREMES.items()},
         "entries": _gathered(table, "entries", "details"),
         **{name: entry[..., EXTREMES.index(measure)] for measure, name in ENTRY_EXTREMES.items()},
-        "quadrature_error": error,
+        "quadrature_error": _quadrature_error(table),
         **surface_maps.values(details, _failed(table)),
     }
+
+
+def _quadrature_error(table: Table) -> np.ndarray:
+    """Relative error of the films' power by the quadrature in use, over (row, roller, raceway)."""
+    energies = []
+    for line in table:
+        row = line[0].measures.row
+        samples = [roller.measures.checked for roller in line]
+        energies.append(quadrature_energies(row.model.laws, row.contacts, samples))
+    fine, off = np.moveaxis(np.array(energies), -1, 0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        error = np.where(fine > 0.0, off / fine, np.nan)
+    error[_failed(table)] = np.nan
+    return error
 
 
 def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
