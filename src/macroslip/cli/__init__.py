@@ -53,6 +53,10 @@ def main() -> None:
         # after every 700 new objects, would go through them again and again, a twelfth of the time
         # of a short command.
         gc.set_threshold(20_000)
+        # Matrices here are small, and cases run side by side in threads and processes of our own.
+        # The threads that NumPy and SciPy start for large ones would wait for work in a busy loop,
+        # two fifths of the CPU time of a short command.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         from macroslip.machine import safe_path
 
         # Processes that are started here and get their path from this one do not get the current
