@@ -18,7 +18,7 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
-from scipy.linalg import solve_banded
+from scipy.linalg import solveh_banded
 
 #: Splines that share a grid.
 CHANNELS = 4
@@ -91,15 +91,24 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
         for side in (slice(None), slice(None, None, -1)):
             first, second, third = nodes[side][:3]
             inner[side][1] = (8.0 * second - first - third) / 6.0
-        right = 6.0 * nodes[2:-2]
-        right[0] -= inner[1]
-        right[-1] -= inner[-2]
-        bands = np.tile([[1.0], [4.0], [1.0]], len(right))
-        # With three diagonals LAPACK starts no threads, which wait for each other on a busy
-        # machine.
-        inner[2:-2] = solve_banded((1, 1), bands, right.reshape(len(right), -1)).reshape(
-            right.shape
+        right = 6.0 * nodes[1:-1]
+        # The two that are known have rows of their own: five nodes leave one other, and SciPy does
+        # not take a system of one.
+        right[0] = inner[1]
+        right[-1] = inner[-2]
+        right[1] -= right[0]
+        right[-2] -= right[-1]
+        diagonal = np.full(len(right), 4.0)
+        diagonal[[0, -1]] = 1.0
+        beside = np.ones(len(right))
+        beside[[0, -2]] = 0.0
+        solution = solveh_banded(
+            np.array([diagonal, beside]),
+            right.reshape(len(right), -1),
+            overwrite_b=True,
+            lower=True,
         )
+        inner[1:-1] = solution.reshape(right.shape)
         for side in (slice(None), slice(None, None, -1)):
             for index in (1, 0):
                 coefficients[side][index] = (
