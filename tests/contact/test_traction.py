@@ -12,6 +12,7 @@ from scipy.optimize import minimize_scalar
 
 from macroslip.bearing import Bearing
 from macroslip.compiled import jit
+from macroslip.contact.chords import chord_stress_at, film_node
 from macroslip.contact.closed_form import (
     barus_crook_traction,
     patch_integral,
@@ -19,7 +20,6 @@ from macroslip.contact.closed_form import (
 )
 from macroslip.contact.laws import prepare
 from macroslip.contact.mechanisms import Laws
-from macroslip.contact.patch import chord_stress_at, film_node
 from macroslip.contact.traction import (
     EYRING,
     HIGHEST_PRESSURE,

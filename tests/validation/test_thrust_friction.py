@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from macroslip import Laws
+from macroslip.contact.chords import SLICES
 from macroslip.contact.patch import Patch, patch_traction
 from macroslip.contact.traction import chord_table, prepare_fluid
 from validation import thrust_friction as friction
@@ -32,8 +33,8 @@ def test_crowned_roller_is_the_programs_patch():
     film = masjedi_khonsari_moes(contact, load, washer) * inlet_heating_factor(
         thermal_loading(contact.lubricant) * washer**2
     )
-    parts = np.empty(4)
-    patch_traction(patch, chord_table(fluid), load, film, 0.0, washer, 0.0, parts)
+    slices = np.zeros(1, SLICES)[0]
+    parts = patch_traction(patch, chord_table(fluid), load, film, 0.0, washer, 0.0, slices)
     power = -washer / BEARING.pitch_radius * parts[2]
     assert sliding == pytest.approx(2 * 20 * power / speed, rel=2e-3)
 

@@ -21,28 +21,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_evaluation, jit_inline
+from macroslip.compiled import jit, jit_inline
 from macroslip.contact.asperities import asperity_patch
-from macroslip.contact.spline import spline_value
-from macroslip.contact.traction import (
-    HIGHEST_PRESSURE,
-    LIMITING_SHEAR,
-    LOWEST_LOG_SLIP,
-    LOWEST_PRESSURE,
-    NEWTONIAN,
-    ChordTable,
-    Fluid,
-    chord_stress,
-)
-from macroslip.elementary import exponential, logarithm
+from macroslip.contact.chords import NO_SLIP, SLICES, chord_stresses, film_node
+from macroslip.contact.traction import ChordTable, Fluid, chord_stress
 
 if TYPE_CHECKING:
     from macroslip.contact.laws import PreparedContact
 
 _asperity_patch = jit(asperity_patch)
-#: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below
-#: round-off of the rest.
-_NO_SLIP = 1e-30
 #: Part of the half length below which a piece of the contact is left out.
 _SHORTEST = 1e-12
 
@@ -91,96 +78,6 @@ _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
 
 
 @jit_inline
-def _node(count, coordinate):
-    """Cell of a coordinate counted in nodes, kept within the spline, and the position in the cell."""
-    inside = min(max(coordinate, 0.0), count - 3.0)
-    cell = min(int(inside), count - 4)
-    return cell, inside - cell
-
-
-@jit_inline
-def _on_line(coefficients, cell, t):
-    """Value of a spline of one coordinate."""
-    u = 1.0 - t
-    first = coefficients[cell]
-    second = coefficients[cell + 1]
-    third = coefficients[cell + 2]
-    fourth = coefficients[cell + 3]
-    before = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * second
-    after = (4.0 - 6.0 * u * u + 3.0 * u * u * u) * third
-    middle = before + after
-    return (u * u * u * first + middle + t * t * t * fourth) * (1.0 / 6.0)
-
-
-class FilmNode(NamedTuple):
-    """Position of a film thickness in the table of chords."""
-
-    film: float  #: h [m]
-    logarithm: float  #: ln h [ln m]
-    cell: int  #: Cell of the table's axis of films
-    position: float  #: Position in the cell, 0 to 1 [-]
-
-
-@jit_inline
-def film_node(chords, film):
-    """Position of a film h [m] in the table of chords.
-
-    For `chord_stress_at`, once for all chords of a contact.
-    """
-    log_film = logarithm(film)
-    cell, position = _node(chords.shape[1], (log_film - chords.lowest_film) * chords.per_log_film)
-    return FilmNode(film, log_film, cell, position)
-
-
-@jit_evaluation
-def chord_stress_at(chords, node, pressure, slip):
-    """Mean shear stress along a chord of the contact, from the oil's table.
-
-    Parameters
-    ----------
-    chords : ChordTable
-        Table of the oil.
-    node : FilmNode
-        The film's position in the table, by `film_node`.
-    pressure : float
-        Largest pressure on the chord p1 [Pa]; kept within 10 Pa and 4 GPa.
-    slip : float
-        |Δu| on the chord [m/s], ≥ 0.
-
-    Returns
-    -------
-    float
-        Stress q [Pa], ≥ 0.
-    """
-    pressure = min(max(pressure, LOWEST_PRESSURE), HIGHEST_PRESSURE)
-    fluid = chords.fluid
-    (pressures, films, slips) = chords.shape
-    i, t = _node(pressures, math.sqrt(math.sqrt(pressure)) * chords.per_root)
-    log_eta = _on_line(chords.log_viscosities, i, t)
-    if fluid.rheology == NEWTONIAN:
-        unit = 1.0 / (math.sqrt(max(fluid.heating, 1e-30)) * node.film)
-        ahead = 0.5 * log_eta
-    else:
-        unit = (
-            fluid.characteristic * pressure
-            if fluid.rheology == LIMITING_SHEAR
-            else fluid.characteristic
-        )
-        ahead = log_eta
-    log_slip = logarithm(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
-    j, u = _node(slips, log_slip * chords.per_log_slip)
-    start = (i * films + node.cell) * slips + j
-    value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.position, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
-    # Below the first slip of the table stress is in proportion to slip.
-    stress = unit * exponential(
-        value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0)
-    )
-    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ,
-    # holds all the same.
-    return min(stress, 0.25 * math.pi * unit) if fluid.rheology == LIMITING_SHEAR else stress
-
-
-@jit_inline
 def rolling_lines(bend, spin, slip, end):
     """Stations of pure rolling, at which v = slip + bend ζ² − spin ζ vanishes.
 
@@ -214,7 +111,7 @@ def rolling_lines(bend, spin, slip, end):
 
 
 @jit
-def patch_traction(patch, chords, load, film, share, ring_speed, slip, resultants):
+def patch_traction(patch, chords, load, film, share, ring_speed, slip, slices):
     """Integrate the traction of a raceway contact over its ellipse.
 
     The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
@@ -236,8 +133,13 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, resultant
         u2 in the middle of the contact [m/s].
     slip : float
         Δu in the middle of the contact [m/s].
-    resultants : ndarray, shape (4,)
-        Written: pull [N], lag [N], skew moment [N m] and power of asperities [W].
+    slices : record of `macroslip.contact.chords.SLICES`
+        Is written.
+
+    Returns
+    -------
+    tuple of float
+        Pull [N], lag [N], skew moment [N m] and power of asperities [W].
     """
     root = load ** (1.0 / 3.0)
     across = patch.across * root
@@ -257,7 +159,7 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, resultant
     lag = 0.0
     skew = 0.0
     per_drop = 0.5 / (patch.contour_radius * patch.roller_radius)
-    node = film_node(chords, film)
+    count = 0
     for segment in range(3):
         length = edges[segment + 1] - edges[segment]
         if length < _SHORTEST:
@@ -267,17 +169,19 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, resultant
             station = across * x
             local = slip + station * (bend * station - spin)
             cosine = math.sqrt(1.0 - x * x)
-            part = (
-                area
-                * _WEIGHTS[k]
-                * length
-                * cosine
-                * chord_stress_at(chords, node, pressure * cosine, abs(local))
-            )
-            part = math.copysign(part, local)
-            pull += part
-            lag += part * station * station * per_drop
-            skew += part * station
+            slices.station[count] = station
+            slices.area[count] = area * _WEIGHTS[k] * length * cosine
+            slices.pressure[count] = pressure * cosine
+            slices.slip[count] = local
+            slices.speed[count] = abs(local)
+            count += 1
+    chord_stresses(chords, film_node(chords, film), slices, count)
+    for k in range(count):
+        station = slices.station[k]
+        part = math.copysign(slices.area[k] * slices.stress[k], slices.slip[k])
+        pull += part
+        lag += part * station * station * per_drop
+        skew += part * station
     rough = 0.0
     if share > 0.0 and patch.boundary_friction > 0.0:
         scale = 0.75 * patch.boundary_friction * share * load / across
@@ -287,10 +191,7 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, resultant
         pull = pull + more
         lag = lag + second_moment * per_drop
         skew = skew + more_skew
-    resultants[0] = pull
-    resultants[1] = lag
-    resultants[2] = skew
-    resultants[3] = rough
+    return pull, lag, skew, rough
 
 
 @jit
@@ -318,10 +219,15 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
         Pull [N], lag [N], skew moment [N m] and power of asperities [W], by `patch_traction`.
     """
     resultants = np.empty((loads.size, 4))
+    slices = np.zeros(1, SLICES)[0]
     for n in range(loads.size):
-        patch_traction(
-            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], resultants[n]
+        pull, lag, skew, rough = patch_traction(
+            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], slices
         )
+        resultants[n, 0] = pull
+        resultants[n, 1] = lag
+        resultants[n, 2] = skew
+        resultants[n, 3] = rough
     return resultants
 
 
@@ -415,7 +321,7 @@ def fine_power(patch: Patch, fluid: Fluid, load, film, ring_speed, slip):
         fluid,
         patch.pressure * root[..., None] * np.maximum(cosine, 1e-9),
         film[..., None],
-        np.maximum(np.abs(local), _NO_SLIP),
+        np.maximum(np.abs(local), NO_SLIP),
     )
     area = 2.0 * across * patch.along * root
     part = area[..., None] * weight * cosine * np.copysign(stress, local)

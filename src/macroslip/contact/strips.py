@@ -29,6 +29,7 @@ from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.profile import LOGARITHMIC, profile_depth
 from macroslip.bearing.tapered import TaperedBearing, tapered_geometry
 from macroslip.compiled import jit
+from macroslip.contact.chords import chord_stress_at, film_node
 from macroslip.contact.hertz import HertzContact, effective_modulus
 from macroslip.contact.laws import PreparedContact
 from macroslip.contact.line import (
@@ -39,7 +40,7 @@ from macroslip.contact.line import (
 )
 from macroslip.contact.line_approach import line_approaches, line_load
 from macroslip.contact.line_rolling import raceway_curvatures
-from macroslip.contact.patch import chord_stress_at, film_node, graded_rule
+from macroslip.contact.patch import graded_rule
 from macroslip.contact.rolling import LOG_SLICE, RollingNumbers, light_contact
 from macroslip.contact.traction import ChordTable, chord_table
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_evaluation, jit_inline, uncounted
-from macroslip.contact.patch import Patch, chord_stress_at, film_node, patch_of
+from macroslip.contact.chords import chord_stresses, film_node
+from macroslip.contact.patch import Patch, patch_of
 from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.elementary import exponential, logarithm
 from macroslip.mechanics.speeds import signed_entrainment
@@ -132,18 +133,6 @@ def _saturating_friction(contact, slip, entrainment):
     return contact.limit * min(slip / (contact.saturation * abs(entrainment)), 1.0)
 
 
-@jit_inline
-def _covered(k, width, per_width, half_length, middle, across):
-    """Middle [m] of the part of a station that the ellipse covers, and that part [-].
-
-    So the lightest contact too lies in the two middle stations.
-    """
-    left = k * width - half_length
-    first = max(left, middle - across)
-    last = min(left + width, middle + across)
-    return 0.5 * (first + last), (last - first) * per_width
-
-
 class Station(NamedTuple):
     """State of the contact at a station, a slice across the roller's axis."""
 
@@ -250,17 +239,56 @@ def _slip(line, station):
 
 
 @jit_evaluation
-def _sheared_power(contact, node, share, half_width, load, pressure, speed, entrainment):
-    """Frictional power per length of the film at a station [W/m].
+def _write_slices(patch, root, line, first, slices, count):
+    """Write the slices of an ellipse at the stations that it touches.
 
-    The film has the share of the area that asperities leave. Load is per length [N/m], pressure the
-    largest on the chord [Pa]; the oil's table or Kellström's coefficient gives the stress.
+    The part of a station that it covers counts, and its middle is where slip and pressure are
+    taken: so the lightest contact too lies in the two middle stations.
     """
+    width = 2.0 * patch.half_length / STATIONS
+    across = patch.across * root
+    # Divisions take as long as all else of a slice: what is the same in all is divided once.
+    per_square = 1.0 / (across * across)
+    per_width = 1.0 / width
+    for k in range(count):
+        left = (first + k) * width - patch.half_length
+        begin = max(left, line[0] - across)
+        end = min(left + width, line[0] + across)
+        station = 0.5 * (begin + end)
+        from_middle = station - line[0]
+        slip, speed = _slip(line, station)
+        length = math.sqrt(1.0 - from_middle * from_middle * per_square)
+        slices.covered[k] = (end - begin) * per_width
+        slices.length[k] = length
+        slices.pressure[k] = patch.pressure * root * length
+        slices.slip[k] = slip
+        slices.speed[k] = speed
+
+
+@jit_evaluation
+def _touched(patch, across, middle):
+    """First station that the ellipse touches, and number of them.
+
+    A station of which it covers less than a millionth counts as not touched.
+    """
+    per_width = STATIONS / (2.0 * patch.half_length)
+    begin = (middle - across + patch.half_length) * per_width
+    end = (middle + across + patch.half_length) * per_width
+    first = min(max(math.floor(begin + 1e-6), 0), STATIONS)
+    return first, max(min(math.ceil(end - 1e-6), STATIONS) - first, 0)
+
+
+@jit_evaluation
+def _sheared_power(contact, slices, k, half_width, load, entrainment):
+    """Frictional power per length of a film without asperities, at a slice [W/m].
+
+    Load is per length [N/m]; the oil's table, looked up before, or Kellström's coefficient gives
+    the stress.
+    """
+    speed = slices.speed[k]
     if contact.chorded:
-        stress = chord_stress_at(contact.chords, node, pressure, speed)
-        return (1.0 - share) * 2.0 * half_width * stress * speed
-    sliding = _saturating_friction(contact, speed, entrainment) * speed
-    return (1.0 - share) * load * sliding
+        return 2.0 * half_width * slices.stress[k] * speed
+    return load * _saturating_friction(contact, speed, entrainment) * speed
 
 
 @jit
@@ -270,7 +298,7 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     Parameters
     ----------
     maps : record of `macroslip.measures.maps.MAPS`
-        Times under load by film and slip are added.
+        Times under load by film and slip are added, and slices are written.
     interface : int
         0 for the inner raceway, 1 for the outer one.
     contact : Contact
@@ -293,17 +321,20 @@ def power_along(maps, interface, contact, state, sample, passes, along):
         Entrainment speed, > 0 [m/s].
     """
     patch = contact.patch
+    slices = maps.slices
     node = film_node(contact.chords, sample.film[interface])
     share = sample.share[interface]
+    film_ratio = sample.film[interface] / contact.roughness
     entrainment = signed_entrainment(state[1], state[2])
-    times = maps.film_slip[interface, class_of(FILM_EDGES, node.film / contact.roughness)]
+    times = maps.film_slip[interface, class_of(FILM_EDGES, film_ratio)]
     root = exponential(logarithm(state[0]) / 3.0)
     across = patch.across * root
     line = sample.lines[interface]
+    first, count = _touched(patch, across, line[0])
+    _write_slices(patch, root, line, first, slices, count)
+    if contact.chorded:
+        chord_stresses(contact.chords, node, slices, count)
     width = 2.0 * patch.half_length / STATIONS
-    # Divisions take as long as all else of a station: what is the same in all is divided once.
-    per_square = 1.0 / (across * across)
-    per_width = 1.0 / width
     per_full_slip = 1.0 / patch.full_slip
     middle_load = 0.75 * state[0] / across
     middle_power = 0.75 * sample.at.power[interface] / across
@@ -312,33 +343,33 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     densest = 0.0
     fastest = 0.0
     begin_along(along)
-    for k in range(STATIONS):
-        station, covered = _covered(k, width, per_width, patch.half_length, line[0], across)
-        if covered < 1e-6:
-            leave_station(along, k)
-            continue
-        height = 1.0 - (station - line[0]) * (station - line[0]) * per_square
-        local, speed = _slip(line, station)
-        chord = math.sqrt(height)
-        half_width = patch.along * root * chord
+    for k in range(count):
+        speed = slices.speed[k]
+        length = slices.length[k]
+        height = length * length
+        half_width = patch.along * root * length
         asperities = boundary * height * min(speed * per_full_slip, 1.0) * speed
         of_length = middle_load * height
         per_length = middle_power * height
         if contact.chorded or contact.limit > 0.0:
-            per_length = asperities + _sheared_power(
-                contact,
-                node,
-                share,
-                half_width,
-                of_length,
-                patch.pressure * root * chord,
-                speed,
-                entrainment,
-            )
+            sheared = _sheared_power(contact, slices, k, half_width, of_length, entrainment)
+            per_length = asperities + (1.0 - share) * sheared
         booked = Station(
-            k, covered, width, of_length, half_width, local, speed, per_length, asperities
+            first + k,
+            slices.covered[k],
+            width,
+            of_length,
+            half_width,
+            slices.slip[k],
+            speed,
+            per_length,
+            asperities,
         )
         densest = max(densest, book_station(along, booked, sample.hot[interface], times, passed))
         fastest = max(fastest, speed)
-    along.regime = 1 if node.film >= contact.roughness else 0
+    for k in range(first):
+        leave_station(along, k)
+    for k in range(first + count, STATIONS):
+        leave_station(along, k)
+    along.regime = 1 if film_ratio >= 1.0 else 0
     return densest, fastest, abs(entrainment)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.compiled import jit
-from macroslip.contact.patch import chord_stress_at, film_node
+from macroslip.contact.chords import chord_stress_at, film_node
 from macroslip.contact.strips import strip_approach
 from macroslip.measures.along import (
     FILM_EDGES,

@@ -17,6 +17,7 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.constants import SECTORS
+from macroslip.contact.chords import SLICES
 from macroslip.measures.along import ALONG, FILM_EDGES, SLIP_EDGES, STATIONS
 
 #: Sectors of a raceway per angle [1/rad].
@@ -48,6 +49,8 @@ MAPS = np.dtype(
         ("film_slip", "f8", (2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1, 2)),
         # How power lies along the roller: two records a raceway, and one for the peaks.
         ("along", ALONG, (5,)),
+        # Slices of the contact of a sample while it is computed.
+        ("slices", SLICES),
         # Which of the two, by raceway, is of the last sample with load.
         ("last", "i8", (2,)),
     ]
