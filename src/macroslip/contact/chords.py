@@ -42,11 +42,17 @@ SLICES = np.dtype(
         ("area", "f8", (_MOST,)),
         # Largest pressure on the chord p1 [Pa].
         ("pressure", "f8", (_MOST,)),
+        # Load per length [N/m], and half-width of the contact along rolling [m].
+        ("load", "f8", (_MOST,)),
+        ("half_width", "f8", (_MOST,)),
         # Slip along rolling with its sign, and size of the slip [m/s].
         ("slip", "f8", (_MOST,)),
         ("speed", "f8", (_MOST,)),
         # Looked up: mean shear stress q along the chord [Pa].
         ("stress", "f8", (_MOST,)),
+        # Frictional power per length, and the part of it by asperities [W/m].
+        ("power", "f8", (_MOST,)),
+        ("asperities", "f8", (_MOST,)),
         # From loop to loop of the look-up: cells and positions in the table along pressures and
         # slips.
         ("pressure_cell", "i8", (_MOST,)),

@@ -43,8 +43,6 @@ ALONG = np.dtype(
         ("rough_total", "f8"),
         # Sum of ∫ p |v| dA [W].
         ("work_total", "f8"),
-        # Largest power per length times power per area of a station [W²/m³].
-        ("hottest", "f8"),
         # Film regime: 1 where Λ is 1 and above, 0 below.
         ("regime", "i8"),
         # First station in contact, and the one behind the last.
@@ -133,23 +131,9 @@ def _saturating_friction(contact, slip, entrainment):
     return contact.limit * min(slip / (contact.saturation * abs(entrainment)), 1.0)
 
 
-class Station(NamedTuple):
-    """State of the contact at a station, a slice across the roller's axis."""
-
-    number: int  #: Its number, from 0
-    covered: float  #: Part of it that touches [-]
-    width: float  #: Width of a whole station [m]
-    load: float  #: Load per length [N/m]
-    half_width: float  #: Half-width of the contact along rolling [m]
-    slip: float  #: Slip along rolling, with its sign [m/s]
-    speed: float  #: Size of the slip, across rolling too [m/s]
-    power: float  #: Frictional power per length [W/m]
-    asperities: float  #: Part of that power by asperities [W/m]
-
-
 @jit_inline
 def passed_since(sample, passes, entrainment):
-    """What a station passes since the sample before, as `book_station` takes it.
+    """What a station passes since the sample before, as `book_times` takes it.
 
     Parameters
     ----------
@@ -168,65 +152,85 @@ def passed_since(sample, passes, entrainment):
     return time, passes * sample.under_load / STATIONS, 1.0 / entrainment
 
 
-@jit_inline
-def begin_along(along):
-    """Set the sums over stations to zero, before the stations in rising order."""
-    along.total = 0.0
-    along.rough_total = 0.0
-    along.work_total = 0.0
-    along.hottest = 0.0
-    along.first = STATIONS
-    along.behind = 0
-
-
-@jit_inline
-def leave_station(along, k):
-    """Mark a station as not in contact."""
-    along.power[k] = 0.0
-    along.rough[k] = 0.0
-    along.work[k] = 0.0
-    along.density[k] = 0.0
-
-
 @jit_evaluation
-def book_station(along, station, hot, times, passed):
-    """Add a station's power to the distribution along the roller.
+def book_slices(along, slices, first, count, width, hot):
+    """Write how power lies along the roller, of the slices of the stations that touch.
 
     Parameters
     ----------
     along : record of `ALONG`
-        Power, work and density of the station, and sums, are written.
-    station : Station
+        All but the film's regime is written.
+    slices : record of `macroslip.contact.chords.SLICES`
+        Their power, its part by asperities, load, slip and half-width are taken.
+    first, count : int
+        First station that touches, and number of them.
+    width : float
+        Width of a whole station [m].
     hot : ndarray
-        Power per length [W/m] and half-width [m] of the hottest station are written.
+        Power per length [W/m] and half-width [m] of the hottest slice are written.
+
+    Returns
+    -------
+    densest : float
+        Largest power per area [W/m²].
+    fastest : float
+        Largest slip [m/s].
+    """
+    along.power[:] = 0.0
+    along.rough[:] = 0.0
+    along.work[:] = 0.0
+    along.density[:] = 0.0
+    # Of power only its share of all stations counts; of p |v| its size does.
+    for k in range(count):
+        covered = slices.covered[k]
+        along.power[first + k] = math.copysign(slices.power[k] * covered, slices.slip[k])
+        along.rough[first + k] = slices.asperities[k] * covered
+        along.work[first + k] = slices.load[k] * slices.speed[k] * covered * width
+        along.density[first + k] = slices.power[k] / (2.0 * slices.half_width[k])
+    total = 0.0
+    rough_total = 0.0
+    work_total = 0.0
+    densest = 0.0
+    fastest = 0.0
+    hottest = 0.0
+    for k in range(count):
+        total += abs(along.power[first + k])
+        rough_total += along.rough[first + k]
+        work_total += along.work[first + k]
+        density = along.density[first + k]
+        densest = max(densest, density)
+        fastest = max(fastest, slices.speed[k])
+        # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
+        if slices.power[k] * density > hottest:
+            hottest = slices.power[k] * density
+            hot[0] = slices.power[k]
+            hot[1] = slices.half_width[k]
+    along.total = total
+    along.rough_total = rough_total
+    along.work_total = work_total
+    along.first = first
+    along.behind = first + count
+    return densest, fastest
+
+
+@jit_evaluation
+def book_times(times, slices, k, passed):
+    """Add the time under load and the passes of a slice to the class of its slip.
+
+    Parameters
+    ----------
     times : ndarray, shape (classes of slip, 2)
-        Times under load [s] and passes [-] of the film's class; the station's are added.
+        Times under load [s] and passes [-] of the film's class; the slice's are added.
+    slices : record of `macroslip.contact.chords.SLICES`
+    k : int
+        Number of the slice.
     passed : tuple of float
         Of `passed_since`.
     """
-    k = station.number
-    along.first = min(along.first, k)
-    along.behind = k + 1
-    # Of power only its share of all stations counts; of p |v| its size does.
-    along.power[k] = math.copysign(station.power * station.covered, station.slip)
-    along.rough[k] = station.asperities * station.covered
-    along.work[k] = station.load * station.speed * station.covered * station.width
-    along.total += abs(along.power[k])
-    along.rough_total += along.rough[k]
-    along.work_total += along.work[k]
-    if passed[0] > 0.0:
-        ratio = math.copysign(station.speed, station.slip) * passed[2]
-        spent = times[class_of(SLIP_EDGES, ratio)]
-        spent[0] += passed[0] * station.covered
-        spent[1] += passed[1] * station.covered
-    density = station.power / (2.0 * station.half_width)
-    along.density[k] = density
-    # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
-    if station.power * density > along.hottest:
-        along.hottest = station.power * density
-        hot[0] = station.power
-        hot[1] = station.half_width
-    return density
+    ratio = math.copysign(slices.speed[k], slices.slip[k]) * passed[2]
+    spent = times[class_of(SLIP_EDGES, ratio)]
+    spent[0] += passed[0] * slices.covered[k]
+    spent[1] += passed[1] * slices.covered[k]
 
 
 @jit_evaluation
@@ -279,16 +283,39 @@ def _touched(patch, across, middle):
 
 
 @jit_evaluation
-def _sheared_power(contact, slices, k, half_width, load, entrainment):
-    """Frictional power per length of a film without asperities, at a slice [W/m].
+def _write_power(contact, state, sample, interface, slices, count):
+    """Write load and frictional power per length of the slices of an ellipse, and its asperities' part.
 
-    Load is per length [N/m]; the oil's table, looked up before, or Kellström's coefficient gives
-    the stress.
+    The film has the share of the area that asperities leave. The oil's table, looked up before, or
+    Kellström's coefficient gives its stress; without either the contact's power is distributed as
+    load is.
     """
-    speed = slices.speed[k]
-    if contact.chorded:
-        return 2.0 * half_width * slices.stress[k] * speed
-    return load * _saturating_friction(contact, speed, entrainment) * speed
+    patch = contact.patch
+    load, ring_speed, slip = state
+    share = sample.share[interface]
+    entrainment = signed_entrainment(ring_speed, slip)
+    root = exponential(logarithm(load) / 3.0)
+    middle_load = 0.75 * load / (patch.across * root)
+    middle_power = 0.75 * sample.at.power[interface] / (patch.across * root)
+    boundary = patch.boundary_friction * max(share, LEAST_SHARE) * middle_load
+    per_full_slip = 1.0 / patch.full_slip
+    for k in range(count):
+        speed = slices.speed[k]
+        height = slices.length[k] * slices.length[k]
+        half_width = patch.along * root * slices.length[k]
+        asperities = boundary * height * min(speed * per_full_slip, 1.0) * speed
+        of_length = middle_load * height
+        if contact.chorded:
+            power = asperities + (1.0 - share) * 2.0 * half_width * slices.stress[k] * speed
+        elif contact.limit > 0.0:
+            sliding = _saturating_friction(contact, speed, entrainment) * speed
+            power = asperities + (1.0 - share) * of_length * sliding
+        else:
+            power = middle_power * height
+        slices.load[k] = of_length
+        slices.half_width[k] = half_width
+        slices.power[k] = power
+        slices.asperities[k] = asperities
 
 
 @jit
@@ -322,54 +349,23 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     """
     patch = contact.patch
     slices = maps.slices
-    node = film_node(contact.chords, sample.film[interface])
-    share = sample.share[interface]
     film_ratio = sample.film[interface] / contact.roughness
     entrainment = signed_entrainment(state[1], state[2])
-    times = maps.film_slip[interface, class_of(FILM_EDGES, film_ratio)]
     root = exponential(logarithm(state[0]) / 3.0)
-    across = patch.across * root
     line = sample.lines[interface]
-    first, count = _touched(patch, across, line[0])
+    first, count = _touched(patch, patch.across * root, line[0])
     _write_slices(patch, root, line, first, slices, count)
     if contact.chorded:
+        node = film_node(contact.chords, sample.film[interface])
         chord_stresses(contact.chords, node, slices, count)
+    _write_power(contact, state, sample, interface, slices, count)
     width = 2.0 * patch.half_length / STATIONS
-    per_full_slip = 1.0 / patch.full_slip
-    middle_load = 0.75 * state[0] / across
-    middle_power = 0.75 * sample.at.power[interface] / across
-    boundary = patch.boundary_friction * max(share, LEAST_SHARE) * middle_load
+    hot = sample.hot[interface]
+    densest, fastest = book_slices(along, slices, first, count, width, hot)
     passed = passed_since(sample, passes, entrainment)
-    densest = 0.0
-    fastest = 0.0
-    begin_along(along)
-    for k in range(count):
-        speed = slices.speed[k]
-        length = slices.length[k]
-        height = length * length
-        half_width = patch.along * root * length
-        asperities = boundary * height * min(speed * per_full_slip, 1.0) * speed
-        of_length = middle_load * height
-        per_length = middle_power * height
-        if contact.chorded or contact.limit > 0.0:
-            sheared = _sheared_power(contact, slices, k, half_width, of_length, entrainment)
-            per_length = asperities + (1.0 - share) * sheared
-        booked = Station(
-            first + k,
-            slices.covered[k],
-            width,
-            of_length,
-            half_width,
-            slices.slip[k],
-            speed,
-            per_length,
-            asperities,
-        )
-        densest = max(densest, book_station(along, booked, sample.hot[interface], times, passed))
-        fastest = max(fastest, speed)
-    for k in range(first):
-        leave_station(along, k)
-    for k in range(first + count, STATIONS):
-        leave_station(along, k)
+    if passed[0] > 0.0:
+        times = maps.film_slip[interface, class_of(FILM_EDGES, film_ratio)]
+        for k in range(count):
+            book_times(times, slices, k, passed)
     along.regime = 1 if film_ratio >= 1.0 else 0
     return densest, fastest, abs(entrainment)

@@ -10,18 +10,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.contact.chords import chord_stress_at, film_node
 from macroslip.contact.strips import strip_approach
 from macroslip.measures.along import (
     FILM_EDGES,
     LEAST_SHARE,
     STATIONS,
-    Station,
-    begin_along,
-    book_station,
+    book_slices,
+    book_times,
     class_of,
-    leave_station,
     passed_since,
 )
 from macroslip.mechanics.speeds import signed_entrainment
@@ -29,6 +27,8 @@ from macroslip.mechanics.speeds import signed_entrainment
 if TYPE_CHECKING:
     from macroslip.contact.strips import PreparedStrips
 
+#: Part of a station from which on it counts as touching; those that touch lie side by side.
+_LEAST_COVERED = 1e-6
 #: State of a strip of a line contact.
 STRIP = np.dtype(
     [
@@ -87,6 +87,25 @@ def strips_along(
     return along
 
 
+@jit_inline
+def _write_slice(contact, strip, slices, k):
+    """Write the slice of a strip: state, and power per length by its own film and asperities."""
+    patch = contact.patch
+    speed = abs(strip.slip)
+    carried = patch.boundary_friction * max(strip.share, LEAST_SHARE) * strip.load
+    asperities = carried * min(speed / patch.full_slip, 1.0) * speed
+    node = film_node(contact.chords, strip.film)
+    stress = chord_stress_at(contact.chords, node, strip.pressure, speed)
+    sheared = (1.0 - strip.share) * 2.0 * strip.half_width * stress * speed
+    slices.covered[k] = strip.covered
+    slices.load[k] = strip.load
+    slices.half_width[k] = strip.half_width
+    slices.slip[k] = strip.slip
+    slices.speed[k] = speed
+    slices.power[k] = sheared + asperities
+    slices.asperities[k] = asperities
+
+
 @jit
 def line_power_along(maps, interface, contact, state, sample, passes, strips, along):
     """Write the distribution of power along a roller at a line contact.
@@ -94,7 +113,7 @@ def line_power_along(maps, interface, contact, state, sample, passes, strips, al
     Parameters
     ----------
     maps : record of `macroslip.measures.maps.MAPS`
-        Times under load by film and slip are added.
+        Times under load by film and slip are added, and slices are written.
     interface : int
         0 for the inner raceway, 1 for the outer one.
     contact : macroslip.measures.along.Contact
@@ -118,37 +137,23 @@ def line_power_along(maps, interface, contact, state, sample, passes, strips, al
         Entrainment speed, > 0 [m/s].
     """
     patch = contact.patch
+    slices = maps.slices
     entrainment = signed_entrainment(state[1], state[2])
     passed = passed_since(sample, passes, entrainment)
+    first = 0
+    while first < STATIONS and strips[first].covered < _LEAST_COVERED:
+        first += 1
+    count = 0
+    while first + count < STATIONS and strips[first + count].covered >= _LEAST_COVERED:
+        _write_slice(contact, strips[first + count], slices, count)
+        count += 1
     width = 2.0 * patch.half_length / STATIONS
-    densest = 0.0
-    fastest = 0.0
-    begin_along(along)
-    for k in range(STATIONS):
-        strip = strips[k]
-        if strip.covered < 1e-6:
-            leave_station(along, k)
-            continue
-        speed = abs(strip.slip)
-        carried = patch.boundary_friction * max(strip.share, LEAST_SHARE) * strip.load
-        asperities = carried * min(speed / patch.full_slip, 1.0) * speed
-        node = film_node(contact.chords, strip.film)
-        stress = chord_stress_at(contact.chords, node, strip.pressure, speed)
-        sheared = (1.0 - strip.share) * 2.0 * strip.half_width * stress * speed
-        booked = Station(
-            k,
-            strip.covered,
-            width,
-            strip.load,
-            strip.half_width,
-            strip.slip,
-            speed,
-            sheared + asperities,
-            asperities,
-        )
-        times = maps.film_slip[interface, class_of(FILM_EDGES, strip.film / contact.roughness)]
-        density = book_station(along, booked, sample.hot[interface], times, passed)
-        densest = max(densest, density)
-        fastest = max(fastest, speed)
+    hot = sample.hot[interface]
+    densest, fastest = book_slices(along, slices, first, count, width, hot)
+    if passed[0] > 0.0:
+        for k in range(count):
+            film_ratio = strips[first + k].film / contact.roughness
+            times = maps.film_slip[interface, class_of(FILM_EDGES, film_ratio)]
+            book_times(times, slices, k, passed)
     along.regime = 1 if sample.film[interface] >= contact.roughness else 0
     return densest, fastest, abs(entrainment)
