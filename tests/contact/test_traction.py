@@ -12,7 +12,7 @@ from scipy.optimize import minimize_scalar
 
 from macroslip.bearing import Bearing
 from macroslip.compiled import jit
-from macroslip.contact.chords import chord_stress_at, film_node
+from macroslip.contact.chords import SLICES, chord_stress_at, chord_stresses, film_node
 from macroslip.contact.closed_form import (
     barus_crook_traction,
     patch_integral,
@@ -469,6 +469,29 @@ def test_slow_slip_is_in_proportion(name):
     slow, slower = (interpolated_stress(table, pressure, film, slip) for slip in (1e-25, 1e-30))
     assert slower == pytest.approx(1e-5 * slow, rel=1e-3)
     assert slow == pytest.approx(exact(table.fluid, pressure, film, np.full(3, 1e-25)), rel=5e-4)
+
+
+@jit
+def looked_up_together(chords, film, slices, count):
+    chord_stresses(chords, film_node(chords, film), slices, count)
+
+
+@choices
+def test_chords_looked_up_together_are_those_looked_up_alone(name):
+    """To the last bit, however many there are: the processor takes several at once, and a rest."""
+    table = chord_table(fluid(name))
+    rng = np.random.default_rng(17)
+    slices = np.zeros(1, SLICES)
+    most = slices["pressure"].size
+    for count in range(most + 1):
+        film = 10.0 ** rng.uniform(-8.0, -4.0)
+        pressure, slip = 10.0 ** rng.uniform([1.0, -32.0], [9.8, 0.5], (count, 2)).T
+        slices["pressure"][0, :count], slices["speed"][0, :count] = pressure, slip
+        slices["stress"] = -1.0
+        looked_up_together(table, film, slices[0], count)
+        alone = interpolated_stress(table, pressure, film, slip) if count else []
+        np.testing.assert_array_equal(slices["stress"][0, :count], alone)
+        assert (slices["stress"][0, count:] == -1.0).all()
 
 
 def test_limit_holds_in_the_table_too():

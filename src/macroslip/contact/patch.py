@@ -219,10 +219,11 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
         Pull [N], lag [N], skew moment [N m] and power of asperities [W], by `patch_traction`.
     """
     resultants = np.empty((loads.size, 4))
-    slices = np.zeros(1, SLICES)[0]
+    # A record alone would not keep its array alive.
+    slices = np.zeros(1, SLICES)
     for n in range(loads.size):
         pull, lag, skew, rough = patch_traction(
-            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], slices
+            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], slices[0]
         )
         resultants[n, 0] = pull
         resultants[n, 1] = lag
