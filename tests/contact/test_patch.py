@@ -46,8 +46,7 @@ def contact(laws, ring="inner", sign=1):
 
 def summed(patch, chords, load, film, share, ring_speed, slip):
     """Pull, lag, skew and power of asperities at one state."""
-    states = (np.array([float(number)]) for number in (load, film, share, ring_speed, slip))
-    return patch_tractions(patch, chords, *states)[0]
+    return patch_tractions(patch, chords, load, film, share, ring_speed, slip)
 
 
 def slip_along(patch, station, ring_speed, slip):

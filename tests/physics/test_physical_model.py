@@ -16,9 +16,8 @@ from scipy.optimize import brentq
 
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, simulate
 from macroslip.bearing import Bearing
-from macroslip.contact.chords import SLICES
 from macroslip.contact.mechanisms import Laws
-from macroslip.contact.patch import patch_of, patch_power, patch_traction
+from macroslip.contact.patch import patch_of, patch_power, patch_tractions
 from macroslip.contact.starvation import film_factor
 from macroslip.contact.table import tractions
 from macroslip.contact.traction import chord_table
@@ -90,12 +89,8 @@ class Film:
 
     def __call__(self, slip):
         """Pull and lag [N], and skew moment [N m]."""
-        slices = np.zeros(1, SLICES)[0]
-        return np.array(
-            patch_traction(
-                self._patch, self._chords, *self._state, 0.0, self._ring_speed, slip, slices
-            )[:3]
-        )
+        state = *self._state, 0.0, self._ring_speed, slip
+        return patch_tractions(self._patch, self._chords, *state)[:3]
 
     def power(self, slip):
         return patch_power(self._patch, self._chords, *self._state, self._ring_speed, slip)

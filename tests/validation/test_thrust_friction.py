@@ -2,12 +2,10 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from macroslip import Laws
-from macroslip.contact.chords import SLICES
-from macroslip.contact.patch import Patch, patch_traction
+from macroslip.contact.patch import Patch, patch_tractions
 from macroslip.contact.traction import chord_table, prepare_fluid
 from validation import thrust_friction as friction
 from validation.thrust_bearing import ROLLER_81107, ThrustBearing, friction_torque, interface_of
@@ -33,8 +31,7 @@ def test_crowned_roller_is_the_programs_patch():
     film = masjedi_khonsari_moes(contact, load, washer) * inlet_heating_factor(
         thermal_loading(contact.lubricant) * washer**2
     )
-    slices = np.zeros(1, SLICES)[0]
-    parts = patch_traction(patch, chord_table(fluid), load, film, 0.0, washer, 0.0, slices)
+    parts = patch_tractions(patch, chord_table(fluid), load, film, 0.0, washer, 0.0)
     power = -washer / BEARING.pitch_radius * parts[2]
     assert sliding == pytest.approx(2 * 20 * power / speed, rel=2e-3)
 

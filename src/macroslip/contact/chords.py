@@ -189,7 +189,7 @@ def chord_stress_at(chords, node, pressure, slip):
     return _stress(node, unit, _value(chords, node, (i, j), (t, u)) + below)
 
 
-@jit_evaluation
+@jit_inline
 def chord_stresses(chords, node, slices, count):
     """Write the mean shear stress along chords under one film, as `chord_stress_at` gives it.
 

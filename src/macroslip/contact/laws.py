@@ -20,7 +20,7 @@ from macroslip.contact.gap import GapShape
 from macroslip.contact.interface import ContactShape, Interface, contact_shape, interfaces
 from macroslip.contact.kellstroem import SaturatingFriction
 from macroslip.contact.mechanisms import Laws, check_lubricant
-from macroslip.contact.patch import patch_of, traction_values
+from macroslip.contact.patch import patch_of, patch_tractions
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
 from macroslip.contact.rolling import RollingNumbers, at_oil_gap, prepare_rolling
 from macroslip.contact.starvation import film_factor, inlet_at_gap
@@ -233,7 +233,7 @@ class PreparedContact:
             return barus_crook_traction(self.closed_form, load, film_thickness, slip)
         if self.fluid is not None:
             patch = patch_of(self)._replace(microslip=False)
-            pull = traction_values(
+            pull = patch_tractions(
                 patch, chord_table(self.fluid), load, film_thickness, 0.0, 0.0, slip
             )[..., 0]
             return np.where(np.equal(slip, 0.0), 0.0, pull)[()]

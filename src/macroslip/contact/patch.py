@@ -110,37 +110,9 @@ def rolling_lines(bend, spin, slip, end):
     return min(max(low, -end), end), min(max(high, -end), end)
 
 
-@jit
-def patch_traction(patch, chords, load, film, share, ring_speed, slip, slices):
-    """Integrate the traction of a raceway contact over its ellipse.
-
-    The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
-
-    Parameters
-    ----------
-    patch : Patch
-        Geometry of the contact and friction of its asperities.
-    chords : ChordTable
-        Table of the oil.
-    load : float
-        Q [N], > 0.
-    film : float
-        h [m], > 0, the same all over the ellipse.
-    share : float
-        Share of the load that asperities carry [-], 0 to 1. Film and asperities each have their
-        share of the area at the full Hertz pressure.
-    ring_speed : float
-        u2 in the middle of the contact [m/s].
-    slip : float
-        Δu in the middle of the contact [m/s].
-    slices : record of `macroslip.contact.chords.SLICES`
-        Is written.
-
-    Returns
-    -------
-    tuple of float
-        Pull [N], lag [N], skew moment [N m] and power of asperities [W].
-    """
+@jit_inline
+def _patch_traction(patch, chords, load, film, share, ring_speed, slip, slices):
+    """Traction of a raceway contact in one state, as `patch_tractions` gives it."""
     root = load ** (1.0 / 3.0)
     across = patch.across * root
     pressure = patch.pressure * root
@@ -195,8 +167,35 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, slices):
 
 
 @jit
-def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
-    """Traction of a raceway contact in many states.
+def _integrate(patch, chords, states, slices, tractions):
+    """Write what `_patch_traction` gives in many states, its numbers over (state, 4).
+
+    States are load, film, share of asperities, ring speed and slip, over (5, state); slices are an
+    array of one record of `macroslip.contact.chords.SLICES`.
+    """
+    for n in range(states.shape[1]):
+        pull, lag, skew, rough = _patch_traction(
+            patch,
+            chords,
+            states[0, n],
+            states[1, n],
+            states[2, n],
+            states[3, n],
+            states[4, n],
+            slices[0],
+        )
+        tractions[n, 0] = pull
+        tractions[n, 1] = lag
+        tractions[n, 2] = skew
+        tractions[n, 3] = rough
+
+
+def patch_tractions(
+    patch: Patch, chords: ChordTable, load, film, share, ring_speed, slip
+) -> np.ndarray:
+    """Traction of a raceway contact, integrated over its ellipse.
+
+    The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
 
     Parameters
     ----------
@@ -204,45 +203,31 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
         Geometry of the contact and friction of its asperities.
     chords : ChordTable
         Table of the oil.
-    loads : ndarray, shape (states,)
+    load : array_like
         Q [N], > 0.
-    films : ndarray, shape (states,)
-        h [m], > 0.
-    shares : ndarray, shape (states,)
-        Shares of the load that asperities carry [-], 0 to 1.
-    ring_speeds, slips : ndarray, shape (states,)
+    film : array_like
+        h [m], > 0, the same all over the ellipse.
+    share : array_like
+        Share of the load that asperities carry [-], 0 to 1. Film and asperities each have their
+        share of the area at the full Hertz pressure.
+    ring_speed, slip : array_like
         u2 and Δu in the middle of the contact [m/s].
 
     Returns
     -------
-    ndarray, shape (states, 4)
-        Pull [N], lag [N], skew moment [N m] and power of asperities [W], by `patch_traction`.
+    ndarray, shape (..., 4)
+        Pull [N], lag [N], skew moment [N m] and power of asperities [W], of the shape to which the
+        arguments broadcast.
     """
-    resultants = np.empty((loads.size, 4))
-    # A record alone would not keep its array alive.
-    slices = np.zeros(1, SLICES)
-    for n in range(loads.size):
-        pull, lag, skew, rough = patch_traction(
-            patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], slices[0]
-        )
-        resultants[n, 0] = pull
-        resultants[n, 1] = lag
-        resultants[n, 2] = skew
-        resultants[n, 3] = rough
-    return resultants
-
-
-def traction_values(patch: Patch, chords: ChordTable, *states: np.ndarray) -> np.ndarray:
-    """`patch_tractions` of arrays that broadcast against each other, shape (..., 4)."""
-    states = np.broadcast_arrays(*(np.asarray(state, dtype=float) for state in states))
-    resultants = patch_tractions(
-        patch, chords, *(np.ascontiguousarray(state).ravel() for state in states)
-    )
-    return resultants.reshape(*states[0].shape, 4)
+    states = np.stack(np.broadcast_arrays(load, film, share, ring_speed, slip)).astype(float)
+    shape = states.shape[1:]
+    tractions = np.zeros((math.prod(shape), 4))
+    _integrate(patch, chords, states.reshape(5, -1), np.zeros(1, SLICES), tractions)
+    return tractions.reshape(*shape, 4)
 
 
 def patch_power(patch: Patch, chords: ChordTable, load, film, ring_speed, slip):
-    """Frictional power of a film, ∫τ v dA, by the rule of `patch_traction`.
+    """Frictional power of a film, ∫τ v dA, by the rule of `patch_tractions`.
 
     Parameters
     ----------
@@ -262,8 +247,8 @@ def patch_power(patch: Patch, chords: ChordTable, load, film, ring_speed, slip):
     ndarray or float
         Power [W].
     """
-    resultants = traction_values(patch, chords, load, film, 0.0, ring_speed, slip)
-    pull, lag, skew, _ = np.moveaxis(resultants, -1, 0)
+    tractions = patch_tractions(patch, chords, load, film, 0.0, ring_speed, slip)
+    pull, lag, skew, _ = np.moveaxis(tractions, -1, 0)
     return _power(patch, pull, lag, skew, ring_speed, slip)
 
 

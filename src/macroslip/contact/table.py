@@ -18,7 +18,7 @@ import numpy as np
 from macroslip.contact.kellstroem import SaturatingFriction, saturating_patch
 from macroslip.contact.laws import PreparedContact
 from macroslip.contact.look_up import REST_SPEED
-from macroslip.contact.patch import Patch, patch_of, traction_values
+from macroslip.contact.patch import Patch, patch_of, patch_tractions
 from macroslip.contact.rolling import light_contact, rigid_pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.starvation import shared_gaps
@@ -271,7 +271,7 @@ def tractions(
     share = contact.asperity_share(load, entrainment, film)
     if contact.fluid is not None:
         chords = chord_table(contact.fluid)
-        values = traction_values(patch_of(contact), chords, load, film, share, ring_speed, slip)
+        values = patch_tractions(patch_of(contact), chords, load, film, share, ring_speed, slip)
         return values[..., 0], values[..., 1], values[..., 2], values[..., 3]
     if contact.friction is not None:
         states = (load, ring_speed, slip, entrainment, share)

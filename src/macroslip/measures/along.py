@@ -152,7 +152,7 @@ def passed_since(sample, passes, entrainment):
     return time, passes * sample.under_load / STATIONS, 1.0 / entrainment
 
 
-@jit_evaluation
+@jit_inline
 def book_slices(along, slices, first, count, width, hot):
     """Write how power lies along the roller, of the slices of the stations that touch.
 
@@ -242,7 +242,7 @@ def _slip(line, station):
     return along_rolling, size
 
 
-@jit_evaluation
+@jit_inline
 def _write_slices(patch, root, line, first, slices, count):
     """Write the slices of an ellipse at the stations that it touches.
 
@@ -282,7 +282,7 @@ def _touched(patch, across, middle):
     return first, max(min(math.ceil(end - 1e-6), STATIONS) - first, 0)
 
 
-@jit_evaluation
+@jit_inline
 def _write_power(contact, state, sample, interface, slices, count):
     """Write load and frictional power per length of the slices of an ellipse, and its asperities' part.
 

@@ -108,17 +108,6 @@ def _over(part, total):
     return part / total if total > 0.0 else 0.0
 
 
-@jit_evaluation
-def _power_along(maps, interface, contact, state, sample, passes, strips, along):
-    """Distribution of power along the roller of either contact: the strips of an ellipse are None.
-
-    Of the two only the one that the type of the strips asks for is compiled.
-    """
-    if strips is None:
-        return power_along(maps, interface, contact, state, sample, passes, along)
-    return line_power_along(maps, interface, contact, state, sample, passes, strips, along)
-
-
 @jit_inline
 def _look_up_films(body, tables, sample):
     """Write films and asperity shares of the loaded contacts of samples."""
@@ -145,28 +134,35 @@ def _raceway_state(at, i):
     return at.outer_load, at.outer_speed, at.outer_slip
 
 
-@jit_evaluation
-def _evaluate(maps, i, contact, sample, strips, places, along, extremes):
-    """Evaluate a raceway contact by station, and raise the extremes by its state.
-
-    Extremes are those of the orbit and those of entries into the load zone.
-    """
-    state = _raceway_state(sample.at, i)
+@jit_inline
+def _clear(sample, i):
+    """Write the speeds of a raceway's surfaces to what is hottest of a sample, and no power."""
+    _, speed, slip = _raceway_state(sample.at, i)
     hot = sample.hot[i]
     hot[0] = 0.0
     hot[1] = 0.0
-    hot[2] = state[1] - state[2]
-    hot[3] = state[1]
-    if state[0] <= 0.0:
-        return
-    start, end = places
-    passes = abs(end - start) / SECTORS
-    densest, fastest, mean = _power_along(maps, i, contact, state, sample, passes, strips, along)
+    hot[2] = speed - slip
+    hot[3] = speed
+
+
+@jit_inline
+def _raise_all(sample, i, contact, most, extremes):
+    """Raise the extremes of the orbit and of entries into the load zone by a raceway's state.
+
+    `most` is what `power_along` gives.
+    """
+    densest, fastest, mean = most
     film_ratio = sample.film[i] / contact.roughness
     raise_extremes(extremes[0], sample.orbit, i, densest, fastest / mean, film_ratio)
     if sample.entry > 0:
         slip = math.hypot(sample.lines[i, 1], sample.lines[i, 4])
         raise_extremes(extremes[1], sample.orbit, i, densest, slip / mean, film_ratio)
+
+
+@jit_inline
+def _raise_density(maps, i, places, along):
+    """Raise the largest power per area of the sectors that a raceway's contact has passed."""
+    start, end = places
     for sector in range(math.floor(min(start, end)), math.floor(max(start, end)) + 1):
         of_sector = maps.surface_density[i, int(sector % SECTORS)]
         for k in range(STATIONS):
@@ -227,16 +223,19 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
             # A peak stands beside the samples between which energies are distributed.
             is_peak = sample.number < 0
             after = maps.along[_AT_PEAK if is_peak else 2 * i + 1 - last]
-            _evaluate(
-                maps,
-                i,
-                inner if i == 0 else outer,
-                sample,
-                None if strips is None else uncounted(strips)[n, i],  # pyright: ignore[reportCallIssue]
-                places,
-                after,
-                extremes,
-            )
+            _clear(sample, i)
+            state = _raceway_state(sample.at, i)
+            if state[0] > 0.0:
+                contact = inner if i == 0 else outer
+                passes = abs(places[1] - places[0]) / SECTORS
+                # Of the two only the one that the type of the strips asks for is compiled.
+                if strips is None:
+                    most = power_along(maps, i, contact, state, sample, passes, after)
+                else:
+                    along = uncounted(strips)[n, i]  # pyright: ignore[reportCallIssue]
+                    most = line_power_along(maps, i, contact, state, sample, passes, along, after)
+                _raise_all(sample, i, contact, most, extremes)
+                _raise_density(maps, i, places, after)
             if not is_peak:
                 before = maps.along[2 * i + last]
                 _distribute(maps, i, sample, places, before, after)

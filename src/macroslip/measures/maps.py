@@ -60,8 +60,8 @@ MAPS = np.dtype(
 @jit_inline
 def _share(way, sector, mean_time):
     """Share of a sector in a way through sectors that is passed with linearly varying speed."""
-    start = min(way)
-    end = max(way)
+    start = min(way[0], way[1])
+    end = max(way[0], way[1])
     if math.floor(start) == math.floor(end):
         return 1.0
     growth = min(max(3.0 * (2.0 * mean_time - 1.0), -1.0), 1.0)
@@ -99,8 +99,8 @@ def spread(maps, interface, way, mean_time, spent, before, after):
         maps.station_energy[interface, k] += spent[0] * abs(before.power[k]) + spent[1] * abs(
             after.power[k]
         )
-    lowest = math.floor(min(way))
-    for n in range(math.floor(max(way)) - lowest + 1):
+    lowest = math.floor(min(way[0], way[1]))
+    for n in range(math.floor(max(way[0], way[1])) - lowest + 1):
         share = _share(way, lowest + n, mean_time)
         even = _share(way, lowest + n, 0.5)
         sector = int((lowest + n) % SECTORS)
