@@ -256,6 +256,14 @@ def jit_evaluation(function: Callable) -> Callable:
     return _Part(function, function, forceinline=True)
 
 
+def jit_once(function: Callable) -> Callable:
+    """Make a part of compiled functions that is called in one place.
+
+    It is copied there before types are found, so that nothing is compiled of it alone.
+    """
+    return numba.njit(inline="always", **OPTIONS)(function)
+
+
 def jit_as(compiled: Callable) -> Callable[[Callable], Callable]:
     """Make a part as `jit_evaluation` does, which is another function where it is compiled."""
     return lambda function: _Part(function, compiled, forceinline=True)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_evaluation, jit_inline, uncounted
+from macroslip.compiled import jit, jit_evaluation, jit_inline, jit_once, uncounted
 from macroslip.contact.chords import chord_stresses, film_node
 from macroslip.contact.patch import Patch, patch_of
 from macroslip.contact.traction import ChordTable, chord_table
@@ -125,7 +125,7 @@ def _parabola(line, first, station):
     return line[first] + station * (line[first + 2] * station + line[first + 1])
 
 
-@jit_inline
+@jit_once
 def _saturating_friction(contact, slip, entrainment):
     """Kellström's coefficient of friction at a slip and an entrainment speed [m/s]."""
     return contact.limit * min(slip / (contact.saturation * abs(entrainment)), 1.0)
@@ -242,7 +242,7 @@ def _slip(line, station):
     return along_rolling, size
 
 
-@jit_inline
+@jit_once
 def _write_slices(patch, root, line, first, slices, count):
     """Write the slices of an ellipse at the stations that it touches.
 
@@ -269,7 +269,7 @@ def _write_slices(patch, root, line, first, slices, count):
         slices.speed[k] = speed
 
 
-@jit_evaluation
+@jit_once
 def _touched(patch, across, middle):
     """First station that the ellipse touches, and number of them.
 
@@ -282,7 +282,7 @@ def _touched(patch, across, middle):
     return first, max(min(math.ceil(end - 1e-6), STATIONS) - first, 0)
 
 
-@jit_inline
+@jit_once
 def _write_power(contact, state, sample, interface, slices, count):
     """Write load and frictional power per length of the slices of an ellipse, and its asperities' part.
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_once
 from macroslip.contact.chords import chord_stress_at, film_node
 from macroslip.contact.strips import strip_approach
 from macroslip.measures.along import (
@@ -87,7 +87,7 @@ def strips_along(
     return along
 
 
-@jit_inline
+@jit_once
 def _write_slice(contact, strip, slices, k):
     """Write the slice of a strip: state, and power per length by its own film and asperities."""
     patch = contact.patch

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_evaluation, jit_inline, uncounted
+from macroslip.compiled import jit, jit_evaluation, jit_inline, jit_once, uncounted
 from macroslip.constants import SECTORS
 from macroslip.contact.flash import flash_temperature
 from macroslip.contact.look_up import in_plane, log_speed
@@ -108,7 +108,7 @@ def _over(part, total):
     return part / total if total > 0.0 else 0.0
 
 
-@jit_inline
+@jit_once
 def _look_up_films(body, tables, sample):
     """Write films and asperity shares of the loaded contacts of samples."""
     at = sample.at
@@ -134,7 +134,7 @@ def _raceway_state(at, i):
     return at.outer_load, at.outer_speed, at.outer_slip
 
 
-@jit_inline
+@jit_once
 def _clear(sample, i):
     """Write the speeds of a raceway's surfaces to what is hottest of a sample, and no power."""
     _, speed, slip = _raceway_state(sample.at, i)
@@ -145,7 +145,7 @@ def _clear(sample, i):
     hot[3] = speed
 
 
-@jit_inline
+@jit_once
 def _raise_all(sample, i, contact, most, extremes):
     """Raise the extremes of the orbit and of entries into the load zone by a raceway's state.
 
@@ -159,7 +159,7 @@ def _raise_all(sample, i, contact, most, extremes):
         raise_extremes(extremes[1], sample.orbit, i, densest, slip / mean, film_ratio)
 
 
-@jit_inline
+@jit_once
 def _raise_density(maps, i, places, along):
     """Raise the largest power per area of the sectors that a raceway's contact has passed."""
     start, end = places
@@ -169,7 +169,7 @@ def _raise_density(maps, i, places, along):
             of_sector[k] = max(of_sector[k], along.density[k])
 
 
-@jit_evaluation
+@jit_once
 def _distribute(maps, i, sample, places, before, after):
     """Distribute the energies since the sample before over the maps of a raceway."""
     load = _raceway_state(sample.at, i)[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_inline, jit_once
 from macroslip.contact.flash import transient_flash
 from macroslip.contact.look_up import log_speed
 from macroslip.mechanics.cage import cage_friction
@@ -35,7 +35,7 @@ def raise_extremes(extremes, orbit, interface, density, ratio, film_ratio):
         extremes[orbit, interface, 3] = min(extremes[orbit, interface, 3], film_ratio)
 
 
-@jit_inline
+@jit_once
 def sample_cage(body, tables, contact, sample, extreme):
     """Write power and extremes of the cage's contact, without the oil of its pocket.
 

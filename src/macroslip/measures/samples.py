@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_inline, jit_once
 from macroslip.elementary import exponential, logarithm
 from macroslip.measures.totals import END, orbit_at, write_end
 from macroslip.mechanics.speeds import signed_entrainment
@@ -139,7 +139,7 @@ def _density(power, load, elastic_load):
     return power * exponential(-2.0 / 3.0 * logarithm(load))
 
 
-@jit_inline
+@jit_once
 def _densities(step, last):
     """Power over load^(2/3) at both raceways under the rings' load [W/N^(2/3)]."""
     power = step.power[last]
@@ -150,7 +150,7 @@ def _densities(step, last):
     )
 
 
-@jit_inline
+@jit_once
 def _keep_peaks(step, last, densities, peaks):
     """Keep the state at the end of a step where a value is the highest in the orbit."""
     power = step.power[last]
@@ -172,7 +172,7 @@ def _keep_peaks(step, last, densities, peaks):
             write_end(step, peak.at)
 
 
-@jit_inline
+@jit_once
 def _raise(step, last, densities, orbit, memory):
     """Raise the highest values of the orbit, and begin anew where another one begins."""
     for i in range(2):
@@ -187,7 +187,7 @@ def _raise(step, last, densities, orbit, memory):
     memory.orbit = orbit
 
 
-@jit_inline
+@jit_once
 def _is_due(step, last, densities, memory, outer_radius, spacing):
     """True if a new sample is due, after enough way, time or change of power."""
     time = step.end - memory.time
@@ -204,7 +204,7 @@ def _is_due(step, last, densities, memory, outer_radius, spacing):
     return due
 
 
-@jit_inline
+@jit_once
 def _remember(step, last, densities, memory):
     """Keep what decides when the next sample is due."""
     memory.count = memory.count + 1
@@ -220,7 +220,7 @@ def _remember(step, last, densities, memory):
         memory.rough[i] = 0.0
 
 
-@jit_inline
+@jit_once
 def _enter(step, last, memory, outer_radius):
     """Detect load-zone entry, grip and exit."""
     load = step.elastic_load[last]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_inline, jit_once
 from macroslip.contact.laws import PreparedContact, PreparedLaws
 from macroslip.mechanics.speeds import signed_entrainment
 from macroslip.ring.orbit import last_before
@@ -286,7 +286,7 @@ def _follow(samples, peak, time, powers):
     samples[1, 0] = time
 
 
-@jit_inline
+@jit_once
 def _book_peaks(step, totals, orbit):
     """Update the peaks of power over a step."""
     samples = totals.samples
