@@ -494,6 +494,19 @@ def test_chords_looked_up_together_are_those_looked_up_alone(name):
         assert (slices["stress"][0, count:] == -1.0).all()
 
 
+def test_a_chord_whose_state_is_no_number_has_no_stress_and_its_neighbours_have():
+    table = chord_table(fluid("physical"))
+    slices = np.zeros(1, SLICES)
+    slices["pressure"][0, :9] = [math.nan] * 3 + [1e8] * 6
+    slices["speed"][0, :9] = [1e-3] * 6 + [math.nan] * 3
+    looked_up_together(table, 1e-6, slices[0], 9)
+    alone = interpolated_stress(table, 1e8, 1e-6, 1e-3)[0]
+    expected = [math.nan] * 3 + [alone] * 3 + [math.nan] * 3
+    np.testing.assert_array_equal(slices["stress"][0, :9], expected)
+    looked_up_together(table, math.nan, slices[0], 9)
+    assert np.isnan(slices["stress"][0, :9]).all()
+
+
 def test_limit_holds_in_the_table_too():
     table = chord_table(fluid("limiting shear"))
     rng = np.random.default_rng(11)

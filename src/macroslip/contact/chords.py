@@ -71,7 +71,8 @@ SLICES = np.dtype(
 def _node(count, coordinate):
     """Cell of a coordinate counted in nodes, kept within the spline, and the position in the cell."""
     inside = min(max(coordinate, 0.0), count - 3.0)
-    cell = min(int(inside), count - 4)
+    # A coordinate that is no number has a cell too, and its position is none.
+    cell = max(min(int(inside), count - 4), 0)
     return cell, inside - cell
 
 
