@@ -44,11 +44,6 @@ def contact(laws, ring="inner", sign=1):
     return getattr(prepare(laws, BEARING, OIL, sign), ring)
 
 
-def summed(patch, chords, load, film, share, ring_speed, slip):
-    """Pull, lag, skew and power of asperities at one state."""
-    return patch_tractions(patch, chords, load, film, share, ring_speed, slip)
-
-
 def slip_along(patch, station, ring_speed, slip):
     """v(ζ) = Δu + κ h − s ζ."""
     curvature = ring_speed * patch.curvature_ratio - slip / patch.roller_radius
@@ -200,7 +195,7 @@ def test_whole_contact_against_integration_over_its_area(name, ring):
         (candidate for candidate in LOADS if candidate <= heavy), SLIPS
     ):
         force, lag, skew, spent = whole_area(laws, patch, load, 6e-7, -0.396, slip)
-        sums = summed(patch, chords, load, 6e-7, 0.0, -0.396, slip)
+        sums = patch_tractions(patch, chords, load, 6e-7, 0.0, -0.396, slip)
         across = patch.across * load ** (1 / 3)
         fastest = np.abs(slip_along(patch, np.linspace(-across, across, 101), -0.396, slip)).max()
         largest = abs(float(law.uniform_traction(load, 6e-7, fastest)))
@@ -269,7 +264,7 @@ def test_without_microslip_slip_is_uniform(name):
     for load, slip in itertools.product(LOADS[:4], (-0.05, 1e-9, 1e-4, 0.1)):
         if name == "barus" and load > 1e4:
             continue
-        sums = summed(patch, chords, load, 6e-7, 0.0, -0.4, slip)
+        sums = patch_tractions(patch, chords, load, 6e-7, 0.0, -0.4, slip)
         exact, _, _, spent = whole_area(
             CHOICES[name], patch._replace(contour_radius=1e9), load, 6e-7, 0.0, slip
         )
@@ -277,7 +272,7 @@ def test_without_microslip_slip_is_uniform(name):
         assert float(law.uniform_traction(load, 6e-7, slip)) == pytest.approx(sums[0], rel=1e-12)
         assert sums[2] == pytest.approx(0.0, abs=1e-9 * abs(exact)) and sums[1] == 0.0
         assert spent == pytest.approx(exact * slip, rel=1e-3)
-        assert summed(still, chords, load, 6e-7, 0.0, -0.4, slip)[0] == pytest.approx(
+        assert patch_tractions(still, chords, load, 6e-7, 0.0, -0.4, slip)[0] == pytest.approx(
             sums[0], rel=1e-12
         )
 
@@ -290,11 +285,11 @@ def test_contact_is_cut_off_at_the_ends_of_the_roller():
     x = patch.half_length / across
     kept = 0.5 * (3.0 * x - x**3)
     assert x < 1.0
-    assert summed(patch, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(
+    assert patch_tractions(patch, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(
         GAMMA * load * kept, rel=2e-3
     )
     longer = patch._replace(half_length=1.0)
-    assert summed(longer, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(
+    assert patch_tractions(longer, chords, load, 2e-8, 0.0, 0.0, 0.3)[0] == pytest.approx(
         GAMMA * load, rel=2e-3
     )
 
@@ -315,8 +310,10 @@ def test_friction_of_asperities_along_the_roller_against_dense_integration(
     """µ_b p min(|v|/v_full, 1) over the stations of the Hertz contact, beside the film's part of the load."""
     law = contact(FULL)
     patch, chords = patch_of(law), chord_table(law.fluid)
-    sums = summed(patch, chords, load, 6e-7, share, ring_speed, slip)
-    sums[:3] -= (1.0 - share) * summed(patch, chords, load, 6e-7, 0.0, ring_speed, slip)[:3]
+    sums = patch_tractions(patch, chords, load, 6e-7, share, ring_speed, slip)
+    sums[:3] -= (1.0 - share) * patch_tractions(patch, chords, load, 6e-7, 0.0, ring_speed, slip)[
+        :3
+    ]
     across = patch.across * load ** (1 / 3)
     half = min(across, patch.half_length)
     z = (np.arange(100001) + 0.5) / 100001 * 2 * half - half
@@ -341,6 +338,6 @@ def test_film_and_asperities_share_the_load():
     share = float(law.asperity_share(load, speed - 0.5 * slip, film)[0])
     assert 0.01 < share < 1.0
     patch, chords = patch_of(law), chord_table(law.fluid)
-    both = [summed(patch, chords, 2e4, film[0], part, 0.02, 3e-3) for part in (0.0, 1.0)]
+    both = [patch_tractions(patch, chords, 2e4, film[0], part, 0.02, 3e-3) for part in (0.0, 1.0)]
     computed = np.array([traction[0] for traction in tractions(law, load, speed, slip)])
     np.testing.assert_allclose(computed, (1.0 - share) * both[0] + share * both[1], rtol=1e-9)

@@ -1,9 +1,9 @@
 """Stress of the oil along the chords of a contact, looked up in its table by compiled functions.
 
 A chord is the slice of the contact at one station of the roller's axis. The table is
-`macroslip.contact.traction.ChordTable`. Chords of one contact are looked up together, in three loops
-of which each does one part of the work for all: the processor does several chords of such a loop at
-once, and together they take half as long as one chord after the other.
+`macroslip.contact.traction.ChordTable`. Chords of one contact are looked up together, in loops of
+which each does one part of the work for all: the processor does several chords of such a loop at
+once, and together they take half as long as one chord after the other, or less.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def _on_line(coefficients, cell, t):
 
 
 class FilmNode(NamedTuple):
-    """Position of a film thickness in the table of chords, and what its rheology takes values times.
+    """Position of a film thickness in the table of chords, and numbers of the film's rheology.
 
     The table holds ln of the stress over a unit, by slip over another. Both units are numbers of the
     rheology, so that no chord asks which it is.

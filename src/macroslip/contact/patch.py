@@ -219,7 +219,7 @@ def patch_tractions(
         Pull [N], lag [N], skew moment [N m] and power of asperities [W], of the shape to which the
         arguments broadcast.
     """
-    states = np.stack(np.broadcast_arrays(load, film, share, ring_speed, slip)).astype(float)
+    states = np.array(np.broadcast_arrays(load, film, share, ring_speed, slip), dtype=float)
     shape = states.shape[1:]
     tractions = np.zeros((math.prod(shape), 4))
     _integrate(patch, chords, states.reshape(5, -1), np.zeros(1, SLICES), tractions)

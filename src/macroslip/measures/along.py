@@ -283,18 +283,17 @@ def _touched(patch, across, middle):
 
 
 @jit_once
-def _write_power(contact, state, sample, interface, slices, count):
+def _write_power(contact, root, state, sample, interface, slices, count):
     """Write load and frictional power per length of the slices of an ellipse, and its asperities' part.
 
     The film has the share of the area that asperities leave. The oil's table, looked up before, or
     Kellström's coefficient gives its stress; without either the contact's power is distributed as
-    load is.
+    load is. `root` is the cube root of the load [N^(1/3)].
     """
     patch = contact.patch
     load, ring_speed, slip = state
     share = sample.share[interface]
     entrainment = signed_entrainment(ring_speed, slip)
-    root = exponential(logarithm(load) / 3.0)
     middle_load = 0.75 * load / (patch.across * root)
     middle_power = 0.75 * sample.at.power[interface] / (patch.across * root)
     boundary = patch.boundary_friction * max(share, LEAST_SHARE) * middle_load
@@ -358,7 +357,7 @@ def power_along(maps, interface, contact, state, sample, passes, along):
     if contact.chorded:
         node = film_node(contact.chords, sample.film[interface])
         chord_stresses(contact.chords, node, slices, count)
-    _write_power(contact, state, sample, interface, slices, count)
+    _write_power(contact, root, state, sample, interface, slices, count)
     width = 2.0 * patch.half_length / STATIONS
     hot = sample.hot[interface]
     densest, fastest = book_slices(along, slices, first, count, width, hot)

@@ -232,8 +232,10 @@ def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extrem
                 if strips is None:
                     most = power_along(maps, i, contact, state, sample, passes, after)
                 else:
-                    along = uncounted(strips)[n, i]  # pyright: ignore[reportCallIssue]
-                    most = line_power_along(maps, i, contact, state, sample, passes, along, after)
+                    touching = uncounted(strips)[n, i]  # pyright: ignore[reportCallIssue]
+                    most = line_power_along(
+                        maps, i, contact, state, sample, passes, touching, after
+                    )
                 _raise_all(sample, i, contact, most, extremes)
                 _raise_density(maps, i, places, after)
             if not is_peak:

@@ -125,8 +125,8 @@ SAMPLE = np.dtype(
         # By raceway, the middle of the ellipse along the roller [m] and the six numbers of
         # `contact.skewed.SlipLines`, of which a straight roller has three.
         ("lines", "f8", (2, 7)),
-        # By interface where it is hottest, found as samples are spread: power per length [W/m], half-width
-        # [m], and speeds of roller and counterpart [m/s].
+        # By interface where it is hottest, found as samples are spread: power per length [W/m],
+        # half-width [m], and speeds of roller and counterpart [m/s].
         ("hot", "f8", (3, 4)),
     ]
 )
