@@ -55,7 +55,7 @@ def main() -> None:
         gc.set_threshold(20_000)
         # Matrices here are small, and cases run side by side in threads and processes of our own.
         # The threads that NumPy and SciPy start for large ones would wait for work in a busy loop,
-        # two fifths of the CPU time of a short command.
+        # a quarter to two fifths of the CPU time of a short command.
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         from macroslip.machine import safe_path
 
