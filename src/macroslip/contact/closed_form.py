@@ -31,6 +31,7 @@ from scipy.special import roots_jacobi, zeta
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
+from macroslip.contact.look_up import arsinh
 from macroslip.elementary import exponential
 
 #: Power series of g, (−4)^n (n!)²/(2n + 1)!, and B up to which it is used; what its last term
@@ -96,7 +97,8 @@ def _reduction(heating):
             slope = slope * heating + n * _G_SERIES[n]
         return g, slope
     root = math.sqrt(heating)
-    g = math.asinh(root) / (root * math.sqrt(1.0 + heating))
+    hypotenuse = math.sqrt(1.0 + heating)
+    g = arsinh(root, hypotenuse) / (root * hypotenuse)
     slope = 0.5 * (1.0 - (1.0 + 2.0 * heating) * g) / (1.0 + heating)
     return g, slope
 
@@ -197,9 +199,10 @@ def patch_integral(pressure_exponent, root_heating):
     if p < _LARGEST_P:
         return _patch_by_rule(p, heating)
     h = 0.5 * p
-    u0 = math.asinh(root_heating)
-    u1 = math.asinh(q1)
-    w1 = u1 * (q1 / math.sqrt(1.0 + q1 * q1))
+    hypotenuse = math.sqrt(1.0 + q1 * q1)
+    u0 = arsinh(root_heating, math.sqrt(1.0 + heating))
+    u1 = arsinh(q1, hypotenuse)
+    w1 = u1 * (q1 / hypotenuse)
     coth_moment = moment_of_coth(u1) - moment_of_coth(u0)
     integral = 0.5 * (h * u1 * u1 - coth_moment)
     slope = h * w1 - 0.5 * (u1 - u0) * (u1 + u0)

@@ -34,7 +34,6 @@ def guess(path, now, zone, before, attempt):
     slip = now.slip
     forces = now.forces
     at = now.at
-    microslip = path.body.microslip
     last = before.increment
     gripped = path.body.mobility * forces.slope * h
     is_near = h <= tuning.MOST_AHEAD * before.length
@@ -42,9 +41,7 @@ def guess(path, now, zone, before, attempt):
     drifts = gripped < 1.0 and zone != EDGE
     # The cage may hold the roller: its spin then stays as it is, at zero.
     spins = drifts or forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope)
-    follows = zone == FIRM or (
-        microslip and gripped > tuning.GRIPPED and attempt.at[2].elastic_load > 0.0
-    )
+    follows = zone == FIRM or (gripped > tuning.GRIPPED and attempt.at[2].elastic_load > 0.0)
     drift = -path.body.mobility * net_force(forces) * h if drifts else 0.0
     for k in range(3):
         quickening = attempt.at[k].ring_speed - at.ring_speed
@@ -55,6 +52,4 @@ def guess(path, now, zone, before, attempt):
             continue
         attempt.slip[k] = slip + quickening + drift * NODES[k] if spins else slip
         if follows:
-            attempt.slip[k] = held_slip(
-                microslip, attempt.slip[k], at, attempt.at[k], before.exponent
-            )
+            attempt.slip[k] = held_slip(attempt.slip[k], at, attempt.at[k], before.exponent)

@@ -11,8 +11,16 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit_inline
+from macroslip.elementary import exponential, logarithm
 from macroslip.imposed import tuning
-from macroslip.imposed.radau import correct, evaluate_stages, force_tolerance, new_bend
+from macroslip.imposed.radau import (
+    correct,
+    evaluate_stages,
+    force_tolerance,
+    left_by_bend,
+    new_bend,
+    stiffness_of,
+)
 from macroslip.imposed.state import evaluate
 from macroslip.imposed.zones import FIRM
 from macroslip.mechanics.spin import magnitude, net_force
@@ -109,7 +117,7 @@ def solve_held(path, now, attempt, before, sums):
     attempt.slip[0] = slip
     attempt.increment[0] = 0.0
     force_part = force_tolerance(path.limits.tolerance, path.body.microslip)
-    attempt.slip[1] = held_slip(path.body.microslip, slip, at, middle, before.exponent)
+    attempt.slip[1] = held_slip(slip, at, middle, before.exponent)
     evaluate(path, middle, attempt.slip[1], second)
     # The middle first, with the end as far ahead as the middle: its solution makes a good guess of
     # the end.
@@ -118,7 +126,6 @@ def solve_held(path, now, attempt, before, sums):
     stiffness = 2.0 * scale + second.slope
     ahead = attempt.slip[1] - residual / stiffness
     attempt.slip[2] = held_slip(
-        path.body.microslip,
         ahead,
         middle,
         end,
@@ -131,7 +138,7 @@ def solve_held(path, now, attempt, before, sums):
         attempt.increment[k] = attempt.slip[k] - slip - ring_change
     attempt.unbalanced = math.inf
     change = 0.0
-    foreseen = math.inf
+    stiffness = 0.0
     for iteration in range(tuning.HELD_ITERATIONS):
         residual_2 = scale * attempt.increment[2] + net_force(second)
         residual_3 = scale * (3.0 * attempt.increment[2] - 4.0 * attempt.increment[1]) + net_force(
@@ -143,17 +150,18 @@ def solve_held(path, now, attempt, before, sums):
             return False
         if iteration > 0:
             if iteration == 1:
-                before.bend = new_bend(before.bend, size, change)
+                before.bend = new_bend(before.bend, size, stiffness, change)
             if size > 0.9 * attempt.unbalanced and size > allowed:
                 return False
             foreseen = min(size, size * size / attempt.unbalanced)
         update = held_update(scale, second.slope, third.slope, residual_2, residual_3)
         change = max(abs(update[0]), abs(update[1]))
+        stiffness = stiffness_of(attempt, 1)
         if iteration == 0:
-            foreseen = tuning.BEND_SAFETY * before.bend * change * change
+            foreseen = left_by_bend(before.bend, stiffness, change)
         attempt.unbalanced = size
         last = foreseen <= allowed
-        correct(now, attempt, (0.0, update[0], update[1]), 1, last)
+        correct(now, attempt, (0.0, update[0], update[1]), 1)
         if last:
             attempt.unbalanced = foreseen
             return True
@@ -162,16 +170,15 @@ def solve_held(path, now, attempt, before, sums):
 
 
 @jit_inline
-def held_slip(microslip, slip, at, later, exponent):
+def held_slip(slip, at, later, exponent):
     """First guess of the slip of a firmly held roller under later conditions.
 
-    With microslip the middle slips so that the two sides of the lines of pure rolling balance: in
-    proportion to speed, and to a power of the load that `held_exponent` measures.
+    With microslip the middle slips so that the two sides of the lines of pure rolling balance, and
+    without so that traction holds against the cage's friction: in proportion to speed, and to a power
+    of the load that `held_exponent` measures.
 
     Parameters
     ----------
-    microslip : bool
-        Whether the contacts have microslip; the guess is the slip now without.
     slip : float
         Slip now [m/s].
     at, later : record of `macroslip.mechanics.spin.CONDITIONS`
@@ -185,13 +192,13 @@ def held_slip(microslip, slip, at, later, exponent):
         Slip under the later conditions [m/s]; that of now where load or speed give no ratio, or where
         speed grows by more than `MOST_QUICKENING`.
     """
-    if not microslip or at.elastic_load <= 0.0 or at.ring_speed == 0.0 or later.elastic_load <= 0.0:
+    if at.elastic_load <= 0.0 or at.ring_speed == 0.0 or later.elastic_load <= 0.0:
         return slip
     if abs(later.ring_speed) > tuning.MOST_QUICKENING * abs(at.ring_speed):
         return slip
     return (
         slip
-        * (later.elastic_load / at.elastic_load) ** exponent
+        * exponential(exponent * (later.log_inner_load - at.log_inner_load))
         * (later.ring_speed / at.ring_speed)
     )
 
@@ -216,7 +223,7 @@ def held_exponent(at, slip, later, later_slip, exponent):
     """
     if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
         return exponent
-    change = math.log(later.elastic_load / at.elastic_load)
+    change = later.log_inner_load - at.log_inner_load
     ratio = (
         later_slip * at.ring_speed / (slip * later.ring_speed)
         if slip * later.ring_speed != 0.0
@@ -224,5 +231,5 @@ def held_exponent(at, slip, later, later_slip, exponent):
     )
     if abs(change) < tuning.LEAST_CHANGE or ratio <= 0.0:
         return exponent
-    exponent = math.log(ratio) / change
+    exponent = logarithm(ratio) / change
     return min(max(exponent, -tuning.STEEPEST), tuning.STEEPEST)

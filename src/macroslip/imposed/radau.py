@@ -21,6 +21,7 @@ import numpy as np
 
 from macroslip.compiled import jit_inline
 from macroslip.imposed import tuning
+from macroslip.imposed.root import left_by_curvature
 from macroslip.imposed.state import evaluate, locate
 from macroslip.imposed.zones import FREE
 from macroslip.mechanics.spin import magnitude, net_force
@@ -241,21 +242,37 @@ def force_tolerance(tolerance, microslip):
 
     It goes with the tolerance of the integration.
     """
-    if not microslip:
-        return tuning.FORCE_TOLERANCE
-    share = tuning.MICROSLIP_FORCE_SHARE * tolerance
-    share = min(share, tuning.MICROSLIP_FORCE_TOLERANCE)
+    share = min(tuning.FORCE_SHARE * tolerance, tuning.LARGEST_FORCE_TOLERANCE)
+    if microslip:
+        share = min(tuning.MICROSLIP_FORCE_SHARE * tolerance, tuning.MICROSLIP_FORCE_TOLERANCE)
     return max(tuning.FORCE_TOLERANCE, share)
 
 
 @jit_inline
-def new_bend(bend, size, change):
-    """Curvature of the residual, renewed from what a Newton correction has left [N s²/m²].
+def stiffness_of(attempt, first):
+    """Largest slope of the net force by slip at the stages of a step, from one stage on [N s/m]."""
+    slope = 0.0
+    for k in range(first, 3):
+        slope = max(slope, abs(attempt.forces[k].slope))
+    return slope
 
-    Half of what was known is forgotten.
+
+@jit_inline
+def new_bend(bend, size, stiffness, change):
+    """Relative curvature of the residual, renewed from what a Newton correction has left [s/m].
+
+    It is the residual over stiffness and squared correction, so that a contact that stiffens with its
+    load has the same. Half of what was known is forgotten.
     """
     kept = tuning.FORGET * bend if bend < math.inf else 0.0
-    return max(size / (change * change), kept)
+    weight = stiffness * change * change
+    return max(size / weight, kept) if weight > 0.0 else math.inf
+
+
+@jit_inline
+def left_by_bend(bend, stiffness, change):
+    """Residual that a Newton correction leaves, by the curvature that earlier ones had [N]."""
+    return tuning.BEND_SAFETY * bend * stiffness * change * change
 
 
 @jit_inline
@@ -282,28 +299,25 @@ def evaluate_stages(path, now, attempt, sums, first):
 
 
 @jit_inline
-def correct(now, attempt, change, first, shifted):
-    """Correct the slips of stages, and where wanted the forces to first order.
+def correct(now, attempt, change, first):
+    """Correct the slips of stages, with increments, and with forces to first order.
 
     Parameters
     ----------
     now : record of `macroslip.imposed.state.STATE`
         State at the start of the step.
     attempt : record of `macroslip.imposed.state.ATTEMPT`
-        Its slips are changed; if `shifted`, its forces and increments too.
+        Its slips, increments and forces are changed.
     change : tuple of float
         Changes of slip by stage [m/s].
     first : int
         Number of the first stage that changes.
-    shifted : bool
-        Whether the forces follow.
     """
     for k in range(first, 3):
         attempt.slip[k] += change[k]
-        if shifted:
-            _shift(attempt.forces[k], change[k])
-            ring_change = attempt.at[k].ring_speed - now.at.ring_speed
-            attempt.increment[k] = attempt.slip[k] - now.slip - ring_change
+        _shift(attempt.forces[k], change[k])
+        ring_change = attempt.at[k].ring_speed - now.at.ring_speed
+        attempt.increment[k] = attempt.slip[k] - now.slip - ring_change
 
 
 @jit_inline
@@ -333,11 +347,12 @@ def solve_stages(path, now, zone, attempt, before, sums):
     limits = path.limits
     force_part = force_tolerance(limits.tolerance, path.body.microslip)
     round_off = 4e-15 * scale * (limits.speed_scale + abs(now.slip))
-    # Without microslip a roller that grips slips too little for its forces to bend in the same way
-    # twice.
+    # Without microslip a roller under load may stick and slide in one step: its forces do not bend
+    # in the same way twice.
     smooth = path.body.microslip or zone == FREE
     attempt.unbalanced = math.inf
     change = 0.0
+    stiffness = 0.0
     foreseen = math.inf
     first = attempt.forces[0]
     second = attempt.forces[1]
@@ -365,21 +380,27 @@ def solve_stages(path, now, zone, attempt, before, sums):
         if not math.isfinite(size) or (iteration > 2 and size > 0.9 * attempt.unbalanced):
             return False
         # Newton's residuals shrink quadratically: the next one is predicted from the last two, or
-        # with a known bend from the first correction, and where it is small enough the forces
-        # follow to first order, without an evaluation.
+        # from the first correction and the curvature of the forces, and where it is small enough
+        # the forces follow to first order, without an evaluation.
         if iteration > 0:
             foreseen = size * size / attempt.unbalanced
             if iteration == 1:
-                before.bend = new_bend(before.bend, size, change)
+                before.bend = new_bend(before.bend, size, stiffness, change)
         update = newton_update(scale, first.slope, second.slope, third.slope, residual)
         change = max(abs(update[0]), abs(update[1]), abs(update[2]))
+        stiffness = stiffness_of(attempt, 0)
         if iteration == 0:
-            foreseen = tuning.BEND_SAFETY * before.bend * change * change if smooth else math.inf
+            if smooth:
+                foreseen = left_by_bend(before.bend, stiffness, change)
+            elif path.body.closed_form:
+                foreseen = left_by_curvature(path.body, path.flat, attempt, update)
         attempt.unbalanced = size
         least = min(magnitude(first), magnitude(second), magnitude(third))
         is_close = iteration == 0 or size <= tuning.LAST_RESIDUAL * least + round_off
+        correct(now, attempt, update, 0)
+        # Forces of a poor guess may be far larger than those of the solution.
+        least = min(magnitude(first), magnitude(second), magnitude(third))
         last = is_close and foreseen <= force_part * least + round_off
-        correct(now, attempt, update, 0, last)
         if last:
             attempt.unbalanced = foreseen
             return True

@@ -39,8 +39,8 @@ from macroslip.mechanics.spin import net_force, powers
 from macroslip.ring.orbit import interval_of, last_before, uncounted_motion
 from macroslip.roller.step import write_stage
 
-#: Rows that a step may take: its own, and rows of samples between its stages.
-_ROWS = 2 + tuning.PEAK_PARTS // 3
+#: Rows that a step may take: its own, and those of samples between its stages, three in a row.
+_ROWS = 1 + (tuning.CUSP_PARTS + 1) // 3
 
 
 @jit_inline
@@ -65,10 +65,13 @@ def _rebalance(path, now, sums, forces):
     acceleration = rise / (motion.time[k + 1] - motion.time[k])
     needed = -body.orbit_ratio * body.outer_radius * acceleration / body.mobility
     slip = now.slip
-    for _ in range(3):
+    for _ in range(tuning.BALANCE_ITERATIONS):
         evaluate(path, now.at, slip, forces)
-        slip += (needed - net_force(forces)) / forces.slope
-    sums.evaluations += 3
+        sums.evaluations += 1
+        change = (needed - net_force(forces)) / forces.slope
+        slip += change
+        if abs(change) <= tuning.BALANCED * abs(slip):
+            break
     if abs(slip - now.slip) < tuning.SETTLED * path.limits.speed_scale:
         now.slip = slip
         start_at(path, now, sums)
@@ -169,6 +172,9 @@ def _attempt(path, now, attempt, before, stretch, sample, sums):
 def _reject(path, now, attempt, stretch, sums, error):
     """Prepare another attempt: three stages in place of a held step's two, or a shorter step."""
     sums.rejections += 1
+    if attempt.held and error == math.inf:
+        stretch.step = tuning.UNSOLVED_HELD_PART * attempt.length
+        return
     stretch.failed = 1
     if attempt.held:
         return
@@ -241,31 +247,32 @@ def _film_ends_at(now, attempt, resolved):
 
 
 @jit_inline
-def _write_samples(path, now, attempt, sample, number, cusp, rows):
+def _write_samples(path, now, attempt, stretch, sample, sums, cusp, rows):
     """Write rows without weight between the stages, where power may have a peak; returns how many.
 
-    One of them is at the part `cusp` of the step; `number` is that of the stretch of smooth loads.
-    `sample` is overwritten.
+    One of them is at the part `cusp` of the step. `sample` is overwritten.
     """
     resolved = _resolved_slip(path.limits)
     filled = 0
     stage = 0
-    parts = tuning.PEAK_PARTS
-    for k in range(1, parts + 1):
-        near = abs(cusp * parts - k) <= 0.5 or (k == 1 and cusp * parts < 0.5)
-        part = cusp if near else k / parts
+    parts = tuning.CUSP_PARTS if cusp < 1.0 else tuning.PEAK_PARTS
+    # The sample nearest to a cusp lies on it.
+    nearest = min(max(round(cusp * parts), 1), parts - 1) if cusp < 1.0 else 0
+    for k in range(1, parts):
+        part = cusp if k == nearest else k / parts
         sample_between(path, now, attempt, part, sample)
         slip = sample.slip
         if abs(slip) <= resolved:
             continue
         evaluate(path, sample.at, slip, sample.forces)
+        sums.evaluations += 1
         powers(path.body, sample.at, sample.forces, slip, sample.powers[:])
         row = rows[filled]
         row.time[stage] = now.time + part * attempt.length
         row.weight[stage] = 0.0
         write_stage(row, stage, path.body, sample.at, sample.forces, slip, sample.powers[:])
         stage += 1
-        frame(now, number, row, stage, row.time[stage - 1])
+        frame(now, stretch.number, row, stage, row.time[stage - 1])
         if stage == 3:
             filled += 1
             stage = 0
@@ -283,8 +290,7 @@ def _sample_peak(path, now, attempt, stretch, sample, sums, rows):
         cusp = _film_ends_at(now, attempt, _resolved_slip(path.limits))
     if cusp == 1.0 and not _may_peak_inside(path, now, attempt, stretch.zone, sums.top_power):
         return False, 0
-    sums.evaluations += tuning.PEAK_PARTS
-    return True, _write_samples(path, now, attempt, sample, stretch.number, cusp, rows)
+    return True, _write_samples(path, now, attempt, stretch, sample, sums, cusp, rows)
 
 
 @jit_inline

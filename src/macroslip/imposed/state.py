@@ -101,7 +101,7 @@ STEP_SAMPLE = np.dtype(
 BEFORE = np.dtype(
     [
         ("exponent", "f8"),  # power of the load that the slip of a held roller follows [-]
-        # Residual left by Newton's correction over the square of the correction [N s²/m²]; infinite
+        # Residual left by Newton's correction over stiffness and squared correction [s/m]; infinite
         # while it is not known.
         ("bend", "f8"),
         # Length of the last step of three stages [s]; 0 where a held one has come since.
