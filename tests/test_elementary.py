@@ -1,4 +1,4 @@
-"""Exponential, logarithm, sine and cosine of compiled code against mpmath and the C library."""
+"""Exponential, logarithm, sine, cosine and arc tangent of compiled code against mpmath and the C library."""
 
 import math
 
@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip.compiled import jit
-from macroslip.elementary import cosine_and_sine, exponential, logarithm
+from macroslip.elementary import arctangent, cosine_and_sine, exponential, logarithm
 
 RANDOM = np.random.default_rng(7)
 
@@ -30,6 +30,12 @@ def logarithms(x, result):
 def cosines_and_sines(angle, result):
     for n in range(angle.size):
         result[n, 0], result[n, 1] = cosine_and_sine(angle[n])
+
+
+@jit
+def arctangents(x, result):
+    for n in range(x.size):
+        result[n] = arctangent(x[n])
 
 
 def of(function, x, *shape):
@@ -99,3 +105,19 @@ def test_python_has_the_c_librarys():
     assert exponential(0.3) == math.exp(0.3)
     assert logarithm(0.3) == math.log(0.3)
     assert cosine_and_sine(0.3) == (math.cos(0.3), math.sin(0.3))
+
+
+def test_arc_tangent_is_good_to_two_units_in_the_last_place():
+    near = np.tan(np.pi / 8.0 * np.array([1.0, 3.0]))
+    x = np.concatenate(
+        [
+            RANDOM.uniform(-4.0, 4.0, 4000),
+            RANDOM.choice([-1.0, 1.0], 2000) * np.exp(RANDOM.uniform(-300.0, 300.0, 2000)),
+            [0.0, 1.0, -1.0, np.inf, -np.inf],
+            near,
+            np.nextafter(near, np.inf),
+        ]
+    )
+    expected = exact(mpmath.atan, x)
+    assert (np.abs(of(arctangents, x) - expected) <= 2.0 * np.spacing(np.abs(expected))).all()
+    assert np.isnan(of(arctangents, [np.nan])).all()

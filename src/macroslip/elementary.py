@@ -1,4 +1,4 @@
-"""Exponential, logarithm, sine and cosine for compiled code.
+"""Exponential, logarithm, sine, cosine and arc tangent for compiled code.
 
 A third of an integration's time would pass in the C library: a call there has all numbers at hand
 written to memory and read again. These functions are copied into their callers instead. The
@@ -75,8 +75,14 @@ def _polynomial(coefficients: list[float], degree: int, last: float) -> np.ndarr
 #: (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ as functions of r², |r| ≤ π/4.
 _SINE_SERIES = [(-1.0) ** (k + 1) / math.factorial(2 * k + 3) for k in range(12)]
 _COSINE_SERIES = [(-1.0) ** k / math.factorial(2 * k + 4) for k in range(12)]
+#: (atan(r)/r − 1 + r²/3 − r⁴/5 + r⁶/7)/r⁸ as a function of r², |r| ≤ tan π/8.
+_ARCTANGENT_SERIES = [(-1.0) ** k / (2 * k + 9) for k in range(24)]
+_EIGHTH = math.tan(math.pi / 8.0)
 _SINE = _polynomial(_SINE_SERIES, 5, 0.617)
 _COSINE = _polynomial(_COSINE_SERIES, 5, 0.617)
+_ARCTANGENT = np.concatenate(
+    [[1.0, -1.0 / 3.0, 0.2, -1.0 / 7.0], _polynomial(_ARCTANGENT_SERIES, 9, _EIGHTH**2)]
+)
 
 
 def _write_bits_of(typingctx, x):
@@ -167,6 +173,24 @@ def _cosine_and_sine(angle):
     return cosine, sine
 
 
+def _arctangent(x):
+    size = abs(x)
+    angle = 0.0
+    r = size
+    # tan(a + b) takes the angle off by π/2 or π/4.
+    if size > 1.0 / _EIGHTH:
+        angle = 0.5 * math.pi
+        r = -1.0 / size
+    elif size > _EIGHTH:
+        angle = 0.25 * math.pi
+        r = (size - 1.0) / (size + 1.0)
+    z = r * r
+    total = 0.0
+    for k in range(_ARCTANGENT.size - 1, 0, -1):
+        total = _add_product(total, z, _ARCTANGENT[k])
+    return math.copysign(angle + _add_product(total * z, r, r), x)
+
+
 @jit_as(_exponential)
 def exponential(x):
     """e^x [-].
@@ -223,3 +247,20 @@ def cosine_and_sine(angle):
     [0.540302305868, 0.841470984808]
     """
     return math.cos(angle), math.sin(angle)
+
+
+@jit_as(_arctangent)
+def arctangent(x):
+    """Arc tangent [rad].
+
+    Parameters
+    ----------
+    x : float
+        Any number.
+
+    Examples
+    --------
+    >>> round(arctangent(1.0), 12)
+    0.785398163397
+    """
+    return math.atan(x)

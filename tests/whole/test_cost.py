@@ -48,3 +48,16 @@ def test_nothing_drifts(run):
     # The cage stays within its gap of the rollers that carry it.
     lag = result.whole["cages"][result.at_outputs(), 0, 1]
     assert np.abs(np.diff(lag[1:])).max() < 2.0 * np.abs(lag[1]) + 1e-3
+
+
+def test_kinks_of_the_shaft_speed_cost_gripped_rollers_no_cascade_of_steps(run):
+    """At each of twenty jumps of acceleration fewer than two steps are rejected.
+
+    Where slips were guessed by their rates, which jump there, it took three: a slip that is guessed beyond the peak of
+    traction does not come back.
+    """
+    time = np.linspace(0.0, 1.0, 21)
+    speed = 2.0 + 0.02 * (np.arange(time.size) % 2)
+    result = run(Cage(mass=25.0), (0.0, -1.5e-4, 0.0), (time, speed), 1.0, rollers=14)
+    assert result.status == 0
+    assert result.memory["rejections"] < 2 * (time.size - 1)

@@ -1,6 +1,7 @@
 """Forces of a pocket against the laws that they come from."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from macroslip.whole.pocket import (
     squeeze_coefficient,
     squeeze_resistance,
 )
+from macroslip.whole.stage import excess_approach
 
 DRY = Pocket(half_gap=2.5e-4, stiffness=4.2e11, damping=50.0, film=0.0, least_film=9e-7)
 FILM = DRY._replace(damping=0.0, film=squeeze_coefficient(0.54, 0.106, 0.035))
@@ -129,3 +131,35 @@ def test_elastic_energy_is_the_work_of_the_slow_push():
     work, _ = quad(lambda x: -pocket_force(DRY, x, 0.0)[0], DRY.half_gap, DRY.half_gap + depth)
     assert elastic_energy(DRY, DRY.half_gap + depth) == pytest.approx(work, rel=1e-6)
     assert elastic_energy(DRY, 0.0) == 0.0
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("load", [0.02, 0.2, 0.6])
+def test_newton_finds_a_light_approach_to_a_spar(side, load):
+    """Friction like a root of the push of a film that is squeezed, under a load: the solution is next to no speed.
+
+    By itself Newton's method goes to and fro about it for ever.
+    """
+    power = 0.3
+
+    def iterate(bounded):
+        speed = side
+        block = SimpleNamespace(approach=math.inf)
+        for iteration in range(60):
+            closing = max(side * speed, 0.0)
+            push = -side * closing
+            friction = closing**power
+            excess = friction + 0.01 * side * speed - load
+            if abs(excess) < 1e-9:
+                return iteration, side * speed
+            slope = power * closing ** (power - 1.0) if closing else 0.0
+            change = -side * excess / (slope + 0.01)
+            at = SimpleNamespace(push=push, pocket_speed=speed)
+            speed += change - (excess_approach(at, block, change) if bounded else 0.0)
+        return iteration, math.nan
+
+    iterations, found = iterate(bounded=True)
+    exact = brentq(lambda x: x**power + 0.01 * x - load, 0.0, 1.0, xtol=1e-300, rtol=1e-14)
+    assert found == pytest.approx(exact, rel=1e-6)
+    assert iterations < 40
+    assert math.isnan(iterate(bounded=False)[1])

@@ -32,6 +32,7 @@ import numpy as np
 from macroslip.bearing import Bearing, geometry
 from macroslip.compiled import jit_inline
 from macroslip.constants import FLOODED_GAP
+from macroslip.elementary import arctangent
 from macroslip.lubricant import Lubricant
 from macroslip.whole.cage import Cage
 
@@ -158,7 +159,7 @@ def squeeze_resistance(pocket, film):
         over = pocket.oil_gap / film
         way = math.sqrt(over - 1.0)
         square = over * over
-        filled = 2.0 / math.pi * (math.atan(way) + way / over - 2.0 * way / square)
+        filled = 2.0 / math.pi * (arctangent(way) + way / over - 2.0 * way / square)
         by_filling = 8.0 / math.pi * resistance * way / (square * film)
         by_film = by_film * filled - by_filling
         resistance *= filled

@@ -298,6 +298,38 @@ def _guess(y, k, step, span, lost):
 
 
 @jit_inline
+def _guess_gripped(y, k, linear, mobility):
+    """Guess that the slips of gripped contacts of a roller stay what they are.
+
+    `linear` is the record of its `LINEARISATIONS`, `mobility` γh over its mass [s/kg].
+    """
+    before = STATE if k == 0 else FIRST
+    if linear.inner.turning_by_slip * mobility > tuning.GRIPPED_GUESS:
+        y[FIRST + k, 0] = y[before, 0]
+    if linear.outer.turning_by_slip * mobility > tuning.GRIPPED_GUESS:
+        y[FIRST + k, 1] = y[before, 1]
+
+
+@jit_inline
+def _guess_all(assembly, k, step, span, change, space):
+    """Write y* of a stage and a first guess of its unknowns for all rollers and cages.
+
+    The shaft's speed has changed by `change` [rad/s] since the step's start; the other numbers are
+    those of `_guess`.
+    """
+    bearing = assembly.bearing[0]
+    rollers = space.rollers
+    cages = space.cages
+    linearisations = space.linearisations[0]
+    for j in range(rollers.size):
+        y = rollers[j].y
+        _guess(y, k, step, span, assembly.positions[j].inner_radius * change)
+        _guess_gripped(y, k, linearisations[j], step / bearing.roller_mass)
+    for c in range(cages.size):
+        _guess(cages[c].y, k, step, span, 0.5 * bearing.inner_radius * change)
+
+
+@jit_inline
 def _write_stage(assembly, k, time, weight, space, row):
     """Write the solved stage `k` of a step into the rollers' records.
 
@@ -410,12 +442,7 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
             now = instant(motion, interval, time)
             span = k * (1.0 - GAMMA) * h
             change = now.shaft_speed - start.shaft_speed
-            for j in range(schedules.size):
-                lost = assembly.positions[j].inner_radius * change
-                _guess(space.rollers[j].y, k, step, span, lost)
-            for c in range(space.cages.size):
-                lost = 0.5 * assembly.bearing[0].inner_radius * change
-                _guess(space.cages[c].y, k, step, span, lost)
+            _guess_all(assembly, k, step, span, change, space)
             locate(
                 assembly,
                 now,

@@ -74,6 +74,9 @@ BLOCK = np.dtype(
         ("by_sliding", "f8"),  # derivative of F_c by slip [N s/m]
         ("by_push", "f8"),  # derivative of F_c by N [-]
         ("residual", "f8", (2,)),  # residuals, or the right-hand side of a solution [N]
+        # Least speed of approach to a spar from which an iteration has left it [m/s]; infinite where
+        # none has.
+        ("approach", "f8"),
     ]
 )
 #: A cage's part of the matrix.
@@ -528,15 +531,84 @@ def _assemble(assembly, stage, k, size, space):
 
 
 @jit_inline
-def _update(k, size, space):
-    """Subtract a solution from the unknowns of stage `k`."""
+def _pocket_speed_change(bearing, stage, at, cage, change, border):
+    """Change of a roller's speed in its pocket [m/s] by a solution for it and for its cage.
+
+    `cage` are the unknowns of its cage; a solution, `change` and `border`, is subtracted from the
+    unknowns.
+    """
+    speed = -0.5 * (change[0] - change[1]) + border[0]
+    if bearing.translates:
+        of_cage = cage_speed(cage[0], stage.shaft_speed, bearing.inner_radius)
+        turn = stage.step * of_cage / bearing.pitch_radius
+        speed -= (at.sine + turn * at.cosine) * border[1]
+        speed -= (turn * at.sine - at.cosine) * border[2]
+    return speed
+
+
+@jit_inline
+def excess_approach(at, block, change):
+    """Part of the change of a roller's speed in its pocket that takes it too fast to a spar [m/s].
+
+    Only a film that is squeezed pushes, and the cage's friction rises from zero like a root of the
+    push. Newton's method goes to and fro about a solution next to zero: what is too fast is left
+    far, and from there it comes back as fast. The least speed of approach that was left bounds the
+    solution.
+
+    Parameters
+    ----------
+    at : record of `macroslip.whole.tractions.COUPLED_CONDITIONS`
+        The roller, with push and speed in its pocket.
+    block : record of `BLOCK`
+        Its `approach` is renewed.
+    change : float
+        Change of that speed by Newton's method [m/s].
+
+    Returns
+    -------
+    float
+        The part, with the sign of the change [m/s]; 0 where the roller approaches no spar, or has
+        left none.
+    """
+    speed = at.pocket_speed
+    following = speed + change
+    if speed * following > 0.0:
+        return 0.0
+    if at.push * speed < 0.0:
+        block.approach = min(block.approach, abs(speed))
+        return 0.0
+    fastest = tuning.APPROACH_PART * block.approach
+    return following - math.copysign(min(abs(following), fastest), following)
+
+
+@jit_inline
+def _update(assembly, stage, k, size, space):
+    """Subtract a solution from the unknowns of stage `k`.
+
+    Returns whether all of it was subtracted: an approach to a spar may be cut short.
+    """
+    bearing = assembly.bearing[0]
+    positions = assembly.positions
     rollers = space.rollers
     cages = space.cages
+    conditions = space.conditions[k]
     blocks = space.blocks
     borders = space.borders
+    whole = True
     for j in range(rollers.size):
         own = rollers[j].y[FIRST + k]
-        change = blocks[j].residual
+        block = blocks[j]
+        change = block.residual
+        if bearing.pocket.film > 0.0:
+            c = positions[j].cage
+            at = conditions[j]
+            cage = cages[c].y[FIRST + k]
+            speed = _pocket_speed_change(bearing, stage, at, cage, change, borders[c].residual)
+            excess = excess_approach(at, block, speed)
+            if excess != 0.0:
+                whole = False
+                change[0] += excess
+                change[1] -= excess
         own[0] -= change[0]
         own[1] -= change[1]
     for c in range(cages.size):
@@ -546,6 +618,7 @@ def _update(k, size, space):
         if size == 3:
             cage[2] -= change[1]
             cage[3] -= change[2]
+    return whole
 
 
 @jit_inline
@@ -566,6 +639,7 @@ def _follow(assembly, stage, k, space):
         block = blocks[j]
         cage = cages[c].y[FIRST + k]
         border = borders[c].residual
+        speed = _pocket_speed_change(bearing, stage, at, cage, block.residual, border)
         v_in = -block.residual[0]
         v_out = -block.residual[1]
         if at.inner_load > 0.0:
@@ -574,12 +648,6 @@ def _follow(assembly, stage, k, space):
         if at.outer_load > 0.0:
             at.turning_outer += linear.outer.turning_by_slip * v_out
             at.pull_outer += linear.outer.pull_by_slip * v_out
-        speed = 0.5 * (v_in - v_out) + border[0]
-        if bearing.translates:
-            of_cage = cage_speed(cage[0], stage.shaft_speed, bearing.inner_radius)
-            turn = stage.step * of_cage / bearing.pitch_radius
-            speed -= (at.sine + turn * at.cosine) * border[1]
-            speed -= (turn * at.sine - at.cosine) * border[2]
         sliding = 0.5 * (v_in + v_out) - bearing.lever * border[0]
         push = block.push_by_speed * speed
         at.push += push
@@ -620,15 +688,16 @@ def solve_stage(assembly, stage, k, space):
     before = math.inf
     for j in range(blocks.size):
         schedules[j].settled = False
+        blocks[j].approach = math.inf
     for _ in range(tuning.ITERATIONS):
         worst = _assemble(assembly, stage, k, size, space)
         eliminate(positions, size, blocks, borders)
         if worst <= stage.tolerance or not worst < math.inf:
             break
         solve(positions, size, blocks, borders)
-        _update(k, size, space)
+        whole = _update(assembly, stage, k, size, space)
         predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_RESIDUAL)
-        if predicted <= stage.tolerance:
+        if whole and predicted <= stage.tolerance:
             _place_cages(stage, k, space.cages)
             _follow(assembly, stage, k, space)
             return predicted

@@ -64,6 +64,15 @@ PREDICTED = 10.0
 #: Least part of a residual that is taken to be left by the next update. Newton's iteration squares
 #: it, but slopes of contacts are those of a state nearby. Judgement.
 PREDICTED_RESIDUAL = 1e-3
+#: Step over relaxation time from which on the slip of a raceway contact is first guessed to stay what
+#: it is. Without microslip gripped contacts, at 1e6 and more, slip by nanometres per second; what
+#: their rates predict across a sample of the loads, where the shaft's acceleration jumps, lies beyond
+#: the peak of traction, from where Newton's method does not return: half of all samples cost a
+#: cascade of shorter steps. Contacts with microslip lie below. Judgement.
+GRIPPED_GUESS = 1e4
+#: Part of the speed of approach to a spar from which a roller left it again in an earlier iteration,
+#: at which the next approach begins. Judgement.
+APPROACH_PART = 0.25
 
 # --- Tractions between evaluations ----------------------------------------------------------------
 
