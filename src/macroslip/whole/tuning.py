@@ -36,8 +36,9 @@ IMPACT_PART = 0.5
 SPEED_SHARE = 5.0
 #: Relative error of power where slopes predict it, in tolerances.
 POWER_SHARE = 3.0
-#: Force that may be left unbalanced, in tolerances [N].
-FORCE_SHARE = 1.0
+#: Force that may be left unbalanced, in tolerances [N]. A third of it takes 4 % more iterations and 5 %
+#: more evaluations (14B and 24A, physical, squeeze film), and the energies are as good.
+FORCE_SHARE = 3.0
 #: Factor on the error of speed with dry impacts: most of it is made while spars ring after a touch,
 #: where its sign is random. With it the energies above are as good for dry impacts too.
 RINGING = 2.0
