@@ -72,7 +72,9 @@ def errors_of(result: xr.Dataset, exact: xr.Dataset) -> Errors:
 
 def main(arguments: list[str] | None = None) -> int:
     """Print the errors of each tolerance."""
-    parser = argparse.ArgumentParser(description="Errors of the imposed orbit on all bundled load cases, by tolerance.")
+    parser = argparse.ArgumentParser(
+        description="Errors of the imposed orbit on all bundled load cases, by tolerance."
+    )
     parser.add_argument("setting", choices=list(SETTINGS))
     parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-2, 1e-3, 2e-4, 1e-5])
     chosen = parser.parse_args(arguments)
