@@ -151,10 +151,10 @@ def squeeze_resistance(pocket, film):
     >>> [round(squeeze_resistance(one, 2e-5)[0] / squeeze_resistance(wet, 2e-5)[0], 4) for one in (wet, short)]
     [1.0, 0.8576]
     """
-    resistance = pocket.film / (film * math.sqrt(film))
-    by_film = -1.5 * resistance / film
     if film >= pocket.oil_gap:
         return 0.0, 0.0
+    resistance = pocket.film / (film * math.sqrt(film))
+    by_film = -1.5 * resistance / film
     if pocket.oil_gap < FLOODED_GAP:
         over = pocket.oil_gap / film
         way = math.sqrt(over - 1.0)
@@ -198,7 +198,8 @@ def spar_push(pocket, gap, closing):
             push = elastic * yielding
             by_gap = -1.5 * pocket.stiffness * root * yielding
             by_closing = elastic * pocket.damping
-    if closing > 0.0 and pocket.film > 0.0:
+    # The film is thicker than the gap: without oil in that there is none to be squeezed.
+    if closing > 0.0 and pocket.film > 0.0 and gap < pocket.oil_gap:
         root = math.sqrt(gap * gap + pocket.least_film * pocket.least_film)
         film = pocket.least_film + 0.5 * (gap + root)
         resistance, by_film = squeeze_resistance(pocket, film)
