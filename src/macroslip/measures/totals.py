@@ -29,7 +29,8 @@ SPIN_RATIO_SPEED = 0.1
 #: Raceway speed [m/s] below which it never is: a rotor on its brake trembles, and its rollers
 #: neither roll nor slip.
 STANDSTILL = 1e-3
-#: Buffers of steps for whose records a batch has room, and least number of records.
+#: Buffers of steps for whose records a batch has room, as far as not said otherwise, and least number
+#: of records.
 _BUFFERS = 4
 _LEAST_BATCH = 1024
 
@@ -141,10 +142,14 @@ def write_end(step, end):
 
 
 class Batch:
-    """Buffer of records that are processed together once there are enough."""
+    """Buffer of records that are processed together once there are enough.
 
-    def __init__(self, kind: np.dtype):
+    It has room for the records of `buffers` buffers of steps.
+    """
+
+    def __init__(self, kind: np.dtype, buffers: int = _BUFFERS):
         self._records = np.zeros(0, kind)
+        self._buffers = buffers
         self.count = 0
 
     def room(self, count: int, work: Callable[[np.ndarray], None]) -> np.ndarray:
@@ -155,7 +160,7 @@ class Batch:
         if self.count + count > self._records.size:
             self._hand_over(work)
         if count > self._records.size:
-            self._records = np.zeros(max(_BUFFERS * count, _LEAST_BATCH), self._records.dtype)
+            self._records = np.zeros(max(self._buffers * count, _LEAST_BATCH), self._records.dtype)
         return self._records[self.count : self.count + count]
 
     def empty(self, work: Callable[[np.ndarray], None]) -> None:
