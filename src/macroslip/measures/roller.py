@@ -59,7 +59,8 @@ class RollerMeasures:
         self.row = row
         self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
         self.law_times = np.zeros((3, 3))
-        # These records are small, and a call for their ranges costs as much as 2,000 of them.
+        # These records are small, and with the room of others a third of the time for the ranges of
+        # laws went into calls.
         self._contacts = Batch(CONTACTS, buffers=16)
         #: States at the ends of the steps of one buffer.
         self._ends = np.zeros(0, END)
