@@ -16,10 +16,12 @@ from macroslip.imposed import tuning
 from macroslip.imposed.radau import (
     correct,
     evaluate_stages,
+    follow,
     force_tolerance,
     left_by_bend,
     new_bend,
     stiffness_of,
+    write_increment,
 )
 from macroslip.imposed.state import evaluate
 from macroslip.imposed.zones import FIRM
@@ -134,8 +136,7 @@ def solve_held(path, now, attempt, before, sums):
     evaluate(path, end, attempt.slip[2], third)
     sums.evaluations += 2
     for k in range(1, 3):
-        ring_change = attempt.at[k].ring_speed - at.ring_speed
-        attempt.increment[k] = attempt.slip[k] - slip - ring_change
+        write_increment(now, attempt, k)
     attempt.unbalanced = math.inf
     change = 0.0
     stiffness = 0.0
@@ -160,9 +161,10 @@ def solve_held(path, now, attempt, before, sums):
         if iteration == 0:
             foreseen = left_by_bend(before.bend, stiffness, change)
         attempt.unbalanced = size
-        last = foreseen <= allowed
-        correct(now, attempt, (0.0, update[0], update[1]), 1)
-        if last:
+        changes = (0.0, update[0], update[1])
+        correct(attempt, changes, 1)
+        if foreseen <= allowed:
+            follow(now, attempt, changes, 1)
             attempt.unbalanced = foreseen
             return True
         evaluate_stages(path, now, attempt, sums, 1)
@@ -184,7 +186,7 @@ def held_slip(slip, at, later, exponent):
     at, later : record of `macroslip.mechanics.spin.CONDITIONS`
         Conditions now and later.
     exponent : float
-        Power of the elastic load that slip follows [-].
+        Power of the inner raceway's load that slip follows [-].
 
     Returns
     -------
@@ -205,7 +207,7 @@ def held_slip(slip, at, later, exponent):
 
 @jit_inline
 def held_exponent(at, slip, later, later_slip, exponent):
-    """Power of the elastic load in proportion to which the slip of a held roller has changed.
+    """Power of the inner raceway's load in proportion to which the slip of a held roller has changed.
 
     Parameters
     ----------

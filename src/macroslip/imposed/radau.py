@@ -242,9 +242,10 @@ def force_tolerance(tolerance, microslip):
 
     It goes with the tolerance of the integration.
     """
-    share = min(tuning.FORCE_SHARE * tolerance, tuning.LARGEST_FORCE_TOLERANCE)
     if microslip:
         share = min(tuning.MICROSLIP_FORCE_SHARE * tolerance, tuning.MICROSLIP_FORCE_TOLERANCE)
+    else:
+        share = min(tuning.FORCE_SHARE * tolerance, tuning.LARGEST_FORCE_TOLERANCE)
     return max(tuning.FORCE_TOLERANCE, share)
 
 
@@ -276,6 +277,13 @@ def left_by_bend(bend, stiffness, change):
 
 
 @jit_inline
+def write_increment(now, attempt, k):
+    """Write the increment of slip by forces [m/s] that follows from the slip at stage `k`."""
+    ring_change = attempt.at[k].ring_speed - now.at.ring_speed
+    attempt.increment[k] = attempt.slip[k] - now.slip - ring_change
+
+
+@jit_inline
 def evaluate_stages(path, now, attempt, sums, first):
     """Write forces and increments of slip at the stages of a step, from one stage on.
 
@@ -293,21 +301,18 @@ def evaluate_stages(path, now, attempt, sums, first):
     """
     for k in range(first, 3):
         evaluate(path, attempt.at[k], attempt.slip[k], attempt.forces[k])
-        ring_change = attempt.at[k].ring_speed - now.at.ring_speed
-        attempt.increment[k] = attempt.slip[k] - now.slip - ring_change
+        write_increment(now, attempt, k)
         sums.evaluations += 1
 
 
 @jit_inline
-def correct(now, attempt, change, first):
-    """Correct the slips of stages, with increments, and with forces to first order.
+def correct(attempt, change, first):
+    """Correct the slips of stages; forces and increments are those of before.
 
     Parameters
     ----------
-    now : record of `macroslip.imposed.state.STATE`
-        State at the start of the step.
     attempt : record of `macroslip.imposed.state.ATTEMPT`
-        Its slips, increments and forces are changed.
+        Its slips are changed.
     change : tuple of float
         Changes of slip by stage [m/s].
     first : int
@@ -315,9 +320,26 @@ def correct(now, attempt, change, first):
     """
     for k in range(first, 3):
         attempt.slip[k] += change[k]
+
+
+@jit_inline
+def follow(now, attempt, change, first):
+    """Let increments follow a correction of slips, and forces to first order.
+
+    Parameters
+    ----------
+    now : record of `macroslip.imposed.state.STATE`
+        State at the start of the step.
+    attempt : record of `macroslip.imposed.state.ATTEMPT`
+        With corrected slips; its forces and increments are changed.
+    change : tuple of float
+        Changes of slip by stage [m/s].
+    first : int
+        Number of the first stage that has changed.
+    """
+    for k in range(first, 3):
         _shift(attempt.forces[k], change[k])
-        ring_change = attempt.at[k].ring_speed - now.at.ring_speed
-        attempt.increment[k] = attempt.slip[k] - now.slip - ring_change
+        write_increment(now, attempt, k)
 
 
 @jit_inline
@@ -397,11 +419,12 @@ def solve_stages(path, now, zone, attempt, before, sums):
         attempt.unbalanced = size
         least = min(magnitude(first), magnitude(second), magnitude(third))
         is_close = iteration == 0 or size <= tuning.LAST_RESIDUAL * least + round_off
-        correct(now, attempt, update, 0)
-        # Forces of a poor guess may be far larger than those of the solution.
-        least = min(magnitude(first), magnitude(second), magnitude(third))
-        last = is_close and foreseen <= force_part * least + round_off
-        if last:
-            attempt.unbalanced = foreseen
-            return True
+        correct(attempt, update, 0)
+        if is_close and foreseen < math.inf:
+            follow(now, attempt, update, 0)
+            # Forces of a poor guess may be far larger than those of the solution.
+            least = min(magnitude(first), magnitude(second), magnitude(third))
+            if foreseen <= force_part * least + round_off:
+                attempt.unbalanced = foreseen
+                return True
     return False

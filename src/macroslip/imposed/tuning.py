@@ -82,7 +82,7 @@ FORGOTTEN = 1.0
 
 # --- Stage equations ------------------------------------------------------------------------------
 
-#: Most iterations of Newton at a step; it takes two on average.
+#: Most iterations of Newton at a step; it takes one or two.
 ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage, over the tolerance of the
 #: integration, and its bounds. What is left is an error of slip of the same relative size, and of
