@@ -36,7 +36,7 @@ def supplies() -> list[Case]:
 
 
 def measured(cases: list[Case], *, skew: bool = False) -> tuple[int, float]:
-    """Sheets of tables that these cases make, one for each speed, and CPU time for tables [s]."""
+    """Parts of sheets that these cases make and store, and CPU time for tables [s]."""
     kept: dict[str, bytes] = {}
     reading = tables.read_cache
     writing = tables.write_cache
@@ -72,7 +72,7 @@ def main() -> None:
         "a year, tables of skew": (year, True),
         "16 supplies of oil": (supplies(), False),
     }
-    print("| cases | sheets made | CPU time [s] |\n|---|---|---|")
+    print("| cases | parts of sheets made | CPU time [s] |\n|---|---|---|")
     for name, (cases, skew) in sets.items():
         sheets, spent = measured(cases, skew=skew)
         print(f"| {name} | {sheets} | {spent:.1f} |", flush=True)

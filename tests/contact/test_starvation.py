@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from macroslip import Bearing, BearingLoads, Case, Laws, Lubricant
 from macroslip.case.case_file import build_case
@@ -19,6 +20,7 @@ from macroslip.contact.rolling import (
 )
 from macroslip.contact.starvation import (
     film_factor,
+    film_factor_at_gap,
     inlet_at_gap,
     inlet_for_film,
     inlet_for_rolling,
@@ -54,6 +56,16 @@ def test_inverses():
         )
         assert rigid_rolling_factor(inlet) == pytest.approx(starved_martin(inlet)[1], rel=1e-5)
     assert inlet_for_film(1.0) == math.inf
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.3, 1.0, 3.0, 30.0, 1000.0, 1e6])
+def test_film_at_a_gap_beside_a_root_of_the_inlet(ratio):
+    inlet = brentq(lambda x: x * film_factor(x) - ratio, 1.0 + 1e-12, 1e8, xtol=1e-14, rtol=1e-15)
+    assert film_factor_at_gap(ratio * 1e-6, 1e-6) == pytest.approx(film_factor(inlet), rel=1e-8)
+
+
+def test_film_far_from_any_gap_is_flooded():
+    assert film_factor_at_gap(1.0, 1e-9) == pytest.approx(1.0, abs=1e-9)
 
 
 def case(supply, **other):
@@ -187,9 +199,21 @@ def test_two_gaps_of_the_grid_give_the_film_of_those_between(film):
         assert inverse == pytest.approx(exact, rel=5e-5 if gap < 20.0 * film else 2e-5)
 
 
+@pytest.mark.parametrize("thicker", [10.0, 50.0, 300.0])
+def test_two_gaps_of_the_grid_give_the_thicker_films_of_lighter_contacts(thicker):
+    film = 1e-6
+    light = thicker * film
+    for gap in film * np.geomspace(8.0, 2000.0, 300):
+        shared = shared_gaps(gap, film, 1.0)
+        inverse = sum(weight / film_factor_at_gap(node, light) for node, weight in shared)
+        exact = 1.0 / film_factor_at_gap(gap, light)
+        assert inverse == pytest.approx(exact, rel=7e-5 if gap < 100.0 * film else 3e-4)
+
+
 def test_a_finer_table_has_gaps_that_are_nearer():
-    (near, _), (far, _) = shared_gaps(2e-4, 1e-6, 0.5)
-    assert math.log(far / near) == pytest.approx(0.125 / 4.0)
+    for gap, apart in ((2e-5, 0.125), (2e-4, 0.25)):
+        (near, _), (far, _) = shared_gaps(gap, 1e-6, 0.5)
+        assert math.log(far / near) == pytest.approx(apart / 4.0)
 
 
 def test_empty_and_flooded_inlets_have_tables_of_their_own():

@@ -338,8 +338,28 @@ def test_tables_at_two_gaps_serve_all_between(gap, monkeypatch, tmp_path):
     assert np.median(off) < 1e-5 and off.max() < 2e-4
 
 
-@pytest.mark.parametrize("slowest", [0.2, 0.3])
-def test_a_table_does_not_tell_which_case_made_its_sheets(slowest, monkeypatch, tmp_path):
+def test_a_case_with_heavier_rollers_makes_only_the_loads_beyond(monkeypatch, tmp_path):
+    made = []
+    sheet = contact_table._sheet
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(store, "_in_memory", store.LRUCache(1e9, getsizeof=store._size))
+    monkeypatch.setattr(
+        contact_table, "_sheet", lambda *given: (made.append(given[2]), sheet(*given))[1]
+    )
+    light = RUNNING._replace(load=65536.0)
+    Table(FULL, light)
+    loads = made.copy()
+    made.clear()
+    Table(FULL, light._replace(load=2.0 * light.load))
+    assert len(made) == len(loads)
+    assert min(part.min() for part in made) > max(part.max() for part in loads)
+    assert max(part.max() for part in made) >= 2.0 * light.load
+
+
+@pytest.mark.parametrize(
+    "other", [{"slowest": 0.2}, {"slowest": 0.3}, {"load": 65536.0}, {"load": 524288.0}], ids=str
+)
+def test_a_table_does_not_tell_which_case_made_its_sheets(other, monkeypatch, tmp_path):
     """What lies in the store before may save sheets, and changes no byte of what a case reads."""
 
     def table(box, folder):
@@ -348,5 +368,5 @@ def test_a_table_does_not_tell_which_case_made_its_sheets(slowest, monkeypatch, 
         return Table(FULL, box).flat
 
     alone = table(RUNNING, "alone")
-    table(RUNNING._replace(slowest=slowest), "shared")
+    table(RUNNING._replace(**other), "shared")
     assert np.array_equal(table(RUNNING, "shared"), alone)

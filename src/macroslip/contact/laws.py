@@ -23,7 +23,7 @@ from macroslip.contact.mechanisms import Laws, check_lubricant
 from macroslip.contact.patch import patch_of, patch_tractions
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
 from macroslip.contact.rolling import RollingNumbers, at_oil_gap, prepare_rolling
-from macroslip.contact.starvation import film_factor, inlet_at_gap
+from macroslip.contact.starvation import film_factor_at_gap
 from macroslip.contact.traction import Fluid, chord_table, prepare_fluid
 from macroslip.lubricant import Lubricant
 
@@ -100,7 +100,7 @@ class PreparedContact:
         if self.thermal_loading:
             height = height * film.inlet_heating_factor(self.thermal_loading * speed * speed)
         return (
-            height * film_factor(inlet_at_gap(self.oil_gap, height))
+            height * film_factor_at_gap(self.oil_gap, height)
             if math.isfinite(self.oil_gap)
             else height
         )

@@ -18,7 +18,6 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
-from scipy.linalg import solveh_banded
 
 #: Splines that share a grid.
 CHANNELS = 4
@@ -83,41 +82,47 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
     array([-1.,  0.,  1.,  2.,  3.,  4.,  5.,  6.])
     """
     for dimension in range(dimensions):
-        nodes = np.moveaxis(values, dimension, 0)
-        coefficients = np.empty((len(nodes) + 2, *nodes.shape[1:]))
-        inner = coefficients[1:-1]  # those of the nodes, in their order
-        # Not a knot: the fourth difference of the first five coefficients vanishes, which gives the
-        # second node's.
-        for side in (slice(None), slice(None, None, -1)):
-            first, second, third = nodes[side][:3]
-            inner[side][1] = (8.0 * second - first - third) / 6.0
-        right = 6.0 * nodes[1:-1]
-        # The two that are known have rows of their own: five nodes leave one other, and SciPy does
-        # not take a system of one.
-        right[0] = inner[1]
-        right[-1] = inner[-2]
-        right[1] -= right[0]
-        right[-2] -= right[-1]
-        diagonal = np.full(len(right), 4.0)
-        diagonal[[0, -1]] = 1.0
-        beside = np.ones(len(right))
-        beside[[0, -2]] = 0.0
-        solution = solveh_banded(
-            np.array([diagonal, beside]),
-            right.reshape(len(right), -1),
-            overwrite_b=True,
-            lower=True,
+        size = list(values.shape)
+        size[dimension] += 2
+        coefficients = np.empty(size)
+        _write_coefficients(
+            np.moveaxis(values, dimension, 0), np.moveaxis(coefficients, dimension, 0)
         )
-        inner[1:-1] = solution.reshape(right.shape)
-        for side in (slice(None), slice(None, None, -1)):
-            for index in (1, 0):
-                coefficients[side][index] = (
-                    6.0 * nodes[side][index]
-                    - 4.0 * coefficients[side][index + 1]
-                    - coefficients[side][index + 2]
-                )
-        values = np.moveaxis(coefficients, 0, dimension)
-    return np.ascontiguousarray(values)
+        values = coefficients
+    return values
+
+
+def _write_coefficients(nodes: np.ndarray, coefficients: np.ndarray) -> None:
+    """Write the coefficients of splines along the first axis, two more than it has nodes.
+
+    A value at a node is (c₋ + 4 c + c₊)/6 of three neighbouring coefficients. The equations are
+    solved by elimination, whose pivots 4 − 1/(4 − …) are the same for all splines: whole layers of
+    the array are subtracted from one another where they lie, and nothing is copied for a solver.
+    """
+    inner = coefficients[1:-1]  # those of the nodes, in their order
+    inner[2:-2] = 6.0 * nodes[2:-2]
+    # Not a knot: the fourth difference of the first five coefficients vanishes, which gives the
+    # second node's.
+    for side in (slice(None), slice(None, None, -1)):
+        first, second, third = nodes[side][:3]
+        inner[side][1] = (8.0 * second - first - third) / 6.0
+        inner[side][2] -= inner[side][1]
+    last = len(nodes) - 3
+    per_pivot = [0.25]
+    for index in range(3, last + 1):
+        inner[index] -= per_pivot[-1] * inner[index - 1]
+        per_pivot.append(1.0 / (4.0 - per_pivot[-1]))
+    inner[last] *= per_pivot[-1]
+    for index in range(last - 1, 1, -1):
+        inner[index] -= inner[index + 1]
+        inner[index] *= per_pivot[index - 2]
+    for side in (slice(None), slice(None, None, -1)):
+        for index in (1, 0):
+            coefficients[side][index] = (
+                6.0 * nodes[side][index]
+                - 4.0 * coefficients[side][index + 1]
+                - coefficients[side][index + 2]
+            )
 
 
 class _Vectors:

@@ -8,6 +8,7 @@ files on disk.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -41,6 +42,8 @@ _STRETCH = 0.6
 #: carries some newtons of its films. Below, traction goes with load.
 _LEAST_LOAD = 0.05
 _LIGHTEST = 1e-3
+#: Load up to which the parts of a sheet of traction that are stored together reach at first [N].
+_FIRST_PART = 65536.0
 #: Slip ratio by which asinh is scaled with microslip, which varies by as much over a contact.
 _MICROSLIP = 6e-4
 #: The same of a line contact, where only the profile slips.
@@ -368,11 +371,20 @@ def _grid(contact: PreparedContact, box: Box) -> _Grid:
     return _Grid(_load_axis(box, stretch), _speed_axis(box), ratio_axis, stretch, middle, scale)
 
 
+def _stretched_load(load: float, stretch: float) -> float:
+    """The coordinate ln Q + k Q^(1/3) of a load Q [N]."""
+    return math.log(load) + stretch * load ** (1.0 / 3.0)
+
+
 def _load_axis(box: Box, stretch: float) -> Axis:
-    """Axis of ln Q + k Q^(1/3) of a table, Q in N."""
-    lightest = math.log(_LEAST_LOAD) + stretch * _LEAST_LOAD ** (1.0 / 3.0)
-    heaviest = math.log(box.load) + stretch * box.load ** (1.0 / 3.0)
-    return axis(lightest, heaviest, _LOAD_SPACING * box.fineness)
+    """Axis of ln Q + k Q^(1/3) of a table, Q in N.
+
+    All tables of a contact have the same loads, as far as they go.
+    """
+    spacing = _LOAD_SPACING * box.fineness
+    lightest = _stretched_load(_LEAST_LOAD, stretch)
+    length = _stretched_load(box.load, stretch) - lightest
+    return Axis(lightest, 1.0 / spacing, max(math.ceil(length / spacing), 4))
 
 
 def _speed_axis(box: Box) -> Axis:
@@ -402,9 +414,8 @@ def _bent_ratio(contact: PreparedContact, box: Box) -> float:
     return float(min(first_bent, _MICROSLIP))
 
 
-def _sheet(contact: PreparedContact, grid: _Grid, speed: float) -> np.ndarray:
-    """Quantities at all loads and slip ratios at one speed w [m/s]."""
-    loads = grid.loads(grid.load.nodes)
+def _sheet(contact: PreparedContact, grid: _Grid, loads: np.ndarray, speed: float) -> np.ndarray:
+    """Quantities at given loads [N] and all slip ratios at one speed w [m/s]."""
     slips = grid.slips(grid.ratio.nodes)
     load, slip = np.meshgrid(loads, slips, indexing="ij")
     speed = max(speed, REST_SPEED)
@@ -447,7 +458,7 @@ def table_gaps(contact: PreparedContact, box: Box) -> tuple[tuple[float, float],
     return shared_gaps(contact.inlet_gap, float(film), box.fineness)
 
 
-class _Made(NamedTuple):
+class _Splines(NamedTuple):
     """Splines of a traction table, and the slips up to which its force rises."""
 
     coefficients: np.ndarray  #: Coefficients of the splines
@@ -476,46 +487,75 @@ def write_traction(
     TableErrors
         Relative errors of force and power [-].
     """
-    (first_gap, _), *other_gaps = table_gaps(contact, box)
-    nearest = contact.at_gap(first_gap)
-    grid = _grid(nearest, box)
-    made = _nodes(nearest, grid)
-    coefficients = made.coefficients
-    rising = made.rising
-    for gap, weight in other_gaps:
-        made = _nodes(contact.at_gap(gap), grid)
-        coefficients = coefficients + weight * (made.coefficients - coefficients)
-        rising = np.minimum(rising, made.rising)
-    record["start"] = tables.add(coefficients)
-    record["rising"] = tables.add(rising)
+    gaps = table_gaps(contact, box)
+    nearest_gap, _ = gaps[0]
+    grid = _grid(contact.at_gap(nearest_gap), box)
+    splines = remembered(
+        table_key("splines of traction", *contact_parts(contact), grid, gaps),
+        lambda: _splines(contact, grid, gaps),
+    )
+    record["start"] = tables.add(splines.coefficients)
+    record["rising"] = tables.add(splines.rising)
     for name in ("load", "speed", "ratio"):
         record[name] = tuple(getattr(grid, name))
     record["stretch"] = grid.stretch
     record["middle"] = grid.middle
     record["scale"] = grid.scale
     record["side"] = math.copysign(1.0, contact.shape.spin_ratio)
-    return _errors(contact, grid, coefficients, box)
+    return _errors(contact, grid, splines.coefficients, box)
 
 
-def _nodes(contact: PreparedContact, grid: _Grid) -> _Made:
+def _splines(
+    contact: PreparedContact, grid: _Grid, gaps: tuple[tuple[float, float], ...]
+) -> _Splines:
+    """Splines of a contact's own traction, from those at gaps of which it is the weighted sum."""
+    nodes = sum(weight * _nodes(contact.at_gap(gap), grid) for gap, weight in gaps)
+    return _Splines(spline_coefficients(nodes, 3), _rising(grid, nodes))
+
+
+def _nodes(contact: PreparedContact, grid: _Grid) -> np.ndarray:
     """Traction at the nodes of a grid, computed or read from the cache."""
-    key = table_key("traction", *contact_parts(contact))
-    return remembered(table_key(key, grid), lambda: _traction(contact, grid, key))
-
-
-def _traction(contact: PreparedContact, grid: _Grid, key: str) -> _Made:
+    key = table_key(
+        "traction",
+        *contact_parts(contact),
+        (grid.load.first, grid.load.per_spacing),
+        (grid.ratio, grid.stretch, grid.middle, grid.scale),
+    )
+    loads = grid.loads(grid.load.nodes)
+    ends = _ends_of_parts(grid)
     sheets = []
     for node in grid.speed.nodes:
         # Grids that begin elsewhere have the same speeds but for rounding. A sheet is made at the
         # rounded one, so that it does not tell which case made it.
         root_speed = round(float(node), 12)
-        name = table_key(
-            key, grid.load, grid.ratio, grid.stretch, grid.middle, grid.scale, root_speed
-        )
-        sheets += stored(name, lambda speed=root_speed**4: [_sheet(contact, grid, speed)])
+        parts: list[np.ndarray] = []
+        for first, end in itertools.pairwise(ends):
+            parts += stored(
+                table_key(key, root_speed, first, end),
+                lambda speed=root_speed**4, part=loads[first:end]: [
+                    _sheet(contact, grid, part, speed)
+                ],
+            )
+        sheets.append(np.concatenate(parts))
         tell(TABLES, len(sheets), grid.speed.cells + 1)
-    nodes = np.stack(sheets, axis=1)
-    return _Made(spline_coefficients(nodes, 3), _rising(grid, nodes))
+    return np.stack(sheets, axis=1)
+
+
+def _ends_of_parts(grid: _Grid) -> list[int]:
+    """Numbers of the nodes of load at which the parts of a sheet begin, and the number of all.
+
+    Sheets are stored in parts, the loads to `_FIRST_PART` and those of each doubling beyond, so that
+    a case with heavier rollers makes only what one with lighter ones has not made.
+    """
+    ends = [0]
+    load = _FIRST_PART
+    while True:
+        beyond = _stretched_load(load, grid.stretch) - grid.load.first
+        end = math.ceil(beyond * grid.load.per_spacing) + 1
+        if end > grid.load.cells:
+            return [*ends, grid.load.cells + 1]
+        ends.append(end)
+        load *= 2.0
 
 
 def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
