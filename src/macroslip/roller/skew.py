@@ -204,7 +204,6 @@ class _SlipSearch:
         going: np.ndarray,
         turning: np.ndarray,
         slope: np.ndarray,
-        moving: np.ndarray,
         iteration: int,
     ) -> None:
         """Take a step of Newton's method.
@@ -212,11 +211,9 @@ class _SlipSearch:
         Parameters
         ----------
         going : ndarray of int
-            Numbers of the states that take part.
+            Numbers of the states whose slips change.
         turning, slope : ndarray
             Their moments over radius [N], and the slopes of these by slip [N s/m].
-        moving : ndarray of bool
-            Whether their slips change.
         iteration : int
             Number of the step.
         """
@@ -233,7 +230,7 @@ class _SlipSearch:
             following = self._bracketed(going, turning, following)
         self._turning[going] = turning
         self._taken[going] = here - following
-        self.slip[going] = np.where(moving, following, here)
+        self.slip[going] = following
 
     def _bracketed(
         self, going: np.ndarray, turning: np.ndarray, following: np.ndarray
@@ -250,21 +247,21 @@ class _SlipSearch:
         return np.where(outside & np.isfinite(width), middle, following)
 
 
-def _contacts_at(
-    pair: Pair, states: _States, slip, tilt, middles
-) -> tuple[list[Resultants], np.ndarray]:
-    """Forces of the raceways on a roller, and the slope of their spin forces by slip [N s/m]."""
-    step = _STEP * np.abs(states.ring_speed)
-    # Each state, and the same with a little more slip.
-    load, ring_speed, skew, tilts = (np.tile(values, 2) for values in (*states, tilt))
-    slips = np.append(slip, slip + step)
-    both = [
-        resultants(contact, load, ring_speed, slips, skew, np.tile(middle, 2), tilts)
+def _contacts_at(pair: Pair, states: _States, slip, tilt, middles) -> list[Resultants]:
+    """Forces of the raceways on a roller."""
+    return [
+        resultants(contact, *states[:2], slip, states.skew, middle, tilt)
         for contact, middle in zip(pair, middles, strict=True)
     ]
-    turning, more = np.split(both[0].turning + both[1].turning, 2)
-    first = [Resultants(*(values[: slip.size] for values in contact)) for contact in both]
-    return first, (more - turning) / step
+
+
+def _slope_of_turning(
+    pair: Pair, states: _States, slip, tilt, middles, turning: np.ndarray
+) -> np.ndarray:
+    """Slope by slip [N s/m] of the spin forces `turning` of both raceways on a roller [N]."""
+    step = _STEP * np.abs(states.ring_speed)
+    inner, outer = _contacts_at(pair, states, slip + step, tilt, middles)
+    return (inner.turning + outer.turning - turning) / step
 
 
 def _known_at(both: list[Resultants], tilt: np.ndarray, shift: np.ndarray) -> np.ndarray:
@@ -331,9 +328,10 @@ def equilibrium(
     for iteration in range(_ITERATIONS):
         here = states.at(going)
         tilt, shift, middles = placed(pair, here.load, axial[:, going])
-        both, slope = _contacts_at(pair, here, search.slip[going], tilt, middles)
+        both = _contacts_at(pair, here, search.slip[going], tilt, middles)
         inner, outer = both
-        turning = inner.turning + outer.turning + resistance[going]
+        friction = inner.turning + outer.turning
+        turning = friction + resistance[going]
         tractions = np.stack([inner.axial, outer.axial])
         change = np.abs(tractions - axial[:, going]).max(axis=0)
         if iteration >= _DAMPED:
@@ -348,10 +346,18 @@ def equilibrium(
         now["unbalanced"] = np.abs(turning) / here.load
         known[going] = now
         moving = (now["unbalanced"] >= _LEFT) | (change >= _STILL * here.load)
-        search.advance(going, turning, slope, moving, iteration)
         going = going[moving]
         if not going.size:
             break
+        slope = _slope_of_turning(
+            pair,
+            here.at(moving),
+            search.slip[going],
+            tilt[moving],
+            middles[:, moving],
+            friction[moving],
+        )
+        search.advance(going, turning[moving], slope, iteration)
     slip[going] = np.nan
     axial[:, going] = np.nan
     for name in _KNOWN.names or ():
