@@ -82,6 +82,9 @@ class Law(NamedTuple):
         """True where a film law is in its range."""
         if self.in_range is None:
             return np.ones(np.broadcast(load, entrainment_speed).shape, dtype=bool)[()]
+        if not self.is_own:
+            # Asked for every buffer of steps: what is checked of a user's function takes longer.
+            return self.in_range(interface, load, entrainment_speed)
         return self._values(
             self.in_range, interface, (load, entrainment_speed), "b", "truth values", "in_range of "
         )[()]
