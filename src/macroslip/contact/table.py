@@ -522,7 +522,7 @@ def _nodes(contact: PreparedContact, grid: _Grid) -> np.ndarray:
         (grid.ratio, grid.stretch, grid.middle, grid.scale),
     )
     loads = grid.loads(grid.load.nodes)
-    ends = _ends_of_parts(grid)
+    ends = ends_of_parts(grid.load, lambda load: _stretched_load(load, grid.stretch))
     sheets = []
     for node in grid.speed.nodes:
         # Grids that begin elsewhere have the same speeds but for rounding. A sheet is made at the
@@ -541,19 +541,37 @@ def _nodes(contact: PreparedContact, grid: _Grid) -> np.ndarray:
     return np.stack(sheets, axis=1)
 
 
-def _ends_of_parts(grid: _Grid) -> list[int]:
+def ends_of_parts(loads: Axis, coordinate: Callable[[float], float]) -> list[int]:
     """Numbers of the nodes of load at which the parts of a sheet begin, and the number of all.
 
-    Sheets are stored in parts, the loads to `_FIRST_PART` and those of each doubling beyond, so that
-    a case with heavier rollers makes only what one with lighter ones has not made.
+    Sheets are stored in parts, the loads up to 65,536 N and those of each doubling beyond, so that a
+    case with heavier rollers makes only what one with lighter ones has not made.
+
+    Parameters
+    ----------
+    loads : Axis
+        Of the coordinate of load; its first node and the distance between nodes are those of all
+        cases alike.
+    coordinate : callable
+        The coordinate of a load [N].
+
+    Returns
+    -------
+    list of int
+        Rising from 0.
+
+    Examples
+    --------
+    >>> ends_of_parts(Axis(math.log(2e3), 5.0, 24), math.log)
+    [0, 19, 22, 25]
     """
     ends = [0]
     load = _FIRST_PART
     while True:
-        beyond = _stretched_load(load, grid.stretch) - grid.load.first
-        end = math.ceil(beyond * grid.load.per_spacing) + 1
-        if end > grid.load.cells:
-            return [*ends, grid.load.cells + 1]
+        beyond = coordinate(load) - loads.first
+        end = math.ceil(beyond * loads.per_spacing) + 1
+        if end > loads.cells:
+            return [*ends, loads.cells + 1]
         ends.append(end)
         load *= 2.0
 

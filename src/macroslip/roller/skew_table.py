@@ -13,6 +13,7 @@ second, and is taken to be there at once.
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -20,8 +21,8 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import cell_of
-from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients, splines_in_cube
-from macroslip.contact.table import Box, contact_parts, table_gaps
+from macroslip.contact.spline import CHANNELS, Axis, spline_coefficients, splines_in_cube
+from macroslip.contact.table import Box, contact_parts, ends_of_parts, table_gaps
 from macroslip.errors import MacroslipError
 from macroslip.roller.skew import LARGEST_SKEW, Equilibrium, SkewStop, equilibrium, raceways
 from macroslip.storage.tables import remembered, stored, table_key
@@ -103,8 +104,8 @@ def skew_table(laws: PreparedLaws, bearing: Bearing, box: Box) -> SkewTable:
     first = max(math.floor(slowest / _SPEED), 1)  # at rest there is no slip, and no equilibrium
     last = max(math.ceil(box.fastest**0.25 / _SPEED), first + 4)
     end = math.ceil(math.asinh(LARGEST_SKEW / _SCALE) / _SKEW)
-    heaviest = max(box.load, 4.0 * _LIGHTEST)
-    load = axis(math.log(_LIGHTEST), math.log(heaviest), _LOAD)
+    range_of_logarithm = math.log(max(box.load / _LIGHTEST, 4.0))
+    load = Axis(math.log(_LIGHTEST), 1.0 / _LOAD, math.ceil(range_of_logarithm / _LOAD))
     skew = Axis(-end * _SKEW, 1.0 / _SKEW, 2 * end)
     speed = Axis(first * _SPEED, 1.0 / _SPEED, last - first)
     axes = load, speed, skew
@@ -129,16 +130,23 @@ def _cubes(
     for contact in pair:
         geometry = tuple(contact)[2:]
         numbers.append((contact_parts(contact.laws), geometry, contact.laws.rolling))
-    key = table_key("skew", tuple(numbers), load, skew)
+    key = table_key("skew", tuple(numbers), load.first, load.per_spacing, skew)
     first = round(speed.first / _SPEED)
+    loads = np.exp(load.nodes)
+    ends = ends_of_parts(load, math.log)
 
     def make() -> np.ndarray:
         sheets = []
         for n in range(first, first + speed.cells + 1):
-            sheets += stored(
-                table_key(key, n),
-                lambda at=(n * _SPEED) ** 4: [_sheet(laws, bearing, load, skew, at)],
-            )
+            parts: list[np.ndarray] = []
+            for begin, end in itertools.pairwise(ends):
+                parts += stored(
+                    table_key(key, n, begin, end),
+                    lambda at=(n * _SPEED) ** 4, part=loads[begin:end]: [
+                        _sheet(laws, bearing, part, skew, at)
+                    ],
+                )
+            sheets.append(np.concatenate(parts))
             tell(TABLES, len(sheets), speed.cells + 1)
         nodes = np.stack(sheets, axis=1)
         cubes = []
@@ -147,14 +155,13 @@ def _cubes(
             cubes.append(spline_coefficients(quantities, 3).ravel())
         return np.stack(cubes)
 
-    return remembered(table_key(key, speed), make)
+    return remembered(table_key(key, load, speed), make)
 
 
 def _sheet(
-    laws: PreparedLaws, bearing: Bearing, load: Axis, skew: Axis, speed: float
+    laws: PreparedLaws, bearing: Bearing, loads: np.ndarray, skew: Axis, speed: float
 ) -> np.ndarray:
-    """Quantities of the table at all loads and skews at one speed, shape (loads, skews, 12)."""
-    loads = np.exp(load.nodes)
+    """Quantities of the table at loads [N] and all skews at one speed, shape (loads, skews, 12)."""
     angles = _SCALE * np.sinh(skew.nodes[skew.cells // 2 :])
     pair = raceways(laws, bearing, 1)
     both = np.array([-1.0, 1.0])[:, None]
