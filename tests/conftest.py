@@ -28,8 +28,11 @@ settings.register_profile("deep", deadline=None, suppress_health_check=[HealthCh
 settings.load_profile("fixed")
 
 
-#: Tests of these files stay with one worker: they compile the same kernels of the whole bearing, of a minute each.
-TOGETHER = re.compile(r"tests/(whole/|torque/test_rings\.py|report/test_whole_section\.py)")
+#: Tests of these files stay with one worker: they compile the same kernels, of the whole bearing or of the rivals.
+TOGETHER = (
+    re.compile(r"tests/(whole/|torque/test_rings\.py|report/test_whole_section\.py)"),
+    re.compile(r"tests/benchmarks/"),
+)
 #: What takes longest, or compiles what others need.
 FIRST = (
     "tests/whole/",
@@ -112,7 +115,8 @@ class Scheduling(LoadScopeScheduling):
     """A file of tests stays with one worker, so that what its tests share is computed once."""
 
     def _split_scope(self, nodeid):
-        return TOGETHER.pattern if TOGETHER.match(nodeid) else nodeid.split("::", 1)[0]
+        together = (files.pattern for files in TOGETHER if files.match(nodeid))
+        return next(together, nodeid.split("::", 1)[0])
 
 
 @pytest.hookimpl(optionalhook=True)

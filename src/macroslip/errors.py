@@ -15,11 +15,14 @@ def safe_text(text: object, but: str = "") -> str:
     >>> safe_text("run\x1b[2J\n7.outb")
     'run\\x1b[2J\\n7.outb'
     """
+    text = str(text)
+    if text.isprintable():
+        return text
     return "".join(
         letter
         if letter.isprintable() or letter in but
         else letter.encode("unicode_escape").decode()
-        for letter in str(text)
+        for letter in text
     )
 
 

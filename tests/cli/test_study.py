@@ -67,7 +67,7 @@ def test_from_a_study_file_to_tables(study, macroslip):
 
 def test_of_many_combinations_the_highest_are_shown(folder, macroslip):
     (folder / "study.yaml").write_text(
-        "loads: {bundled: [14B]}\ncase: {rollers: [0], loads: {end: 62 s}}\n"
+        "loads: {bundled: [14B]}\ncase: {rollers: [0], loads: {end: 62 s}, laws: {model: paper}}\n"
         "variations: {sample: {count: 15, seed: 1, "
         "ranges: {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}}}}\n"
     )

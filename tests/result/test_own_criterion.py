@@ -83,11 +83,13 @@ from macroslip.study.real_year import real_year
 from macroslip.study.study_file import study_of
 from macroslip.study.weights import Weibull
 from macroslip.study.year import year
+from tests.quick import COARSE
 from tests.study.made_up_study import made_up_study
 from tests.study.test_real_year import months, turbine
 
 folder = Path(sys.argv[2])
-content = {"case": {"rollers": [0], "loads": {"end": "2 s"}, "window": {"start": "0 s"}},
+content = {"case": {"rollers": [0], "loads": {"end": "2 s"}, "window": {"start": "0 s"},
+                    "integrator": {"tolerance": COARSE.tolerance}},
            "loads": {"bundled": ["12A"]}, "lubricants": ["vg460-pao", "vg320-pao"]}
 run_study(study_of(content), folder)
 study = open_study(folder)
@@ -107,7 +109,12 @@ assert "passes of a sector, both rows" in real_year_page(real)
 compared = compare(folder, by="lubricant")
 assert "passes of a sector, both rows" in set(compared["quantity"])
 result = simulate(
-    Case(loads=HubLoads.bundled("12A").window(0.0, 1.0), rollers=[0], window=Window(start=0.0))
+    Case(
+        loads=HubLoads.bundled("12A").window(0.0, 1.0),
+        rollers=[0],
+        window=Window(start=0.0),
+        integrator=COARSE,
+    )
 )
 told, _ = lines(result)
 assert told[-1]["criterion"] == "most_passes" and told[-1]["reference"] == 2.0

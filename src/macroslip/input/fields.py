@@ -289,8 +289,8 @@ class Text(Form):
         if not isinstance(value, str) or not (value or self.may_be_empty):
             raise self.wrong(value)
         # A NUL ends text in a result, and half a surrogate pair has no UTF-8.
-        unfit = any(unicodedata.category(letter) in ("Cc", "Cs") for letter in value)
-        if self.line and (unfit or len(value) > _LONGEST):
+        unfit = self.line and _has_categories(value, ("Cc", "Cs"))
+        if unfit or (self.line and len(value) > _LONGEST):
             allowed = f"at most {_LONGEST} characters on one line, without control characters"
             raise self.wrong(value, "Write it as one line of plain text.", allowed)
         _check_text(value)
@@ -301,11 +301,19 @@ class Text(Form):
         return {"type": "string"} | ({} if self.may_be_empty else {"minLength": 1})
 
 
+def _has_categories(text: str, categories: tuple[str, ...]) -> bool:
+    """True if a letter is of one of these categories of control characters and surrogates."""
+    # Letters that can be printed are of none, and nearly all texts have no others.
+    if text.isprintable():
+        return False
+    return any(unicodedata.category(letter) in categories for letter in text)
+
+
 def _check_text(text: str) -> None:
     """Refuse control characters in text, which a backslash in double quotes may have become."""
     check_no_zero_byte(text)
-    control = next((letter for letter in text if unicodedata.category(letter) == "Cc"), "")
-    if control:
+    if _has_categories(text, ("Cc",)):
+        control = next(letter for letter in text if unicodedata.category(letter) == "Cc")
         raise InputError(
             f"it is {shown(text)}, with the control character {control!r}",
             allowed="text without control characters",

@@ -243,8 +243,7 @@ def _order(
     if description.time.assume == CONSECUTIVE:
         notes.append("The files have no time: their rows are taken to follow one another.")
     gone = np.any(list(fates.values()), axis=0)
-    month_texts = np.asarray(utc.strftime("%Y-%m"), dtype=object)
-    months = np.where(utc.isna(), "", month_texts)
+    months = np.where(utc.isna(), "", _months(utc))
     left = order[~gone[order]]
     return left, _counted(months, fates), notes
 
@@ -273,9 +272,16 @@ def _repeated_hours(
     return repeated
 
 
+def _months(times: pd.DatetimeIndex) -> np.ndarray:
+    """Month of every time, as `2024-01`."""
+    months = times.tz_localize(None).to_numpy().astype("datetime64[M]")
+    known, inverse = np.unique(months, return_inverse=True)
+    return np.asarray([str(month) for month in known], dtype=object)[inverse]
+
+
 def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) -> pd.DataFrame:
     """Rows by month and outcome."""
-    months = np.asarray(data.index.strftime("%Y-%m"), dtype=object)
+    months = _months(data.index)
     kept = (data["filter"] == "").to_numpy()
     filter_of_row = data["filter"].cat.codes.to_numpy() - 1
     sorted_out = dict(dropped_by_filter(filter_of_row))
@@ -286,7 +292,7 @@ def _counts(data: pd.DataFrame, fates: list[tuple[str, str, int]], step: float) 
     last = data.index[-1]
     step_of_time = pd.Timedelta(seconds=step)
     steps = pd.date_range(first, last, freq=step_of_time)
-    months_of_steps = pd.Series(steps.strftime("%Y-%m"))
+    months_of_steps = pd.Series(_months(steps))
     expected = months_of_steps.value_counts()
     present = pd.Series(months).value_counts()
     absent = expected.sub(present, fill_value=0).clip(lower=0)

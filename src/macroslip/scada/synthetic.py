@@ -156,7 +156,7 @@ def write_record(record: pd.DataFrame, path: str | PathLike[str]) -> None:
     rotor_rpm = record["rotor_speed"] / RPM
     table = pd.DataFrame(
         {
-            "time": record.index.strftime("%Y-%m-%d %H:%M"),
+            "time": _minutes(record.index),
             "wind_mps": [f"{value:.1f}" for value in record["wind_speed"]],
             "rotor_rpm": [f"{value:.1f}" for value in rotor_rpm],
             "power_kW": kilowatts.to_numpy(int),
@@ -169,6 +169,12 @@ def write_record(record: pd.DataFrame, path: str | PathLike[str]) -> None:
     if str(path).endswith(".gz"):
         compression = {"method": "gzip", "mtime": 0}
     table.to_csv(path, index=False, lineterminator="\n", compression=compression)
+
+
+def _minutes(times: pd.DatetimeIndex) -> list[str]:
+    """Times of UTC as `2024-01-31 23:50`."""
+    text = np.datetime_as_string(times.tz_convert(None).to_numpy(), unit="m")
+    return [time.replace("T", " ") for time in text.tolist()]
 
 
 def _correlated(random: np.random.Generator, rows: int, correlation: float) -> FloatArray:
@@ -275,11 +281,15 @@ def _bearing(
     drive = to_nacelle * nacelle + truth.to_ambient * ambient
     means = np.empty(wind.size)
     now = float(nacelle[0])
-    for row in range(wind.size):
-        cell = int((now - grid[0]) / _CELL)
-        slope = slopes[row, cell]
-        decay = loss[row] - slope
-        level = (heats[row, cell] - slope * grid[cell] + drive[row]) / decay
+    # Single numbers are read from a view of the memory in a third of the time.
+    view_of_slopes = memoryview(slopes)
+    view_of_heats = memoryview(heats)
+    begins = grid.tolist()
+    for row, (loses, drives) in enumerate(zip(loss.tolist(), drive.tolist(), strict=True)):
+        cell = int((now - begins[0]) / _CELL)
+        slope = view_of_slopes[row, cell]
+        decay = loses - slope
+        level = (view_of_heats[row, cell] - slope * begins[cell] + drives) / decay
         kept = np.exp(-decay * step)
         means[row] = level + (now - level) * (1.0 - kept) / (decay * step)
         now = level + (now - level) * kept
