@@ -235,13 +235,13 @@ def _computed(
 
 
 def _failed_rollers(result: xr.Dataset) -> str:
+    if (result.status.values == Status.COMPLETED).all():
+        return ""
     failed = [
         status
         for status in result.status.stack(roller_of_row=("row", "roller"))
         if status != Status.COMPLETED
     ]
-    if not failed:
-        return ""
     first = failed[0]
     ended = float(result.end_time.sel(row=first.row, roller=first.roller))
     return (
