@@ -11,6 +11,8 @@ from scipy.linalg import solve_banded
 from scipy.optimize import minimize_scalar
 from scipy.special import k0e
 
+from macroslip.compiled import jit
+from macroslip.contact import flash
 from macroslip.contact.flash import PEAK, effusivity, flash_temperature, transient_flash
 
 CONDUCTIVITY, DENSITY, HEAT = 46.0, 7850.0, 460.0
@@ -156,7 +158,33 @@ def test_a_transient_against_quadrature_in_the_moving_frame():
         )
 
     best = max(rise(position) for position in np.linspace(-0.5, 0.99, 60) * half)
-    flash = transient_flash(
+    largest = transient_flash(
         time, 100.0 * time / end, half * ones, speed * ones, speed * ones, steel, steel
     )
-    assert flash == pytest.approx(best, rel=0.01)
+    assert largest == pytest.approx(best, rel=0.01)
+
+
+@jit
+def highest_of_all(time, power, width, speeds, steel):
+    """Largest rise of all times and positions."""
+    hottest = 0.0
+    widest = width.max()
+    for n in range(1, time.size):
+        uptake = steel * (math.sqrt(speeds[0, n]) + math.sqrt(speeds[1, n]))
+        for relative in flash._PLACES:
+            position = relative * width[n]
+            came = flash._came_in(time, power, width, n, position, widest, speeds[1, n])
+            hottest = max(hottest, 4.0 / math.pi**1.5 * came / uptake)
+    return hottest
+
+
+def test_the_highest_rise_is_among_those_that_are_computed():
+    rng = np.random.default_rng(11)
+    for _ in range(500):
+        count = int(rng.integers(3, 30))
+        time = np.cumsum(rng.uniform(1e-5, 5e-3, count))
+        power = rng.uniform(0.0, 1.0, count) ** rng.uniform(0.2, 5.0)
+        width = 1e-3 * np.sort(rng.uniform(0.01, 1.0, count))
+        speeds = rng.uniform(0.1, 1.0, (2, count))
+        rise = transient_flash(time, power, width, *speeds, STEEL, STEEL)
+        assert rise == pytest.approx(highest_of_all(time, power, width, speeds, STEEL), rel=1e-12)

@@ -12,7 +12,15 @@ from scipy.optimize import minimize_scalar
 
 from macroslip.bearing import Bearing
 from macroslip.compiled import jit
-from macroslip.contact.chords import SLICES, chord_stress_at, chord_stresses, film_node
+from macroslip.contact.chords import (
+    FIRST_SLICE,
+    MOST_SLICES,
+    SLICES,
+    chord_stress_at,
+    chord_stresses,
+    film_node,
+    write_film,
+)
 from macroslip.contact.closed_form import (
     barus_crook_traction,
     patch_integral,
@@ -473,7 +481,9 @@ def test_slow_slip_is_in_proportion(name):
 
 @jit
 def looked_up_together(chords, film, slices, count):
-    chord_stresses(chords, film_node(chords, film), slices, count)
+    behind = FIRST_SLICE + count
+    write_film(film_node(chords, film), slices, FIRST_SLICE, behind)
+    chord_stresses(chords, slices, behind)
 
 
 @choices
@@ -482,29 +492,30 @@ def test_chords_looked_up_together_are_those_looked_up_alone(name):
     table = chord_table(fluid(name))
     rng = np.random.default_rng(17)
     slices = np.zeros(1, SLICES)
-    most = slices["pressure"].size
-    for count in range(most + 1):
+    for count in range(MOST_SLICES - FIRST_SLICE + 1):
+        taken = slice(FIRST_SLICE, FIRST_SLICE + count)
         film = 10.0 ** rng.uniform(-8.0, -4.0)
         pressure, slip = 10.0 ** rng.uniform([1.0, -32.0], [9.8, 0.5], (count, 2)).T
-        slices["pressure"][0, :count], slices["speed"][0, :count] = pressure, slip
+        slices["pressure"][0, taken], slices["speed"][0, taken] = pressure, slip
         slices["stress"] = -1.0
         looked_up_together(table, film, slices[0], count)
         alone = interpolated_stress(table, pressure, film, slip) if count else []
-        np.testing.assert_array_equal(slices["stress"][0, :count], alone)
-        assert (slices["stress"][0, count:] == -1.0).all()
+        np.testing.assert_array_equal(slices["stress"][0, taken], alone)
+        assert (slices["stress"][0, taken.stop :] == -1.0).all()
 
 
 def test_a_chord_whose_state_is_no_number_has_no_stress_and_its_neighbours_have():
     table = chord_table(fluid("physical"))
     slices = np.zeros(1, SLICES)
-    slices["pressure"][0, :9] = [math.nan] * 3 + [1e8] * 6
-    slices["speed"][0, :9] = [1e-3] * 6 + [math.nan] * 3
+    taken = slice(FIRST_SLICE, FIRST_SLICE + 9)
+    slices["pressure"][0, taken] = [math.nan] * 3 + [1e8] * 6
+    slices["speed"][0, taken] = [1e-3] * 6 + [math.nan] * 3
     looked_up_together(table, 1e-6, slices[0], 9)
     alone = interpolated_stress(table, 1e8, 1e-6, 1e-3)[0]
     expected = [math.nan] * 3 + [alone] * 3 + [math.nan] * 3
-    np.testing.assert_array_equal(slices["stress"][0, :9], expected)
+    np.testing.assert_array_equal(slices["stress"][0, taken], expected)
     looked_up_together(table, math.nan, slices[0], 9)
-    assert np.isnan(slices["stress"][0, :9]).all()
+    assert np.isnan(slices["stress"][0, taken]).all()
 
 
 def test_limit_holds_in_the_table_too():

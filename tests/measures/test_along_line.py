@@ -7,11 +7,11 @@ import pytest
 
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.bearing.kinds import read_bearing
-from macroslip.measures.along import ALONG, STATIONS, contacts_of
-from macroslip.measures.along_line import line_power_along, strips_along
-from macroslip.measures.maps import MAPS
+from macroslip.measures.along import STATIONS, contacts_of
+from macroslip.measures.along_line import strips_along
 from macroslip.measures.samples import SAMPLE
 from macroslip.roller.model import roller_model
+from tests.measures.one_contact import power_along
 
 DATA = Path(__file__).parents[2] / "validation" / "data"
 CROWNED = Bearing.read(DATA / "cylindrical-160.yaml")
@@ -55,16 +55,14 @@ def laws_of(shape, *, microslip=True):
 
 
 def booked(laws, state):
-    """Strips of the inner raceway, and records of `ALONG` and `MAPS`, at Q, u2 and Δu."""
+    """Strips of the inner raceway, a record of `ALONG`, and times by classes, at Q, u2 and Δu."""
     strips = strips_along(laws.inner, *(np.array([value]) for value in state))[0]
-    maps = np.zeros(1, MAPS)[0]
-    along = np.zeros(1, ALONG)[0]
     sample = np.zeros(1, SAMPLE)[0]
     sample["film"][0] = 1e-6
     sample["time"] = 1.0
     sample["under_load"] = 1.0
-    line_power_along(maps, 0, contacts_of(laws)[0], state, sample, 2.0, strips, along)
-    return strips, along, maps
+    along, times = power_along(contacts_of(laws)[0], 0, state, sample, 2.0, strips)
+    return strips, along, times
 
 
 @pytest.mark.parametrize("microslip", [True, False])
@@ -77,7 +75,7 @@ def test_strips_carry_the_load_and_dissipate_the_power_of_the_contact(shape, loa
     bearing, _, speed = ROLLERS[shape]
     laws = laws_of(shape, microslip=microslip)
     law = laws.inner
-    strips, along, maps = booked(laws, (load, speed, slip))
+    strips, along, times = booked(laws, (load, speed, slip))
     width = bearing.roller_length / STATIONS
     carried = float((strips["load"] * strips["covered"]).sum()) * width
     assert carried == pytest.approx(load, rel=0.01)
@@ -90,8 +88,8 @@ def test_strips_carry_the_load_and_dissipate_the_power_of_the_contact(shape, loa
         assert along["work_total"] == pytest.approx(load * abs(slip), rel=0.01)
     # All of the time and both passes belong to strips that touch.
     touching = float(strips["covered"].sum()) / STATIONS
-    assert maps["film_slip"][0, ..., 0].sum() == pytest.approx(touching)
-    assert maps["film_slip"][0, ..., 1].sum() == pytest.approx(2.0 * touching)
+    assert times[..., 0].sum() == pytest.approx(touching)
+    assert times[..., 1].sum() == pytest.approx(2.0 * touching)
 
 
 def test_two_stations_of_a_gripped_roller_roll_without_slip():

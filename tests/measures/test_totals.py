@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import Laws
+from macroslip.compiled import jit
 from macroslip.constants import SECTORS
 from macroslip.contact.patch import fine_power
 from macroslip.measures import details as sampling
@@ -298,13 +299,14 @@ def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch)
 def test_films_at_looks_are_those_of_the_law(walked, monkeypatch):
     """Samples look films and shares of asperities up in tables; the laws give them without."""
     taken = []
-    spread_samples = sampling._spread_samples
+    begin_samples = sampling._begin_samples
 
-    def spread_and_keep(samples, *others):
-        spread_samples(samples, *others)
+    def begin_and_keep(samples, *others):
+        columns = begin_samples(samples, *others)
         taken.append(samples.copy())
+        return columns
 
-    monkeypatch.setattr(sampling, "_spread_samples", spread_and_keep)
+    monkeypatch.setattr(sampling, "_begin_samples", begin_and_keep)
     looked(walked)
     samples = np.concatenate(taken)
     at_samples = np.zeros(samples.size, CONTACTS)
@@ -318,16 +320,22 @@ def test_films_at_looks_are_those_of_the_law(walked, monkeypatch):
         np.testing.assert_allclose(samples["share"][loaded, i], share, atol=1e-3)
 
 
+@jit
+def spread_once(maps, interface, way, mean_time, spent, before, after):
+    spread(maps, interface, way, mean_time, spent, before, after)
+
+
 def test_energy_between_two_looks_lies_as_at_both_of_them():
     """In parts that the mean time of the energy gives; with one look only, a fast change would lie at wrong stations."""
-    maps = new_details(EDGES).maps
+    details = new_details(EDGES)
+    maps = details.maps
     before, after = maps["along"][0, 2:4]
-    before["power"][3], after["power"][20] = 2.0, 5.0
+    before["positive"][3], after["positive"][20] = 2.0, 5.0
     before["first"], before["behind"] = 3, 4
     after["first"], after["behind"] = 20, 21
     spent = (0.3 * 8.0 / 2.0, 0.7 * 8.0 / 5.0, 0.0, 0.0, 0.0, 0.0)
-    spread(maps[0], 1, (0.5, 0.5), 0.7, spent, before, after)
-    stations = maps["station_energy"][0, 1]
+    spread_once(maps[0], 1, (0.5, 0.5), 0.7, spent, before, after)
+    stations = details.station_energy[1]
     assert stations[3] == pytest.approx(2.4) and stations[20] == pytest.approx(5.6)
 
 
@@ -386,10 +394,10 @@ def by_brute_force(start, end, energy, growth=0.0):
 def test_energy_lies_where_the_roller_passes(interface, start, end, mean_time):
     details, energy = new_details(EDGES), 8.0
     before, after = details.maps["along"][0, :2]
-    after["power"][[3, 10]], after["regime"] = [-2.0, 6.0], 1
+    after["negative"][3], after["positive"][10], after["regime"] = 2.0, 6.0, 1
     after["first"], after["behind"] = 3, 11
     spent = (0.0, energy / 8.0, 0.0, 0.0, 0.0, 0.0)
-    spread(details.maps[0], interface, (start, end), mean_time, spent, before, after)
+    spread_once(details.maps[0], interface, (start, end), mean_time, spent, before, after)
     surface = details.surface_energy
     expected = by_brute_force(start, end, energy, 3.0 * (2.0 * mean_time - 1.0))
     np.testing.assert_allclose(surface.sum(axis=(0, 2, 3, 4)), expected, atol=2e-3)
@@ -427,7 +435,7 @@ def test_what_makes_a_look_due(walked):
             rows[name.split()[0]][1, 0][(..., int(name[-1])) if " " in name else ...] = value
         details = new_details(EDGES)
         orbits = EDGES, details.entries, np.zeros((EDGES.size - 1, PEAKS), PEAK)
-        return choose(rows, 0, orbits, details.memory[0], radius, spacing, np.zeros(2, SAMPLE))
+        return choose(rows, 0, orbits, details.memory, radius, spacing, np.zeros(2, SAMPLE))
 
     assert count({}) == 1
     for name, few, many in (
@@ -467,7 +475,7 @@ def test_an_entry_is_sampled_more_closely_and_to_its_end(walked):
     samples = np.zeros(6, SAMPLE)
     orbits = EDGES, details.entries, np.zeros((EDGES.size - 1, PEAKS), PEAK)
     radius = float(roller.body[0]["outer_radius"])
-    number = choose(rows, 0, orbits, details.memory[0], radius, 1.0, samples)
+    number = choose(rows, 0, orbits, details.memory, radius, 1.0, samples)
     assert samples["time"][:number] == pytest.approx(edges[[1, 2, 4, 6]])
     assert samples["entry"][:number].tolist() == [0, 1, 1, 1]
 
@@ -481,7 +489,7 @@ def test_peaks_are_the_highest_states_of_their_orbits(walked):
     orbits = EDGES, details.entries, peaks
     radius = float(roller.body[0]["outer_radius"])
     room = np.zeros(inside.size, SAMPLE)
-    choose(inside[:, None], 0, orbits, details.memory[0], radius, 1.0, room)
+    choose(inside[:, None], 0, orbits, details.memory, radius, 1.0, room)
     last = inside["stages"] - 1
     at_end = np.arange(inside.size)
     middle = 0.5 * (inside["start"] + inside["end"])

@@ -28,7 +28,7 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_once
 
 PEAK = 1.1115483780654022
 """C = (2/π)^1.5 max ∫ √(1 − σ²)/√(ξ − σ) dσ over −1 < σ < ξ: the textbooks' 1.11."""
@@ -113,6 +113,38 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
     return np.where(power == 0.0, 0.0, rise)[()]
 
 
+@jit_once
+def steady_flash(heat, speed_1, speed_2, effusivity):
+    """Largest rise of surface temperature in a band of friction, as `flash_temperature` gives it.
+
+    For compiled code, of two bodies of one material: C √(P' P'/2b)/[ε (√|u1| + √|u2|)].
+
+    Parameters
+    ----------
+    heat : float
+        Friction power per length times that per area, P' P'/2b [W²/m³], ≥ 0.
+    speed_1, speed_2 : float
+        Speeds of the surfaces relative to the contact [m/s], of either sign.
+    effusivity : float
+        Thermal effusivity of the material [J/(m² K √s)], > 0.
+
+    Returns
+    -------
+    float
+        Rise of temperature [K], ≥ 0.
+
+    Examples
+    --------
+    >>> steel = effusivity(46.0, 7850.0, 460.0)
+    >>> round(float(steady_flash(136.0**2 / 1.26e-3, 0.37, 0.37, steel)), 4)
+    0.2716
+    """
+    if heat == 0.0:
+        return 0.0
+    uptake = effusivity * (math.sqrt(abs(speed_1)) + math.sqrt(abs(speed_2)))
+    return PEAK * math.sqrt(heat) / uptake
+
+
 #: Positions x/b in the contact where a transient rise is computed: the steady one is largest at
 #: 0.652; and the quadrature of the heat that came in on the way there.
 _PLACES = np.array([-0.3, 0.0, 0.3, 0.5, 0.652, 0.8, 0.95])
@@ -120,6 +152,59 @@ _NODES, _WEIGHTS = (
     0.5 * (part + shift)
     for part, shift in zip(np.polynomial.legendre.leggauss(20), (1.0, 0.0), strict=True)
 )
+
+
+#: Bound of a transient rise over the steady one of the highest power per width: what quadrature may
+#: add is far less.
+_SURPLUS = 1.05
+
+
+@jit_once
+def _highest_rise(time, power_per_length, half_width, n, widest, speed):
+    """Bound of the rise at a time, times the uptake of heat of both surfaces [W/m^1.5 s^½].
+
+    It is the rise of a steady band with the highest P'/b and the largest b since a point that leaves
+    the band now has entered it: where P' and b are linear, their quotient is highest at an end.
+    """
+    entered = time[n] - (half_width[n] + widest) / speed
+    steepest = power_per_length[n] / half_width[n]
+    width = half_width[n]
+    k = n
+    while k > 0 and time[k] > entered:
+        k -= 1
+        if power_per_length[k] > 0.0:
+            steepest = max(steepest, power_per_length[k] / half_width[k])
+        width = max(width, half_width[k])
+    return _SURPLUS * PEAK * steepest * math.sqrt(0.5 * width)
+
+
+@jit_once
+def _came_in(time, power_per_length, half_width, n, position, widest, speed):
+    """Heat that has come into a point of surface 2 at a time, as it acts there [W/m^1.5 s^½].
+
+    It is ∫ q(s)/√(t − s) ds √u/2, from where the band was not yet there, at `position` [m] behind
+    the middle of the band.
+    """
+    came = 0.0
+    k = n
+    span = math.sqrt((position + widest) / speed)
+    for q in range(_NODES.size):
+        # The square root in the integral is the variable.
+        since = (span * _NODES[q]) ** 2
+        then = time[n] - since
+        if then < time[0]:
+            break
+        while k > 1 and time[k - 1] > then:
+            k -= 1
+        share = (then - time[k - 1]) / (time[k] - time[k - 1])
+        width = half_width[k - 1] + share * (half_width[k] - half_width[k - 1])
+        inside = 1.0 - ((position - speed * since) / width) ** 2
+        if inside > 0.0:
+            power = power_per_length[k - 1] + share * (
+                power_per_length[k] - power_per_length[k - 1]
+            )
+            came += _WEIGHTS[q] * power / width * math.sqrt(inside)
+    return came * span * math.sqrt(speed)
 
 
 @jit
@@ -167,33 +252,23 @@ def transient_flash(
     """
     hottest = 0.0
     widest = 0.0
-    for width in half_width:  # NumPy's maximum would compile longer than all the rest
-        widest = max(widest, width)
+    likely = 0
     for n in range(time.size):
+        widest = max(widest, half_width[n])
+        if power_per_length[n] > power_per_length[likely]:
+            likely = n
+    # The rise at the highest power comes first: most of the others cannot be above it.
+    for m in range(-1, time.size):
+        n = likely if m < 0 else m
         speed = abs(speed_2[n])
-        if power_per_length[n] <= 0.0 or speed == 0.0:
+        if n == 0 or power_per_length[n] <= 0.0 or speed == 0.0:
             continue
         uptake = effusivity_1 * math.sqrt(abs(speed_1[n])) + effusivity_2 * math.sqrt(speed)
-        for m in range(_PLACES.size):
-            position = half_width[n] * _PLACES[m]
-            came = 0.0
-            k = n
-            span = math.sqrt((position + widest) / speed)
-            for q in range(_NODES.size):
-                # The square root in the integral is the variable.
-                since = (span * _NODES[q]) ** 2
-                then = time[n] - since
-                if then < time[0] or n == 0:
-                    break
-                while k > 1 and time[k - 1] > then:
-                    k -= 1
-                share = (then - time[k - 1]) / (time[k] - time[k - 1])
-                width = half_width[k - 1] + share * (half_width[k] - half_width[k - 1])
-                inside = 1.0 - ((position - speed * since) / width) ** 2
-                if inside > 0.0:
-                    power = power_per_length[k - 1] + share * (
-                        power_per_length[k] - power_per_length[k - 1]
-                    )
-                    came += _WEIGHTS[q] * power / width * math.sqrt(inside)
-            hottest = max(hottest, 4.0 / math.pi**1.5 * came * span * math.sqrt(speed) / uptake)
+        if _highest_rise(time, power_per_length, half_width, n, widest, speed) <= hottest * uptake:
+            continue
+        for position in _PLACES:
+            came = _came_in(
+                time, power_per_length, half_width, n, position * half_width[n], widest, speed
+            )
+            hottest = max(hottest, 4.0 / math.pi**1.5 * came / uptake)
     return hottest

@@ -23,7 +23,14 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.asperities import asperity_patch
-from macroslip.contact.chords import NO_SLIP, SLICES, chord_stresses, film_node
+from macroslip.contact.chords import (
+    FIRST_SLICE,
+    NO_SLIP,
+    SLICES,
+    chord_stresses,
+    film_node,
+    write_film,
+)
 from macroslip.contact.traction import ChordTable, Fluid, chord_stress
 
 if TYPE_CHECKING:
@@ -131,7 +138,7 @@ def _patch_traction(patch, chords, load, film, share, ring_speed, slip, slices):
     lag = 0.0
     skew = 0.0
     per_drop = 0.5 / (patch.contour_radius * patch.roller_radius)
-    count = 0
+    behind = FIRST_SLICE
     for segment in range(3):
         length = edges[segment + 1] - edges[segment]
         if length < _SHORTEST:
@@ -141,14 +148,15 @@ def _patch_traction(patch, chords, load, film, share, ring_speed, slip, slices):
             station = across * x
             local = slip + station * (bend * station - spin)
             cosine = math.sqrt(1.0 - x * x)
-            slices.station[count] = station
-            slices.area[count] = area * _WEIGHTS[k] * length * cosine
-            slices.pressure[count] = pressure * cosine
-            slices.slip[count] = local
-            slices.speed[count] = abs(local)
-            count += 1
-    chord_stresses(chords, film_node(chords, film), slices, count)
-    for k in range(count):
+            slices.station[behind] = station
+            slices.area[behind] = area * _WEIGHTS[k] * length * cosine
+            slices.pressure[behind] = pressure * cosine
+            slices.slip[behind] = local
+            slices.speed[behind] = abs(local)
+            behind += 1
+    write_film(film_node(chords, film), slices, FIRST_SLICE, behind)
+    chord_stresses(chords, slices, behind)
+    for k in range(FIRST_SLICE, behind):
         station = slices.station[k]
         part = math.copysign(slices.area[k] * slices.stress[k], slices.slip[k])
         pull += part

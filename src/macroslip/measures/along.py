@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_evaluation, jit_inline, jit_once, uncounted
-from macroslip.contact.chords import chord_stresses, film_node
+from macroslip.compiled import jit_inline, jit_once, uncounted
+from macroslip.contact.chords import FIRST_SLICE, film_node, write_film
 from macroslip.contact.patch import Patch, patch_of
 from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.elementary import exponential, logarithm
@@ -26,20 +26,22 @@ SLIP_EDGES = (-0.1, -0.03, -0.01, -0.003, -0.001, 0.0, 0.001, 0.003, 0.01, 0.03,
 #: Least share of asperities by which their energy is spread along the roller: quotients of less
 #: overflow.
 LEAST_SHARE = 1e-30
-#: How power lies along the roller at a raceway, at a sample.
+#: How power lies along the roller at a raceway, at a sample. Of power only its share of all stations
+#: counts: it is that per length.
 ALONG = np.dtype(
     [
-        # Power by station, with the sign of slip [W].
-        ("power", "f8", (STATIONS,)),
-        # Power of asperities by station [W].
+        # Size of the power of stations at which slip is negative, and at which it is positive [W/m].
+        ("negative", "f8", (STATIONS,)),
+        ("positive", "f8", (STATIONS,)),
+        # Power of asperities by station [W/m].
         ("rough", "f8", (STATIONS,)),
         # ∫ p |v| dA by station [W].
         ("work", "f8", (STATIONS,)),
         # Power per area by station [W/m²].
         ("density", "f8", (STATIONS,)),
-        # Sum of |power| [W].
+        # Sum of |power| [W/m].
         ("total", "f8"),
-        # Sum of the power of asperities [W].
+        # Sum of the power of asperities [W/m].
         ("rough_total", "f8"),
         # Sum of ∫ p |v| dA [W].
         ("work_total", "f8"),
@@ -125,35 +127,31 @@ def _parabola(line, first, station):
     return line[first] + station * (line[first + 2] * station + line[first + 1])
 
 
+class Highest(NamedTuple):
+    """What is the highest of the slices of a contact."""
+
+    density: float  #: Power per area [W/m²]
+    speed: float  #: Slip [m/s]
+    heat: float  #: Power per length times power per area [W²/m³]
+
+
 @jit_once
-def _saturating_friction(contact, slip, entrainment):
-    """Kellström's coefficient of friction at a slip and an entrainment speed [m/s]."""
-    return contact.limit * min(slip / (contact.saturation * abs(entrainment)), 1.0)
+def clear_along(along):
+    """Write that no power lies along the roller."""
+    along.negative[:] = 0.0
+    along.positive[:] = 0.0
+    along.rough[:] = 0.0
+    along.work[:] = 0.0
+    along.density[:] = 0.0
+    along.total = 0.0
+    along.rough_total = 0.0
+    along.work_total = 0.0
+    along.first = STATIONS // 2
+    along.behind = STATIONS // 2
 
 
 @jit_inline
-def passed_since(sample, passes, entrainment):
-    """What a station passes since the sample before, as `book_times` takes it.
-
-    Parameters
-    ----------
-    sample : record of `macroslip.measures.samples.SAMPLE`
-    passes : float
-        Passes of the roller since the sample before [-].
-    entrainment : float
-        Entrainment speed, with its sign [m/s].
-
-    Returns
-    -------
-    tuple of float
-        Time under load [s] and passes then [-], over the number of stations; 1/entrainment [s/m].
-    """
-    time = (sample.time - sample.since) * sample.under_load / STATIONS
-    return time, passes * sample.under_load / STATIONS, 1.0 / entrainment
-
-
-@jit_inline
-def book_slices(along, slices, first, count, width, hot):
+def book_along(along, slices, start, touched):
     """Write how power lies along the roller, of the slices of the stations that touch.
 
     Parameters
@@ -161,112 +159,135 @@ def book_slices(along, slices, first, count, width, hot):
     along : record of `ALONG`
         All but the film's regime is written.
     slices : record of `macroslip.contact.chords.SLICES`
-        Their power, its part by asperities, load, slip and half-width are taken.
-    first, count : int
+        With what `write_powers` gives.
+    start : int
+        Number of the contact's first slice, at least `FIRST_SLICE`.
+    touched : ndarray, shape (2,)
         First station that touches, and number of them.
-    width : float
-        Width of a whole station [m].
-    hot : ndarray
-        Power per length [W/m] and half-width [m] of the hottest slice are written.
 
     Returns
     -------
-    densest : float
-        Largest power per area [W/m²].
-    fastest : float
-        Largest slip [m/s].
+    Highest
     """
-    along.power[:] = 0.0
-    along.rough[:] = 0.0
-    along.work[:] = 0.0
-    along.density[:] = 0.0
-    # Of power only its share of all stations counts; of p |v| its size does.
-    for k in range(count):
-        covered = slices.covered[k]
-        along.power[first + k] = math.copysign(slices.power[k] * covered, slices.slip[k])
-        along.rough[first + k] = slices.asperities[k] * covered
-        along.work[first + k] = slices.load[k] * slices.speed[k] * covered * width
-        along.density[first + k] = slices.power[k] / (2.0 * slices.half_width[k])
+    first = touched[0]
+    behind = first + touched[1]
+    # All stations are written, so that the processor does several at once; what is read beside the
+    # contact's slices is not taken. That the index is not negative the compiler has to see.
+    from_slice = max(start - first, 0)
+    for k in range(STATIONS):
+        touches = k >= first and k < behind
+        spent = slices.spent[from_slice + k]
+        rough = slices.rough[from_slice + k]
+        work = slices.work[from_slice + k]
+        density = slices.density[from_slice + k]
+        along.negative[k] = max(-spent, 0.0) if touches else 0.0
+        along.positive[k] = max(spent, 0.0) if touches else 0.0
+        along.rough[k] = rough if touches else 0.0
+        along.work[k] = work if touches else 0.0
+        along.density[k] = density if touches else 0.0
     total = 0.0
     rough_total = 0.0
     work_total = 0.0
     densest = 0.0
     fastest = 0.0
     hottest = 0.0
-    for k in range(count):
-        total += abs(along.power[first + k])
-        rough_total += along.rough[first + k]
-        work_total += along.work[first + k]
-        density = along.density[first + k]
+    for k in range(start, start + touched[1]):
+        total += abs(slices.spent[k])
+        rough_total += slices.rough[k]
+        work_total += slices.work[k]
+        density = slices.density[k]
         densest = max(densest, density)
         fastest = max(fastest, slices.speed[k])
-        # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
-        if slices.power[k] * density > hottest:
-            hottest = slices.power[k] * density
-            hot[0] = slices.power[k]
-            hot[1] = slices.half_width[k]
+        hottest = max(hottest, slices.power[k] * density)
     along.total = total
     along.rough_total = rough_total
     along.work_total = work_total
     along.first = first
-    along.behind = first + count
-    return densest, fastest
-
-
-@jit_evaluation
-def book_times(times, slices, k, passed):
-    """Add the time under load and the passes of a slice to the class of its slip.
-
-    Parameters
-    ----------
-    times : ndarray, shape (classes of slip, 2)
-        Times under load [s] and passes [-] of the film's class; the slice's are added.
-    slices : record of `macroslip.contact.chords.SLICES`
-    k : int
-        Number of the slice.
-    passed : tuple of float
-        Of `passed_since`.
-    """
-    ratio = math.copysign(slices.speed[k], slices.slip[k]) * passed[2]
-    spent = times[class_of(SLIP_EDGES, ratio)]
-    spent[0] += passed[0] * slices.covered[k]
-    spent[1] += passed[1] * slices.covered[k]
-
-
-@jit_evaluation
-def _slip(line, station):
-    """Slip along rolling, with its sign, and size of the slip at a station [m], both [m/s]."""
-    along_rolling = _parabola(line, 1, station)
-    across_rolling = _parabola(line, 4, station)
-    size = math.sqrt(along_rolling * along_rolling + across_rolling * across_rolling)
-    return along_rolling, size
+    along.behind = behind
+    return Highest(densest, fastest, hottest)
 
 
 @jit_once
-def _write_slices(patch, root, line, first, slices, count):
-    """Write the slices of an ellipse at the stations that it touches.
+def hottest_slice(slices, start, count):
+    """Power per length [W/m] and half-width [m] of the hottest slice of a contact; 0 without power.
 
-    The part of a station that it covers counts, and its middle is where slip and pressure are
-    taken: so the lightest contact too lies in the two middle stations.
+    Flash temperature goes with P'/√b: where its square is the largest, it is taken.
     """
+    hottest = 0.0
+    power = 0.0
+    half_width = 0.0
+    for k in range(start, start + count):
+        heat = slices.power[k] * slices.density[k]
+        if heat > hottest:
+            hottest = heat
+            power = slices.power[k]
+            half_width = slices.half_width[k]
+    return power, half_width
+
+
+@jit_once
+def book_times(times, slices, start, count, passed):
+    """Add times under load and passes of the slices of a contact to the classes of film and slip.
+
+    Parameters
+    ----------
+    times : ndarray, shape (classes of film, classes of slip, 2)
+        Times under load [s] and passes [-]; those of the slices are added.
+    slices : record of `macroslip.contact.chords.SLICES`
+        With what `write_powers` gives.
+    start, count : int
+        Number of the contact's first slice, and how many there are.
+    passed : tuple of float
+        Time under load [s] and passes then [-] of a station, over the number of stations.
+    """
+    for k in range(start, start + count):
+        spent = times[slices.film_class[k], slices.slip_class[k]]
+        spent[0] += passed[0] * slices.covered[k]
+        spent[1] += passed[1] * slices.covered[k]
+
+
+@jit_inline
+def write_powers(contact, slices, behind):
+    """Write frictional power of slices, and the classes of their slip.
+
+    The film has the share of the area that asperities leave, and its stress. Where neither the oil's
+    table nor Kellström's coefficient gives a stress, `power` is there already: the contact's power is
+    distributed as load is.
+
+    Parameters
+    ----------
+    contact : Contact
+    slices : record of `macroslip.contact.chords.SLICES`
+        Of this contact; their state and the stress of the oil are taken.
+    behind : int
+        Number of the slice behind the last, of one sample or of several.
+    """
+    patch = contact.patch
     width = 2.0 * patch.half_length / STATIONS
-    across = patch.across * root
+    stressed = contact.chorded or contact.limit > 0.0
     # Divisions take as long as all else of a slice: what is the same in all is divided once.
-    per_square = 1.0 / (across * across)
-    per_width = 1.0 / width
-    for k in range(count):
-        left = (first + k) * width - patch.half_length
-        begin = max(left, line[0] - across)
-        end = min(left + width, line[0] + across)
-        station = 0.5 * (begin + end)
-        from_middle = station - line[0]
-        slip, speed = _slip(line, station)
-        length = math.sqrt(1.0 - from_middle * from_middle * per_square)
-        slices.covered[k] = (end - begin) * per_width
-        slices.length[k] = length
-        slices.pressure[k] = patch.pressure * root * length
-        slices.slip[k] = slip
-        slices.speed[k] = speed
+    per_full_slip = 1.0 / patch.full_slip
+    for n in range(behind - FIRST_SLICE):
+        k = FIRST_SLICE + n
+        speed = slices.speed[k]
+        load = slices.load[k]
+        share = slices.share[k]
+        doubled_width = 2.0 * slices.half_width[k]
+        carried = patch.boundary_friction * max(share, LEAST_SHARE) * load
+        asperities = carried * min(speed * per_full_slip, 1.0) * speed
+        power = slices.power[k]
+        if stressed:
+            power = asperities + (1.0 - share) * doubled_width * slices.stress[k] * speed
+        slices.power[k] = power
+        # Of power only its share of all stations counts; of p |v| its size does.
+        covered = slices.covered[k]
+        slices.spent[k] = math.copysign(power * covered, slices.slip[k])
+        slices.rough[k] = asperities * covered
+        slices.work[k] = load * speed * covered * width
+        slices.density[k] = power / doubled_width
+    for n in range(behind - FIRST_SLICE):
+        k = FIRST_SLICE + n
+        slices.slip_class[k] = class_of(SLIP_EDGES, slices.ratio[k])
 
 
 @jit_once
@@ -283,88 +304,105 @@ def _touched(patch, across, middle):
 
 
 @jit_once
-def _write_power(contact, root, state, sample, interface, slices, count):
-    """Write load and frictional power per length of the slices of an ellipse, and its asperities' part.
-
-    The film has the share of the area that asperities leave. The oil's table, looked up before, or
-    Kellström's coefficient gives its stress; without either the contact's power is distributed as
-    load is. `root` is the cube root of the load [N^(1/3)].
-    """
-    patch = contact.patch
-    load, ring_speed, slip = state
-    share = sample.share[interface]
-    entrainment = signed_entrainment(ring_speed, slip)
-    middle_load = 0.75 * load / (patch.across * root)
-    middle_power = 0.75 * sample.at.power[interface] / (patch.across * root)
-    boundary = patch.boundary_friction * max(share, LEAST_SHARE) * middle_load
-    per_full_slip = 1.0 / patch.full_slip
-    for k in range(count):
-        speed = slices.speed[k]
-        height = slices.length[k] * slices.length[k]
-        half_width = patch.along * root * slices.length[k]
-        asperities = boundary * height * min(speed * per_full_slip, 1.0) * speed
-        of_length = middle_load * height
-        if contact.chorded:
-            power = asperities + (1.0 - share) * 2.0 * half_width * slices.stress[k] * speed
-        elif contact.limit > 0.0:
-            sliding = _saturating_friction(contact, speed, entrainment) * speed
-            power = asperities + (1.0 - share) * of_length * sliding
-        else:
-            power = middle_power * height
-        slices.load[k] = of_length
-        slices.half_width[k] = half_width
-        slices.power[k] = power
-        slices.asperities[k] = asperities
+def _slip_line(patch, sample, interface, ring_speed, slip):
+    """Middle of an ellipse along the roller [m], and the slip along it, as `lines` of `SAMPLE`."""
+    if sample.skewed:
+        line = sample.lines[interface]
+        return line[0], line[1], line[2], line[3], line[4], line[5], line[6]
+    bend = 0.0
+    if patch.microslip:
+        fall = ring_speed * patch.curvature_ratio - slip / patch.roller_radius
+        bend = fall / (2.0 * patch.contour_radius)
+    return 0.0, slip, -ring_speed * patch.spin_ratio, bend, 0.0, 0.0, 0.0
 
 
-@jit
-def power_along(maps, interface, contact, state, sample, passes, along):
-    """Write the distribution of power along the roller at a loaded elliptical contact.
+@jit_inline
+def write_ellipse(contact, state, sample, interface, slices, start):
+    """Write the slices of an ellipse at the stations that it touches.
 
     Parameters
     ----------
-    maps : record of `macroslip.measures.maps.MAPS`
-        Times under load by film and slip are added, and slices are written.
-    interface : int
-        0 for the inner raceway, 1 for the outer one.
     contact : Contact
     state : tuple of float
-        Load [N], u2 and Δu [m/s].
+        Load [N], > 0, u2 and Δu [m/s].
     sample : record of `macroslip.measures.samples.SAMPLE`
-        What is hottest is written.
-    passes : float
-        Passes of the roller since the sample before [-].
-    along : record of `ALONG`
-        Is written.
-
-    Returns
-    -------
-    densest : float
-        Largest power per area [W/m²].
-    fastest : float
-        Largest slip [m/s].
-    entrainment : float
-        Entrainment speed, > 0 [m/s].
+        Which stations touch is written.
+    interface : int
+        0 for the inner raceway, 1 for the outer one.
+    slices : record of `macroslip.contact.chords.SLICES`
+    start : int
+        Number of the first slice.
     """
     patch = contact.patch
-    slices = maps.slices
-    film_ratio = sample.film[interface] / contact.roughness
-    entrainment = signed_entrainment(state[1], state[2])
-    root = exponential(logarithm(state[0]) / 3.0)
-    line = sample.lines[interface]
+    load, ring_speed, slip = state
+    root = exponential(logarithm(load) / 3.0)
+    line = _slip_line(patch, sample, interface, ring_speed, slip)
     first, count = _touched(patch, patch.across * root, line[0])
-    _write_slices(patch, root, line, first, slices, count)
+    _write_chords(patch, root, line, slices, (start, first, count))
+    of_middle = 0.75 / (patch.across * root)
+    load_of_middle = of_middle * load
+    power_of_middle = of_middle * sample.at.power[interface]
+    share = sample.share[interface]
+    per_entrainment = 1.0 / signed_entrainment(ring_speed, slip)
+    film_class = class_of(FILM_EDGES, sample.film[interface] / contact.roughness)
+    from_start = max(start, 0)
+    for n in range(count):
+        k = from_start + n
+        height = slices.load[k]
+        slices.load[k] = load_of_middle * height
+        slices.power[k] = power_of_middle * height
+        slices.share[k] = share
+        slices.ratio[k] = math.copysign(slices.speed[k], slices.slip[k]) * per_entrainment
+        slices.film_class[k] = film_class
     if contact.chorded:
-        node = film_node(contact.chords, sample.film[interface])
-        chord_stresses(contact.chords, node, slices, count)
-    _write_power(contact, root, state, sample, interface, slices, count)
+        write_film(film_node(contact.chords, sample.film[interface]), slices, start, start + count)
+    elif contact.limit > 0.0:
+        _write_friction(contact, slices, start, count)
+    sample.touched[interface, 0] = first
+    sample.touched[interface, 1] = count
+
+
+@jit_once
+def _write_chords(patch, root, line, slices, touched):
+    """Write position, width, pressure and slip of the slices of an ellipse.
+
+    The part of a station that it covers counts, and its middle is where slip and pressure are
+    taken: so the lightest contact too lies in the two middle stations. The load is that per length
+    over the middle's. `root` is the cube root of the contact's load [N^(1/3)], and `touched` are the
+    number of the first slice, the station that it lies in, and the number of slices.
+    """
+    start, first, count = touched
+    middle = line[0]
     width = 2.0 * patch.half_length / STATIONS
-    hot = sample.hot[interface]
-    densest, fastest = book_slices(along, slices, first, count, width, hot)
-    passed = passed_since(sample, passes, entrainment)
-    if passed[0] > 0.0:
-        times = maps.film_slip[interface, class_of(FILM_EDGES, film_ratio)]
-        for k in range(count):
-            book_times(times, slices, k, passed)
-    along.regime = 1 if film_ratio >= 1.0 else 0
-    return densest, fastest, abs(entrainment)
+    across = patch.across * root
+    # Divisions take as long as all else of a slice: what is the same in all is divided once.
+    per_square = 1.0 / (across * across)
+    per_width = 1.0 / width
+    pressure = patch.pressure * root
+    half_width = patch.along * root
+    from_start = max(start, 0)
+    for n in range(count):
+        k = from_start + n
+        left = (first + n) * width - patch.half_length
+        begin = max(left, middle - across)
+        end = min(left + width, middle + across)
+        station = 0.5 * (begin + end)
+        slip = _parabola(line, 1, station)
+        slip_across = _parabola(line, 4, station)
+        height = 1.0 - (station - middle) * (station - middle) * per_square
+        length = math.sqrt(height)
+        slices.covered[k] = (end - begin) * per_width
+        slices.pressure[k] = pressure * length
+        slices.load[k] = height
+        slices.half_width[k] = half_width * length
+        slices.slip[k] = slip
+        slices.speed[k] = math.sqrt(slip * slip + slip_across * slip_across)
+
+
+@jit_once
+def _write_friction(contact, slices, start, count):
+    """Write the stress of slices by Kellström's coefficient of friction."""
+    per_saturation = 1.0 / contact.saturation
+    for k in range(start, start + count):
+        friction = contact.limit * min(abs(slices.ratio[k]) * per_saturation, 1.0)
+        slices.stress[k] = friction * slices.load[k] / (2.0 * slices.half_width[k])

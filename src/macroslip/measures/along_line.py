@@ -10,18 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_once
-from macroslip.contact.chords import chord_stress_at, film_node
+from macroslip.compiled import jit_once
+from macroslip.contact.chords import film_node, write_film
 from macroslip.contact.strips import strip_approach
-from macroslip.measures.along import (
-    FILM_EDGES,
-    LEAST_SHARE,
-    STATIONS,
-    book_slices,
-    book_times,
-    class_of,
-    passed_since,
-)
+from macroslip.measures.along import FILM_EDGES, STATIONS, class_of
 from macroslip.mechanics.speeds import signed_entrainment
 
 if TYPE_CHECKING:
@@ -88,72 +80,41 @@ def strips_along(
 
 
 @jit_once
-def _write_slice(contact, strip, slices, k):
-    """Write the slice of a strip: state, and power per length by its own film and asperities."""
-    patch = contact.patch
-    speed = abs(strip.slip)
-    carried = patch.boundary_friction * max(strip.share, LEAST_SHARE) * strip.load
-    asperities = carried * min(speed / patch.full_slip, 1.0) * speed
-    node = film_node(contact.chords, strip.film)
-    stress = chord_stress_at(contact.chords, node, strip.pressure, speed)
-    sheared = (1.0 - strip.share) * 2.0 * strip.half_width * stress * speed
-    slices.covered[k] = strip.covered
-    slices.load[k] = strip.load
-    slices.half_width[k] = strip.half_width
-    slices.slip[k] = strip.slip
-    slices.speed[k] = speed
-    slices.power[k] = sheared + asperities
-    slices.asperities[k] = asperities
-
-
-@jit
-def line_power_along(maps, interface, contact, state, sample, passes, strips, along):
-    """Write the distribution of power along a roller at a line contact.
+def write_line(contact, strips, state, sample, interface, slices, start):
+    """Write the slices of a line contact at the stations that touch.
 
     Parameters
     ----------
-    maps : record of `macroslip.measures.maps.MAPS`
-        Times under load by film and slip are added, and slices are written.
+    contact : macroslip.measures.along.Contact
+    strips : ndarray of `STRIP`, shape (STATIONS,)
+    state : tuple of float
+        Load [N], > 0, u2 and Δu [m/s].
+    sample : record of `macroslip.measures.samples.SAMPLE`
+        Which stations touch is written.
     interface : int
         0 for the inner raceway, 1 for the outer one.
-    contact : macroslip.measures.along.Contact
-    state : tuple of float
-        Load [N], u2 and Δu [m/s].
-    sample : record of `macroslip.measures.samples.SAMPLE`
-        What is hottest is written.
-    passes : float
-        Passes of the roller since the sample before [-].
-    strips : ndarray of `STRIP`, shape (STATIONS,)
-    along : record of `macroslip.measures.along.ALONG`
-        Is written.
-
-    Returns
-    -------
-    densest : float
-        Largest power per area [W/m²].
-    fastest : float
-        Largest slip [m/s].
-    entrainment : float
-        Entrainment speed, > 0 [m/s].
+    slices : record of `macroslip.contact.chords.SLICES`
+    start : int
+        Number of the first slice.
     """
-    patch = contact.patch
-    slices = maps.slices
-    entrainment = signed_entrainment(state[1], state[2])
-    passed = passed_since(sample, passes, entrainment)
+    per_entrainment = 1.0 / signed_entrainment(state[1], state[2])
     first = 0
     while first < STATIONS and strips[first].covered < _LEAST_COVERED:
         first += 1
     count = 0
     while first + count < STATIONS and strips[first + count].covered >= _LEAST_COVERED:
-        _write_slice(contact, strips[first + count], slices, count)
+        strip = strips[first + count]
+        k = start + count
+        slices.covered[k] = strip.covered
+        slices.pressure[k] = strip.pressure
+        slices.load[k] = strip.load
+        slices.half_width[k] = strip.half_width
+        slices.share[k] = strip.share
+        slices.slip[k] = strip.slip
+        slices.speed[k] = abs(strip.slip)
+        slices.ratio[k] = strip.slip * per_entrainment
+        slices.film_class[k] = class_of(FILM_EDGES, strip.film / contact.roughness)
+        write_film(film_node(contact.chords, strip.film), slices, k, k + 1)
         count += 1
-    width = 2.0 * patch.half_length / STATIONS
-    hot = sample.hot[interface]
-    densest, fastest = book_slices(along, slices, first, count, width, hot)
-    if passed[0] > 0.0:
-        for k in range(count):
-            film_ratio = strips[first + k].film / contact.roughness
-            times = maps.film_slip[interface, class_of(FILM_EDGES, film_ratio)]
-            book_times(times, slices, k, passed)
-    along.regime = 1 if sample.film[interface] >= contact.roughness else 0
-    return densest, fastest, abs(entrainment)
+    sample.touched[interface, 0] = first
+    sample.touched[interface, 1] = count

@@ -16,13 +16,29 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_evaluation, jit_inline, jit_once, uncounted
 from macroslip.constants import SECTORS
-from macroslip.contact.flash import flash_temperature
+from macroslip.contact.chords import FIRST_SLICE, MOST_SLICES, SLICES, chord_stresses
 from macroslip.contact.look_up import in_plane, log_speed
 from macroslip.contact.strips import PreparedStrips
 from macroslip.elementary import exponential, logarithm
-from macroslip.measures.along import STATIONS, power_along, uncounted_contact
-from macroslip.measures.along_line import STRIP, line_power_along, strips_along
-from macroslip.measures.extremes import EXTREMES, heat_entries, raise_extremes, sample_cage
+from macroslip.measures.along import (
+    STATIONS,
+    book_along,
+    book_times,
+    clear_along,
+    hottest_slice,
+    uncounted_contact,
+    write_ellipse,
+    write_powers,
+)
+from macroslip.measures.along_line import STRIP, strips_along, write_line
+from macroslip.measures.extremes import (
+    EXTREMES,
+    cage_contact,
+    heat_entries,
+    raise_extremes,
+    raise_flash,
+    sample_cage,
+)
 from macroslip.measures.maps import MAPS, PER_ANGLE, spread
 from macroslip.measures.samples import (
     MEMORY,
@@ -31,10 +47,12 @@ from macroslip.measures.samples import (
     SAMPLE,
     begin,
     choose,
+    joined,
     samples_of_peaks,
 )
 from macroslip.measures.totals import RACEWAYS, Batch
-from macroslip.ring.orbit import angle_at
+from macroslip.mechanics.speeds import signed_entrainment
+from macroslip.ring.orbit import instant, interval_of, last_before, uncounted_motion
 from macroslip.roller.step import STEP
 
 if TYPE_CHECKING:
@@ -71,8 +89,7 @@ class Details(NamedTuple):
     #: As `extreme`, of raceways that enter: slide-roll ratio of the middle, transient temperature
     entry_extreme: np.ndarray
     memory: np.ndarray  #: Of `MEMORY`, shape (1,)
-    maps: np.ndarray  #: Of `MAPS`, shape (1,); its fields are those that follow
-    station_energy: np.ndarray  #: Energy by raceway and station along the roller [J]
+    maps: np.ndarray  #: Of `MAPS`, shape (1,); the fields that follow are views of it
     #: Energy by raceway, sector, station, sign of slip and film regime [J]
     surface_energy: np.ndarray
     #: Largest power per area [W/m²] over raceway, sector and station, mean over the contact's width
@@ -86,14 +103,32 @@ class Details(NamedTuple):
     #: [s]; passes
     film_slip: np.ndarray
 
+    @property
+    def station_energy(self) -> np.ndarray:
+        """Energy by raceway and station along the roller [J]."""
+        return self.surface_energy.sum(axis=(1, 3, 4))
+
 
 def new_details(edges: np.ndarray) -> Details:
     """Empty details for orbits with these edges [s]."""
     orbits = edges.size - 1
     maps = np.zeros(1, MAPS)
-    sizes = ((orbits, 3, len(EXTREMES)), orbits, (orbits, 2, len(EXTREMES)))
-    views = [maps[name][0] for name in Details._fields[Details._fields.index("maps") + 1 :]]
-    details = Details._make([edges, *map(np.zeros, sizes), np.zeros(1, MEMORY), maps, *views])
+    surface = maps["surface"][0]
+    details = Details(
+        edges=edges,
+        extreme=np.zeros((orbits, 3, len(EXTREMES))),
+        entries=np.zeros(orbits),
+        entry_extreme=np.zeros((orbits, 2, len(EXTREMES))),
+        memory=np.zeros(1, MEMORY),
+        maps=maps,
+        surface_energy=surface["energy"].transpose(0, 1, 4, 3, 2),
+        surface_density=surface["density"],
+        surface_asperities=surface["asperities"],
+        surface_work=surface["work"],
+        surface_passes=surface["passes"],
+        working_load=maps["working_load"][0],
+        film_slip=maps["film_slip"][0],
+    )
     for extremes in (details.extreme, details.entry_extreme):
         extremes[..., EXTREMES.index("film_ratio")] = np.inf
     details.memory["orbit"] = -1
@@ -135,42 +170,49 @@ def _raceway_state(at, i):
 
 
 @jit_once
-def _clear(sample, i):
-    """Write the speeds of a raceway's surfaces to what is hottest of a sample, and no power."""
-    _, speed, slip = _raceway_state(sample.at, i)
-    hot = sample.hot[i]
-    hot[0] = 0.0
-    hot[1] = 0.0
-    hot[2] = speed - slip
-    hot[3] = speed
+def _write_slices(samples, first, strips, contact, i, slices):
+    """Write the slices of a raceway at samples from the first on, as far as there is room.
 
-
-@jit_once
-def _raise_all(sample, i, contact, most, extremes):
-    """Raise the extremes of the orbit and of entries into the load zone by a raceway's state.
-
-    `most` is what `power_along` gives.
+    Returns the number of the sample behind the last, and that of the slice behind the last. Behind
+    it there is room for as many as stations.
     """
-    densest, fastest, mean = most
+    behind = FIRST_SLICE
+    n = first
+    while n < samples.size and behind + 2 * STATIONS <= MOST_SLICES:
+        sample = samples[n]
+        sample.touched[i, 1] = 0
+        state = _raceway_state(sample.at, i)
+        if state[0] > 0.0:
+            # Of the two only the one that the type of the strips asks for is compiled.
+            if strips is None:
+                write_ellipse(contact, state, sample, i, slices, behind)
+            else:
+                touching = uncounted(strips)[n, i]  # pyright: ignore[reportCallIssue]
+                write_line(contact, touching, state, sample, i, slices, behind)
+        behind += sample.touched[i, 1]
+        n += 1
+    return n, behind
+
+
+@jit_once
+def _raise_all(sample, i, contact, highest, extremes):
+    """Raise the extremes of the orbit and of entries into the load zone by a raceway's state."""
+    _, speed, slip = _raceway_state(sample.at, i)
     film_ratio = sample.film[i] / contact.roughness
-    raise_extremes(extremes[0], sample.orbit, i, densest, fastest / mean, film_ratio)
+    mean = abs(signed_entrainment(speed, slip))
+    ratio = highest.speed / mean
+    speeds = speed - slip, speed
+    raise_extremes(extremes[0], sample.orbit, i, highest.density, ratio, film_ratio)
+    raise_flash(extremes[0], sample.orbit, i, highest.heat, speeds, contact.effusivity)
     if sample.entry > 0:
-        slip = math.hypot(sample.lines[i, 1], sample.lines[i, 4])
-        raise_extremes(extremes[1], sample.orbit, i, densest, slip / mean, film_ratio)
+        size = abs(slip)
+        if sample.skewed:
+            size = math.hypot(sample.lines[i, 1], sample.lines[i, 4])
+        raise_extremes(extremes[1], sample.orbit, i, highest.density, size / mean, film_ratio)
 
 
 @jit_once
-def _raise_density(maps, i, places, along):
-    """Raise the largest power per area of the sectors that a raceway's contact has passed."""
-    start, end = places
-    for sector in range(math.floor(min(start, end)), math.floor(max(start, end)) + 1):
-        of_sector = maps.surface_density[i, int(sector % SECTORS)]
-        for k in range(STATIONS):
-            of_sector[k] = max(of_sector[k], along.density[k])
-
-
-@jit_once
-def _distribute(maps, i, sample, places, before, after):
+def _distribute(maps, i, sample, way, before, after):
     """Distribute the energies since the sample before over the maps of a raceway."""
     load = _raceway_state(sample.at, i)[0]
     # As power lay, or lies, where it is known only once.
@@ -188,60 +230,152 @@ def _distribute(maps, i, sample, places, before, after):
         half_span,
         half_span if load > 0.0 else 0.0,
     )
-    spread(maps, i, places, sample.mean_time[i], spent, before, after)
-    work = half_span * (before.work_total + (after.work_total if load > 0.0 else 0.0))
-    maps.working_load[i, 0] += work * load
-    maps.working_load[i, 1] += work
+    spread(maps, i, way, sample.mean_time[i], spent, before, after)
+    # A peak stands beside the samples between which energies are distributed.
+    if sample.number >= 0:
+        work = half_span * (before.work_total + (after.work_total if load > 0.0 else 0.0))
+        maps.working_load[i, 0] += work * load
+        maps.working_load[i, 1] += work
+        if load > 0.0:
+            maps.last[i] = 1 - maps.last[i]
+        else:
+            before.work[:] = 0.0
+            before.work_total = 0.0
+
+
+@jit_once
+def _book_raceway(maps, sample, i, contact, booked, way):
+    """Book the slices of a raceway at a sample: maps, times, and extremes.
+
+    `booked` are the slices, the number of the first, and the extremes.
+    """
+    slices, start, extremes = booked
+    load, _, _ = _raceway_state(sample.at, i)
+    last = maps.last[i]
+    before = maps.along[2 * i + last]
+    after = maps.along[_AT_PEAK if sample.number < 0 else 2 * i + 1 - last]
     if load > 0.0:
-        maps.last[i] = 1 - maps.last[i]
+        highest = book_along(after, slices, start, sample.touched[i])
+        after.regime = 1 if sample.film[i] >= contact.roughness else 0
+        _raise_all(sample, i, contact, highest, extremes)
+        if sample.under_load > 0.0:
+            pressed = sample.under_load / STATIONS
+            passes = abs(way[1] - way[0]) / SECTORS
+            passed = (sample.time - sample.since) * pressed, passes * pressed
+            book_times(maps.film_slip[i], slices, start, sample.touched[i, 1], passed)
     else:
-        before.work[:] = 0.0
-        before.work_total = 0.0
+        clear_along(after)
+    _distribute(maps, i, sample, way, before, after)
+
+
+@jit_once
+def _keep_entry(entering, sample, i, slices, start):
+    """Write where a raceway is hottest while a roller enters the load zone."""
+    _, speed, slip = _raceway_state(sample.at, i)
+    power, half_width = hottest_slice(slices, start, sample.touched[i, 1])
+    first = 3 + 4 * i
+    entering[first, sample.column] = power
+    entering[first + 1, sample.column] = half_width
+    entering[first + 2, sample.column] = speed - slip
+    entering[first + 3, sample.column] = speed
 
 
 @jit
-def _spread_samples(samples, strips, contacts, roller, start_angle, maps, extreme, entry_extreme):
-    """Distribute the energies of samples over the maps, and update the extremes.
+def _spread_raceway(samples, strips, i, contact, way, maps, room, booked):
+    """Distribute the energies of a raceway at samples over its maps, and update its extremes.
 
-    What is hottest is written to the samples. Strips are those of line contacts, over sample,
-    raceway and station; those of ellipses are None.
+    Parameters
+    ----------
+    samples : ndarray of `macroslip.measures.samples.SAMPLE`
+        Begun by `_begin_samples`; stations that touch are written.
+    strips : ndarray of `macroslip.measures.along_line.STRIP` or None
+        Those of line contacts, over sample, raceway and station; those of ellipses are None.
+    i : int
+        0 for the inner raceway, 1 for the outer one.
+    contact : macroslip.measures.along.Contact
+    way : tuple of float
+        Where the roller is at the first sample of the loads [rad], and the ratio of its way on the
+        raceway to the shaft's [-].
+    maps : ndarray of `macroslip.measures.maps.MAPS`, shape (1,)
+        Arrays of one record come from Python, which hands a record on by describing all its fields.
+    room : ndarray of `macroslip.contact.chords.SLICES`, shape (1,)
+        Room for slices.
+    booked : tuple of ndarray
+        Extremes of orbits, those of entries into the load zone, and columns for `heat_entries`.
     """
-    body, tables = roller
     samples = uncounted(samples)  # pyright: ignore[reportCallIssue]
-    extremes = uncounted(extreme), uncounted(entry_extreme)  # pyright: ignore[reportCallIssue]
-    inner, outer = uncounted_contact(contacts[0]), uncounted_contact(contacts[1])
+    extremes = uncounted(booked[0]), uncounted(booked[1])  # pyright: ignore[reportCallIssue]
+    entering = uncounted(booked[2])  # pyright: ignore[reportCallIssue]
+    contact = uncounted_contact(contact)
+    of_raceway = uncounted(maps)[0]  # pyright: ignore[reportCallIssue]
+    slices = uncounted(room)[0]  # pyright: ignore[reportCallIssue]
+    n = 0
+    while n < samples.size:
+        first = n
+        n, behind = _write_slices(samples, first, strips, contact, i, slices)
+        if contact.chorded:
+            chord_stresses(contact.chords, slices, behind)
+        write_powers(contact, slices, behind)
+        start = FIRST_SLICE
+        for m in range(first, n):
+            sample = samples[m]
+            passed = (
+                (way[0] + way[1] * sample.turned[0] + sample.ahead[0]) * PER_ANGLE,
+                (way[0] + way[1] * sample.turned[1] + sample.ahead[1]) * PER_ANGLE,
+            )
+            _book_raceway(of_raceway, sample, i, contact, (slices, start, extremes), passed)
+            if sample.entry > 0:
+                _keep_entry(entering, sample, i, slices, start)
+            start += sample.touched[i, 1]
+
+
+@jit
+def _begin_samples(samples, roller, cage, motion, extreme, entering, columns):
+    """Write films of samples and angles of the shaft, and begin columns of entries.
+
+    The extremes of the cage's contact are updated.
+
+    Parameters
+    ----------
+    samples : ndarray of `macroslip.measures.samples.SAMPLE`
+        Films, shares of asperities, and angles of the shaft are written.
+    roller : tuple
+        Record of the roller, in an array, and address of the flat array of its tables.
+    cage : macroslip.measures.extremes.CageContact
+    motion : macroslip.ring.orbit.Motion
+    extreme : ndarray
+        Of orbits.
+    entering : ndarray, shape (11, n)
+        Columns for `heat_entries`.
+    columns : int
+        How many of them there are already.
+
+    Returns
+    -------
+    int
+        Number of columns.
+    """
+    bodies, tables = roller
+    body = uncounted(bodies)[0]  # pyright: ignore[reportCallIssue]
+    samples = uncounted(samples)  # pyright: ignore[reportCallIssue]
+    extreme = uncounted(extreme)  # pyright: ignore[reportCallIssue]
+    motion = uncounted_motion(motion)
+    interval = last_before(motion.time, samples[0].since) if samples.size > 0 else 0
     for n in range(samples.size):
         sample = samples[n]
         _look_up_films(body, tables, sample)
-        for i in range(2):
-            ratio = body.orbit_ratio - (1.0 if i == 0 else 0.0)
-            places = (
-                (start_angle + ratio * sample.turned[0] + sample.ahead[0]) * PER_ANGLE,
-                (start_angle + ratio * sample.turned[1] + sample.ahead[1]) * PER_ANGLE,
-            )
-            last = maps.last[i]
-            # A peak stands beside the samples between which energies are distributed.
-            is_peak = sample.number < 0
-            after = maps.along[_AT_PEAK if is_peak else 2 * i + 1 - last]
-            _clear(sample, i)
-            state = _raceway_state(sample.at, i)
-            if state[0] > 0.0:
-                contact = inner if i == 0 else outer
-                passes = abs(places[1] - places[0]) / SECTORS
-                # Of the two only the one that the type of the strips asks for is compiled.
-                if strips is None:
-                    most = power_along(maps, i, contact, state, sample, passes, after)
-                else:
-                    touching = uncounted(strips)[n, i]  # pyright: ignore[reportCallIssue]
-                    most = line_power_along(
-                        maps, i, contact, state, sample, passes, touching, after
-                    )
-                _raise_all(sample, i, contact, most, extremes)
-                _raise_density(maps, i, places, after)
-            if not is_peak:
-                before = maps.along[2 * i + last]
-                _distribute(maps, i, sample, places, before, after)
-        sample_cage(body, tables, contacts[2], sample, extremes[0])
+        sample_cage(body, tables, cage, sample, extreme)
+        interval = interval_of(motion, sample.since, interval)
+        sample.turned[0] = instant(motion, interval, sample.since).shaft_angle
+        interval = interval_of(motion, sample.time, interval)
+        sample.turned[1] = instant(motion, interval, sample.time).shaft_angle
+        if sample.entry > 0:
+            entering[0, columns] = sample.entry
+            entering[1, columns] = sample.orbit
+            entering[2, columns] = sample.time
+            sample.column = columns
+            columns += 1
+    return columns
 
 
 class ContactSampler:
@@ -265,31 +399,35 @@ class ContactSampler:
         self._spacing = wanted.spacing
         self._start_angle = start_angle
         self._roller = roller
+        body = roller.body[0]
+        self._outer_radius = float(body["outer_radius"])
+        self._orbit_ratio = float(body["orbit_ratio"])
         self._laws = laws
         self._contacts = contacts
+        self._cage = cage_contact(contacts[2])
         self._motion = motion
         self._skew = skew
         self._last = np.zeros(1, STEP)
         self._samples = Batch(SAMPLE)
         self._peaks = np.zeros((wanted.edges.size - 1, PEAKS), PEAK)
         self._checked: list[np.ndarray] = []
-        #: Rows for `heat_entries` of the entry under way.
-        self._entering = np.zeros((0, 11))
+        #: Columns for `heat_entries` of the entry under way.
+        self._entering = np.zeros((11, 0))
 
     @property
     def checked(self) -> np.ndarray:
         """Samples at which the quadrature is to be checked (`macroslip.measures.quadrature`)."""
-        return np.concatenate(self._checked)
+        return joined(self._checked)
 
     def add(self, steps: np.ndarray, j: int) -> None:
         """Process the steps of one roller in a buffer."""
         self._last = steps[-1:, j].copy()
         samples = self._samples.room(len(steps), self._sample)
-        memory = self.details.memory[0]
-        radius = float(self._roller.body[0]["outer_radius"])
         details = self.details
         orbits = details.edges, details.entries, self._peaks
-        self._samples.count += choose(steps, j, orbits, memory, radius, self._spacing, samples)
+        self._samples.count += choose(
+            steps, j, orbits, details.memory, self._outer_radius, self._spacing, samples
+        )
 
     def finish(self) -> None:
         """Distribute the energies since the last sample."""
@@ -304,51 +442,28 @@ class ContactSampler:
             self._samples.count += 1
         self._samples.empty(self._sample)
         self._sample(samples_of_peaks(self._peaks))
-        self._heat(self._entering)
+        self._heat(self._entering, self._entering.shape[1], is_last=True)
 
     def _sample(self, samples: np.ndarray) -> None:
         """Sample the contacts."""
-        lines = samples["lines"]
-        lines[...] = 0.0
-        for i, name in enumerate(RACEWAYS):
-            patch = self._contacts[i].patch
-            speed = samples["at"][f"{name}_speed"]
-            slip = samples["at"][f"{name}_slip"]
-            lines[:, i, 1] = slip
-            lines[:, i, 2] = -speed * patch.spin_ratio
-            if patch.microslip:
-                fall = speed * patch.curvature_ratio - slip / patch.roller_radius
-                lines[:, i, 3] = fall / (2.0 * patch.contour_radius)
         if self._skew:
             self._skew.turn(samples)
-        samples["turned"] = angle_at(
-            self._motion, np.stack([samples["since"], samples["time"]], axis=1)
-        )
         details = self.details
-        steel = self._contacts[0].effusivity
-        roller = self._roller.body[0], self._roller.tables.ctypes.data
-        _spread_samples(
-            samples,
-            self._strips(samples["at"]),
-            self._contacts,
-            roller,
-            self._start_angle,
-            details.maps[0],
-            details.extreme,
-            details.entry_extreme,
+        under_way = self._entering.shape[1]
+        entering = np.empty((self._entering.shape[0], under_way + samples.size))
+        entering[:, :under_way] = self._entering
+        roller = self._roller.body, self._roller.tables.ctypes.data
+        count = _begin_samples(
+            samples, roller, self._cage, self._motion, details.extreme, entering, under_way
         )
-        inside = samples["orbit"] >= 0
-        power, half, own, other = np.moveaxis(samples["hot"][inside], -1, 0)
-        flash = flash_temperature(power, half, own, other, steel, steel)
-        np.maximum.at(details.extreme[..., 0], samples["orbit"][inside], flash)
-        entering = samples[samples["entry"] > 0]
-        columns = [entering[name] for name in ("entry", "orbit", "time")]
-        rows = np.concatenate(
-            [self._entering, np.column_stack([*columns, entering["hot"][:, :2].reshape(-1, 8)])]
-        )
-        under_way = int(np.searchsorted(rows[:, 0], rows[-1, 0])) if rows.size else 0
-        self._heat(rows[:under_way])
-        self._entering = rows[under_way:]
+        strips = self._strips(samples["at"])
+        room = np.empty(1, SLICES)
+        booked = details.extreme, details.entry_extreme, entering
+        # The inner raceway turns with the shaft.
+        for i, ratio in enumerate((self._orbit_ratio - 1.0, self._orbit_ratio)):
+            way = self._start_angle, ratio
+            _spread_raceway(samples, strips, i, self._contacts[i], way, details.maps, room, booked)
+        self._heat(entering, count, is_last=False)
         self._checked.append(samples[samples["number"] % _FINE == 0])
 
     def _strips(self, at: np.ndarray) -> np.ndarray | None:
@@ -363,7 +478,8 @@ class ContactSampler:
             strips[loaded, i] = strips_along(law, *state)
         return strips
 
-    def _heat(self, rows: np.ndarray) -> None:
-        """Compute the largest temperatures of the raceways in finished load-zone entries."""
-        columns = np.ascontiguousarray(rows.T)
-        heat_entries(columns, self._contacts[0].effusivity, self.details.entry_extreme)
+    def _heat(self, entering: np.ndarray, count: int, *, is_last: bool) -> None:
+        """Compute the largest temperatures of the raceways in load-zone entries that have ended."""
+        steel = self._contacts[0].effusivity
+        first = heat_entries(entering, count, is_last, steel, self.details.entry_extreme)
+        self._entering = entering[:, first:count].copy()

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from macroslip.compiled import jit, jit_inline, jit_once
-from macroslip.contact.flash import transient_flash
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from macroslip.compiled import jit, jit_evaluation, jit_inline, jit_once
+from macroslip.contact.flash import steady_flash, transient_flash
 from macroslip.contact.look_up import log_speed
+from macroslip.elementary import exponential, logarithm
 from macroslip.mechanics.cage import cage_friction
 from macroslip.mechanics.speeds import LOWEST_SPEED
+
+if TYPE_CHECKING:
+    from macroslip.measures.along import Contact
 
 EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
 
@@ -35,9 +42,49 @@ def raise_extremes(extremes, orbit, interface, density, ratio, film_ratio):
         extremes[orbit, interface, 3] = min(extremes[orbit, interface, 3], film_ratio)
 
 
+@jit_evaluation
+def raise_flash(extremes, orbit, interface, heat, speeds, effusivity):
+    """Raise the largest flash temperature of an orbit to that of a sample.
+
+    Parameters
+    ----------
+    extremes : ndarray
+        As of `raise_extremes`.
+    orbit : int
+        As of `raise_extremes`.
+    interface : int
+    heat : float
+        Power per length times power per area where that is the highest [W²/m³].
+    speeds : tuple of float
+        Speeds of roller and counterpart [m/s].
+    effusivity : float
+        Of the steel [J/(m² K √s)].
+    """
+    if orbit >= 0:
+        rise = steady_flash(heat, speeds[0], speeds[1], effusivity)
+        # Of a steel whose effusivity is not known it is no number.
+        if rise > extremes[orbit, interface, 0] or math.isnan(rise):
+            extremes[orbit, interface, 0] = rise
+
+
+class CageContact(NamedTuple):
+    """Numbers of the cage's contact that its extremes ask for."""
+
+    across: float  #: Semi-axis of the ellipse across rolling over the cube root of load [m/N^⅓]
+    along: float  #: The same along rolling [m/N^⅓]
+    roughness: float  #: Composite RMS roughness [m]
+    effusivity: float  #: Thermal effusivity of its steel [J/(m² K √s)]
+
+
+def cage_contact(contact: Contact) -> CageContact:
+    """Numbers of the cage's contact, of all that `macroslip.measures.along.contacts_of` gives."""
+    patch = contact.patch
+    return CageContact(patch.across, patch.along, contact.roughness, contact.effusivity)
+
+
 @jit_once
 def sample_cage(body, tables, contact, sample, extreme):
-    """Write power and extremes of the cage's contact, without the oil of its pocket.
+    """Raise the extremes of the cage's contact, without the oil of its pocket.
 
     The force of that oil is far larger than the force of a light contact.
 
@@ -46,58 +93,61 @@ def sample_cage(body, tables, contact, sample, extreme):
     body : record of `macroslip.roller.model.BODY`
     tables : int
         Address of the flat array of tables.
-    contact : macroslip.measures.along.Contact
+    contact : CageContact
     sample : record of `macroslip.measures.samples.SAMPLE`
-        What is hottest is written.
     extreme : ndarray
         As of `raise_extremes`.
     """
-    hot = sample.hot[2]
     surface = sample.at.cage_speed
     load = abs(sample.at.cage_load)
-    hot[0] = 0.0
-    hot[1] = 1.0
-    hot[2] = surface
-    hot[3] = 0.0
-    if load > 0.0:
-        root = load ** (1.0 / 3.0)
+    if load > 0.0 and sample.orbit >= 0:
+        root = exponential(logarithm(load) / 3.0)
         force = cage_friction(body, tables, load, surface, log_speed(surface)).force
-        hot[0] = 0.75 * abs(surface * force) / (contact.patch.across * root)
-        hot[1] = contact.patch.along * root
+        power = 0.75 * abs(surface * force) / (contact.across * root)
+        half_width = contact.along * root
         ratio = abs(surface) / max(0.5 * abs(surface), LOWEST_SPEED)
-        raise_extremes(
-            extreme,
-            sample.orbit,
-            2,
-            hot[0] / (2.0 * hot[1]),
-            ratio,
-            sample.film[2] / contact.roughness,
-        )
+        film_ratio = sample.film[2] / contact.roughness
+        density = power / (2.0 * half_width)
+        raise_extremes(extreme, sample.orbit, 2, density, ratio, film_ratio)
+        speeds = surface, 0.0
+        raise_flash(extreme, sample.orbit, 2, power * density, speeds, contact.effusivity)
 
 
 @jit
-def heat_entries(rows, effusivity, extreme):
-    """Update the largest temperatures of load-zone entries [K].
+def heat_entries(entering, count, is_last, effusivity, extreme):
+    """Update the largest temperatures of load-zone entries [K] that have ended.
 
     Parameters
     ----------
-    rows : ndarray, shape (11, samples)
-        Entry, orbit, time [s] and, by raceway, what is hottest as `SAMPLE` has it.
+    entering : ndarray, shape (11, n)
+        Entry, orbit, time [s] and, by raceway where it is hottest, power per length [W/m],
+        half-width [m], and speeds of roller and counterpart [m/s].
+    count : int
+        Number of columns that are filled.
+    is_last : bool
+        True if the last entry has ended too.
     effusivity : float
         Of the steel [J/(m² K √s)].
     extreme : ndarray
         As of `raise_extremes`; the temperature is raised.
+
+    Returns
+    -------
+    int
+        Number of the first column of the entry under way.
     """
     first = 0
-    for last in range(1, rows.shape[1] + 1):
-        if last < rows.shape[1] and rows[0, last] == rows[0, first]:
+    for last in range(1, count + 1):
+        if last < count and entering[0, last] == entering[0, first]:
             continue
-        orbit = int(rows[1, first])
+        if last == count and not is_last:
+            break
+        orbit = int(entering[1, first])
         if orbit >= 0:
             for i in range(2):
-                band = rows[3 + 4 * i : 7 + 4 * i, first:last]
+                band = entering[3 + 4 * i : 7 + 4 * i, first:last]
                 rise = transient_flash(
-                    rows[2, first:last],
+                    entering[2, first:last],
                     band[0],
                     band[1],
                     band[2],
@@ -107,3 +157,4 @@ def heat_entries(rows, effusivity, extreme):
                 )
                 extreme[orbit, i, 0] = max(extreme[orbit, i, 0], rise)
         first = last
+    return first

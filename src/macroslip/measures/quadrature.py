@@ -8,6 +8,7 @@ import numpy as np
 
 from macroslip.contact.patch import fine_power, patch_power
 from macroslip.contact.strips import PreparedStrips
+from macroslip.measures.samples import joined
 from macroslip.measures.totals import RACEWAYS
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def quadrature_energies(
     """
     energies = np.zeros((len(samples), len(RACEWAYS), 2))
     roller = np.repeat(np.arange(len(samples)), [of_one.size for of_one in samples])
-    every = np.concatenate(samples)
+    every = joined(samples)
     span = every["time"] - every["since"]
     for i, name in enumerate(RACEWAYS):
         law: PreparedContact = getattr(laws, name)

@@ -10,13 +10,16 @@ their own when the orbit has ended.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline, jit_once
-from macroslip.elementary import exponential, logarithm
 from macroslip.measures.totals import END, orbit_at, write_end
 from macroslip.mechanics.speeds import signed_entrainment
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 #: A roller that the rings begin to press enters the load zone until its middle slips by less than
 #: this part of the speed, or for this way [rad].
@@ -40,7 +43,7 @@ PEAKS = 6
 #: The state in which one of them is the highest in its orbit.
 PEAK = np.dtype(
     [
-        # Power [W], over load^(2/3) [W/N^(2/3)], or ratio [-]; 0 before the first.
+        # Power [W], cube of it over load^(2/3) [W³/N²], or ratio [-]; 0 before the first.
         ("value", "f8"),
         # Time [s].
         ("time", "f8"),
@@ -66,8 +69,8 @@ MEMORY = np.dtype(
         ("power", "f8", (2,)),
         # Highest power at the raceways in the orbit before and in this one [W].
         ("highest", "f8", (2, 2)),
-        # Highest power over load^(2/3) under the rings' load in both, and at samples in this one
-        # [W/N^(2/3)].
+        # Highest cube of power over load^(2/3) under the rings' load in both, and at samples in this
+        # one [W³/N²].
         ("densest", "f8", (3, 2)),
         # Energy since the last sample by raceway [J].
         ("energy", "f8", (2,)),
@@ -106,8 +109,6 @@ SAMPLE = np.dtype(
         ("time", "f8"),
         # Angles of the roller ahead of pure rolling at both times [rad].
         ("ahead", "f8", (2,)),
-        # Angles of the shaft at both times [rad].
-        ("turned", "f8", (2,)),
         # Energy since the sample before by raceway [J].
         ("energy", "f8", (2,)),
         # Part of the time since then at which that energy was spent in the mean, by raceway [-].
@@ -122,26 +123,31 @@ SAMPLE = np.dtype(
         ("film", "f8", (3,)),
         # Asperities' share of the load by interface [-].
         ("share", "f8", (3,)),
-        # By raceway, the middle of the ellipse along the roller [m] and the six numbers of
-        # `contact.skewed.SlipLines`, of which a straight roller has three.
+        # Angles of the shaft at both times [rad].
+        ("turned", "f8", (2,)),
+        # Column for `heat_entries`, of an entry.
+        ("column", "i8"),
+        # First station of the roller that each raceway touches, and number of them.
+        ("touched", "i8", (2, 2)),
+        # 1 where the roller is skewed; then by raceway the middle of the ellipse along the roller
+        # [m] and the six numbers of `contact.skewed.SlipLines`.
+        ("skewed", "i8"),
         ("lines", "f8", (2, 7)),
-        # By interface where it is hottest, found as samples are spread: power per length [W/m],
-        # half-width [m], and speeds of roller and counterpart [m/s].
-        ("hot", "f8", (3, 4)),
     ]
 )
 
 
 @jit_inline
 def _density(power, load, elastic_load):
+    """Cube of power over load^(2/3), which is compared as power over the area is, without a root."""
     if elastic_load <= 0.0:
         return 0.0
-    return power * exponential(-2.0 / 3.0 * logarithm(load))
+    return power * power * power / (load * load)
 
 
 @jit_once
 def _densities(step, last):
-    """Power over load^(2/3) at both raceways under the rings' load [W/N^(2/3)]."""
+    """Cube of power over load^(2/3) at both raceways under the rings' load [W³/N²]."""
     power = step.power[last]
     elastic_load = step.elastic_load[last]
     return (
@@ -199,8 +205,8 @@ def _is_due(step, last, densities, memory, outer_radius, spacing):
         due = due or change > _CHANGE * spacing * highest
         if memory.entry > 0:
             due = due or change > _CHANGE_ENTERING * spacing * memory.entering[i]
-        if densities[i] > 0.5 * memory.densest[0, i]:
-            due = due or densities[i] > (1.0 + _RISE * spacing) * memory.densest[2, i]
+        if densities[i] > 0.5**3 * memory.densest[0, i]:
+            due = due or densities[i] > (1.0 + _RISE * spacing) ** 3 * memory.densest[2, i]
     return due
 
 
@@ -245,7 +251,7 @@ def _enter(step, last, memory, outer_radius):
 
 
 @jit
-def choose(steps, j, orbits, memory, outer_radius, spacing, samples):
+def choose(steps, j, orbits, memories, outer_radius, spacing, samples):
     """Begin the samples that are due in a buffer of steps.
 
     Parameters
@@ -256,7 +262,7 @@ def choose(steps, j, orbits, memory, outer_radius, spacing, samples):
     orbits : tuple of ndarray
         Start of the window and ends of its complete orbits [s]; entries into the load zone by orbit,
         to which those of the buffer are added; and peaks by orbit, of `PEAK`, which are raised.
-    memory : record of `MEMORY`
+    memories : ndarray of `MEMORY`, shape (1,)
         State from sample to sample.
     outer_radius : float
         r~_out [m].
@@ -271,6 +277,7 @@ def choose(steps, j, orbits, memory, outer_radius, spacing, samples):
         Number of samples.
     """
     edges, entries, peaks = orbits
+    memory = memories[0]
     count = 0
     for n in range(steps.shape[0]):
         step = steps[n, j]
@@ -322,6 +329,7 @@ def begin(sample, memory, step):
     sample.since = memory.time
     sample.time = step.end
     sample.entry = memory.entry
+    sample.skewed = 0
     sample.ahead[0] = memory.ahead
     sample.ahead[1] = step.ahead
     span = step.end - memory.time
@@ -332,6 +340,14 @@ def begin(sample, memory, step):
         sample.rough[i] = memory.rough[i]
         sample.mean_time[i] = min(max(memory.moment[i] / kept, 0.0), 1.0) if kept > 0.0 else 0.5
     write_end(step, sample.at)
+
+
+def joined(parts: Sequence[np.ndarray]) -> np.ndarray:
+    """Samples of several arrays of `SAMPLE` in one.
+
+    They are joined as bytes: NumPy would compare all fields of the records, array by array.
+    """
+    return np.concatenate([part.view(np.uint8) for part in parts]).view(SAMPLE)
 
 
 def samples_of_peaks(peaks: np.ndarray) -> np.ndarray:
@@ -346,13 +362,16 @@ def samples_of_peaks(peaks: np.ndarray) -> np.ndarray:
     ndarray of `SAMPLE`
         With a negative number; one of peaks that coincide.
     """
-    orbit, which = np.nonzero(peaks["value"] > 0.0)
-    _, first = np.unique(peaks["time"][orbit, which], return_index=True)
-    orbit, which = orbit[first], which[first]
-    samples = np.zeros(orbit.size, SAMPLE)
-    samples["orbit"] = orbit
+    index = np.flatnonzero(peaks["value"] > 0.0)
+    every = peaks.reshape(-1)
+    _, first = np.unique(every["time"][index], return_index=True)
+    index = index[first]
+    # An index in brackets would copy the fields of records one by one.
+    chosen = every.take(index)
+    samples = np.zeros(index.size, SAMPLE)
+    samples["orbit"] = index // PEAKS
     samples["number"] = -1
-    samples["since"] = samples["time"] = peaks["time"][orbit, which]
-    samples["ahead"] = peaks["ahead"][orbit, which][:, None]
-    samples["at"] = peaks["at"][orbit, which]
+    samples["since"] = samples["time"] = chosen["time"]
+    samples["ahead"] = chosen["ahead"][:, None]
+    samples["at"] = chosen["at"]
     return samples

@@ -163,6 +163,7 @@ class SkewMeasures:
         at = samples["at"]
         states = self._states(at)
         pressed = at["elastic_load"] > 0.0
+        samples["skewed"] = pressed
         skew, tilt, shift, more = states[pressed][:, [0, 1, 6, 7]].T
         for i, (name, raceway) in enumerate(zip(RACEWAYS, self._skewing.pair, strict=True)):
             speed = at[f"{name}_speed"][pressed]
