@@ -11,19 +11,21 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
 #: Makes what the pages name as the user's own files, then runs the code of every page given in a folder of its own, each
-#: block of code in a namespace of its own. Pages share a process, which has imported and compiled what the others need.
+#: block of code in a namespace of its own. Pages share a process, which has imported and compiled what the others need;
+#: a second process in the same folder finds the user's files made.
 RUNNER = """
 import contextlib, os, pathlib, runpy, shutil, sys, traceback
 from macroslip.cli.commands import app
 
 sample, own_film, *folders = map(pathlib.Path, sys.argv[1:])
 prepared = pathlib.Path("prepared").resolve()
-prepared.mkdir()
-os.chdir(prepared)
-app(["init", "case.yaml"], standalone_mode=False)
-app(["run", "case.yaml", "-o", "case.nc", "--quiet"], standalone_mode=False)
-shutil.copy(sample, "turbine.outb")
-shutil.copy(own_film, "own_film.py")
+if not prepared.exists():
+    prepared.mkdir()
+    os.chdir(prepared)
+    app(["init", "case.yaml"], standalone_mode=False)
+    app(["run", "case.yaml", "-o", "case.nc", "--quiet"], standalone_mode=False)
+    shutil.copy(sample, "turbine.outb")
+    shutil.copy(own_film, "own_film.py")
 for folder in folders:
     shutil.copytree(prepared, folder, dirs_exist_ok=True)
     os.chdir(folder)
@@ -62,9 +64,10 @@ def pages(python, tmp_path_factory):
         for number, code in enumerate(python_blocks(page)):
             (folder / f"block{number:02}.py").write_text(code, encoding="utf-8")
     own_film, ended = ROOT / "examples" / "own_film.py", []
+    shared = tmp_path_factory.mktemp("pages")
     for these in ([page for page in folders if page != LAWS], [LAWS]):
         arguments = map(str, (SAMPLE, own_film, *(folders[page] for page in these)))
-        ended.append(python("-c", RUNNER, *arguments, folder=tmp_path_factory.mktemp("pages")))
+        ended.append(python("-c", RUNNER, *arguments, folder=shared))
 
     def read(folder):
         if (folder / "done.txt").exists():
