@@ -408,7 +408,8 @@ class ContactSampler:
         self._motion = motion
         self._skew = skew
         self._last = np.zeros(1, STEP)
-        self._samples = Batch(SAMPLE)
+        # More samples would not stay in the processor's cache from one loop to the next.
+        self._samples = Batch(SAMPLE, buffers=2)
         self._peaks = np.zeros((wanted.edges.size - 1, PEAKS), PEAK)
         self._checked: list[np.ndarray] = []
         #: Columns for `heat_entries` of the entry under way.
