@@ -202,11 +202,18 @@ def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
 
 
 @jit_inline
+def allowed_slip(limits):
+    """Error of slip that a step may have [m/s]."""
+    return tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale
+
+
+@jit_inline
 def slip_error(path, now, zone, attempt, sample, sums):
     """Error estimate of the slip of a step [m/s].
 
     The embedded estimate is one number and may vanish by accident, especially where grip ceases
-    between two stages; so the equation's defect is sampled between them.
+    between two stages. There the equation's defect is sampled between them, and elsewhere where the
+    estimate is not far below what is allowed.
 
     Parameters
     ----------
@@ -247,13 +254,18 @@ def slip_error(path, now, zone, attempt, sample, sums):
             )
         )
     turn = attempt.length * path.body.mobility
+    # With microslip grip ceases gradually.
+    ceases = zone == EDGE and not microslip
     checks = 1
     if firm:
         checks = 0
-    elif zone == EDGE and not microslip:
-        # With microslip grip ceases gradually.
+    elif ceases:
         checks = 2
+    unchecked = tuning.UNCHECKED * allowed_slip(path.limits)
     for check in range(checks):
+        surely = ceases and check == 0
+        if error < unchecked and not surely:
+            break
         sample_between(path, now, attempt, tuning.DEFECT_NODES[check], sample)
         evaluate(path, sample.at, sample.slip, sample.forces)
         sums.evaluations += 1

@@ -15,6 +15,7 @@ from macroslip.compiled import jit, jit_inline, uncounted
 from macroslip.contact.look_up import REST_SPEED, contact_speed
 from macroslip.imposed import tuning
 from macroslip.imposed.control import (
+    allowed_slip,
     energy_error,
     first_cusp,
     held_energy_error,
@@ -163,9 +164,9 @@ def _attempt(path, now, attempt, before, stretch, sample, sums):
     share = max(attempt.length, tuning.SHORT_PART * stretch.sample_step)
     limits = path.limits
     worth = max(mean_power * share, attempt.energy, tuning.NO_ENERGY * limits.energy_scale)
-    allowed_slip = tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300
+    slip_part = abs(slip_off / (allowed_slip(limits) + 1e-300))
     allowed_energy = tuning.ENERGY_SHARE * limits.tolerance * worth + 1e-300
-    return max(abs(slip_off / allowed_slip), abs(energy_off) / allowed_energy)
+    return max(slip_part, abs(energy_off) / allowed_energy)
 
 
 @jit_inline
@@ -205,7 +206,7 @@ def _leaves_tables(body, attempt):
 @jit_inline
 def _resolved_slip(limits):
     """Slip [m/s] below which the error that a step may have hides the power of sliding."""
-    return tuning.RESOLVED * tuning.SLIP_SHARE * limits.tolerance * limits.speed_scale
+    return tuning.RESOLVED * allowed_slip(limits)
 
 
 @jit_inline
