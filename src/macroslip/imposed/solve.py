@@ -16,6 +16,7 @@ from macroslip.contact.look_up import REST_SPEED, contact_speed
 from macroslip.imposed import tuning
 from macroslip.imposed.control import (
     allowed_slip,
+    cubic,
     energy_error,
     first_cusp,
     held_energy_error,
@@ -211,9 +212,11 @@ def _resolved_slip(limits):
 
 @jit_inline
 def _may_peak_inside(path, now, attempt, zone, top_power):
-    """True if the roller snaps back in the step, or slides with a power near its largest.
+    """True if power may be higher between the stages of a step than at all of them.
 
-    The largest, `top_power` [W], is that since the roller had no load.
+    So it may where the roller snaps back, and where the cubic through the powers at the stages is
+    higher between them; if the roller slides with a power near its largest, `top_power` [W], since
+    it had no load.
     """
     if path.body.microslip or zone != EDGE:
         return False
@@ -223,11 +226,19 @@ def _may_peak_inside(path, now, attempt, zone, top_power):
         forces = attempt.forces[k]
         larger = max(abs(forces.inner), abs(forces.outer))
         sliding = max(sliding, larger * abs(attempt.slip[k]))
-    slides = sliding > 0.5 * top_power
+    if sliding <= 0.5 * top_power:
+        return False
     before = abs(slip)
     after = abs(attempt.slip[2])
-    snaps_back = before > _resolved_slip(path.limits) and after < tuning.SNAP * before
-    return slides or snaps_back
+    if before > _resolved_slip(path.limits) and after < tuning.SNAP * before:
+        return True
+    totals = attempt.totals
+    highest = max(totals[0], totals[1], totals[2], totals[3])
+    between = 0.0
+    for k in range(1, tuning.PEAK_PARTS):
+        part = k / tuning.PEAK_PARTS
+        between = max(between, cubic(part, totals[0], totals[1], totals[2], totals[3]))
+    return between > tuning.HIGHER_BETWEEN * highest
 
 
 @jit_inline

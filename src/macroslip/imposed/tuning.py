@@ -184,3 +184,7 @@ CUSP_PARTS = 10
 RESOLVED = 3.0
 #: Part of its slip that a roller keeps, at most, over a step in which it snaps back. Judgement.
 SNAP = 0.7
+#: Power between the stages over that at the stages, by the cubic through these, above which a step is
+#: sampled where a roller does not snap back. With it an eighth fewer evaluations find the same peaks;
+#: without the other condition, one at a tolerance of 1e-2 is off by 13 % in place of 4 %.
+HIGHER_BETWEEN = 1.001
