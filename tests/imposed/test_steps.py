@@ -307,7 +307,8 @@ def corrected(made, at, slip, change):
         attempt["at"][stage] = at
         attempt["forces"][stage] = before
         attempt["slip"][stage] = slip
-    bound = left_by_curvature(made.body[0], made.tables, attempt, (change, change, change))
+    left_by_curvature(made.body[0], made.tables, attempt, (change, change, change))
+    bound = float(attempt["left"].max())
     left = abs(sum(parts[1]) - sum(parts[0]) - before["slope"] * change)
     return bound, left, np.abs(parts).sum(axis=1).max()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from macroslip.compiled import jit_inline
 from macroslip.imposed import tuning
-from macroslip.imposed.held import held_slip
+from macroslip.imposed.held_slip import held_slip
 from macroslip.imposed.radau import NODES, collocation
 from macroslip.imposed.zones import EDGE, FIRM
 from macroslip.mechanics.spin import net_force

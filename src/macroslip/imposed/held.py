@@ -11,14 +11,14 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit_inline
-from macroslip.elementary import exponential, logarithm
 from macroslip.imposed import tuning
+from macroslip.imposed.held_slip import held_exponent, held_slip
 from macroslip.imposed.radau import (
     correct,
     evaluate_stages,
-    follow,
     force_tolerance,
     left_by_bend,
+    let_evaluate,
     new_bend,
     stiffness_of,
     write_increment,
@@ -137,6 +137,7 @@ def solve_held(path, now, attempt, before, sums):
     sums.evaluations += 2
     for k in range(1, 3):
         write_increment(now, attempt, k)
+    let_evaluate(attempt, 1)
     attempt.unbalanced = math.inf
     change = 0.0
     stiffness = 0.0
@@ -154,84 +155,18 @@ def solve_held(path, now, attempt, before, sums):
                 before.bend = new_bend(before.bend, size, stiffness, change)
             if size > 0.9 * attempt.unbalanced and size > allowed:
                 return False
-            foreseen = min(size, size * size / attempt.unbalanced)
+            for k in range(1, 3):
+                attempt.left[k] = min(size, size * size / attempt.unbalanced)
         update = held_update(scale, second.slope, third.slope, residual_2, residual_3)
+        changes = (0.0, update[0], update[1])
         change = max(abs(update[0]), abs(update[1]))
         stiffness = stiffness_of(attempt, 1)
         if iteration == 0:
-            foreseen = left_by_bend(before.bend, stiffness, change)
+            for k in range(1, 3):
+                attempt.left[k] = left_by_bend(before.bend, stiffness, changes[k])
         attempt.unbalanced = size
-        changes = (0.0, update[0], update[1])
-        correct(attempt, changes, 1)
-        if foreseen <= allowed:
-            follow(now, attempt, changes, 1)
-            attempt.unbalanced = foreseen
+        if correct(now, attempt, changes, 1, force_part, 0.0):
+            attempt.unbalanced = max(attempt.left[1], attempt.left[2])
             return True
-        evaluate_stages(path, now, attempt, sums, 1)
+        evaluate_stages(path, now, attempt, sums)
     return False
-
-
-@jit_inline
-def held_slip(slip, at, later, exponent):
-    """First guess of the slip of a firmly held roller under later conditions.
-
-    With microslip the middle slips so that the two sides of the lines of pure rolling balance, and
-    without so that traction holds against the cage's friction: in proportion to speed, and to a power
-    of the load that `held_exponent` measures.
-
-    Parameters
-    ----------
-    slip : float
-        Slip now [m/s].
-    at, later : record of `macroslip.mechanics.spin.CONDITIONS`
-        Conditions now and later.
-    exponent : float
-        Power of the inner raceway's load that slip follows [-].
-
-    Returns
-    -------
-    float
-        Slip under the later conditions [m/s]; that of now where load or speed give no ratio, or where
-        speed grows by more than `MOST_QUICKENING`.
-    """
-    if at.elastic_load <= 0.0 or at.ring_speed == 0.0 or later.elastic_load <= 0.0:
-        return slip
-    if abs(later.ring_speed) > tuning.MOST_QUICKENING * abs(at.ring_speed):
-        return slip
-    return (
-        slip
-        * exponential(exponent * (later.log_inner_load - at.log_inner_load))
-        * (later.ring_speed / at.ring_speed)
-    )
-
-
-@jit_inline
-def held_exponent(at, slip, later, later_slip, exponent):
-    """Power of the inner raceway's load in proportion to which the slip of a held roller has changed.
-
-    Parameters
-    ----------
-    at, later : record of `macroslip.mechanics.spin.CONDITIONS`
-        Conditions before and after the change.
-    slip, later_slip : float
-        Slips under these conditions [m/s].
-    exponent : float
-        Power known from before [-].
-
-    Returns
-    -------
-    float
-        The power, between ±`STEEPEST` [-]; that of before where it cannot be measured.
-    """
-    if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
-        return exponent
-    change = later.log_inner_load - at.log_inner_load
-    ratio = (
-        later_slip * at.ring_speed / (slip * later.ring_speed)
-        if slip * later.ring_speed != 0.0
-        else 0.0
-    )
-    if abs(change) < tuning.LEAST_CHANGE or ratio <= 0.0:
-        return exponent
-    exponent = logarithm(ratio) / change
-    return min(max(exponent, -tuning.STEEPEST), tuning.STEEPEST)

@@ -21,9 +21,10 @@ import numpy as np
 
 from macroslip.compiled import jit_inline
 from macroslip.imposed import tuning
+from macroslip.imposed.held_slip import held_exponent, held_slip
 from macroslip.imposed.root import left_by_curvature
 from macroslip.imposed.state import evaluate, locate
-from macroslip.imposed.zones import FREE
+from macroslip.imposed.zones import FIRM, FREE
 from macroslip.mechanics.spin import magnitude, net_force
 from macroslip.ring.orbit import interval_of
 
@@ -95,7 +96,7 @@ def set_step(path, now, attempt, length, held):
 
 
 @jit_inline
-def _shift(forces, change):
+def shift(forces, change):
     """Change the forces by a small change of slip [m/s], to first order.
 
     The change of the cage's force and of rolling resistance is all given to the cage; the rest is
@@ -284,8 +285,15 @@ def write_increment(now, attempt, k):
 
 
 @jit_inline
-def evaluate_stages(path, now, attempt, sums, first):
-    """Write forces and increments of slip at the stages of a step, from one stage on.
+def let_evaluate(attempt, first):
+    """Let forces be evaluated at all stages of a step from one on, and at no other."""
+    for k in range(3):
+        attempt.stale[k] = 1 if k >= first else 0
+
+
+@jit_inline
+def evaluate_stages(path, now, attempt, sums):
+    """Write forces and increments of slip at the stages of a step whose forces are stale.
 
     Parameters
     ----------
@@ -296,55 +304,114 @@ def evaluate_stages(path, now, attempt, sums, first):
         Its slips are given; forces and increments are written.
     sums : record of `macroslip.imposed.state.SUMS`
         Counts the evaluations.
-    first : int
-        Number of the first stage.
     """
-    for k in range(first, 3):
-        evaluate(path, attempt.at[k], attempt.slip[k], attempt.forces[k])
+    for k in range(3):
+        if attempt.stale[k]:
+            evaluate(path, attempt.at[k], attempt.slip[k], attempt.forces[k])
+            write_increment(now, attempt, k)
+            sums.evaluations += 1
+
+
+@jit_inline
+def _evaluate_held_stages(path, now, attempt, before, sums):
+    """Write forces and increments at the stages of a firmly held roller's step, one after another.
+
+    From the forces at a stage follows the slip of balance there, and from that a better guess of the
+    slip at the next one. With microslip the steps of three stages that are left for such a roller are
+    mostly those in which the cage's load passes zero, where no guess along the load is good.
+    `before` is a record of `macroslip.imposed.state.BEFORE`.
+    """
+    balance = net_force(now.forces)
+    for k in range(3):
+        forces = attempt.forces[k]
+        evaluate(path, attempt.at[k], attempt.slip[k], forces)
         write_increment(now, attempt, k)
         sums.evaluations += 1
+        if k == 2 or forces.slope <= 0.0:
+            continue
+        at = attempt.at[k]
+        slip = attempt.slip[k] - (net_force(forces) - balance) / forces.slope
+        exponent = held_exponent(now.at, now.slip, at, slip, before.exponent)
+        attempt.slip[k + 1] = held_slip(slip, at, attempt.at[k + 1], exponent)
 
 
 @jit_inline
-def correct(attempt, change, first):
-    """Correct the slips of stages; forces and increments are those of before.
-
-    Parameters
-    ----------
-    attempt : record of `macroslip.imposed.state.ATTEMPT`
-        Its slips are changed.
-    change : tuple of float
-        Changes of slip by stage [m/s].
-    first : int
-        Number of the first stage that changes.
-    """
-    for k in range(first, 3):
-        attempt.slip[k] += change[k]
-
-
-@jit_inline
-def follow(now, attempt, change, first):
-    """Let increments follow a correction of slips, and forces to first order.
+def correct(now, attempt, change, first, force_part, round_off):
+    """Correct the slips of stages, and let their forces follow to first order where that suffices.
 
     Parameters
     ----------
     now : record of `macroslip.imposed.state.STATE`
         State at the start of the step.
     attempt : record of `macroslip.imposed.state.ATTEMPT`
-        With corrected slips; its forces and increments are changed.
+        Its slips are changed. By what the correction leaves at each stage, `left`, forces and
+        increments follow, or are marked as stale.
     change : tuple of float
         Changes of slip by stage [m/s].
     first : int
-        Number of the first stage that has changed.
+        Number of the first stage that changes.
+    force_part : float
+        Force that may stay unbalanced over the sum of force magnitudes [-].
+    round_off : float
+        Force that may stay unbalanced by rounding [N].
+
+    Returns
+    -------
+    bool
+        Whether forces are stale at no stage.
     """
+    # Forces of a poor guess may be far larger than those of the solution.
+    least = math.inf
     for k in range(first, 3):
-        _shift(attempt.forces[k], change[k])
-        write_increment(now, attempt, k)
+        attempt.slip[k] += change[k]
+        if attempt.left[k] < math.inf:
+            shift(attempt.forces[k], change[k])
+            write_increment(now, attempt, k)
+        least = min(least, magnitude(attempt.forces[k]))
+    allowed = force_part * least + round_off
+    solved = True
+    for k in range(first, 3):
+        attempt.stale[k] = 0 if attempt.left[k] <= allowed else 1
+        solved = solved and attempt.stale[k] == 0
+    return solved
+
+
+@jit_inline
+def _is_balanced(path, attempt, residual, force_part, round_off):
+    """True if the residuals of all stages [N] are as small as is asked."""
+    balanced = True
+    for k in range(3):
+        forces = attempt.forces[k]
+        allowed = force_part * magnitude(forces) + path.limits.grain * abs(forces.slope) + round_off
+        balanced = balanced and abs(residual[k]) <= allowed
+    return balanced
+
+
+@jit_inline
+def _foresee(path, zone, attempt, before, update):
+    """Write what the first correction of a step will leave unbalanced at its stages.
+
+    Without microslip a roller under load may stick and slide in one step: its forces do not bend in
+    the same way twice.
+    """
+    if path.body.microslip or zone == FREE:
+        stiffness = stiffness_of(attempt, 0)
+        for k in range(3):
+            attempt.left[k] = left_by_bend(before.bend, stiffness, update[k])
+    elif path.body.closed_form:
+        left_by_curvature(path.body, path.flat, attempt, update)
+    else:
+        for k in range(3):
+            attempt.left[k] = math.inf
 
 
 @jit_inline
 def solve_stages(path, now, zone, attempt, before, sums):
     """Solve the stage equations of a step of three stages by Newton's method.
+
+    Newton's residuals shrink quadratically: what a correction leaves at a stage is foreseen from the
+    last two of them, or from the first correction and the curvature of the forces, and where it is
+    small enough the forces there follow to first order, without an evaluation.
 
     Parameters
     ----------
@@ -365,24 +432,23 @@ def solve_stages(path, now, zone, attempt, before, sums):
     bool
         Whether the equations were solved.
     """
-    scale = attempt.scale
     limits = path.limits
     force_part = force_tolerance(limits.tolerance, path.body.microslip)
-    round_off = 4e-15 * scale * (limits.speed_scale + abs(now.slip))
-    # Without microslip a roller under load may stick and slide in one step: its forces do not bend
-    # in the same way twice.
-    smooth = path.body.microslip or zone == FREE
+    round_off = 4e-15 * attempt.scale * (limits.speed_scale + abs(now.slip))
     attempt.unbalanced = math.inf
     change = 0.0
     stiffness = 0.0
-    foreseen = math.inf
     first = attempt.forces[0]
     second = attempt.forces[1]
     third = attempt.forces[2]
+    let_evaluate(attempt, 0)
     for iteration in range(tuning.ITERATIONS):
-        evaluate_stages(path, now, attempt, sums, 0)
+        if iteration == 0 and zone == FIRM and not path.body.microslip:
+            _evaluate_held_stages(path, now, attempt, before, sums)
+        else:
+            evaluate_stages(path, now, attempt, sums)
         residual = residuals(
-            scale,
+            attempt.scale,
             attempt.increment[0],
             attempt.increment[1],
             attempt.increment[2],
@@ -391,40 +457,26 @@ def solve_stages(path, now, zone, attempt, before, sums):
             net_force(third),
         )
         size = max(abs(residual[0]), abs(residual[1]), abs(residual[2]))
-        solved = True
-        for k in range(3):
-            forces = attempt.forces[k]
-            allowed = force_part * magnitude(forces) + limits.grain * abs(forces.slope) + round_off
-            solved = solved and abs(residual[k]) <= allowed
-        if solved:
+        if _is_balanced(path, attempt, residual, force_part, round_off):
             attempt.unbalanced = size
             return True
         if not math.isfinite(size) or (iteration > 2 and size > 0.9 * attempt.unbalanced):
             return False
-        # Newton's residuals shrink quadratically: the next one is predicted from the last two, or
-        # from the first correction and the curvature of the forces, and where it is small enough
-        # the forces follow to first order, without an evaluation.
-        if iteration > 0:
-            foreseen = size * size / attempt.unbalanced
+        update = newton_update(attempt.scale, first.slope, second.slope, third.slope, residual)
+        if iteration == 0:
+            _foresee(path, zone, attempt, before, update)
+        else:
             if iteration == 1:
                 before.bend = new_bend(before.bend, size, stiffness, change)
-        update = newton_update(scale, first.slope, second.slope, third.slope, residual)
+            least = min(magnitude(first), magnitude(second), magnitude(third))
+            is_close = size <= tuning.LAST_RESIDUAL * least + round_off
+            left = size * size / attempt.unbalanced if is_close else math.inf
+            for k in range(3):
+                attempt.left[k] = left
         change = max(abs(update[0]), abs(update[1]), abs(update[2]))
         stiffness = stiffness_of(attempt, 0)
-        if iteration == 0:
-            if smooth:
-                foreseen = left_by_bend(before.bend, stiffness, change)
-            elif path.body.closed_form:
-                foreseen = left_by_curvature(path.body, path.flat, attempt, update)
         attempt.unbalanced = size
-        least = min(magnitude(first), magnitude(second), magnitude(third))
-        is_close = iteration == 0 or size <= tuning.LAST_RESIDUAL * least + round_off
-        correct(attempt, update, 0)
-        if is_close and foreseen < math.inf:
-            follow(now, attempt, update, 0)
-            # Forces of a poor guess may be far larger than those of the solution.
-            least = min(magnitude(first), magnitude(second), magnitude(third))
-            if foreseen <= force_part * least + round_off:
-                attempt.unbalanced = foreseen
-                return True
+        if correct(now, attempt, update, 0, force_part, round_off):
+            attempt.unbalanced = max(attempt.left[0], attempt.left[1], attempt.left[2])
+            return True
     return False

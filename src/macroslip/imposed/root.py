@@ -92,7 +92,7 @@ def is_continuous(path, now, attempt):
 
 @jit
 def left_by_curvature(body, tables, attempt, update):
-    """Bound of the residual that Newton's first correction of a step leaves, by the closed form.
+    """Write bounds of the residuals that Newton's first correction of a step leaves, by the closed form.
 
     Far below the slip v_p at which the hottest point of a contact passes its peak of traction, and
     below the ring's speed u2, a force that has the slope F' before a correction Δ keeps within
@@ -110,22 +110,20 @@ def left_by_curvature(body, tables, attempt, update):
     tables : ndarray
         The flat array of tables.
     attempt : record of `macroslip.imposed.state.ATTEMPT`
-        With slips and forces before the correction.
+        With slips and forces before the correction. Its `left` is written, bounds ≥ 0 [N]: infinite
+        beyond half of v_p and of u2, where the cage's load passes zero, and where asperities have
+        friction, whose share of the load follows the film more steeply.
     update : tuple of float
         Changes of slip at the stages [m/s].
-
-    Returns
-    -------
-    float
-        Bound, ≥ 0 [N]; infinite beyond half of v_p and of u2, where the cage's load passes zero, and
-        where asperities have friction, whose share of the load follows the film more steeply.
 
     References
     ----------
     Crook (1961), doi:10.1098/rsta.1961.0014, for the traction.
     """
+    for k in range(3):
+        attempt.left[k] = math.inf
     if body.inner.boundary_friction > 0.0 or body.outer.boundary_friction > 0.0:
-        return math.inf
+        return
     inner_load = 0.0
     outer_load = 0.0
     slowest = math.inf
@@ -135,16 +133,14 @@ def left_by_curvature(body, tables, attempt, update):
         slowest = min(slowest, abs(attempt.at[k].ring_speed))
     peak = surely_rising(body, tables, inner_load, outer_load, slowest)
     farthest = min(peak, slowest)
-    largest = 0.0
     for k in range(3):
         forces = attempt.forces[k]
         change = abs(update[k])
         slip = max(abs(attempt.slip[k]), abs(attempt.slip[k] + update[k]))
         pushed = abs(forces.cage_load_slope) * change
         if not (slip < tuning.UNHEATED * farthest and pushed < abs(forces.cage_load)):
-            return math.inf
+            continue
         curvature = tuning.HEATED_CURVATURE * slip / (peak * peak) + tuning.FILM_CURVATURE / slowest
         left = (abs(forces.inner_slope) + abs(forces.outer_slope)) * curvature * change * change
         cage_share = pushed / abs(forces.cage_load) + change / slowest
-        largest = max(largest, left + abs(forces.cage) * cage_share * cage_share)
-    return largest
+        attempt.left[k] = left + abs(forces.cage) * cage_share * cage_share

@@ -24,8 +24,9 @@ from macroslip.imposed.control import (
     step_factor,
 )
 from macroslip.imposed.guess import guess
-from macroslip.imposed.held import follows_loads, held_exponent, solve_held
-from macroslip.imposed.radau import sample_between, set_step, solve_stages
+from macroslip.imposed.held import follows_loads, solve_held
+from macroslip.imposed.held_slip import held_exponent
+from macroslip.imposed.radau import sample_between, set_step, shift, solve_stages
 from macroslip.imposed.root import is_continuous
 from macroslip.imposed.state import Path, evaluate, frame, start_at, write_point
 from macroslip.imposed.status import (
@@ -53,11 +54,11 @@ def _follows_acceleration(now):
 
 
 @jit_inline
-def _rebalance(path, now, sums, forces):
+def _rebalance(path, now, sums, sample):
     """Set the slip of a firmly held roller to its balance just after a sample.
 
     The transition takes the relaxation time, for which `firm_approach` gives a bound; here it
-    takes none. A roller that still skids, or has not settled yet, stays as it is. `forces` is
+    takes none. A roller that still skids, or has not settled yet, stays as it is. `sample` is
     overwritten.
     """
     body = path.body
@@ -67,23 +68,27 @@ def _rebalance(path, now, sums, forces):
     acceleration = rise / (motion.time[k + 1] - motion.time[k])
     needed = -body.orbit_ratio * body.outer_radius * acceleration / body.mobility
     slip = now.slip
+    sample.forces = now.forces
+    forces = sample.forces
     for _ in range(tuning.BALANCE_ITERATIONS):
-        evaluate(path, now.at, slip, forces)
-        sums.evaluations += 1
         change = (needed - net_force(forces)) / forces.slope
         slip += change
         if abs(change) <= tuning.BALANCED * abs(slip):
+            shift(forces, change)
             break
+        evaluate(path, now.at, slip, forces)
+        sums.evaluations += 1
     if abs(slip - now.slip) < tuning.SETTLED * path.limits.speed_scale:
         now.slip = slip
-        start_at(path, now, sums)
+        now.forces = forces
+        powers(body, now.at, now.forces, slip, now.powers[:])
 
 
 @jit_inline
-def _next_stretch(path, stops, classes, now, stretch, sums, forces):
+def _next_stretch(path, stops, classes, now, stretch, sums, sample):
     """Find the class of the sample interval that begins at a barrier, and the next barrier.
 
-    There is none after the last stop. `forces` is overwritten.
+    There is none after the last stop. `sample` is overwritten.
     """
     time = now.time
     motion = path.motion
@@ -117,7 +122,7 @@ def _next_stretch(path, stops, classes, now, stretch, sums, forces):
             last -= 1
     stretch.barrier = min(motion.time[last + 1], stop)
     if jumps and now.at.approach > path.limits.firm and time == motion.time[interval]:
-        _rebalance(path, now, sums, forces)
+        _rebalance(path, now, sums, sample)
     if zone == EDGE:
         stretch.barrier = edge_time(
             path.body, motion, path.start_angle, interval, time, stretch.barrier
@@ -415,7 +420,7 @@ def integrate(path, stops, classes, work, steps):
             if now.time == limits.window:
                 # Errors in the window are bounded as if the history began with it.
                 sums.spent = 0.0
-            _next_stretch(path, stops, classes, now, stretch, sums, sample.forces)
+            _next_stretch(path, stops, classes, now, stretch, sums, sample)
             # Loads have a kink at every sample; no parabola for a peak should reach across it.
             stretch.number += 1
             if stretch.next_stop == stops.size:

@@ -80,6 +80,10 @@ ATTEMPT = np.dtype(
         # Increments of slip by forces, s = v − v0 − (u2 − u2_0) [m/s].
         ("increment", "f8", (3,)),
         ("forces", FORCES, (3,)),  # tangential forces at its stages
+        # Residual that the last correction leaves at a stage, as foreseen [N]; and 1 where that is too
+        # much, so that its forces are evaluated anew.
+        ("left", "f8", (3,)),
+        ("stale", "i8", (3,)),
         ("unbalanced", "f8"),  # largest force left unbalanced at a stage [N]
         ("powers", "f8", (3, 3)),  # by stage and interface [W]
         # Sums of the powers over the interfaces, at the start and at the stages [W].

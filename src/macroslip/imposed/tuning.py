@@ -169,8 +169,9 @@ FIRM_RATE_MICROSLIP = 1e3
 #: Judgement.
 SETTLED = 1e-6
 #: Relative change of a held roller's slip by Newton's method after which it is balanced, and most
-#: iterations. Judgement: the change is quadratic in the one before, so that what is left is far less.
-BALANCED = 1e-6
+#: iterations. Judgement: the change is quadratic in the one before, so that what is left is about its
+#: square.
+BALANCED = 1e-3
 BALANCE_ITERATIONS = 3
 
 # --- Peaks and records ----------------------------------------------------------------------------
