@@ -263,8 +263,8 @@ def slip_error(path, now, zone, attempt, sample, sums):
         checks = 2
     unchecked = tuning.UNCHECKED * allowed_slip(path.limits)
     for check in range(checks):
-        surely = ceases and check == 0
-        if error < unchecked and not surely:
+        is_optional = check > 0 or not ceases
+        if is_optional and error < unchecked:
             break
         sample_between(path, now, attempt, tuning.DEFECT_NODES[check], sample)
         evaluate(path, sample.at, sample.slip, sample.forces)

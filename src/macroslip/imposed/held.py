@@ -156,7 +156,8 @@ def solve_held(path, now, attempt, before, sums):
             if size > 0.9 * attempt.unbalanced and size > allowed:
                 return False
             for k in range(1, 3):
-                attempt.left[k] = min(size, size * size / attempt.unbalanced)
+                kept = 0.0 if attempt.stale[k] else attempt.left[k]
+                attempt.left[k] = max(min(size, size * size / attempt.unbalanced), kept)
         update = held_update(scale, second.slope, third.slope, residual_2, residual_3)
         changes = (0.0, update[0], update[1])
         change = max(abs(update[0]), abs(update[1]))

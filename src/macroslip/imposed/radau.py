@@ -472,7 +472,9 @@ def solve_stages(path, now, zone, attempt, before, sums):
             is_close = size <= tuning.LAST_RESIDUAL * least + round_off
             left = size * size / attempt.unbalanced if is_close else math.inf
             for k in range(3):
-                attempt.left[k] = left
+                # Where forces followed the correction before, what that left is left still.
+                kept = 0.0 if attempt.stale[k] else attempt.left[k]
+                attempt.left[k] = max(left, kept)
         change = max(abs(update[0]), abs(update[1]), abs(update[2]))
         stiffness = stiffness_of(attempt, 0)
         attempt.unbalanced = size
