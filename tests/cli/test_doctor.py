@@ -2,8 +2,11 @@
 
 import json
 import platform
+import shutil
+import threading
 
 import macroslip as package
+from macroslip.cli import doctor
 
 
 def test_versions_kernels_and_commands(macroslip):
@@ -48,3 +51,28 @@ def test_the_same_for_people(macroslip):
         "ready",
     ):
         assert word in out
+
+
+def test_files_that_go_meanwhile_are_left_out(tmp_path):
+    """Another process removes its folder of kernels when it ends."""
+    (tmp_path / "stays").write_bytes(bytes(10))
+    ended = threading.Event()
+
+    def come_and_go():
+        while not ended.is_set():
+            for number in range(20):
+                folder = tmp_path / f"process-{number}"
+                folder.mkdir()
+                (folder / "kernel").write_bytes(bytes(3))
+            for number in range(20):
+                shutil.rmtree(tmp_path / f"process-{number}")
+
+    other = threading.Thread(target=come_and_go)
+    other.start()
+    try:
+        listed = [doctor.sizes_of_files(tmp_path) for _ in range(300)]
+    finally:
+        ended.set()
+        other.join()
+    assert all(10 in sizes for sizes in listed)
+    assert {size for sizes in listed for size in sizes} <= {0, 3, 10}

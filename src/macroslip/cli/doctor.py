@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.metadata
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -47,9 +49,7 @@ def doctor(
     from macroslip.storage.cache import cache_folder
 
     folder = cache_folder()
-    sizes = []
-    if folder:
-        sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()]
+    sizes = sizes_of_files(folder) if folder else []
     lacking = {command: missing_packages(need) for command, need in COMMANDS.items()}
     megabytes = sum(sizes) / 1e6
     about_machine = machine()
@@ -95,6 +95,20 @@ def doctor(
             state = f"lacks {', '.join(command['missing'])}"
         rows.append([command["command"], state, command["remedy"]])
     print_table("commands that need more", ["command", "", ""], rows)
+
+
+def sizes_of_files(folder: Path) -> list[int]:
+    """Sizes of all files in a folder and below [bytes].
+
+    Those that another process removes meanwhile, such as its own folder of kernels at its end, are
+    left out.
+    """
+    sizes = []
+    for place, _, names in os.walk(folder):
+        for name in names:
+            with contextlib.suppress(OSError):
+                sizes.append(os.stat(os.path.join(place, name)).st_size)
+    return sizes
 
 
 def _warm(case: Path | None, quiet: bool) -> None:
