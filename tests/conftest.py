@@ -3,14 +3,12 @@
 `make test` draws the same examples in every run, so that it cannot fail by chance. `make test-deep` searches with fresh ones.
 """
 
-import functools
 import gc
 import math
 import os
 import re
 
 import pytest
-import typer.testing
 
 # Every worker has a processor to itself. Where its linear algebra takes threads for all processors, they wait for each
 # other, and a small system takes five times as long. NumPy reads this when it is imported; so do processes of the tests.
@@ -28,9 +26,6 @@ from macroslip.roller.model import roller_model
 settings.register_profile("fixed", deadline=None, derandomize=True, database=None)
 settings.register_profile("deep", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("fixed")
-
-# Typer builds all commands anew whenever a test calls one, as long as a short command takes.
-typer.testing._get_command = functools.cache(typer.testing._get_command)
 
 #: Tests of these files stay with one worker: they compile the same kernels, of the whole bearing or of the rivals.
 TOGETHER = (

@@ -77,6 +77,11 @@ def inlet_for_rolling(factor: float) -> float:
     )
 
 
+def _within(spline: CubicSpline, coordinate) -> np.ndarray:
+    """Values of a spline, of which those at its ends are held beyond them."""
+    return spline(np.clip(coordinate, spline.x[0], spline.x[-1]))
+
+
 @functools.cache
 def _inlets() -> CubicSpline:
     """Ln(S − 1) over ln(S `film_factor`)."""
@@ -113,10 +118,7 @@ def inlet_at_gap(gap, flooded_film):
     >>> round(float(inlet_at_gap(2.963 * 0.7e-6, 1e-6)), 3)
     2.963
     """
-    spline = _inlets()
-    log_ratio = np.log(gap) - np.log(flooded_film)
-    inside = np.clip(log_ratio, spline.x[0], spline.x[-1])
-    return 1.0 + np.exp(spline(inside))
+    return 1.0 + np.exp(_within(_inlets(), np.log(gap) - np.log(flooded_film)))
 
 
 def film_factor_at_gap(gap, flooded_film):
@@ -130,10 +132,7 @@ def film_factor_at_gap(gap, flooded_film):
     >>> round(float(film_factor_at_gap(2.963 * 0.7e-6, 1e-6)), 3)
     0.7
     """
-    spline = _film_factors()
-    log_ratio = np.log(gap) - np.log(flooded_film)
-    inside = np.clip(log_ratio, spline.x[0], spline.x[-1])
-    return np.exp(spline(inside))
+    return np.exp(_within(_film_factors(), np.log(gap) - np.log(flooded_film)))
 
 
 def rigid_rolling_factor(inlet):
@@ -146,10 +145,7 @@ def rigid_rolling_factor(inlet):
     >>> round(float(rigid_rolling_factor(10.0)), 3)
     0.499
     """
-    spline = _martin()
-    coordinate = np.log(np.asarray(inlet) - 1.0)
-    inside = np.clip(coordinate, spline.x[0], spline.x[-1])
-    return np.exp(spline(inside))
+    return np.exp(_within(_martin(), np.log(np.asarray(inlet) - 1.0)))
 
 
 def shared_gaps(

@@ -528,15 +528,14 @@ def _nodes(contact: PreparedContact, grid: _Grid) -> np.ndarray:
         # Grids that begin elsewhere have the same speeds but for rounding. A sheet is made at the
         # rounded one, so that it does not tell which case made it.
         root_speed = round(float(node), 12)
-        parts: list[np.ndarray] = []
-        for first, end in itertools.pairwise(ends):
-            parts += stored(
-                table_key(key, root_speed, first, end),
-                lambda speed=root_speed**4, part=loads[first:end]: [
-                    _sheet(contact, grid, part, speed)
-                ],
+        sheets.append(
+            stored_sheet(
+                (key, root_speed),
+                loads,
+                ends,
+                lambda part, speed=root_speed**4: _sheet(contact, grid, part, speed),
             )
-        sheets.append(np.concatenate(parts))
+        )
         tell(TABLES, len(sheets), grid.speed.cells + 1)
     return np.stack(sheets, axis=1)
 
@@ -574,6 +573,34 @@ def ends_of_parts(loads: Axis, coordinate: Callable[[float], float]) -> list[int
             return [*ends, loads.cells + 1]
         ends.append(end)
         load *= 2.0
+
+
+def stored_sheet(
+    key: tuple, loads: np.ndarray, ends: list[int], make: Callable[[np.ndarray], np.ndarray]
+) -> np.ndarray:
+    """Sheet of a table, of parts that are made or read from the store.
+
+    Parameters
+    ----------
+    key : tuple
+        What the sheet depends on beside its loads, see `macroslip.storage.tables.table_key`.
+    loads : ndarray, shape (n,)
+        Of the nodes [N].
+    ends : list of int
+        As of `ends_of_parts`.
+    make : callable
+        Quantities at some of the loads, which are its first axis.
+
+    Returns
+    -------
+    ndarray, shape (n, ...)
+        Quantities at all loads.
+    """
+    parts: list[np.ndarray] = []
+    for first, end in itertools.pairwise(ends):
+        part = loads[first:end]
+        parts += stored(table_key(*key, first, end), lambda loads=part: [make(loads)])
+    return np.concatenate(parts)
 
 
 def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:

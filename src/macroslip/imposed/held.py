@@ -17,7 +17,8 @@ from macroslip.imposed.radau import (
     correct,
     evaluate_stages,
     force_tolerance,
-    left_by_bend,
+    foresee,
+    foresee_by_bend,
     let_evaluate,
     new_bend,
     stiffness_of,
@@ -155,16 +156,13 @@ def solve_held(path, now, attempt, before, sums):
                 before.bend = new_bend(before.bend, size, stiffness, change)
             if size > 0.9 * attempt.unbalanced and size > allowed:
                 return False
-            for k in range(1, 3):
-                kept = 0.0 if attempt.stale[k] else attempt.left[k]
-                attempt.left[k] = max(min(size, size * size / attempt.unbalanced), kept)
+            foresee(attempt, min(size, size * size / attempt.unbalanced), 1)
         update = held_update(scale, second.slope, third.slope, residual_2, residual_3)
         changes = (0.0, update[0], update[1])
         change = max(abs(update[0]), abs(update[1]))
         stiffness = stiffness_of(attempt, 1)
         if iteration == 0:
-            for k in range(1, 3):
-                attempt.left[k] = left_by_bend(before.bend, stiffness, changes[k])
+            foresee_by_bend(attempt, before.bend, stiffness, changes, 1)
         attempt.unbalanced = size
         if correct(now, attempt, changes, 1, force_part, 0.0):
             attempt.unbalanced = max(attempt.left[1], attempt.left[2])

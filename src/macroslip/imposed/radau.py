@@ -272,9 +272,35 @@ def new_bend(bend, size, stiffness, change):
 
 
 @jit_inline
-def left_by_bend(bend, stiffness, change):
-    """Residual that a Newton correction leaves, by the curvature that earlier ones had [N]."""
-    return tuning.BEND_SAFETY * bend * stiffness * change * change
+def foresee_by_bend(attempt, bend, stiffness, change, first):
+    """Write what a Newton correction leaves at stages, by the curvature that earlier ones had.
+
+    Parameters
+    ----------
+    attempt : record of `macroslip.imposed.state.ATTEMPT`
+        Its `left` is written [N].
+    bend : float
+        As of `new_bend` [s/m].
+    stiffness : float
+        Largest slope of the net force [N s/m].
+    change : tuple of float
+        Changes of slip by stage [m/s].
+    first : int
+        Number of the first stage that changes.
+    """
+    for k in range(first, 3):
+        attempt.left[k] = tuning.BEND_SAFETY * bend * stiffness * change[k] * change[k]
+
+
+@jit_inline
+def foresee(attempt, left, first):
+    """Write what a Newton correction leaves at stages from one on, the same at all [N].
+
+    Where forces followed the correction before, what that left is left still.
+    """
+    for k in range(first, 3):
+        kept = 0.0 if attempt.stale[k] else attempt.left[k]
+        attempt.left[k] = max(left, kept)
 
 
 @jit_inline
@@ -289,6 +315,14 @@ def let_evaluate(attempt, first):
     """Let forces be evaluated at all stages of a step from one on, and at no other."""
     for k in range(3):
         attempt.stale[k] = 1 if k >= first else 0
+
+
+@jit_inline
+def _evaluate_stage(path, now, attempt, sums, k):
+    """Write forces and increment of slip at stage `k` of a step, and count the evaluation."""
+    evaluate(path, attempt.at[k], attempt.slip[k], attempt.forces[k])
+    write_increment(now, attempt, k)
+    sums.evaluations += 1
 
 
 @jit_inline
@@ -307,9 +341,7 @@ def evaluate_stages(path, now, attempt, sums):
     """
     for k in range(3):
         if attempt.stale[k]:
-            evaluate(path, attempt.at[k], attempt.slip[k], attempt.forces[k])
-            write_increment(now, attempt, k)
-            sums.evaluations += 1
+            _evaluate_stage(path, now, attempt, sums, k)
 
 
 @jit_inline
@@ -323,10 +355,8 @@ def _evaluate_held_stages(path, now, attempt, before, sums):
     """
     balance = net_force(now.forces)
     for k in range(3):
+        _evaluate_stage(path, now, attempt, sums, k)
         forces = attempt.forces[k]
-        evaluate(path, attempt.at[k], attempt.slip[k], forces)
-        write_increment(now, attempt, k)
-        sums.evaluations += 1
         if k == 2 or forces.slope <= 0.0:
             continue
         at = attempt.at[k]
@@ -388,16 +418,14 @@ def _is_balanced(path, attempt, residual, force_part, round_off):
 
 
 @jit_inline
-def _foresee(path, zone, attempt, before, update):
+def _foresee_first(path, zone, attempt, before, update):
     """Write what the first correction of a step will leave unbalanced at its stages.
 
     Without microslip a roller under load may stick and slide in one step: its forces do not bend in
     the same way twice.
     """
     if path.body.microslip or zone == FREE:
-        stiffness = stiffness_of(attempt, 0)
-        for k in range(3):
-            attempt.left[k] = left_by_bend(before.bend, stiffness, update[k])
+        foresee_by_bend(attempt, before.bend, stiffness_of(attempt, 0), update, 0)
     elif path.body.closed_form:
         left_by_curvature(path.body, path.flat, attempt, update)
     else:
@@ -464,17 +492,13 @@ def solve_stages(path, now, zone, attempt, before, sums):
             return False
         update = newton_update(attempt.scale, first.slope, second.slope, third.slope, residual)
         if iteration == 0:
-            _foresee(path, zone, attempt, before, update)
+            _foresee_first(path, zone, attempt, before, update)
         else:
             if iteration == 1:
                 before.bend = new_bend(before.bend, size, stiffness, change)
             least = min(magnitude(first), magnitude(second), magnitude(third))
             is_close = size <= tuning.LAST_RESIDUAL * least + round_off
-            left = size * size / attempt.unbalanced if is_close else math.inf
-            for k in range(3):
-                # Where forces followed the correction before, what that left is left still.
-                kept = 0.0 if attempt.stale[k] else attempt.left[k]
-                attempt.left[k] = max(left, kept)
+            foresee(attempt, size * size / attempt.unbalanced if is_close else math.inf, 0)
         change = max(abs(update[0]), abs(update[1]), abs(update[2]))
         stiffness = stiffness_of(attempt, 0)
         attempt.unbalanced = size

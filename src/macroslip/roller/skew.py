@@ -250,7 +250,7 @@ class _SlipSearch:
 def _contacts_at(pair: Pair, states: _States, slip, tilt, middles) -> list[Resultants]:
     """Forces of the raceways on a roller."""
     return [
-        resultants(contact, *states[:2], slip, states.skew, middle, tilt)
+        resultants(contact, states.load, states.ring_speed, slip, states.skew, middle, tilt)
         for contact, middle in zip(pair, middles, strict=True)
     ]
 
@@ -328,8 +328,7 @@ def equilibrium(
     for iteration in range(_ITERATIONS):
         here = states.at(going)
         tilt, shift, middles = placed(pair, here.load, axial[:, going])
-        both = _contacts_at(pair, here, search.slip[going], tilt, middles)
-        inner, outer = both
+        inner, outer = _contacts_at(pair, here, search.slip[going], tilt, middles)
         friction = inner.turning + outer.turning
         turning = friction + resistance[going]
         tractions = np.stack([inner.axial, outer.axial])
@@ -337,7 +336,7 @@ def equilibrium(
         if iteration >= _DAMPED:
             tractions = 0.5 * (tractions + axial[:, going])
         axial[:, going] = tractions
-        now = _known_at(both, tilt, shift)
+        now = _known_at([inner, outer], tilt, shift)
         # By the place of the contact on the inner raceway.
         now["axial"] = middles[0] + shift - pair.inner.roller_radius * tilt
         now["axial"] *= here.load * pair.inner.along

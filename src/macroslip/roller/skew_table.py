@@ -13,7 +13,6 @@ second, and is taken to be there at once.
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -22,10 +21,10 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import cell_of
 from macroslip.contact.spline import CHANNELS, Axis, spline_coefficients, splines_in_cube
-from macroslip.contact.table import Box, contact_parts, ends_of_parts, table_gaps
+from macroslip.contact.table import Box, contact_parts, ends_of_parts, stored_sheet, table_gaps
 from macroslip.errors import MacroslipError
 from macroslip.roller.skew import LARGEST_SKEW, Equilibrium, SkewStop, equilibrium, raceways
-from macroslip.storage.tables import remembered, stored, table_key
+from macroslip.storage.tables import remembered, table_key
 from macroslip.storage.waiting import TABLES, tell
 
 if TYPE_CHECKING:
@@ -138,15 +137,14 @@ def _cubes(
     def make() -> np.ndarray:
         sheets = []
         for n in range(first, first + speed.cells + 1):
-            parts: list[np.ndarray] = []
-            for begin, end in itertools.pairwise(ends):
-                parts += stored(
-                    table_key(key, n, begin, end),
-                    lambda at=(n * _SPEED) ** 4, part=loads[begin:end]: [
-                        _sheet(laws, bearing, part, skew, at)
-                    ],
+            sheets.append(
+                stored_sheet(
+                    (key, n),
+                    loads,
+                    ends,
+                    lambda part, at=(n * _SPEED) ** 4: _sheet(laws, bearing, part, skew, at),
                 )
-            sheets.append(np.concatenate(parts))
+            )
             tell(TABLES, len(sheets), speed.cells + 1)
         nodes = np.stack(sheets, axis=1)
         cubes = []

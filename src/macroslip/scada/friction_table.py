@@ -212,15 +212,12 @@ class FrictionTable:
         below = np.minimum(position.astype(int), max(winds.size - 2, 0))
         above = np.minimum(below + 1, winds.size - 1)
         part = position - below
-        if np.ndim(temperature) == 0:
-            # All at one temperature, of which a curve has one value.
-            at_winds = log_torque(np.clip(float(temperature), log_torque.x[0], log_torque.x[-1]))
-            lower = at_winds[below]
-            upper = at_winds[above]
-        else:
-            at_winds = log_torque(held)
-            lower = np.take_along_axis(at_winds, below[None], axis=0)[0]
-            upper = np.take_along_axis(at_winds, above[None], axis=0)[0]
+        # Many rows have the same temperature, of which the curve of a wind has one value.
+        known, inverse = np.unique(held, return_inverse=True)
+        inverse = inverse.reshape(held.shape)
+        at_winds = log_torque(known)
+        lower = at_winds[below, inverse]
+        upper = at_winds[above, inverse]
         log_case = (1.0 - part) * log_speeds[below] + part * log_speeds[above]
         exponents = self.speed_exponents[supply]
         exponent = np.interp(held, exponents.index.to_numpy(float), exponents.to_numpy(float))

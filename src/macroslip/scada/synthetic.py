@@ -281,15 +281,11 @@ def _bearing(
     drive = to_nacelle * nacelle + truth.to_ambient * ambient
     means = np.empty(wind.size)
     now = float(nacelle[0])
-    # Single numbers are read from a view of the memory in a third of the time.
-    view_of_slopes = memoryview(slopes)
-    view_of_heats = memoryview(heats)
-    begins = grid.tolist()
-    for row, (loses, drives) in enumerate(zip(loss.tolist(), drive.tolist(), strict=True)):
-        cell = int((now - begins[0]) / _CELL)
-        slope = view_of_slopes[row, cell]
-        decay = loses - slope
-        level = (view_of_heats[row, cell] - slope * begins[cell] + drives) / decay
+    for row in range(wind.size):
+        cell = int((now - grid[0]) / _CELL)
+        slope = slopes[row, cell]
+        decay = loss[row] - slope
+        level = (heats[row, cell] - slope * grid[cell] + drive[row]) / decay
         kept = np.exp(-decay * step)
         means[row] = level + (now - level) * (1.0 - kept) / (decay * step)
         now = level + (now - level) * kept
