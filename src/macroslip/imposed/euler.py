@@ -138,14 +138,14 @@ def integrate_fixed_step(path, work, steps):
     for count in range(steps.size):
         if now.time >= rule.end:
             # Explicit Euler evaluates the end for no step.
-            write_point(path, now, sums.steps, steps[count])
+            write_point(path, now, steps[count])
             return COMPLETED, count + 1
         after = min(start + (sums.steps + 1) * rule.step, rule.end)
         span = after - now.time
         interval = interval_of(motion, after, now.interval)
         row = steps[count]
         locate(path, after, interval, work.end)
-        frame(now, sums.steps, row, 1, after)
+        frame(now, row, 1, after)
         row.weight[0] = span
         if rule.implicit:
             work.spin, unbalanced = backward_euler_step(path, work, span, rule.tolerance)

@@ -264,7 +264,7 @@ def _film_ends_at(now, attempt, resolved):
 
 
 @jit_inline
-def _write_samples(path, now, attempt, stretch, sample, sums, cusp, rows):
+def _write_samples(path, now, attempt, sample, sums, cusp, rows):
     """Write rows without weight between the stages, where power may have a peak; returns how many.
 
     One of them is at the part `cusp` of the step. `sample` is overwritten.
@@ -289,7 +289,7 @@ def _write_samples(path, now, attempt, stretch, sample, sums, cusp, rows):
         row.weight[stage] = 0.0
         write_stage(row, stage, path.body, sample.at, sample.forces, slip, sample.powers[:])
         stage += 1
-        frame(now, stretch.number, row, stage, row.time[stage - 1])
+        frame(now, row, stage, row.time[stage - 1])
         if stage == 3:
             filled += 1
             stage = 0
@@ -307,13 +307,13 @@ def _sample_peak(path, now, attempt, stretch, sample, sums, rows):
         cusp = _film_ends_at(now, attempt, _resolved_slip(path.limits))
     if cusp == 1.0 and not _may_peak_inside(path, now, attempt, stretch.zone, sums.top_power):
         return False, 0
-    return True, _write_samples(path, now, attempt, stretch, sample, sums, cusp, rows)
+    return True, _write_samples(path, now, attempt, sample, sums, cusp, rows)
 
 
 @jit_inline
-def _write_step(path, now, attempt, number, end, sampled, row):
+def _write_step(path, now, attempt, end, sampled, row):
     """Write an accepted step, which ends at `end` [s]; `sampled` if it was sampled for a peak."""
-    frame(now, number, row, 3, end)
+    frame(now, row, 3, end)
     row.sampled = 1 if sampled else 0
     for k in range(3):
         row.time[k] = end if k == 2 else attempt.times[k]
@@ -362,7 +362,7 @@ def _begin(path, now, before, stretch, sums, row):
     before.exponent = tuning.LIMIT_EXPONENT
     before.bend = math.inf
     start_at(path, now, sums)
-    write_point(path, now, stretch.number, row)
+    write_point(path, now, row)
 
 
 @jit
@@ -421,8 +421,6 @@ def integrate(path, stops, classes, work, steps):
                 # Errors in the window are bounded as if the history began with it.
                 sums.spent = 0.0
             _next_stretch(path, stops, classes, now, stretch, sums, sample)
-            # Loads have a kink at every sample; no parabola for a peak should reach across it.
-            stretch.number += 1
             if stretch.next_stop == stops.size:
                 return COMPLETED, count
         if sums.steps + sums.rejections >= limits.max_steps:
@@ -459,7 +457,7 @@ def integrate(path, stops, classes, work, steps):
         end = stretch.barrier if length == ahead else attempt.times[2]
         rows = steps[count:]
         sampled, filled = _sample_peak(path, now, attempt, stretch, sample, sums, rows)
-        _write_step(path, now, attempt, stretch.number, end, sampled, rows[filled])
+        _write_step(path, now, attempt, end, sampled, rows[filled])
         _advance(now, attempt, before, stretch.zone, sums, end)
         count += filled + 1
         growth = 1.0 if stretch.failed else tuning.GROWTH

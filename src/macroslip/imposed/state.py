@@ -124,7 +124,6 @@ STRETCH = np.dtype(
         ("next_stop", "i8"),  # index of the first stop ahead
         ("sample_step", "f8"),  # length of the sample interval [s]
         ("failed", "i8"),  # 1 where the last attempt was rejected
-        ("number", "i8"),  # changes where loads have a kink
     ]
 )
 #: Running totals of one integration.
@@ -225,15 +224,13 @@ def start_at(path, now, sums):
 
 
 @jit_inline
-def frame(now, stretch_number, row, stages, end):
+def frame(now, row, stages, end):
     """Write the start, end and number of stages of a row of steps.
 
     Parameters
     ----------
     now : record of `STATE`
         State at the start of the step.
-    stretch_number : int
-        Number of the stretch of smooth loads that holds the step.
     row : record of `macroslip.roller.step.STEP`
         Is written.
     stages : int
@@ -244,26 +241,23 @@ def frame(now, stretch_number, row, stages, end):
     row.start = now.time
     row.end = end
     row.stages = stages
-    row.stretch = stretch_number
     row.sampled = 0
     for i in range(3):
         row.power_before[i] = now.powers[i]
 
 
 @jit_inline
-def write_point(path, now, stretch_number, row):
+def write_point(path, now, row):
     """Write the present state of the roller as a row of steps without weight.
 
     Parameters
     ----------
     path : macroslip.imposed.state.Path
     now : record of `STATE`
-    stretch_number : int
-        Number of the stretch of smooth loads that holds the time.
     row : record of `macroslip.roller.step.STEP`
         Is written.
     """
-    frame(now, stretch_number, row, 1, now.time)
+    frame(now, row, 1, now.time)
     row.time[0] = now.time
     row.weight[0] = 0.0
     row.sampled = 1

@@ -17,11 +17,10 @@ from macroslip.ring.orbit import last_before
 MECHANISMS = ("sliding", "curvature", "contact angle")
 INTERFACES = ("inner", "outer", "cage")
 RACEWAYS = INTERFACES[:2]
-#: A kink has no parabola; what one may add to the samples is bounded by this factor. And how uneven
-#: samples may be for a parabola: where spacing changes more, a fast transient has just ended, and a
-#: parabola would extrapolate it.
+_CAGE = INTERFACES.index("cage")
+#: Power that the polynomial through a step's stages may have between them, over the highest at the
+#: stages. Where power has a kink in a step the polynomial tells nothing, and this bounds it.
 HIGHEST_RISE = 1.1
-MOST_UNEVEN = 4.0
 #: Part of the largest raceway speed of a history below which the ratio of spins is not taken:
 #: through standstill both spins pass zero, one a little after the other, and their ratio is any
 #: number.
@@ -202,10 +201,7 @@ class Totals(NamedTuple):
     spin_ratio: np.ndarray
     #: Time [s], and the integral over it of the load that films carry beside the rings' [N s]
     film_load: np.ndarray
-    #: The last two times [s] and powers [W], newest last, for the parabola through three; shape (2,
-    #: 4)
-    samples: np.ndarray
-    latest: np.ndarray  #: Orbit and stretch of the last step; -2 before the first
+    latest: np.ndarray  #: Orbit of the last step; -2 before the first
     #: At a tapered roller's rib, in each complete orbit and last in the rest of the window: energy
     #: of friction, the part of it by asperities [J], and largest power [W]
     rib: np.ndarray
@@ -216,7 +212,7 @@ def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
     orbits = edges.size - 1
     shapes = (3, 3, 3, (3, len(MECHANISMS)), (orbits, 3), (orbits + 1, 3))
     ratio = np.array([np.inf, max(SPIN_RATIO_SPEED * highest_speed, STANDSTILL), 0.0])
-    sums = [np.zeros(2), np.zeros((2, 4)), np.array([-2, -1]), np.zeros((orbits + 1, 3))]
+    sums = [np.zeros(2), np.array([-2]), np.zeros((orbits + 1, 3))]
     return Totals._make([edges, *map(np.zeros, shapes), ratio, *sums])
 
 
@@ -233,83 +229,165 @@ def orbit_at(edges, time, likely):
     return last_before(edges, time)
 
 
+@jit_inline
+def _highest_by_differences(second, third, end, value, differences):
+    """Largest value of a polynomial in Newton's form, from its first point at 0 to its last.
+
+    It is p(s) = p_0 + s (d_1 + (s − s_1)(d_2 + (s − s_2) d_3)), whose derivative has at most one zero
+    at which p falls afterwards.
+
+    Parameters
+    ----------
+    second, third : float
+        Second and third point s_1 and s_2, after the first one.
+    end : float
+        Last point.
+    value : float
+        Value p_0 at the first point.
+    differences : tuple of three floats
+        Divided differences d_1, d_2 and d_3; d_3 is 0 for a parabola.
+
+    Returns
+    -------
+    float
+    """
+    first, curvature, change = differences
+    cubic = 3.0 * change
+    quadratic = 2.0 * (curvature - (second + third) * change)
+    linear = first - second * curvature + second * third * change
+    last = value + end * (first + (end - second) * (curvature + (end - third) * change))
+    highest = max(value, last)
+    discriminant = quadratic * quadratic - 4.0 * cubic * linear
+    if discriminant <= 0.0:
+        return highest
+    # Of the two forms of this root the one in which nothing cancels.
+    root = math.sqrt(discriminant)
+    if quadratic <= 0.0:
+        top = 2.0 * linear / (root - quadratic)
+    elif cubic != 0.0:
+        top = -0.5 * (quadratic + root) / cubic
+    else:
+        return highest
+    if not 0.0 < top < end:
+        return highest
+    rise = first + (top - second) * (curvature + (top - third) * change)
+    return max(highest, value + top * rise)
+
+
 @jit
-def vertex(ta, pa, tb, pb, tc, pc):
-    """Largest value of the parabola through three samples of which the middle one is largest.
+def highest_of_parabola(ta, pa, tb, pb, tc, pc):
+    """Largest value of the parabola through three points, between the first and the last.
 
     Parameters
     ----------
     ta, tb, tc : float
         Times, ta < tb < tc [s].
     pa, pb, pc : float
-        Values at these times, pb the largest, of any unit.
+        Values at these times, of any unit.
 
     Returns
     -------
     float
-        Largest value, ≥ pb, of the same unit.
+        Largest value, of the same unit.
 
     Examples
     --------
-    >>> vertex(0.0, 0.0, 1.0, 3.0, 2.0, 2.0)
+    >>> highest_of_parabola(0.0, 0.0, 1.0, 3.0, 2.0, 2.0)
     3.125
     """
     left = (pb - pa) / (tb - ta)
     right = (pc - pb) / (tc - tb)
     curvature = (right - left) / (tc - ta)
-    if curvature >= 0.0:
-        return pb
-    slope = (left * (tc - tb) + right * (tb - ta)) / (tc - ta)
-    return pb - 0.25 * slope * slope / curvature
+    return _highest_by_differences(tb - ta, 0.0, tc - ta, pa, (left, curvature, 0.0))
+
+
+@jit
+def highest_of_cubic(ta, pa, tb, pb, tc, pc, td, pd):
+    """Largest value of the cubic through four points, between the first and the last.
+
+    Parameters
+    ----------
+    ta, tb, tc, td : float
+        Times, ta < tb < tc < td [s].
+    pa, pb, pc, pd : float
+        Values at these times, of any unit.
+
+    Returns
+    -------
+    float
+        Largest value, of the same unit.
+
+    Examples
+    --------
+    Of t³ − 3 t, which is 2 at −1:
+
+    >>> highest_of_cubic(-1.5, 1.125, -0.5, 1.375, 0.5, -1.375, 1.0, -2.0)
+    2.0
+    """
+    first = (pb - pa) / (tb - ta)
+    second = (pc - pb) / (tc - tb)
+    third = (pd - pc) / (td - tc)
+    left = (second - first) / (tc - ta)
+    right = (third - second) / (td - tb)
+    change = (right - left) / (td - ta)
+    return _highest_by_differences(tb - ta, tc - ta, td - ta, pa, (first, left, change))
 
 
 @jit_inline
-def _follow(samples, peak, time, powers):
-    """Update the peaks of power of the orbit with the powers at a new time.
+def _highest_between(step, interface):
+    """Highest power of an interface by the polynomial through the stages of a step [W].
 
-    Peaks are raised to the powers and to the parabolas through three of them.
+    The start is a point of it, but not at the cage of an imposed orbit, whose steps have three
+    stages: its load jumps with the shaft's acceleration, and so may its power between two steps.
     """
-    before = samples[1, 0] - samples[0, 0]
-    after = time - samples[1, 0]
-    even = (
-        before > 0.0
-        and after > 0.0
-        and before < MOST_UNEVEN * after
-        and after < MOST_UNEVEN * before
-    )
-    for interface in range(3):
-        power = powers[interface]
-        peak[interface] = max(peak[interface], power)
-        first = samples[0, interface + 1]
-        middle = samples[1, interface + 1]
-        if even and middle > first and middle > power and HIGHEST_RISE * middle > peak[interface]:
-            top = vertex(samples[0, 0], first, samples[1, 0], middle, time, power)
-            peak[interface] = max(peak[interface], min(top, HIGHEST_RISE * middle))
-        samples[0, interface + 1] = middle
-        samples[1, interface + 1] = power
-    samples[0, 0] = samples[1, 0]
-    samples[1, 0] = time
+    time = step.time
+    power = step.power
+    if step.stages == 3 and (interface == _CAGE or time[0] == step.start):
+        return highest_of_parabola(
+            time[0], power[0, interface], time[1], power[1, interface], time[2], power[2, interface]
+        )
+    before = step.power_before[interface]
+    if step.stages == 3:
+        return highest_of_cubic(
+            step.start,
+            before,
+            time[0],
+            power[0, interface],
+            time[1],
+            power[1, interface],
+            time[2],
+            power[2, interface],
+        )
+    if step.stages == 2:
+        return highest_of_parabola(
+            step.start, before, time[0], power[0, interface], time[1], power[1, interface]
+        )
+    return power[0, interface]
 
 
 @jit_once
 def _book_peaks(step, totals, orbit):
-    """Update the peaks of power over a step."""
-    samples = totals.samples
-    if step.stretch != totals.latest[1]:
-        for row in range(2):
-            samples[row, 0] = step.start
-            for interface in range(3):
-                samples[row, interface + 1] = step.power_before[interface]
+    """Update the peaks of power of an orbit with those of a step.
+
+    No polynomial reaches across a step: loads have a kink at every sample and pockets one at every
+    touch, at which steps end. Where a step was sampled, its samples count and no polynomial: they
+    lie so near to each other that they are the peak, and the end of a film is a cusp among them.
+    """
     # Outside all complete orbits `orbit` is -1, the last line.
     peak = totals.peak_power[orbit]
-    if orbit != totals.latest[0]:
+    is_first = orbit != totals.latest[0]
+    is_sample = step.weight[0] == 0.0
+    # Samples leave out what is not resolved; of a sampled step's stages the end counts.
+    from_stage = step.stages - 1 if step.sampled else 0
+    for interface in range(3):
         # The power before the step may be the peak of an orbit that has just begun.
-        for interface in range(3):
-            peak[interface] = max(peak[interface], step.power_before[interface])
-    # Between the stages of a sampled step its samples count; they leave out what is not resolved,
-    # the end among it.
-    for k in range(step.stages - 1 if step.sampled else 0, step.stages):
-        _follow(samples, peak, step.time[k], step.power[k])
+        highest = step.power_before[interface] if is_first else 0.0
+        for k in range(from_stage, step.stages):
+            highest = max(highest, step.power[k, interface])
+        bound = HIGHEST_RISE * highest
+        if not is_sample and not step.sampled and bound > peak[interface]:
+            highest = max(highest, min(_highest_between(step, interface), bound))
+        peak[interface] = max(peak[interface], highest)
 
 
 @jit
@@ -372,7 +450,6 @@ def book(steps, j, totals, states, contacts):
             contacts[n].span = span
         _book_peaks(step, totals, orbit)
         totals.latest[0] = orbit
-        totals.latest[1] = step.stretch
         last = step.stages - 1
         pure = step.pure_speed
         if step.weight[last] > 0.0 and pure != 0.0 and abs(pure) >= totals.spin_ratio[1]:

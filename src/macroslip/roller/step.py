@@ -20,9 +20,6 @@ STEP = np.dtype(
         ("start", "f8"),  # time [s]
         ("end", "f8"),  # time [s]
         ("stages", "i8"),  # number of stages
-        # Number of the stretch of smooth loads it lies in; no parabola reaches from one to the
-        # next.
-        ("stretch", "i8"),
         # 1 where peaks of power between the stages stand in rows without weight before this one.
         ("sampled", "i8"),
         # Speed u2 of the raceways past a roller in pure rolling, at the end [m/s].

@@ -674,7 +674,6 @@ def _leaves_tables(assembly, limits, space):
 def _write_end(assembly, start, end, space, row, whole, offset):
     """Write the fields of a step's records that concern its end, and its flows."""
     bearing = assembly.bearing[0]
-    memory = space.memory[0]
     positions = assembly.positions
     begins = end.time == start.time
     last = 0 if begins else 1
@@ -700,9 +699,6 @@ def _write_end(assembly, start, end, space, row, whole, offset):
         step.end = end.time
         step.stages = last + 1
         step.pure_speed = pure_speed
-        # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak
-        # reaches across a step.
-        step.stretch = memory.steps
         step.sampled = 1 if begins else 0
         for i in range(3):
             step.power_before[i] = step.power[0, i] if begins else own.power[i]
