@@ -245,6 +245,8 @@ def test_a_jump_of_the_cages_power_between_steps_is_no_rise():
     raceway, cage = peaks_of([1.0, 2.0], lambda t: 1.0 - 0.01 * t, before=lambda t: 0.5)[0]
     assert cage == pytest.approx(1.0 - 0.01 * (1.0 + NODES[0]), rel=1e-12)
     assert raceway > 1.01 * cage
+    # Power that is highest at the start of a step, after a jump, counts as well.
+    assert peaks_of([1.0, 2.0], lambda t: 1.0 - 0.01 * t, before=lambda t: 3.0)[0, 1] == 3.0
 
 
 def test_a_kink_inside_a_step_adds_a_tenth_at_most():

@@ -375,13 +375,12 @@ def _book_peaks(step, totals, orbit):
     """
     # Outside all complete orbits `orbit` is -1, the last line.
     peak = totals.peak_power[orbit]
-    is_first = orbit != totals.latest[0]
     is_sample = step.weight[0] == 0.0
     # Samples leave out what is not resolved; of a sampled step's stages the end counts.
     from_stage = step.stages - 1 if step.sampled else 0
     for interface in range(3):
-        # The power before the step may be the peak of an orbit that has just begun.
-        highest = step.power_before[interface] if is_first else 0.0
+        # That of the end of the step before, or of an instant after, when loads have jumped.
+        highest = step.power_before[interface]
         for k in range(from_stage, step.stages):
             highest = max(highest, step.power[k, interface])
         bound = HIGHEST_RISE * highest
