@@ -212,8 +212,8 @@ def slip_error(path, now, zone, attempt, sample, sums):
     """Error estimate of the slip of a step [m/s].
 
     The embedded estimate is one number and may vanish by accident, especially where grip ceases
-    between two stages. There the equation's defect is sampled between them, and elsewhere where the
-    estimate is not far below what is allowed.
+    between two stages. There and with microslip the equation's defect is sampled between them, and
+    elsewhere where the estimate is not far below what is allowed.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ def slip_error(path, now, zone, attempt, sample, sums):
         checks = 2
     unchecked = tuning.UNCHECKED * allowed_slip(path.limits)
     for check in range(checks):
-        is_optional = check > 0 or not ceases
+        is_optional = not microslip and (check > 0 or not ceases)
         if is_optional and error < unchecked:
             break
         sample_between(path, now, attempt, tuning.DEFECT_NODES[check], sample)

@@ -67,12 +67,11 @@ SHORT_PART = 0.05
 #: histories; without, not all do.
 DEFECT_NODES = (0.83, 0.4)
 DEFECT_WEIGHT = 0.25
-#: Part of the allowed error of slip below which the embedded estimate is taken at its word; where the
-#: paper's grip may cease, the first look at the defect is taken all the same. On the bundled
-#: histories there are 8 to 10 % fewer evaluations with it. Of eight rollers of each row at 2e-4, no
-#: largest error is higher by more than two fifths, but for spin with flooded inlets: at one moment of
-#: one roller it is off by 7.3e-4, elsewhere by at most 2.5e-4. That moment is off as much with
-#: 0.02. Without the first look spin would be off by 1.6e-4 in place of 6e-5 under the paper's laws.
+#: Part of the allowed error of slip below which, without microslip, the embedded estimate is taken
+#: at its word; where the paper's grip may cease, the first look at the defect is taken all the same.
+#: The bundled histories take 8 % fewer evaluations by it under the paper's laws, with the same
+#: errors; without that look spin would be off by 1.6e-4 in place of 6e-5. With microslip spin in the
+#: middle of coasts would be off by up to 1.1e-3 in place of 9e-5, and with 0.02 still by 1.9e-4.
 UNCHECKED = 0.2
 #: Weight of the way that a step's quadrature misses as an error of energy. Friction grows with
 #: speed to a power of up to 1.5, and the missed way is the error itself and no bound far above it,
