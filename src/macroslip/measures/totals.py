@@ -230,6 +230,14 @@ def orbit_at(edges, time, likely):
 
 
 @jit_inline
+def _divided_differences(ta, pa, tb, pb, tc, pc):
+    """First and second divided difference of three points."""
+    left = (pb - pa) / (tb - ta)
+    right = (pc - pb) / (tc - tb)
+    return left, (right - left) / (tc - ta)
+
+
+@jit_inline
 def _highest_by_differences(second, third, end, value, differences):
     """Largest value of a polynomial in Newton's form, from its first point at 0 to its last.
 
@@ -251,11 +259,12 @@ def _highest_by_differences(second, third, end, value, differences):
     -------
     float
     """
-    first, curvature, change = differences
-    cubic = 3.0 * change
-    quadratic = 2.0 * (curvature - (second + third) * change)
-    linear = first - second * curvature + second * third * change
-    last = value + end * (first + (end - second) * (curvature + (end - third) * change))
+    first_difference, second_difference, third_difference = differences
+    cubic = 3.0 * third_difference
+    quadratic = 2.0 * (second_difference - (second + third) * third_difference)
+    linear = first_difference - second * second_difference + second * third * third_difference
+    change = second_difference + (end - third) * third_difference
+    last = value + end * (first_difference + (end - second) * change)
     highest = max(value, last)
     discriminant = quadratic * quadratic - 4.0 * cubic * linear
     if discriminant <= 0.0:
@@ -270,7 +279,8 @@ def _highest_by_differences(second, third, end, value, differences):
         return highest
     if not 0.0 < top < end:
         return highest
-    rise = first + (top - second) * (curvature + (top - third) * change)
+    change = second_difference + (top - third) * third_difference
+    rise = first_difference + (top - second) * change
     return max(highest, value + top * rise)
 
 
@@ -295,10 +305,8 @@ def highest_of_parabola(ta, pa, tb, pb, tc, pc):
     >>> highest_of_parabola(0.0, 0.0, 1.0, 3.0, 2.0, 2.0)
     3.125
     """
-    left = (pb - pa) / (tb - ta)
-    right = (pc - pb) / (tc - tb)
-    curvature = (right - left) / (tc - ta)
-    return _highest_by_differences(tb - ta, 0.0, tc - ta, pa, (left, curvature, 0.0))
+    first, second = _divided_differences(ta, pa, tb, pb, tc, pc)
+    return _highest_by_differences(tb - ta, 0.0, tc - ta, pa, (first, second, 0.0))
 
 
 @jit
@@ -324,13 +332,10 @@ def highest_of_cubic(ta, pa, tb, pb, tc, pc, td, pd):
     >>> highest_of_cubic(-1.5, 1.125, -0.5, 1.375, 0.5, -1.375, 1.0, -2.0)
     2.0
     """
-    first = (pb - pa) / (tb - ta)
-    second = (pc - pb) / (tc - tb)
-    third = (pd - pc) / (td - tc)
-    left = (second - first) / (tc - ta)
-    right = (third - second) / (td - tb)
-    change = (right - left) / (td - ta)
-    return _highest_by_differences(tb - ta, tc - ta, td - ta, pa, (first, left, change))
+    first, second = _divided_differences(ta, pa, tb, pb, tc, pc)
+    _, later = _divided_differences(tb, pb, tc, pc, td, pd)
+    third = (later - second) / (td - ta)
+    return _highest_by_differences(tb - ta, tc - ta, td - ta, pa, (first, second, third))
 
 
 @jit_inline
